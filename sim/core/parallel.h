@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#ifdef __SANITIZE_THREAD__
+#include <thread>
+#include <vector>
+#else
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#endif
+
+// Every parallel loop in sim/ goes through one of these. Each gives the same bits for any
+// number of threads: results never depend on which thread ran what, or in which order.
+
+namespace sim {
+
+/// Run body(i) for i in [0, n); body(i) writes only what i owns. One task per `grain` indices.
+template <class Body>
+void parallelFor(std::size_t n, std::size_t grain, Body&& body)
+{
+#ifdef __SANITIZE_THREAD__
+    // ThreadSanitizer cannot see into a libtbb built without it and reports races that are not
+    // there (google/sanitizers#1004). Four plain threads let it watch our own loop bodies.
+    std::vector<std::jthread> threads;
+    for (std::size_t t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+            for (std::size_t i = t; i < n; i += 4) body(i);
+        });
+    static_cast<void>(grain);
+#else
+    if (n == 0) return;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, n, grain),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+        },
+        tbb::simple_partitioner());
+#endif
+}
+
+/// One task per index: for bodies that do a block's or a chunk's work.
+template <class Body>
+void parallelFor(std::size_t n, Body&& body)
+{
+    parallelFor(n, 1, body);
+}
+
+inline constexpr std::size_t kMaxChunks = 256;
+
+/// The fixed split of n indices into at most kMaxChunks runs of equal length: it depends on n alone.
+struct Chunks {
+    explicit Chunks(std::size_t n) : total(n), size(std::max<std::size_t>(1, (n + kMaxChunks - 1) / kMaxChunks)) {}
+    std::size_t count() const { return (total + size - 1) / size; }
+    std::size_t begin(std::size_t chunk) const { return chunk * size; }
+    std::size_t end(std::size_t chunk) const { return std::min(total, (chunk + 1) * size); }
+    std::size_t total, size;
+};
+
+/// combine(... combine(combine(identity, f(0)), f(1)) ..., f(n-1)) with fixed chunks, joined in order.
+template <class T, class F, class Combine>
+T parallelReduce(std::size_t n, T identity, F&& f, Combine&& combine)
+{
+    const Chunks chunks(n);
+    std::array<T, kMaxChunks> partial;
+    parallelFor(chunks.count(), [&](std::size_t c) {
+        T sum = identity;
+        for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) sum = combine(sum, f(i));
+        partial[c] = sum;
+    });
+    T sum = identity;
+    for (std::size_t c = 0; c < chunks.count(); ++c) sum = combine(sum, partial[c]);
+    return sum;
+}
+
+/// Σ f(i) for i in [0, n).
+template <class F>
+double parallelSum(std::size_t n, F&& f)
+{
+    return parallelReduce(n, 0.0, f, [](double a, double b) { return a + b; });
+}
+
+/// max of 0 and all f(i); a NaN among them stays a NaN.
+template <class F>
+double parallelMax(std::size_t n, F&& f)
+{
+    return parallelReduce(n, 0.0, f, [](double a, double b) { return b > a || b != b ? b : a; });
+}
+
+}  // namespace sim

@@ -1,0 +1,66 @@
+#include "sim/particles/liquid_particles.h"
+
+#include "sim/transfer/modes.h"
+
+#include <cstring>
+
+namespace sim {
+
+namespace {
+
+/// Kernels load whole vectors: rows are padded so that a load past the last particle stays inside. The odd part keeps
+/// the rows of all modes from falling into the same cache sets.
+constexpr std::size_t kPad = 64;
+std::size_t strideFor(std::size_t count) { return (count + count / 8 + kPad + 511) / 512 * 512 + 72; }
+
+}  // namespace
+
+Vec3 LiquidParticles::velocity(std::size_t p) const
+{
+    Vec3 v;
+    for (int axis = 0; axis < kAxes; ++axis) {
+        v[axis] = 0.0;
+        for (int r = 0; r < modeCount; ++r) v[axis] += kMeanOfMode[r] * mode(axis, r)[p];
+    }
+    return v;
+}
+
+void LiquidParticles::resize(std::size_t n)
+{
+    for (auto& a : x) a.resize(n + kPad);
+    mass.resize(n + kPad);
+    id.resize(n + kPad);
+    if (n + kPad > modeStride || modes[0].size() < modeStride * modeCount) {
+        const std::size_t stride = std::max(strideFor(n), modeStride);
+        for (auto& m : modes) {
+            AlignedArray<double> grown(stride * modeCount);
+            const std::size_t rows = modeStride == 0 ? 0 : std::min<std::size_t>(modeCount, m.size() / modeStride);
+            for (std::size_t r = 0; r < rows; ++r)
+                std::memcpy(grown.data() + r * stride, m.data() + r * modeStride, count * sizeof(double));
+            m.swap(grown);
+        }
+        modeStride = stride;
+    }
+    for (std::size_t p = count; p < n; ++p) {
+        for (auto& a : x) a[p] = 0.0;
+        mass[p] = 0.0;
+        id[p] = 0;
+        for (int axis = 0; axis < kAxes; ++axis)
+            for (int r = 0; r < modeCount; ++r) mode(axis, r)[p] = 0.0;
+    }
+    count = n;
+}
+
+void LiquidParticles::add(const Vec3& position, double particleMass, std::uint32_t particleId, const Vec3& v)
+{
+    const std::size_t p = count;
+    resize(count + 1);
+    mass[p] = particleMass;
+    id[p] = particleId;
+    for (int axis = 0; axis < kAxes; ++axis) {
+        x[axis][p] = position[axis];
+        mode(axis, 0)[p] = v[axis];
+    }
+}
+
+}  // namespace sim

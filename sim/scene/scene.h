@@ -1,0 +1,52 @@
+#pragma once
+
+#include "sim/scene/motion.h"
+#include "sim/settings.h"
+#include "sim/shapes/shape.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sim {
+
+/// How particles are laid out in a source (model-fluid 5.2).
+struct FillSettings {
+    enum class Pattern { Lattice, Reference, Jittered, Poisson };
+    Pattern pattern = Pattern::Lattice;
+    std::uint64_t seed = 1;
+    double spacing = 0.0;  ///< pitch in cells; 0 = the pattern's own: 0.4, reference 0.35355 [-]
+};
+
+/// A span of time in which a source gives liquid.
+struct Emission {
+    double from = 0.0, to = 0.0;  ///< [s]; both equal the start: once, the initial body
+    double maxVolume = std::numeric_limits<double>::infinity();  ///< [cm^3]
+    Vec3 velocity = Vec3::Zero();                                ///< [cm/s]
+};
+
+struct SourceSettings {
+    std::string name;
+    Shape shape;
+    FillSettings fill;
+    std::vector<Emission> emissions;  ///< at least one
+};
+
+struct ObstacleSettings {
+    std::string name;
+    Shape shape;      ///< the solid itself: already inverted where the scene says `inside: true`
+    Motion motion;
+};
+
+/// One scene file, resolved: includes, variant and overrides applied, units converted to CGS.
+struct Scene {
+    std::string name, title, description;
+    std::vector<std::string> tags;
+    std::string file;                 ///< the file it came from, for messages
+    Settings settings;
+    std::vector<SourceSettings> sources;
+    std::vector<ObstacleSettings> obstacles;
+    std::optional<Shape> domain;      ///< liquid outside of it is deleted
+};
+
+}  // namespace sim

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "sim/core/types.h"
+#include "sim/core/units.h"
+
+#include <limits>
+
+// Every number a scene may set: default, unit, one sentence. Keys and ranges are in scene/describe.h.
+
+namespace sim {
+
+enum class TimeMode { Fixed, Cfl, Adaptive };
+enum class TransferMethod { Pic, Flip, Apic, PolyPic };
+enum class XiMap { Translation, Affine, AffineConservative };
+
+struct TimeSettings {
+    double dt = 1.0e-3;        ///< Time step; in modes cfl and adaptive its upper bound [s]
+    double duration = 1.0;     ///< Simulated time from start to end [s]
+    double start = 0.0;        ///< Time of the initial state [s]
+    TimeMode mode = TimeMode::Fixed;
+    double cfl = 1.0;          ///< Cells a particle may cross per step, mode cfl [-]
+    double maxCflLiquid = 3.0; ///< Hard bound on the same number in every mode [-]
+    double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]
+};
+
+/// How one phase's velocities go to the grid and back.
+struct TransferSettings {
+    TransferMethod method = TransferMethod::PolyPic;
+    int modes = 8;                      ///< PolyPIC modes per component, read by polypic only [1..27]
+    XiMap xi = XiMap::Translation;
+    double flipRatio = 0.99;            ///< FLIP share kept per keepDt [0..1]
+    double keepAffine = 1.0;            ///< Factor on all modes but the mean, kept per keepDt; 1 = no damping [0..1]
+    double keepDt = 2.0e-4;             ///< The step the two factors above refer to [s]
+    bool keepPerStep = false;           ///< Factors are taken literally per step, as published
+    bool dampModes = true;              ///< keepAffine acts on PolyPIC modes too
+
+    /// Modes per component the particles carry.
+    int modeCount() const
+    {
+        switch (method) {
+            case TransferMethod::Apic: return 4;
+            case TransferMethod::PolyPic: return modes;
+            default: return 1;
+        }
+    }
+};
+
+struct RelaxSettings {
+    double rate = 125.0;  ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
+    double range = 2.0;   ///< Reach of the push in nominal particle radii [-]
+};
+
+struct LiquidSettings {
+    double density = 1.0;          ///< [g/cm^3]
+    double viscosity = 8.9e-3;     ///< [P]
+    double surfaceTension = 72.0;  ///< [dyn/cm]
+    double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
+    bool full = false;             ///< The liquid fills a closed box: there is no air
+    double wallFriction = 0.0;     ///< 0 = free slip … 1 = the liquid sticks to walls [-]
+    RelaxSettings relax;
+};
+
+struct SolverSettings {
+    double pressureTolerance = 1.0e-6;  ///< Largest residual relative to the largest right-hand side [-]
+    int maxIterations = 200;
+};
+
+struct Settings {
+    TimeSettings time;
+    double cell = 0.0;                          ///< Grid cell size [cm]; required
+    Vec3 gravity = Vec3(0.0, -kEarthGravity, 0.0);  ///< [cm/s^2]
+    TransferSettings transfer;                  ///< of the liquid
+    LiquidSettings liquid;
+    SolverSettings solver;
+};
+
+}  // namespace sim

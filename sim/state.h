@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sim/grid/block_grid.h"
+#include "sim/particles/liquid_particles.h"
+#include "sim/step_report.h"
+
+namespace sim {
+
+/// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (step.h).
+struct State {
+    double time = 0.0;             ///< [s]
+    std::int64_t step = 0;         ///< steps taken
+    LiquidParticles liquid;
+    std::uint32_t nextId = 0;      ///< id of the next particle to be born
+    BlockGrid grid;                ///< the blocks of the last step …
+    BlockArray<double> pressure;   ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
+    std::vector<double> emittedVolume;  ///< by each source so far [cm^3]
+    Ledger ledger;
+};
+
+}  // namespace sim

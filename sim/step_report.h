@@ -1,0 +1,88 @@
+#pragma once
+
+#include "sim/core/types.h"
+
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace sim {
+
+/// The stages of a step, in the order in which they run.
+enum class Stage { Obstacles, Emit, Sort, Relax, ParticlesToGrid, LevelSet, Pressure, Extrapolate, GridToParticles, Count };
+inline constexpr int kStages = static_cast<int>(Stage::Count);
+inline constexpr std::array<std::string_view, kStages> kStageNames = {
+    "obstacles", "emit", "sort", "relax", "particles_to_grid", "level_set", "pressure", "extrapolate", "grid_to_particles"};
+
+/// What an iterative solve did.
+struct SolveReport {
+    int iterations = 0;
+    double residual = 0.0;  ///< largest, relative to the largest right-hand side [-]
+    bool converged = true;
+};
+
+/// Liquid that has entered and left so far; the particles hold the rest.
+struct Ledger {
+    double emittedMass = 0.0;                   ///< [g]
+    double leftMass = 0.0;                      ///< deleted outside the domain [g]
+    Vec3 leftMomentum = Vec3::Zero();           ///< [g cm/s]
+};
+
+/// Energies of the liquid (model-fluid 4.7) [erg].
+struct Energies {
+    double kinetic = 0.0;    ///< of the particles' velocities, ½ m v²
+    double modal = 0.0;      ///< of the higher modes around them
+    double potential = 0.0;  ///< −m g·x
+    double total() const { return kinetic + modal + potential; }
+};
+
+/// What one step did.
+struct StepReport {
+    std::array<double, kStages> stageSeconds{};  ///< 0 for a stage that did not run …
+    std::array<bool, kStages> stageRan{};        ///< … which is told here
+    double dt = 0.0;                             ///< [s]
+    double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
+    double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
+    SolveReport pressure;
+    std::size_t particles = 0, blocks = 0, liquidCells = 0;
+    Energies energies;                           ///< at the end of the step
+    double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
+    std::string_view failure;                    ///< empty, or why the state can't be trusted
+
+    double seconds() const
+    {
+        double sum = 0.0;
+        for (double s : stageSeconds) sum += s;
+        return sum;
+    }
+};
+
+/// Charges the time from one start() to the next to a stage; the last runs until the clock goes out of scope.
+class StageClock {
+ public:
+    explicit StageClock(StepReport& report) : report_(report) {}
+    StageClock(const StageClock&) = delete;
+    StageClock& operator=(const StageClock&) = delete;
+    ~StageClock() { stop(); }
+
+    void start(Stage stage)
+    {
+        stop();
+        stage_ = static_cast<int>(stage);
+        report_.stageRan[stage_] = true;
+        begin_ = std::chrono::steady_clock::now();
+    }
+    void stop()
+    {
+        if (stage_ < 0) return;
+        report_.stageSeconds[stage_] += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        stage_ = -1;
+    }
+
+ private:
+    StepReport& report_;
+    int stage_ = -1;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace sim
