@@ -34,7 +34,7 @@ struct TransferSettings {
     bool keepPerStep = false;           ///< Factors are taken literally per step, as published
     bool dampModes = true;              ///< keepAffine acts on PolyPIC modes too
 
-    /// Modes per component the particles carry.
+    /// N_r: modes per component gathered from the grid.
     int modeCount() const
     {
         switch (method) {

@@ -41,6 +41,10 @@ constexpr int modeOfDegrees(int a, int b, int c)
 /// Highest degree per axis among the first `modes` modes: 0, 1 or 2.
 constexpr int highestDegree(int modes) { return modes == 1 ? 0 : modes <= 8 ? 1 : 2; }
 
+/// Rows a particle stores for N_r = `modes`: the smallest prefix that has a fast kernel and that the monomial form of every
+/// gathered mode stays inside. (g0 g1, say, has monomials down to x y and x² y: from N_r = 12 on all 27 are stored.)
+constexpr int storedModes(int modes) { return modes <= 1 ? 1 : modes <= 4 ? 4 : modes <= 8 ? 8 : modes <= 11 ? 11 : 27; }
+
 /// Weighted mean of each monomial over the stencil: (1/4) per square, 0 with an odd power; the same at every offset.
 /// Σ_r kMeanOfMode[r] c_r is the particle's velocity.
 inline constexpr std::array<double, kMaxModes> kMeanOfMode = [] {

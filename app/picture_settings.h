@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+// What a scene file says about pictures and files: the sections render, output, compare. sim/ knows nothing of them.
+
+namespace app {
+
+struct CameraSettings {
+    bool autoFrame = true;                  ///< Frame everything; false once look_at and eye are given
+    Eigen::Vector3d lookAt = Eigen::Vector3d::Zero();  ///< [cm]
+    Eigen::Vector3d eye = {0.0, 0.0, 1.0};             ///< [cm]
+    Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+    double fovDegrees = 40.0;               ///< vertical field of view [deg]
+    bool orbit = false;                     ///< camera.orbit was given: lookAt is its target
+    double distance = 0.0, azimuthDegrees = 0.0, elevationDegrees = 0.0, turnDegreesPerSecond = 0.0;
+};
+
+enum class LiquidStyle { Points, Spheres, Surface };
+enum class ColorBy { Speed, Flat };
+enum class ColorMap { Jet, Turbo, Viridis };
+enum class ObstacleStyle { Wire, Translucent, Hidden };
+
+struct RenderSettings {
+    int width = 960, height = 540;          ///< [pixels]
+    Eigen::Vector3f background = Eigen::Vector3f::Ones();
+    CameraSettings camera;
+    LiquidStyle liquidStyle = LiquidStyle::Spheres;
+    ColorBy colorBy = ColorBy::Speed;
+    ColorMap colorMap = ColorMap::Jet;
+    std::array<double, 2> range = {0.0, 200.0};  ///< of the colour bar [cm/s]
+    ObstacleStyle obstacleStyle = ObstacleStyle::Translucent;
+    double obstacleOpacity = 0.15;
+    bool hud = true;                        ///< label and time stamp in the picture
+    bool colorBar = true;
+    int samples = 4;                        ///< multisampling, 1 = off
+};
+
+struct OutputSettings {
+    std::string dir;                        ///< default out/<name>/<variant>
+    double every = 4.0e-3;                  ///< simulated time per frame [s]
+    bool frames = true;                     ///< write frame_00000.png, …
+    double videoFps = 50.0;
+    std::string videoCodec = "libx264";
+};
+
+enum class CompareLayout { Columns, Rows, Grid };
+
+/// One variant of the scene: a name, a label and dotted overrides as they would stand behind --set.
+struct Variant {
+    std::string name;                       ///< [a-z0-9_]+: its folder and what --variant takes
+    std::string label;
+    std::vector<std::string> overrides;     ///< "transfer.method=apic", …
+};
+
+struct CompareSettings {
+    std::vector<Variant> variants;
+    CompareLayout layout = CompareLayout::Columns;
+    bool video = true, sheet = false, energyPlot = true, table = true;
+    std::string reference;                  ///< label of the baseline, if any
+};
+
+struct PictureSettings {
+    RenderSettings render;
+    OutputSettings output;
+    CompareSettings compare;
+};
+
+}  // namespace app
