@@ -11,6 +11,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
 #endif
 
 // Every parallel loop in sim/ goes through one of these. Each gives the same bits for any
@@ -18,17 +19,32 @@
 
 namespace sim {
 
-/// Run body(i) for i in [0, n); body(i) writes only what i owns. One task per `grain` indices.
-template <class Body>
-void parallelFor(std::size_t n, std::size_t grain, Body&& body)
+#ifdef __SANITIZE_THREAD__
+// ThreadSanitizer cannot see into a libtbb built without it and reports races that are not
+// there (google/sanitizers#1004). Four plain threads let it watch our own loop bodies.
+inline constexpr int kPlainThreads = 4;
+#endif
+
+/// How many workers may run loop bodies at once: the size of scratch memory that is indexed by worker.
+inline int workerCount()
 {
 #ifdef __SANITIZE_THREAD__
-    // ThreadSanitizer cannot see into a libtbb built without it and reports races that are not
-    // there (google/sanitizers#1004). Four plain threads let it watch our own loop bodies.
+    return kPlainThreads;
+#else
+    return tbb::this_task_arena::max_concurrency();
+#endif
+}
+
+/// Run body(i, worker) for i in [0, n), one task per `grain` indices. body(i, worker) writes only what i owns and the scratch
+/// memory of its worker, 0 ≤ worker < workerCount(), whose contents never outlive the body.
+template <class Body>
+void parallelForWorkers(std::size_t n, std::size_t grain, Body&& body)
+{
+#ifdef __SANITIZE_THREAD__
     std::vector<std::jthread> threads;
-    for (std::size_t t = 0; t < 4; ++t)
+    for (int t = 0; t < kPlainThreads; ++t)
         threads.emplace_back([&, t] {
-            for (std::size_t i = t; i < n; i += 4) body(i);
+            for (std::size_t i = t; i < n; i += kPlainThreads) body(i, t);
         });
     static_cast<void>(grain);
 #else
@@ -36,10 +52,18 @@ void parallelFor(std::size_t n, std::size_t grain, Body&& body)
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, n, grain),
         [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+            const int worker = std::max(0, tbb::this_task_arena::current_thread_index());
+            for (std::size_t i = range.begin(); i != range.end(); ++i) body(i, worker);
         },
         tbb::simple_partitioner());
 #endif
+}
+
+/// Run body(i) for i in [0, n); body(i) writes only what i owns. One task per `grain` indices.
+template <class Body>
+void parallelFor(std::size_t n, std::size_t grain, Body&& body)
+{
+    parallelForWorkers(n, grain, [&](std::size_t i, int) { body(i); });
 }
 
 /// One task per index: for bodies that do a block's or a chunk's work.

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+// The only door to SIMD: packs of 8 doubles. Arithmetic and comparisons are the compiler's own vector operators; what has
+// none (masked access, rounding) is here, once for AVX-512 and once in plain C++.
+
+namespace sim {
+
+inline constexpr int kLanes = 8;
+
+using Pack = double __attribute__((vector_size(64)));
+using PackMask = long long __attribute__((vector_size(64)));          ///< all bits of a lane set, or none
+using HalfPack = double __attribute__((vector_size(32), aligned(8), may_alias));  ///< 4 doubles anywhere in memory
+
+/// f(integral_constant<int, 0>) … f(integral_constant<int, N − 1>): a loop that leaves no loop behind, so that arrays indexed in it
+/// live in registers.
+template <int N, class F>
+[[gnu::always_inline]] inline void unroll(F&& f)
+{
+    [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+        (f(std::integral_constant<int, I>{}), ...);
+    }(std::make_integer_sequence<int, N>{});
+}
+
+[[gnu::always_inline]] inline Pack broadcast(double v) { return Pack{v, v, v, v, v, v, v, v}; }
+
+[[gnu::always_inline]] inline Pack loadPack(const double* p)
+{
+    Pack v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+
+/// a where the mask is set, else b.
+[[gnu::always_inline]] inline Pack select(PackMask mask, Pack a, Pack b) { return mask ? a : b; }
+
+/// The lanes 0 … n − 1.
+[[gnu::always_inline]] inline PackMask firstLanes(int n)
+{
+    const PackMask lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    return lane < static_cast<long long>(n);
+}
+
+[[gnu::always_inline]] inline Pack floorPack(Pack v)
+{
+#ifdef __AVX512F__
+    return (Pack)_mm512_maskz_roundscale_pd(0xff, (__m512d)v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+#else
+    for (int l = 0; l < kLanes; ++l) v[l] = std::floor(v[l]);
+    return v;
+#endif
+}
+
+[[gnu::always_inline]] inline Pack sqrtPack(Pack v)
+{
+#ifdef __AVX512F__
+    return (Pack)_mm512_maskz_sqrt_pd(0xff, (__m512d)v);
+#else
+    for (int l = 0; l < kLanes; ++l) v[l] = std::sqrt(v[l]);
+    return v;
+#endif
+}
+
+[[gnu::always_inline]] inline Pack absPack(Pack v) { return v < 0.0 ? -v : v; }
+[[gnu::always_inline]] inline Pack maxPack(Pack a, Pack b) { return b > a ? b : a; }
+
+/// Store the first n lanes.
+[[gnu::always_inline]] inline void storeFirst(double* p, Pack v, int n)
+{
+#ifdef __AVX512F__
+    _mm512_mask_storeu_pd(p, static_cast<__mmask8>((1u << n) - 1), (__m512d)v);
+#else
+    for (int l = 0; l < n; ++l) p[l] = v[l];
+#endif
+}
+
+/// Bit l of the result: is lane l set?
+[[gnu::always_inline]] inline unsigned maskBits(PackMask mask)
+{
+#ifdef __AVX512DQ__
+    return _mm512_movepi64_mask((__m512i)mask);
+#else
+    unsigned bits = 0;
+    for (int l = 0; l < kLanes; ++l) bits |= (mask[l] != 0 ? 1u : 0u) << l;
+    return bits;
+#endif
+}
+
+/// The inverse: lane l is set where bit l of the low 8 is.
+[[gnu::always_inline]] inline PackMask maskOfBits(std::uint64_t bits)
+{
+    const PackMask lane = {1, 2, 4, 8, 16, 32, 64, 128};
+    return (lane & static_cast<long long>(bits)) != 0;
+}
+
+/// {before[7], row[0] … row[6]}: a row of cells seen from one cell further right, before being the row to its left.
+[[gnu::always_inline]] inline Pack shiftRight(Pack before, Pack row)
+{
+    return __builtin_shuffle(before, row, PackMask{7, 8, 9, 10, 11, 12, 13, 14});
+}
+
+/// {row[1] … row[7], after[0]}.
+[[gnu::always_inline]] inline Pack shiftLeft(Pack row, Pack after)
+{
+    return __builtin_shuffle(row, after, PackMask{1, 2, 3, 4, 5, 6, 7, 8});
+}
+
+/// Lanes added in a fixed order.
+[[gnu::always_inline]] inline double sumLanes(Pack v)
+{
+    return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+}
+
+}  // namespace sim

@@ -1,0 +1,156 @@
+#include "sim/grid/obstacle_field.h"
+
+#include "sim/core/parallel.h"
+
+#include <cmath>
+#include <limits>
+
+namespace sim {
+
+namespace {
+
+/// A wall in a plane of nodes must close the faces in it, whatever the last bit of the distance says.
+constexpr double kOnSurface = 1.0e-6;   ///< [cells]
+constexpr double kAlmostClosed = 1.0e-3;  ///< open fractions below only hurt the conditioning (model-fluid 2.5)
+constexpr double kAlmostOpen = 1.0 - 1.0e-6;
+
+double crossing(double inside, double outside) { return inside / (inside - outside); }
+
+}  // namespace
+
+double ObstacleField::openFraction(double d00, double d10, double d11, double d01)
+{
+    const double d[4] = {d00, d10, d11, d01};
+    int inside = 0;
+    for (double v : d) inside += v < 0.0;
+    if (inside == 0) return 1.0;
+    if (inside == 4) return 0.0;
+    const auto at = [&](int n) { return d[n & 3]; };
+    if (inside == 1 || inside == 3) {
+        int odd = 0;
+        while ((at(odd) < 0.0) != (inside == 1)) ++odd;
+        const double in = inside == 1 ? at(odd) : -at(odd), sign = inside == 1 ? 1.0 : -1.0;
+        const double triangle = 0.5 * crossing(in, sign * at(odd + 1)) * crossing(in, sign * at(odd + 3));
+        return inside == 1 ? 1.0 - triangle : triangle;
+    }
+    for (int n = 0; n < 4; ++n)
+        if (at(n) < 0.0 && at(n + 1) < 0.0) return 1.0 - 0.5 * (crossing(at(n), at(n + 3)) + crossing(at(n + 1), at(n + 2)));
+    // Two opposite corners inside: two corners cut off, of the solid or of the open part, as the mean decides.
+    const int first = d[0] < 0.0 ? 0 : 1;
+    const bool solidMiddle = d[0] + d[1] + d[2] + d[3] < 0.0;
+    double cut = 0.0;
+    for (int n = solidMiddle ? first + 1 : first; n < 4 + (solidMiddle ? first + 1 : first); n += 2)
+        cut += 0.5 * crossing(at(n), at(n + 1)) * crossing(at(n), at(n + 3));
+    return solidMiddle ? cut : 1.0 - cut;
+}
+
+void ObstacleField::resizeSlots(int count)
+{
+    open_.resize(count);
+    wallVelocity_.resize(count);
+    closed_.resize(count);
+    centerDistance_.resize(count);
+    nodeDistance_.resize(static_cast<std::size_t>(count) * kNodes);
+    touchedByMoving_.resize(count);
+    if (slotCount_ == 0 && count > 0)
+        for (int c = 0; c < kBlockCells; ++c) {
+            centerDistance_.block(kOpenSlot)[c] = std::numeric_limits<double>::infinity();
+            for (int a = 0; a < kAxes; ++a) {
+                open_.block(kOpenSlot, a)[c] = 1.0;
+                wallVelocity_.block(kOpenSlot, a)[c] = 0.0;
+                closed_.block(kOpenSlot, a)[c / 64] = 0;
+            }
+        }
+    slotCount_ = count;
+}
+
+int ObstacleField::takeSlot()
+{
+    if (freeSlots_.empty()) {
+        freeSlots_.push_back(slotCount_);
+        resizeSlots(slotCount_ + 1);
+    }
+    const int slot = freeSlots_.back();
+    freeSlots_.pop_back();
+    touchedByMoving_[slot] = 0;
+    return slot;
+}
+
+bool ObstacleField::isNear(const BlockGrid& grid, double distance)
+{
+    // From its middle a block reaches half its diagonal; one cell more for the gradient at its nodes.
+    return distance < (0.5 * std::sqrt(3.0) * kBlockEdge + 1.0) * grid.dx;
+}
+
+void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles)
+{
+    if (slotCount_ == 0) resizeSlots(1);
+    oldSlot_.swap(slot_);
+    slot_.assign(grid.count() + 1, kOpenSlot);
+    if (obstacles.empty()) return;
+
+    toCompute_.clear();
+    const int oldBlocks = static_cast<int>(oldSlot_.size()) - 1;
+    for (int b = 0; b < grid.count(); ++b) {
+        const int old = previous[b];
+        if (old == BlockGrid::kNone || old >= oldBlocks) {
+            toCompute_.push_back(b);
+            continue;
+        }
+        slot_[b] = oldSlot_[old];
+        oldSlot_[old] = kOpenSlot;  // taken over
+    }
+    for (int old = 0; old < oldBlocks; ++old)
+        if (oldSlot_[old] != kOpenSlot) freeSlots_.push_back(oldSlot_[old]);
+
+    const Vec3 half = Vec3::Constant(0.5 * kBlockEdge * grid.dx);
+    for (int b : toCompute_)
+        if (isNear(grid, obstacles.distance(grid.lowerCorner(b) + half))) slot_[b] = takeSlot();
+    for (int b = 0; b < grid.count(); ++b) {
+        const bool reached = obstacles.anyMoving() && isNear(grid, obstacles.movingDistance(grid.lowerCorner(b) + half));
+        const bool wasReached = slot_[b] != kOpenSlot && touchedByMoving_[slot_[b]] != 0;
+        if (!reached && !wasReached) continue;
+        if (slot_[b] == kOpenSlot) slot_[b] = takeSlot();
+        touchedByMoving_[slot_[b]] = reached;
+        toCompute_.push_back(b);
+    }
+    std::sort(toCompute_.begin(), toCompute_.end());
+    toCompute_.erase(std::unique(toCompute_.begin(), toCompute_.end()), toCompute_.end());
+    parallelFor(toCompute_.size(), [&](std::size_t n) {
+        const int b = toCompute_[n];
+        if (slot_[b] != kOpenSlot) computeSlot(grid, b, slot_[b], obstacles);
+    });
+}
+
+void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
+{
+    const Vec3 corner = grid.lowerCorner(block);
+    double* node = nodeDistance_.data() + static_cast<std::size_t>(slot) * kNodes;
+    for (int k = 0; k < kNodesEdge; ++k)
+        for (int j = 0; j < kNodesEdge; ++j)
+            for (int i = 0; i < kNodesEdge; ++i) {
+                const double d = obstacles.distance(corner + grid.dx * Vec3(i, j, k));
+                node[nodeIndex(i, j, k)] = std::abs(d) < kOnSurface * grid.dx ? -1.0e-3 * kOnSurface * grid.dx : d;
+            }
+    for (int a = 0; a < kAxes; ++a) std::fill_n(closed_.block(slot, a), BlockBits<3>::kWords, 0);
+    const int step[3] = {nodeIndex(1, 0, 0), nodeIndex(0, 1, 0), nodeIndex(0, 0, 1)};
+    for (int k = 0; k < kBlockEdge; ++k)
+        for (int j = 0; j < kBlockEdge; ++j)
+            for (int i = 0; i < kBlockEdge; ++i) {
+                const int cell = cellInBlock(i, j, k);
+                const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
+                centerDistance_.block(slot)[cell] = obstacles.distance(center);
+                for (int a = 0; a < kAxes; ++a) {
+                    const double* n = node + nodeIndex(i, j, k);
+                    const int u = step[(a + 1) % 3], v = step[(a + 2) % 3];
+                    double open = openFraction(n[0], n[u], n[u + v], n[v]);
+                    open = open < kAlmostClosed ? 0.0 : open > kAlmostOpen ? 1.0 : open;
+                    open_.block(slot, a)[cell] = open;
+                    if (open == 0.0) closed_.set(slot, cell, a);
+                    wallVelocity_.block(slot, a)[cell] =
+                        touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
+                }
+            }
+}
+
+}  // namespace sim

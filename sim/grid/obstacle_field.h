@@ -1,0 +1,58 @@
+#pragma once
+
+#include "sim/grid/face_fields.h"
+#include "sim/grid/obstacles.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Obstacles on the grid (model-fluid 2.4, 2.5): distance on nodes, open fraction and velocity of faces. Blocks far from every
+/// solid share one set of numbers; those of a block near a resting solid are computed when the block appears, and kept.
+class ObstacleField {
+ public:
+    static constexpr int kNodesEdge = kBlockEdge + 1;
+    static constexpr int kNodes = kNodesEdge * kNodesEdge * kNodesEdge;
+    static constexpr int nodeIndex(int i, int j, int k) { return (k * kNodesEdge + j) * kNodesEdge + i; }
+
+    /// Follow the blocks of the grid and the motion of the obstacles.
+    /// @param previous  number each block had at the last update, or BlockGrid::kNone
+    void update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles);
+
+    bool nearSolid(int block) const { return slot_[block] != kOpenSlot; }
+
+    /// Open fraction of each lower face normal to `axis`, 0 … 1. Also for the empty block.
+    const double* open(int block, int axis) const { return open_.block(slot_[block], axis); }
+    /// Faces of open fraction 0.
+    const std::uint64_t* closed(int block, int axis) const { return closed_.block(slot_[block], axis); }
+    /// Velocity of the obstacle at each lower face along `axis` [cm/s].
+    const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(slot_[block], axis); }
+    /// Distance to the nearest solid on the 9³ nodes of a block near a solid [cm], at nodeIndex(i, j, k).
+    const double* nodeDistance(int block) const { return nodeDistance_.data() + static_cast<std::size_t>(slot_[block]) * kNodes; }
+    /// Distance from the middle of each cell [cm].
+    const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
+
+    /// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5).
+    static double openFraction(double d00, double d10, double d11, double d01);
+
+ private:
+    static constexpr int kOpenSlot = 0;
+
+    int takeSlot();
+    void resizeSlots(int count);
+    static bool isNear(const BlockGrid& grid, double distance);
+    void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
+
+    std::vector<int> slot_, oldSlot_;       ///< per block, the empty block included
+    std::vector<int> freeSlots_;
+    std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
+    std::vector<int> toCompute_;            ///< blocks
+    int slotCount_ = 0;
+    BlockArray<double, 3> open_, wallVelocity_;
+    BlockBits<3> closed_;
+    BlockArray<double> centerDistance_;
+    AlignedArray<double> nodeDistance_;
+};
+
+}  // namespace sim

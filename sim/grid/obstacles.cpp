@@ -1,0 +1,83 @@
+#include "sim/grid/obstacles.h"
+
+namespace sim {
+
+void Obstacles::add(const Shape& shape, const Motion& motion)
+{
+    Body body{shape, motion, {}, {}, {}, false};
+    body.now = motion.transform(0.0);
+    body.before = body.now;
+    body.toShape = body.now.inverse();
+    bodies_.push_back(std::move(body));
+}
+
+void Obstacles::moveTo(double t0, double t1)
+{
+    anyMoving_ = false;
+    interval_ = t1 - t0;
+    for (Body& body : bodies_) {
+        body.moving = body.motion.moves(t0, t1);
+        anyMoving_ = anyMoving_ || body.moving;
+        body.before = body.motion.transform(t0);
+        body.now = body.motion.transform(t1);
+        body.toShape = body.now.inverse();
+    }
+}
+
+double Obstacles::distance(const Vec3& x) const
+{
+    double d = std::numeric_limits<double>::infinity();
+    for (const Body& body : bodies_) d = std::min(d, body.shape.distance(body.motion.isStatic() ? x : body.toShape * x));
+    return d;
+}
+
+double Obstacles::movingDistance(const Vec3& x) const
+{
+    double d = std::numeric_limits<double>::infinity();
+    for (const Body& body : bodies_)
+        if (body.moving) d = std::min(d, body.shape.distance(body.toShape * x));
+    return d;
+}
+
+const Obstacles::Body* Obstacles::nearest(const Vec3& x) const
+{
+    const Body* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Body& body : bodies_) {
+        const double d = body.shape.distance(body.toShape * x);
+        if (d < least) {
+            least = d;
+            best = &body;
+        }
+    }
+    return best;
+}
+
+Vec3 Obstacles::normal(const Vec3& x) const
+{
+    const Body* body = nearest(x);
+    return body == nullptr ? Vec3::Zero() : Vec3(body->now.linear() * body->shape.normal(body->toShape * x));
+}
+
+Vec3 Obstacles::velocity(const Vec3& x) const
+{
+    const Body* body = nearest(x);
+    if (body == nullptr || !body->moving || interval_ <= 0.0) return Vec3::Zero();
+    return (x - body->before * (body->toShape * x)) / interval_;
+}
+
+std::vector<Obstacles::Wall> Obstacles::planeWalls() const
+{
+    std::vector<Wall> walls;
+    for (const Body& body : bodies_) {
+        const auto box = body.motion.isStatic() ? body.shape.axisBox() : std::nullopt;
+        if (!box || !box->inside) continue;
+        for (int axis = 0; axis < kAxes; ++axis) {
+            walls.push_back({axis, box->box.min()[axis], false});
+            walls.push_back({axis, box->box.max()[axis], true});
+        }
+    }
+    return walls;
+}
+
+}  // namespace sim

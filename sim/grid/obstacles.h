@@ -1,0 +1,49 @@
+#pragma once
+
+#include "sim/scene/motion.h"
+#include "sim/shapes/shape.h"
+
+#include <vector>
+
+namespace sim {
+
+/// The solids of a scene where they are now, and how fast they move.
+class Obstacles {
+ public:
+    void add(const Shape& shape, const Motion& motion);
+
+    /// Put everything where it is at time t1 [s]; velocities are the displacement since t0 per time.
+    void moveTo(double t0, double t1);
+
+    bool empty() const { return bodies_.empty(); }
+    bool anyMoving() const { return anyMoving_; }  ///< between t0 and t1 of the last moveTo
+
+    double distance(const Vec3& x) const;          ///< to the nearest solid [cm], negative inside; infinite without any
+    double movingDistance(const Vec3& x) const;    ///< to the nearest that moves
+    Vec3 normal(const Vec3& x) const;              ///< out of the nearest solid
+    Vec3 velocity(const Vec3& x) const;            ///< of the nearest solid's material point at x [cm/s]
+
+    /// Plane walls of resting boxes that hold everything: the solid fills all beyond coordinate `at` along `axis`.
+    struct Wall {
+        int axis;
+        double at;    ///< [cm]
+        bool above;   ///< the solid is on the upper side
+    };
+    std::vector<Wall> planeWalls() const;
+
+ private:
+    struct Body {
+        Shape shape;
+        Motion motion;
+        Eigen::Isometry3d now, toShape, before;
+        bool moving = false;
+    };
+    const Body* nearest(const Vec3& x) const;
+
+    std::vector<Body> bodies_;
+    double movedTo_ = 0.0;
+    bool anyMoving_ = false;
+    double interval_ = 0.0;
+};
+
+}  // namespace sim

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "sim/core/simd.h"
+#include "sim/grid/face_fields.h"
+
+namespace sim {
+
+/// Access to a block's cells in rows of 8 along x, and to the rows around them, across block borders.
+struct RowAccess {
+    RowAccess(const BlockGrid& grid, int block) : neighbours(grid.neighbours(block).data()) {}
+
+    /// Row (j, k) of a field, j and k in −1..8 but not both outside.
+    template <class T, int kKinds>
+    Pack row(const BlockArray<T, kKinds>& field, int kind, int j, int k) const
+    {
+        return loadPack(field.block(neighbours[neighbourIndex(0, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
+    }
+    /// The values at i − 1 and i + 1 of row (j, k).
+    template <class T, int kKinds>
+    Pack left(const BlockArray<T, kKinds>& field, int kind, int j, int k) const
+    {
+        return shiftRight(loadPack(field.block(neighbours[neighbourIndex(-1, 0, 0)], kind) + cellInBlock(0, j, k)), row(field, kind, j, k));
+    }
+    template <class T, int kKinds>
+    Pack right(const BlockArray<T, kKinds>& field, int kind, int j, int k) const
+    {
+        return shiftLeft(row(field, kind, j, k), loadPack(field.block(neighbours[neighbourIndex(1, 0, 0)], kind) + cellInBlock(0, j, k)));
+    }
+    /// The values one cell below along an axis, and one above.
+    template <class T, int kKinds>
+    Pack below(const BlockArray<T, kKinds>& field, int kind, int axis, int j, int k) const
+    {
+        return axis == 0 ? left(field, kind, j, k) : axis == 1 ? row(field, kind, j - 1, k) : row(field, kind, j, k - 1);
+    }
+    template <class T, int kKinds>
+    Pack above(const BlockArray<T, kKinds>& field, int kind, int axis, int j, int k) const
+    {
+        return axis == 0 ? right(field, kind, j, k) : axis == 1 ? row(field, kind, j + 1, k) : row(field, kind, j, k + 1);
+    }
+
+    const int* neighbours;
+};
+
+/// The same for bits: word k of a block shifted by one cell along an axis, so that each bit tells of the cell below (or above).
+struct BitAccess {
+    BitAccess(const BlockGrid& grid, int block) : neighbours(grid.neighbours(block).data()) {}
+
+    template <int kKinds>
+    std::uint64_t below(const BlockBits<kKinds>& bits, int kind, int axis, int k) const
+    {
+        constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
+        const std::uint64_t* own = bits.block(neighbours[13], kind);
+        if (axis == 0) return (own[k] & ~(kFirstColumn << 7)) << 1 | (bits.block(neighbours[12], kind)[k] >> 7 & kFirstColumn);
+        if (axis == 1) return own[k] << 8 | bits.block(neighbours[10], kind)[k] >> 56;
+        return k > 0 ? own[k - 1] : bits.block(neighbours[4], kind)[kBlockEdge - 1];
+    }
+    template <int kKinds>
+    std::uint64_t above(const BlockBits<kKinds>& bits, int kind, int axis, int k) const
+    {
+        constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
+        const std::uint64_t* own = bits.block(neighbours[13], kind);
+        if (axis == 0) return (own[k] & ~kFirstColumn) >> 1 | (bits.block(neighbours[14], kind)[k] & kFirstColumn) << 7;
+        if (axis == 1) return own[k] >> 8 | bits.block(neighbours[16], kind)[k] << 56;
+        return k < kBlockEdge - 1 ? own[k + 1] : bits.block(neighbours[22], kind)[0];
+    }
+
+    const int* neighbours;
+};
+
+}  // namespace sim

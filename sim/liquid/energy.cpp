@@ -1,0 +1,57 @@
+#include "sim/liquid/energy.h"
+
+#include "sim/core/parallel.h"
+#include "sim/transfer/reference.h"
+
+namespace sim {
+
+WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity)
+{
+    const auto weight = [&](std::size_t p) {
+        const double mass = particles.mass[p];
+        return WeightSums{-mass * (gravity.x() * particles.x[0][p] + gravity.y() * particles.x[1][p] + gravity.z() * particles.x[2][p]), mass};
+    };
+    return parallelReduce(particles.count, WeightSums{0.0, 0.0}, weight,
+                          [](WeightSums a, WeightSums b) { return WeightSums{a.potential + b.potential, a.mass + b.mass}; });
+}
+
+namespace {
+
+/// ⟨s_d, s_d⟩ of the 1-D factor of degree d (model-fluid 4.3), lengths in cells.
+double squareNorm(const Basis1D& basis, int degree)
+{
+    double norm = 0.0;
+    for (int n = 0; n < 3; ++n) {
+        const double z = basis.z[n], s = degree == 0 ? 1.0 : degree == 1 ? z : z * z - basis.skew * z - 0.25;
+        norm += basis.weight[n] * s * s;
+    }
+    return norm;
+}
+
+}  // namespace
+
+Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity)
+{
+    Energies total;
+    total.potential = weightSums(particles, gravity).potential;
+    total.kinetic = parallelSum(particles.count, [&](std::size_t p) { return 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm(); });
+    if (particles.modeCount == 1) return total;
+    total.modal = parallelSum(particles.count, [&](std::size_t p) {
+        double square = 0.0;
+        for (int axis = 0; axis < kAxes; ++axis) {
+            const Stencil stencil(grid, axis, particles.position(p));
+            Modes c{};
+            for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[p];
+            c = toOrthogonal(stencil.basis, c);
+            for (int r = 1; r < kMaxModes; ++r) {
+                double norm = c[r] * c[r];
+                for (int a = 0; a < kAxes; ++a) norm *= squareNorm(stencil.basis[a], kDegrees[r][a]);
+                square += norm;
+            }
+        }
+        return 0.5 * particles.mass[p] * square;
+    });
+    return total;
+}
+
+}  // namespace sim

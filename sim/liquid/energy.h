@@ -1,0 +1,19 @@
+#pragma once
+
+#include "sim/grid/block_grid.h"
+#include "sim/particles/liquid_particles.h"
+#include "sim/step_report.h"
+
+namespace sim {
+
+/// Potential energy −m g·x of all particles [erg], and their mass [g].
+struct WeightSums {
+    double potential, mass;
+};
+WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity);
+
+/// All energies of the liquid at the present positions, from the modes in the particles' own rows (model-fluid 4.7). The step itself
+/// takes kinetic and modal energy from G2P, where they cost nothing; this is for the initial state and for tests.
+Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity);
+
+}  // namespace sim

@@ -1,0 +1,155 @@
+#include "sim/liquid/walls.h"
+
+#include "sim/core/parallel.h"
+
+#include <bit>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr int kMirrorDepth = 2;        ///< layers behind a wall that stencils in front of it touch
+constexpr double kInFacePlane = 1.0e-6;  ///< [cells]
+
+/// Call f(cell) for each closed face of a block normal to `axis`.
+template <class F>
+void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
+{
+    const std::uint64_t* closed = field.closed(block, axis);
+    for (int k = 0; k < kBlockEdge; ++k)
+        for (std::uint64_t bits = closed[k]; bits != 0; bits &= bits - 1) f(k * 64 + std::countr_zero(bits));
+}
+
+void stick(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+{
+    parallelFor(grid.count(), 4, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        if (!field.nearSolid(b)) return;
+        for (int a = 0; a < kAxes; ++a) {
+            forEachClosedFace(field, b, a, [&](int face) { velocity.block(b, a)[face] = field.wallVelocity(b, a)[face]; });
+            for (int k = 0; k < kBlockEdge; ++k) valid.block(b, a)[k] |= field.closed(b, a)[k];
+        }
+    });
+}
+
+/// The liquid's velocity at a face: its own component, the others as means of the known faces around.
+Vec3 velocityAtFace(const BlockGrid& grid, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int block, int axis, const Vec3i& cell)
+{
+    Vec3 u;
+    for (int c = 0; c < kAxes; ++c) {
+        double sum = 0.0;
+        int count = 0;
+        for (int side = 0; side < (c == axis ? 1 : 4); ++side) {
+            Vec3i at = cell;
+            if (side & 1) at[c] += 1;
+            if (side & 2) at[axis] -= 1;
+            const CellRef face = cellNear(grid, block, at.x(), at.y(), at.z());
+            if (!valid.test(face.block, face.cell, c)) continue;
+            sum += velocity.block(face.block, c)[face.cell];
+            ++count;
+        }
+        u[c] = count > 0 ? sum / count : 0.0;
+    }
+    return u;
+}
+
+/// The tangential part of the relative velocity stays, less the friction; its normal part goes.
+void slip(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const BlockBits<3>& valid,
+          BlockArray<double, 3>& velocity, LiquidGrid& liquid)
+{
+    parallelFor(grid.count(), [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        if (!field.nearSolid(b)) return;
+        for (int a = 0; a < kAxes; ++a)
+            forEachClosedFace(field, b, a, [&](int face) {
+                if (!valid.test(b, face, a)) return;
+                const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);
+                Vec3 x = grid.lowerCorner(b) + grid.dx * (cell.cast<double>() + Vec3::Constant(0.5));
+                x[a] -= 0.5 * grid.dx;
+                const Vec3 normal = obstacles.normal(x), wall = obstacles.anyMoving() ? obstacles.velocity(x) : Vec3(Vec3::Zero());
+                const Vec3 relative = velocityAtFace(grid, valid, velocity, b, a, cell) - wall;
+                liquid.scratch(b, a)[face] = wall[a] + (1.0 - friction) * (relative[a] - normal[a] * normal.dot(relative));
+            });
+    });
+    parallelFor(grid.count(), 4, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        if (!field.nearSolid(b)) return;
+        for (int a = 0; a < kAxes; ++a)
+            forEachClosedFace(field, b, a, [&](int face) {
+                if (valid.test(b, face, a)) velocity.block(b, a)[face] = liquid.scratch(b, a)[face];
+            });
+    });
+}
+
+/// Fill the faces of one block behind a wall at cell coordinate `plane` from their images in front of it.
+void mirrorInBlock(const BlockGrid& grid, int b, const Obstacles::Wall& wall, int plane, double friction, const BlockBits<3>& valid,
+                   BlockBits<3>& newlyValid, BlockArray<double, 3>& velocity)
+{
+    const int first = kBlockEdge * grid.coords(b)[wall.axis];
+    for (int layer = 0; layer <= kMirrorDepth; ++layer)
+        for (int c = 0; c < kAxes; ++c) {
+            const bool normal = c == wall.axis;
+            if (!normal && layer == kMirrorDepth) continue;
+            // Normal faces stand in the plane and behind it; tangential ones in the cells behind it.
+            const int at = (wall.above ? plane + layer : normal ? plane - layer : plane - 1 - layer) - first;
+            const int image = (wall.above ? plane - layer - (normal ? 0 : 1) : plane + layer) - first;
+            if (at < 0 || at >= kBlockEdge) continue;
+            for (int v = 0; v < kBlockEdge; ++v)
+                for (int u = 0; u < kBlockEdge; ++u) {
+                    Vec3i to, from;
+                    to[wall.axis] = at;
+                    from[wall.axis] = image;
+                    to[(wall.axis + 1) % 3] = from[(wall.axis + 1) % 3] = u;
+                    to[(wall.axis + 2) % 3] = from[(wall.axis + 2) % 3] = v;
+                    const int face = cellInBlock(to.x(), to.y(), to.z());
+                    const CellRef source = cellNear(grid, b, from.x(), from.y(), from.z());
+                    const bool onWall = normal && layer == 0;
+                    if (!onWall && !valid.test(source.block, source.cell, c)) continue;
+                    const double value = velocity.block(source.block, c)[source.cell];
+                    velocity.block(b, c)[face] = onWall ? 0.0 : normal ? -value : (1.0 - friction) * value;
+                    newlyValid.set(b, face, c);
+                }
+        }
+}
+
+/// One wall after another, so that edges and corners get the image of an image.
+void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, BlockBits<3>& valid, BlockBits<3>& newlyValid,
+            BlockArray<double, 3>& velocity)
+{
+    for (const Obstacles::Wall& wall : obstacles.planeWalls()) {
+        const double inCells = (wall.at - grid.origin[wall.axis]) / grid.dx;
+        const int plane = static_cast<int>(std::lround(inCells));
+        if (std::abs(inCells - plane) > kInFacePlane) continue;
+        const auto forBlocksAtWall = [&](auto&& f) {
+            parallelFor(grid.count(), 4, [&](std::size_t n) {
+                const int first = kBlockEdge * grid.coords(static_cast<int>(n))[wall.axis];
+                if (first <= plane + kMirrorDepth && first + kBlockEdge > plane - kMirrorDepth) f(static_cast<int>(n));
+            });
+        };
+        forBlocksAtWall([&](int b) {
+            for (int a = 0; a < kAxes; ++a) std::fill_n(newlyValid.block(b, a), BlockBits<3>::kWords, 0);
+            mirrorInBlock(grid, b, wall, plane, friction, valid, newlyValid, velocity);
+        });
+        forBlocksAtWall([&](int b) {
+            for (int a = 0; a < kAxes; ++a)
+                for (int k = 0; k < kBlockEdge; ++k) valid.block(b, a)[k] |= newlyValid.block(b, a)[k];
+        });
+    }
+}
+
+}  // namespace
+
+void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
+                BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid)
+{
+    if (friction == 1.0) {
+        stick(grid, field, valid, velocity);
+        return;
+    }
+    slip(grid, field, obstacles, friction, valid, velocity, liquid);
+    scratch.newlyValid.resize(grid.count());
+    mirror(grid, obstacles, friction, valid, scratch.newlyValid, velocity);
+}
+
+}  // namespace sim

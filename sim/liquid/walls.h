@@ -1,0 +1,15 @@
+#pragma once
+
+#include "sim/liquid/extrapolate.h"
+#include "sim/liquid/liquid_grid.h"
+
+namespace sim {
+
+/// Give the closed faces what the walls demand (model-fluid 6.6): with friction c, the obstacle's velocity plus (1 − c) of the
+/// liquid's relative velocity along the wall. Behind plane walls that lie in planes of faces it is the mirror image of the liquid in
+/// front instead: the normal component odd about the wall, the tangential ones even. Closed faces become valid everywhere where
+/// c = 1, else where extrapolation or the mirror reached them.
+void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
+                BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
+
+}  // namespace sim

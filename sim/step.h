@@ -1,0 +1,37 @@
+#pragma once
+
+#include "sim/liquid/extrapolate.h"
+#include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/pressure.h"
+#include "sim/scene/scene.h"
+#include "sim/state.h"
+#include "sim/transfer/gather.h"
+#include "sim/transfer/scatter.h"
+
+namespace sim {
+
+/// What a step needs beside the State: computed anew in every step, or buffers kept so that nothing is allocated.
+struct Workspace {
+    ParticleOrder order;
+    Obstacles obstacles;
+    ObstacleField obstacleField;
+    LiquidGrid grid;
+    ScatterScratch scatter;
+    GatherScratch gather;
+    PressureWorkspace pressure;
+    ExtrapolationScratch extrapolation;
+    std::array<AlignedArray<double>, kAxes> displacement;  ///< by relaxation [cm]
+    BlockArray<double> oldPressure;
+    double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
+};
+
+/// Advance the liquid by dt [s] (model-fluid 15.1).
+StepReport step(State& state, const Scene& scene, Workspace& work, double dt);
+
+/// Largest stable time step from here [s], by the scene's mode and bounds (model-fluid 15.1), not yet fitted to a frame.
+double chooseTimeStep(const Settings& settings, double maxSpeed);
+
+/// dt (max speed + sqrt(h |g|)) / h (model-fluid 15.1).
+double cflNumber(const Settings& settings, double maxSpeed, double dt);
+
+}  // namespace sim

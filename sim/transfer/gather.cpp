@@ -1,0 +1,429 @@
+#include "sim/transfer/gather.h"
+
+#include "sim/core/parallel.h"
+#include "sim/core/simd.h"
+#include "sim/transfer/mode_set.h"
+#include "sim/transfer/reference.h"
+#include "sim/transfer/tile.h"
+
+namespace sim {
+
+namespace {
+
+struct GatherTile {
+    alignas(64) double v[kAxes][kTileSize];
+};
+
+void loadTile(const BlockArray<double, 3>& velocity, const BlockGrid& grid, int block, const OccupiedBox& box, GatherTile& tile)
+{
+    forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
+        for (int a = 0; a < kAxes; ++a) {
+            const double* from = velocity.block(piece, a) + cell;
+            double* to = tile.v[a] + node;
+            for (int n = 0; n < length; ++n) to[n] = from[n];
+        }
+    });
+}
+
+/// Share of each node of a row in the coefficients of degree 0, 1, 2 along one axis, for 8 particles of one cell. Faces of the
+/// particle's own axis are four in a row, of which one has no weight; the other two axes have three.
+template <int kFactors>
+struct Operators {
+    Pack center[3][kFactors], face[4][kFactors];
+    Pack centerOffset, faceOffset;  ///< particle − middle node, in cells
+};
+
+/// kFold: all 27 modes are gathered, and the conversion to monomials is folded in: op0 − op2/4, op1 − A op2. With fewer it must
+/// follow the truncation.
+template <int kFactors, bool kFold>
+[[gnu::always_inline]] inline void setOperators(Pack xi, Operators<kFactors>& op)
+{
+    const auto store = [&](Pack* out, Pack weight, Pack z, Pack second, Pack skew) {
+        out[0] = weight;
+        if constexpr (kFactors > 1) out[1] = 4.0 * weight * z;
+        if constexpr (kFactors > 2) {
+            out[2] = second;
+            if constexpr (kFold) {
+                out[0] -= 0.25 * second;
+                out[1] -= skew * second;
+            }
+        }
+    };
+    const auto weights = [](Pack r, Pack (&w)[3]) {
+        w[0] = 0.5 * (0.5 - r) * (0.5 - r);
+        w[1] = 0.75 - r * r;
+        w[2] = 0.5 * (0.5 + r) * (0.5 + r);
+    };
+    constexpr double kSecond[3] = {0.5, -1.0, 0.5};
+    Pack w[3];
+    const Pack r = xi - 0.5;
+    op.centerOffset = r;
+    weights(r, w);
+    unroll<3>([&](auto n) { store(op.center[n], w[n], (n - 1.0) - r, broadcast(kSecond[n]), r * (1.0 - 4.0 * r * r)); });
+
+    const PackMask upper = xi >= 0.5;
+    const Pack rf = select(upper, xi - 1.0, xi), zero = broadcast(0.0);
+    op.faceOffset = rf;
+    weights(rf, w);
+    unroll<4>([&](auto n) {
+        const Pack lowerWeight = n < 3 ? w[n % 3] : zero, upperWeight = n > 0 ? w[(n + 2) % 3] : zero;
+        const Pack second = select(upper, broadcast(n > 0 ? kSecond[(n + 2) % 3] : 0.0), broadcast(n < 3 ? kSecond[n % 3] : 0.0));
+        store(op.face[n], select(upper, upperWeight, lowerWeight), (n - 1.0) - xi, second, rf * (1.0 - 4.0 * rf * rf));
+    });
+}
+
+/// Coefficients of one component, c[a][b][c] for the degrees along x, y, z; only those of the set are computed.
+template <int kFactors>
+using Coefficients = Pack[kFactors][kFactors][kFactors];
+
+/// Degrees (f, p, q) along the face's axis and the two that follow it → does the set hold that mode?
+template <int kAxis, class Set>
+constexpr bool hasRotated(int f, int p, int q)
+{
+    return kAxis == 0 ? Set::has(f, p, q) : kAxis == 1 ? Set::has(q, f, p) : Set::has(p, q, f);
+}
+
+/// Contract the 4×3×3 faces around a cell with the operators, the face's own axis first.
+template <int kAxis, class Set>
+[[gnu::always_inline]] inline void contract(const double* node, const Operators<Set::kFactors>* op, Coefficients<Set::kFactors>& out)
+{
+    constexpr int kFactors = Set::kFactors, kP = (kAxis + 1) % 3, kQ = (kAxis + 2) % 3;
+    constexpr int kStride[3] = {1, kTileStrideY, kTileStrideZ};
+    Pack sum[kFactors][kFactors][kFactors];
+    unroll<3>([&](auto q) {
+        Pack plane[kFactors][kFactors];
+        unroll<3>([&](auto p) {
+            Pack row[kFactors];
+            unroll<4>([&](auto n) {
+                const double u = node[n * kStride[kAxis] + p * kStride[kP] + q * kStride[kQ]];
+                unroll<kFactors>([&](auto f) {
+                    if constexpr (n == 0) row[f] = u * op[kAxis].face[n][f];
+                    else row[f] += u * op[kAxis].face[n][f];
+                });
+            });
+            unroll<kFactors>([&](auto f) {
+                unroll<kFactors>([&](auto dp) {
+                    if constexpr (hasRotated<kAxis, Set>(f, dp, 0)) {
+                        if constexpr (p == 0) plane[f][dp] = row[f] * op[kP].center[p][dp];
+                        else plane[f][dp] += row[f] * op[kP].center[p][dp];
+                    }
+                });
+            });
+        });
+        unroll<kFactors>([&](auto f) {
+            unroll<kFactors>([&](auto dp) {
+                unroll<kFactors>([&](auto dq) {
+                    if constexpr (hasRotated<kAxis, Set>(f, dp, dq)) {
+                        if constexpr (q == 0) sum[f][dp][dq] = plane[f][dp] * op[kQ].center[q][dq];
+                        else sum[f][dp][dq] += plane[f][dp] * op[kQ].center[q][dq];
+                    }
+                });
+            });
+        });
+    });
+    unroll<kFactors>([&](auto f) {
+        unroll<kFactors>([&](auto dp) {
+            unroll<kFactors>([&](auto dq) {
+                if constexpr (hasRotated<kAxis, Set>(f, dp, dq)) {
+                    if constexpr (kAxis == 0) out[f][dp][dq] = sum[f][dp][dq];
+                    else if constexpr (kAxis == 1) out[dq][f][dp] = sum[f][dp][dq];
+                    else out[dp][dq][f] = sum[f][dp][dq];
+                }
+            });
+        });
+    });
+}
+
+/// Call f(r, a, b, c) for each mode of the set with its degrees, all compile-time constants.
+template <int kModes, class F>
+[[gnu::always_inline]] inline void forEachMode(F&& f)
+{
+    unroll<kModes>([&](auto r) {
+        constexpr auto kDegree = kDegrees[r];
+        f(r, std::integral_constant<int, kDegree[0]>{}, std::integral_constant<int, kDegree[1]>{}, std::integral_constant<int, kDegree[2]>{});
+    });
+}
+
+/// Zero the modes from N_r on in a set that stores more than is gathered.
+template <int kModes, int kFactors>
+[[gnu::always_inline]] inline void truncate(int modes, Coefficients<kFactors>& c)
+{
+    forEachMode<kModes>([&](auto r, auto a, auto b, auto d) {
+        if (r >= modes) c[a][b][d] = broadcast(0.0);
+    });
+}
+
+template <class Set>
+[[gnu::always_inline]] inline Pack meanVelocity(const Coefficients<Set::kFactors>& c)
+{
+    Pack v = c[0][0][0];
+    if constexpr (Set::kFactors > 2)
+        unroll<3>([&](auto a) {
+            unroll<3>([&](auto b) {
+                unroll<3>([&](auto d) {
+                    constexpr bool kEven = a != 1 && b != 1 && d != 1 && a + b + d > 0;
+                    if constexpr (kEven && Set::has(a, b, d)) v += (a + b + d == 2 ? 0.25 : a + b + d == 4 ? 0.0625 : 0.015625) * c[a][b][d];
+                });
+            });
+        });
+    return v;
+}
+
+/// Along one axis (c0, c1, c2) → (c0 + s c2/4, c1 + s A c2, c2): s = −1 to monomials, +1 back.
+template <class Set>
+[[gnu::always_inline]] inline void convert(double s, const Pack (&skew)[3], Coefficients<Set::kFactors>& c)
+{
+    if constexpr (Set::kFactors > 2) {
+        unroll<3>([&](auto u) {
+            unroll<3>([&](auto w) {
+                if constexpr (Set::has(2, u, w)) {
+                    c[0][u][w] += (0.25 * s) * c[2][u][w];
+                    c[1][u][w] += s * skew[0] * c[2][u][w];
+                }
+            });
+        });
+        unroll<3>([&](auto u) {
+            unroll<3>([&](auto w) {
+                if constexpr (Set::has(u, 2, w)) {
+                    c[u][0][w] += (0.25 * s) * c[u][2][w];
+                    c[u][1][w] += s * skew[1] * c[u][2][w];
+                }
+            });
+        });
+        unroll<3>([&](auto u) {
+            unroll<3>([&](auto w) {
+                if constexpr (Set::has(u, w, 2)) {
+                    c[u][w][0] += (0.25 * s) * c[u][w][2];
+                    c[u][w][1] += s * skew[2] * c[u][w][2];
+                }
+            });
+        });
+    }
+}
+
+/// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (model-fluid 4.7), from orthogonal coefficients.
+template <class Set, int kModes>
+[[gnu::always_inline]] inline Pack modalSquare(const Pack (&r)[3], const Coefficients<Set::kFactors>& c)
+{
+    Pack norm2[3];
+    if constexpr (Set::kFactors > 2)
+        unroll<3>([&](auto a) {
+            const Pack rr = r[a] * r[a];
+            norm2[a] = 0.1875 + rr * (-1.75 + rr * (5.0 - 4.0 * rr));
+        });
+    Pack sum = broadcast(0.0);
+    forEachMode<kModes>([&](auto mode, auto a, auto b, auto d) {
+        if constexpr (mode > 0) {
+            constexpr int kLinear = (a == 1) + (b == 1) + (d == 1);
+            Pack term = (kLinear == 0 ? 1.0 : kLinear == 1 ? 0.25 : kLinear == 2 ? 0.0625 : 0.015625) * (c[a][b][d] * c[a][b][d]);
+            if constexpr (a == 2) term *= norm2[0];
+            if constexpr (b == 2) term *= norm2[1];
+            if constexpr (d == 2) term *= norm2[2];
+            sum += term;
+        }
+    });
+    return sum;
+}
+
+/// Everything the packs of one block share.
+struct Context {
+    const GatherSettings& settings;
+    LiquidParticles& particles;
+    GatherScratch& scratch;
+    Vec3 origin;
+    double dx;
+    const GatherTile& tile;
+    const GatherTile* flipTile;  ///< of the old velocities, or null
+};
+
+struct LaneSums {
+    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0);
+};
+
+/// Gather one component of n ≤ 8 particles starting at s: monomials, in c and in the particles' rows.
+template <int kAxis, class Set, int kModes, bool kFold>
+[[gnu::always_inline]] inline void gatherAxis(const Context& ctx, int node, const Operators<Set::kFactors>* op, int s, int n,
+                                              Coefficients<Set::kFactors>& c)
+{
+    contract<kAxis, Set>(ctx.tile.v[kAxis] + node, op, c);
+    if (ctx.settings.modes < kModes) truncate<kModes, Set::kFactors>(ctx.settings.modes, c);
+    if constexpr (kModes == 1) {
+        if (ctx.flipTile != nullptr) {
+            Coefficients<1> old;
+            contract<kAxis, Set>(ctx.flipTile->v[kAxis] + node, op, old);
+            const Pack flip = loadPack(ctx.scratch.oldVelocity[kAxis].data() + s) + (c[0][0][0] - old[0][0][0]);
+            storeFirst(ctx.particles.mode(kAxis, 0) + s, ctx.settings.flipRatio * flip + (1.0 - ctx.settings.flipRatio) * c[0][0][0], n);
+            return;
+        }
+    }
+    if constexpr (Set::kFactors > 2 && !kFold) {
+        Pack skew[3];
+        unroll<3>([&](auto a) {
+            const Pack r = a == kAxis ? op[a].faceOffset : op[a].centerOffset;
+            skew[a] = r * (1.0 - 4.0 * r * r);
+        });
+        convert<Set>(-1.0, skew, c);
+    }
+    if (ctx.settings.keep != 1.0) {
+        const Pack mean = meanVelocity<Set>(c);
+        forEachMode<kModes>([&](auto, auto a, auto b, auto d) { c[a][b][d] *= ctx.settings.keep; });
+        c[0][0][0] += (1.0 - ctx.settings.keep) * mean;
+    }
+    forEachMode<kModes>([&](auto r, auto a, auto b, auto d) { storeFirst(ctx.particles.mode(kAxis, r) + s, c[a][b][d], n); });
+}
+
+/// Orthogonal offset of a new position xi (in cells, any cell) from its middle node: face-like along its own axis.
+template <int kAxis>
+[[gnu::always_inline]] inline Pack newOffset(int a, Pack xi)
+{
+    const Pack in = xi - floorPack(xi);
+    return a == kAxis ? select(in >= 0.5, in - 1.0, in) : in - 0.5;
+}
+
+constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
+
+template <class Set, int kModes, bool kFold>
+[[gnu::always_inline]] inline void gatherPack(const Context& ctx, int node, int s, int n, LaneSums& sums)
+{
+    LiquidParticles& particles = ctx.particles;
+    for (int a = 0; a < kAxes; ++a)
+        for (int r = 0; r < kModes; ++r) __builtin_prefetch(particles.mode(a, r) + s + kPrefetchAhead, 1);
+
+    Operators<Set::kFactors> op[3];
+    Pack x[3];
+    for (int a = 0; a < kAxes; ++a) {
+        x[a] = loadPack(particles.x[a].data() + s);
+        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        setOperators<Set::kFactors, kFold>(inCells - floorPack(inCells), op[a]);
+    }
+    Coefficients<Set::kFactors> c[3];
+    gatherAxis<0, Set, kModes, kFold>(ctx, node, op, s, n, c[0]);
+    gatherAxis<1, Set, kModes, kFold>(ctx, node, op, s, n, c[1]);
+    gatherAxis<2, Set, kModes, kFold>(ctx, node, op, s, n, c[2]);
+
+    const PackMask lanes = firstLanes(n);
+    const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
+    Pack speedSquared = zero, xi[3];
+    for (int a = 0; a < kAxes; ++a) {
+        const Pack v = meanVelocity<Set>(c[a]);
+        x[a] += ctx.settings.dt * v;
+        if (ctx.settings.displacement != nullptr) x[a] += loadPack(ctx.settings.displacement[a].data() + s);
+        storeFirst(particles.x[a].data() + s, x[a], n);
+        xi[a] = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        const Pack carried = ctx.flipTile != nullptr ? loadPack(particles.mode(a, 0) + s) : v;
+        speedSquared += carried * carried;
+    }
+    speedSquared = select(lanes, speedSquared, zero);
+    sums.kinetic += mass * speedSquared;
+    // The comparison is false for a NaN, which must not be lost.
+    sums.maxSpeedSquared = select(speedSquared < sums.maxSpeedSquared, sums.maxSpeedSquared, speedSquared);
+    if constexpr (kModes > 1) {
+        Pack modal = zero;
+        unroll<3>([&](auto axis) {
+            Pack r[3];
+            if constexpr (Set::kFactors > 2) {
+                Pack skew[3];
+                unroll<3>([&](auto a) {
+                    r[a] = newOffset<axis>(a, xi[a]);
+                    skew[a] = r[a] * (1.0 - 4.0 * r[a] * r[a]);
+                });
+                convert<Set>(1.0, skew, c[axis]);
+            }
+            modal += modalSquare<Set, kModes>(r, c[axis]);
+        });
+        sums.modal += mass * select(lanes, modal, zero);
+    }
+}
+
+/// The slow path for the particles of a cell with gaps.
+void gatherCellWithGaps(const FaceFields& faces, const BlockGrid& grid, const Context& ctx, int first, int last, GatherSums& sums)
+{
+    LiquidParticles& particles = ctx.particles;
+    for (int s = first; s < last; ++s) {
+        const Vec3 x = particles.position(s);
+        const auto c = gatherWithGaps(faces, faces.velocity, grid, x, ctx.settings.modes);
+        double modal = 0.0, speedSquared = 0.0;
+        for (int a = 0; a < kAxes; ++a) {
+            double carried = c[a][0];
+            if (ctx.flipTile != nullptr) {
+                const double old = gatherWithGaps(faces, *ctx.settings.flipVelocity, grid, x, 1)[a][0];
+                carried += ctx.settings.flipRatio * (ctx.scratch.oldVelocity[a][s] - old);
+            }
+            for (int r = 0; r < particles.modeCount; ++r) particles.mode(a, r)[s] = r == 0 ? carried : r < 4 ? ctx.settings.keep * c[a][r] : 0.0;
+            for (int r = 1; r < std::min(4, particles.modeCount); ++r) modal += 0.25 * ctx.settings.keep * c[a][r] * ctx.settings.keep * c[a][r];
+            speedSquared += carried * carried;
+            particles.x[a][s] += ctx.settings.dt * c[a][0];
+            if (ctx.settings.displacement != nullptr) particles.x[a][s] += ctx.settings.displacement[a][s];
+        }
+        sums.kinetic += 0.5 * particles.mass[s] * speedSquared;
+        sums.modal += 0.5 * particles.mass[s] * modal;
+        sums.maxSpeedSquared = speedSquared < sums.maxSpeedSquared ? sums.maxSpeedSquared : speedSquared;
+    }
+}
+
+template <class Set, int kModes, bool kFold>
+GatherSums gatherBlock(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, int block, const OccupiedBox& box,
+                       const Context& ctx)
+{
+    LaneSums lanes;
+    GatherSums sums;
+    for (int i = box.low[0]; i <= box.high[0]; ++i)
+        for (int j = box.low[1]; j <= box.high[1]; ++j)
+            for (int k = box.low[2]; k <= box.high[2]; ++k) {
+                const int* start = order.cells(block) + cellRank(i, j, k);
+                if (start[0] == start[1]) continue;
+                if (ctx.settings.gaps != nullptr && ctx.settings.gaps->test(block, cellInBlock(i, j, k))) {
+                    gatherCellWithGaps(faces, grid, ctx, start[0], start[1], sums);
+                    continue;
+                }
+                const int node = tileIndex(i - 1, j - 1, k - 1);
+                for (int s = start[0]; s < start[1]; s += kLanes)
+                    gatherPack<Set, kModes, kFold>(ctx, node, s, std::min(kLanes, start[1] - s), lanes);
+            }
+    sums.kinetic += 0.5 * sumLanes(lanes.kinetic);
+    sums.modal += 0.5 * sumLanes(lanes.modal);
+    for (int l = 0; l < kLanes; ++l)
+        sums.maxSpeedSquared = lanes.maxSpeedSquared[l] < sums.maxSpeedSquared ? sums.maxSpeedSquared : lanes.maxSpeedSquared[l];
+    return sums;
+}
+
+/// FLIP adds to the old velocity, which G2P overwrites in another particle's row: bring it into the sorted order first.
+void sortOldVelocities(const LiquidParticles& particles, const ParticleOrder& order, GatherScratch& scratch)
+{
+    for (auto& v : scratch.oldVelocity) v.resize(particles.mass.size());
+    parallelFor(particles.count, 4096, [&](std::size_t s) {
+        for (int a = 0; a < kAxes; ++a) scratch.oldVelocity[a][s] = particles.mode(a, 0)[order.source[s]];
+    });
+}
+
+}  // namespace
+
+GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
+                            GatherScratch& scratch, LiquidParticles& particles)
+{
+    if (settings.flipVelocity != nullptr) sortOldVelocities(particles, order, scratch);
+    scratch.perBlock.resize(order.occupied.size());
+    withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
+        parallelFor(order.occupied.size(), [&](std::size_t n) {
+            const int block = order.occupied[n];
+            const OccupiedBox box(order.cells(block));
+            GatherTile tile, flipTile;
+            loadTile(faces.velocity, grid, block, box, tile);
+            if (settings.flipVelocity != nullptr) loadTile(*settings.flipVelocity, grid, block, box, flipTile);
+            const Context ctx{settings, particles, scratch, grid.origin, grid.dx, tile, settings.flipVelocity ? &flipTile : nullptr};
+            if (kModes == 27 && settings.modes == 27)
+                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(faces, order, grid, block, box, ctx);
+            else
+                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, false>(faces, order, grid, block, box, ctx);
+        });
+    });
+    GatherSums total;
+    for (const GatherSums& s : scratch.perBlock) {
+        total.kinetic += s.kinetic;
+        total.modal += s.modal;
+        total.maxSpeedSquared = s.maxSpeedSquared < total.maxSpeedSquared ? total.maxSpeedSquared : s.maxSpeedSquared;
+    }
+    return total;
+}
+
+}  // namespace sim

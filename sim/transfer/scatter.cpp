@@ -1,0 +1,268 @@
+#include "sim/transfer/scatter.h"
+
+#include "sim/core/parallel.h"
+#include "sim/core/simd.h"
+#include "sim/transfer/mode_set.h"
+#include "sim/transfer/tile.h"
+
+namespace sim {
+
+namespace {
+
+/// Quadratic B-spline weights of four nodes in a row as polynomials of the offset r: (A r + B) r + C, without branches.
+/// Type 0: r from the cell's middle, nodes at its first three positions. Types 1 and 2: r from the lower or upper face of the
+/// cell, nodes at the first or last three of four positions.
+struct SplineRow {
+    Pack a, b, c;
+    [[gnu::always_inline]] Pack operator()(double r) const { return (a * r + b) * r + c; }
+};
+
+/// The 16 nodes of a plane are lane x + 4 y: lanes of rows y = 0, 1 in one pack and of rows 2, 3 in the other. What depends on x
+/// alone is the same in both.
+struct PlaneTables {
+    SplineRow x[3], y[3][2];
+    Pack laneX, laneY[2];  ///< position of the node relative to the cell, for nodes at −1, 0, 1, 2
+
+    PlaneTables()
+    {
+        constexpr double kA[3] = {0.5, -1.0, 0.5}, kB[3] = {-0.5, 0.0, 0.5}, kC[3] = {0.125, 0.75, 0.125};
+        for (int type = 0; type < 3; ++type) {
+            const int first = type == 2 ? 1 : 0;
+            const auto set = [&](SplineRow& row, int lane, int node) {
+                const int n = node - first;
+                const bool inside = n >= 0 && n < 3;
+                row.a[lane] = inside ? kA[n] : 0.0;
+                row.b[lane] = inside ? kB[n] : 0.0;
+                row.c[lane] = inside ? kC[n] : 0.0;
+            };
+            for (int lane = 0; lane < kLanes; ++lane) {
+                set(x[type], lane, lane & 3);
+                for (int half = 0; half < 2; ++half) set(y[type][half], lane, (lane >> 2) + 2 * half);
+            }
+        }
+        for (int lane = 0; lane < kLanes; ++lane) {
+            laneX[lane] = (lane & 3) - 1;
+            for (int half = 0; half < 2; ++half) laneY[half][lane] = (lane >> 2) + 2 * half - 1;
+        }
+    }
+};
+
+/// What the planes need of 8 particles, computed once for all three face grids.
+template <int kFactors>
+struct Prepared {
+    double x[kLanes], y[kLanes];                ///< position in the cell, in cells
+    double faceX[kLanes], faceY[kLanes];        ///< offset from the nearer face
+    double centerZ[3][kFactors][kLanes];        ///< mass × weight × z^d of the three cell middles around
+    double faceZ[4][kFactors][kLanes];          ///< the same of the four faces around
+    int typeX[kLanes], typeY[kLanes];           ///< spline type of faceX, faceY: 1 or 2
+};
+
+template <int kFactors>
+[[gnu::always_inline]] inline void storePowers(double (*out)[kLanes], Pack weight, Pack z)
+{
+    unroll<kFactors>([&](auto d) {
+        std::memcpy(out[d], &weight, sizeof weight);
+        weight *= z;
+    });
+}
+
+template <int kFactors>
+inline void prepare(const LiquidParticles& particles, const Vec3& origin, double inverseDx, int first, int last, Prepared<kFactors>* out)
+{
+    const auto inCell = [&](int axis, int s) {
+        const Pack p = (loadPack(particles.x[axis].data() + s) - origin[axis]) * inverseDx;
+        return p - floorPack(p);
+    };
+    for (int s = first; s < last; s += kLanes, ++out) {
+        const Pack x = inCell(0, s), y = inCell(1, s), z = inCell(2, s), mass = loadPack(particles.mass.data() + s);
+        const PackMask upperX = x >= 0.5, upperY = y >= 0.5, upperZ = z >= 0.5;
+        const Pack faceX = select(upperX, x - 1.0, x), faceY = select(upperY, y - 1.0, y);
+        std::memcpy(out->x, &x, sizeof x);
+        std::memcpy(out->y, &y, sizeof y);
+        std::memcpy(out->faceX, &faceX, sizeof faceX);
+        std::memcpy(out->faceY, &faceY, sizeof faceY);
+        for (int l = 0; l < kLanes; ++l) {
+            out->typeX[l] = upperX[l] ? 2 : 1;
+            out->typeY[l] = upperY[l] ? 2 : 1;
+        }
+        const Pack zero = broadcast(0.0);
+        const auto weights = [&](Pack r, Pack (&w)[3]) {
+            w[0] = mass * (0.5 * (0.5 - r) * (0.5 - r));
+            w[1] = mass * (0.75 - r * r);
+            w[2] = mass * (0.5 * (0.5 + r) * (0.5 + r));
+        };
+        Pack w[3];
+        weights(z - 0.5, w);
+        for (int n = 0; n < 3; ++n) storePowers<kFactors>(out->centerZ[n], w[n], (n - 0.5) - z);
+        weights(select(upperZ, z - 1.0, z), w);
+        for (int n = 0; n < 4; ++n) {
+            const Pack lower = n < 3 ? w[n] : zero, upper = n > 0 ? w[n - 1] : zero;
+            storePowers<kFactors>(out->faceZ[n], select(upperZ, upper, lower), (n - 1.0) - z);
+        }
+    }
+}
+
+/// Σ over the degrees in x of mode (·, b, c), by Horner.
+template <class Set, int b, int c>
+[[gnu::always_inline]] inline Pack polynomialX(const double* const* mode, int row, Pack x)
+{
+    constexpr int kCount = Set::countX(b, c);
+    Pack v = broadcast(mode[Set::template kMode<kCount - 1, b, c>][row]);
+    if constexpr (kCount >= 3) v = v * x + mode[Set::template kMode<1, b, c>][row];
+    if constexpr (kCount >= 2) v = v * x + mode[Set::template kMode<0, b, c>][row];
+    return v;
+}
+
+template <int kRows>
+[[gnu::always_inline]] inline void addRows(double* tile, const Pack (&plane)[2])
+{
+    unroll<kRows>([&](auto row) {
+        HalfPack part, sum;
+        std::memcpy(&part, reinterpret_cast<const char*>(&plane[row / 2]) + (row % 2) * sizeof part, sizeof part);
+        std::memcpy(&sum, tile + row * kTileStrideY, sizeof sum);
+        sum += part;
+        std::memcpy(tile + row * kTileStrideY, &sum, sizeof sum);
+    });
+}
+
+constexpr int kPrefetchAhead = 48;  ///< particles; measured (kernel-design 3)
+
+/// Fetch the modes of a particle to come, where its row starts a new cache line or breaks a run of rows.
+template <int kModes>
+[[gnu::always_inline]] inline void prefetchModes(const double* const* mode, const int* source)
+{
+    const int row = source[kPrefetchAhead];
+    if (row != source[kPrefetchAhead - 1] + 1 || (row & 7) == 0)
+        unroll<kModes>([&](auto r) { __builtin_prefetch(mode[r] + row); });
+}
+
+/// All particles of one column of 8 cells, onto the faces normal to kAxis. A window of planes slides up the column: the sums of a
+/// cell stay in registers, and a plane goes to the tile when no further cell reaches it.
+/// @param start      cellStart of the column's cells
+/// @param low, high  the cells of the column to visit
+template <int kAxis, class Set, int kModes>
+inline void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
+                          const Prepared<Set::kFactors>* prepared, const double* const* mode, const int* source, double* mass,
+                          double* momentum)
+{
+    constexpr int kPlanes = kAxis == 2 ? 4 : 3, kRows = kAxis == 1 ? 4 : 3;
+    Pack m[kPlanes][2] = {}, p[kPlanes][2] = {};
+    for (int k = low; k <= high; ++k) {
+        for (int s = start[k]; s < start[k + 1]; ++s) {
+            const auto& q = prepared[(s - blockFirst) / kLanes];
+            const int l = (s - blockFirst) % kLanes, row = source[s];
+            prefetchModes<kModes>(mode, source + s);
+            const Pack x = tables.laneX - (kAxis == 0 ? q.x[l] : q.x[l] - 0.5);
+            const Pack wx = kAxis == 0 ? tables.x[q.typeX[l]](q.faceX[l]) : tables.x[0](q.x[l] - 0.5);
+            const double offsetY = kAxis == 1 ? q.y[l] : q.y[l] - 0.5;
+            const SplineRow(&splineY)[2] = kAxis == 1 ? tables.y[q.typeY[l]] : tables.y[0];
+            const double ry = kAxis == 1 ? q.faceY[l] : q.y[l] - 0.5;
+            Pack y[2], w[2];
+            unroll<2>([&](auto h) {
+                y[h] = tables.laneY[h] - offsetY;
+                w[h] = wx * splineY[h](ry);
+            });
+            const auto weightZ = [&](auto n, auto d) { return kAxis == 2 ? q.faceZ[n][d][l] : q.centerZ[n % 3][d][l]; };
+            unroll<kPlanes>([&](auto n) { unroll<2>([&](auto h) { m[n][h] += w[h] * weightZ(n, std::integral_constant<int, 0>{}); }); });
+            unroll<Set::kFactors>([&](auto c) {
+                constexpr int kCountY = Set::countY(c);
+                Pack poly[2];
+                const Pack top = polynomialX<Set, kCountY - 1, c>(mode, row, x);
+                unroll<2>([&](auto h) { poly[h] = top; });
+                unroll<kCountY - 1>([&](auto b) {
+                    const Pack next = polynomialX<Set, kCountY - 2 - b, c>(mode, row, x);
+                    unroll<2>([&](auto h) { poly[h] = poly[h] * y[h] + next; });
+                });
+                unroll<2>([&](auto h) {
+                    const Pack value = poly[h] * w[h];
+                    unroll<kPlanes>([&](auto n) { p[n][h] += value * weightZ(n, c); });
+                });
+            });
+        }
+        addRows<kRows>(mass + k * kTileStrideZ, m[0]);
+        addRows<kRows>(momentum + k * kTileStrideZ, p[0]);
+        unroll<kPlanes - 1>([&](auto n) {
+            unroll<2>([&](auto h) {
+                m[n][h] = m[n + 1][h];
+                p[n][h] = p[n + 1][h];
+            });
+        });
+        unroll<2>([&](auto h) { m[kPlanes - 1][h] = p[kPlanes - 1][h] = broadcast(0.0); });
+    }
+    unroll<kPlanes - 1>([&](auto n) {
+        addRows<kRows>(mass + (high + 1 + n) * kTileStrideZ, m[n]);
+        addRows<kRows>(momentum + (high + 1 + n) * kTileStrideZ, p[n]);
+    });
+}
+
+struct ScatterTile {
+    alignas(64) double v[6][kTileSize];  ///< kinds of FaceFields::sums
+};
+
+template <int kAxis, class Set, int kModes>
+inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& particles, const ParticleOrder& order, int block,
+                        const OccupiedBox& box, const Prepared<Set::kFactors>* prepared, ScatterTile& tile)
+{
+    const double* mode[kModes];
+    for (int r = 0; r < kModes; ++r) mode[r] = particles.mode(kAxis, r);
+    for (int i = box.low[0]; i <= box.high[0]; ++i)
+        for (int j = box.low[1]; j <= box.high[1]; ++j) {
+            const int* start = order.cells(block) + cellRank(i, j, 0);
+            if (start[0] == start[kBlockEdge]) continue;
+            const int corner = tileIndex(i - 1, j - 1, -1);
+            scatterColumn<kAxis, Set, kModes>(tables, start, box.low[2], box.high[2], order.begin(block), prepared, mode,
+                                              order.source.data(), tile.v[FaceFields::kMass + kAxis] + corner, tile.v[FaceFields::kMomentum + kAxis] + corner);
+        }
+}
+
+void clear(const OccupiedBox& box, ScatterTile& tile)
+{
+    for (auto& field : tile.v)
+        for (int z = box.low[2] - 1; z <= box.high[2] + 2; ++z)
+            for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y) std::fill_n(field + tileIndex(-1, y, z), kTileEdge, 0.0);
+}
+
+void addToGrid(const BlockGrid& grid, int block, const OccupiedBox& box, const ScatterTile& tile, FaceFields& faces)
+{
+    forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
+        for (int kind = 0; kind < 6; ++kind) {
+            double* to = faces.sums.block(piece, kind) + cell;
+            const double* from = tile.v[kind] + node;
+            for (int n = 0; n < length; ++n) to[n] += from[n];
+        }
+    });
+}
+
+}  // namespace
+
+void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, ScatterScratch& scratch,
+                      FaceFields& faces)
+{
+    faces.sums.resize(grid.count());
+    parallelFor(grid.count(), 4, [&](std::size_t b) { std::fill_n(faces.sums.block(static_cast<int>(b)), faces.sums.kStride, 0.0); });
+
+    withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
+        using Set = ModeSet<kModes>;
+        using Batch = Prepared<Set::kFactors>;
+        const PlaneTables tables;
+        const std::size_t batches = order.maxParticlesPerBlock / kLanes + 1;
+        scratch.perWorker.resize(workerCount());
+        for (auto& s : scratch.perWorker) s.resize(batches * sizeof(Batch) / sizeof(double));
+
+        for (const std::vector<int>& color : order.byColor)
+            parallelForWorkers(color.size(), 1, [&](std::size_t n, int worker) {
+                const int block = color[n];
+                const OccupiedBox box(order.cells(block));
+                auto* prepared = reinterpret_cast<Batch*>(scratch.perWorker[worker].data());
+                prepare(particles, grid.origin, 1.0 / grid.dx, order.begin(block), order.end(block), prepared);
+                ScatterTile tile;
+                clear(box, tile);
+                scatterAxis<0, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+                scatterAxis<1, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+                scatterAxis<2, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+                addToGrid(grid, block, box, tile, faces);
+            });
+    });
+}
+
+}  // namespace sim
