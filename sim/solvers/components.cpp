@@ -1,0 +1,213 @@
+#include "sim/solvers/components.h"
+
+#include "sim/core/parallel.h"
+#include "sim/solvers/block_rows.h"
+
+namespace sim {
+
+namespace {
+
+/// A set of cells of a block: one bit each, a plane of constant k per word.
+using CellSet = Row<std::uint64_t>;
+
+/// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
+constexpr double kRounding = 1.0e-12;
+
+bool isEmpty(CellSet s)
+{
+    return ((s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7])) == 0;
+}
+
+/// What a block's couplings say about which cells hang together.
+struct BlockBonds {
+    CellSet unknown = {}, open = {};
+    std::array<CellSet, kAxes> lower = {};  ///< cells coupled to their lower neighbour in the same block
+};
+
+BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
+{
+    const double* diagonal = matrix.diagonal(b);
+    const std::array<const double*, kAxes> lower = {matrix.coupling(0, b), matrix.coupling(1, b), matrix.coupling(2, b)};
+    const auto& around = grid.neighbours(b);
+    constexpr std::array<int, kAxes> kStep = {1, kBlockEdge, kBlockRows};
+    BlockBonds bonds;
+    for (int c = 0; c < kBlockCells; ++c) {
+        if (!(diagonal[c] > 0.0)) continue;
+        const int k = c / kBlockRows, position[kAxes] = {c % kBlockEdge, c / kBlockEdge % kBlockEdge, k};
+        const std::uint64_t bit = std::uint64_t{1} << (c % kBlockRows);
+        double closed = 0.0;
+        for (int axis = 0; axis < kAxes; ++axis) {
+            const bool last = position[axis] == kBlockEdge - 1;
+            const int upperBlock = around[neighbourIndex(axis == 0, axis == 1, axis == 2)];
+            const double up = last ? matrix.coupling(axis, upperBlock)[c - (kBlockEdge - 1) * kStep[axis]]
+                                   : lower[axis][c + kStep[axis]];
+            closed += lower[axis][c] + up;
+            if (position[axis] > 0 && lower[axis][c] > 0.0) bonds.lower[axis][k] |= bit;
+        }
+        bonds.unknown[k] |= bit;
+        if (diagonal[c] - closed > kRounding * diagonal[c]) bonds.open[k] |= bit;
+    }
+    return bonds;
+}
+
+/// All cells that hang together with those of the set.
+CellSet flood(CellSet set, const BlockBonds& bonds)
+{
+    const CellSet zero = {};
+    for (;;) {
+        CellSet grown = set;
+        grown |= (grown << 1) & bonds.lower[0];
+        grown |= (grown & bonds.lower[0]) >> 1;
+        grown |= (grown << 8) & bonds.lower[1];
+        grown |= (grown & bonds.lower[1]) >> 8;
+        grown |= __builtin_shufflevector(grown, zero, 8, 0, 1, 2, 3, 4, 5, 6) & bonds.lower[2];
+        grown |= __builtin_shufflevector(grown & bonds.lower[2], zero, 1, 2, 3, 4, 5, 6, 7, 8);
+        if (isEmpty(grown & ~set)) return set;
+        set = grown;
+    }
+}
+
+/// The set's first cell, as a set.
+CellSet firstOf(CellSet set)
+{
+    CellSet first = {};
+    for (int k = 0; k < kBlockEdge; ++k)
+        if (set[k] != 0) {
+            first[k] = set[k] & (~set[k] + 1);
+            return first;
+        }
+    return first;
+}
+
+}  // namespace
+
+int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
+{
+    const BlockBonds bonds = bondsOf(b, grid, matrix);
+    std::uint16_t* label = label_.block(b);
+    std::fill_n(label, kBlockCells, kNoLabel);
+    int pieces = 0;
+    for (CellSet rest = bonds.unknown; !isEmpty(rest); ++pieces) {
+        const CellSet piece = flood(firstOf(rest), bonds);
+        rest &= ~piece;
+        isOpenLocal_.block(b)[pieces] = !isEmpty(piece & bonds.open);
+        for (int k = 0; k < kBlockEdge; ++k)
+            for (std::uint64_t bits = piece[k]; bits != 0; bits &= bits - 1)
+                label[k * kBlockRows + std::countr_zero(bits)] = static_cast<std::uint16_t>(pieces);
+    }
+    return pieces;
+}
+
+int ClosedComponents::root(int piece)
+{
+    while (parent_[piece] != piece) piece = parent_[piece] = parent_[parent_[piece]];
+    return piece;
+}
+
+void ClosedComponents::join(int a, int b)
+{
+    const int ra = root(a), rb = root(b), first = std::min(ra, rb);
+    parent_[ra] = parent_[rb] = first;
+    isOpen_[first] = isOpen_[ra] | isOpen_[rb];
+}
+
+void ClosedComponents::joinBlocks(const BlockGrid& grid, const PoissonMatrix& matrix)
+{
+    constexpr std::array<int, kAxes> kStep = {1, kBlockEdge, kBlockRows};
+    for (int b = 0; b < grid.count(); ++b)
+        for (int axis = 0; axis < kAxes; ++axis) {
+            const int lower = grid.neighbours(b)[neighbourIndex(-(axis == 0), -(axis == 1), -(axis == 2))];
+            if (lower == grid.count()) continue;
+            const bool isSimple = first_[b + 1] - first_[b] == 1 && first_[lower + 1] - first_[lower] == 1;
+            const double* coupling = matrix.coupling(axis, b);
+            const int u = kStep[(axis + 1) % kAxes], v = kStep[(axis + 2) % kAxes];
+            for (int n = 0; n < kBlockRows; ++n) {
+                const int c = n % kBlockEdge * u + n / kBlockEdge * v;
+                if (!(coupling[c] > 0.0)) continue;
+                join(first_[b] + label_.block(b)[c],
+                     first_[lower] + label_.block(lower)[c + (kBlockEdge - 1) * kStep[axis]]);
+                if (isSimple) break;
+            }
+        }
+}
+
+void ClosedComponents::countClosed()
+{
+    closed_ = 0;
+    blocks_.clear();
+    const int blocks = static_cast<int>(first_.size()) - 1;
+    for (int b = 0; b < blocks; ++b) {
+        bool any = false;
+        for (int p = first_[b]; p < first_[b + 1]; ++p) {
+            const int r = root(p);  // the smallest number of its component: met before all others
+            component_[p] = isOpen_[r] ? -1 : r == p ? closed_++ : component_[r];
+            any = any || component_[p] >= 0;
+        }
+        if (any) blocks_.push_back(b);
+    }
+    sum_.resize(closed_);
+    cells_.resize(closed_);
+}
+
+void ClosedComponents::find(const BlockGrid& grid, const PoissonMatrix& matrix)
+{
+    const int n = grid.count();
+    label_.resize(n);
+    isOpenLocal_.resize(n);
+    first_.resize(n + 1);
+    first_[0] = 0;
+    forEachBlock(n, [&](int b) { first_[b + 1] = labelBlock(b, grid, matrix); });
+    for (int b = 0; b < n; ++b) first_[b + 1] += first_[b];
+
+    parent_.resize(first_[n]);
+    isOpen_.resize(first_[n]);
+    component_.resize(first_[n]);
+    pieceSum_.resize(first_[n]);
+    pieceCells_.resize(first_[n]);
+    for (int b = 0; b < n; ++b)
+        for (int p = first_[b]; p < first_[b + 1]; ++p) {
+            parent_[p] = p;
+            isOpen_[p] = isOpenLocal_.block(b)[p - first_[b]];
+        }
+    joinBlocks(grid, matrix);
+    countClosed();
+}
+
+template <class T>
+void ClosedComponents::removeMeans(BlockArray<T>& v)
+{
+    if (closed_ == 0) return;
+    forEachBlock(static_cast<int>(blocks_.size()), [&](int n) {
+        const int b = blocks_[n];
+        for (int p = first_[b]; p < first_[b + 1]; ++p) pieceSum_[p] = pieceCells_[p] = 0.0;
+        const std::uint16_t* label = label_.block(b);
+        const T* x = v.block(b);
+        for (int c = 0; c < kBlockCells; ++c) {
+            if (label[c] == kNoLabel) continue;
+            pieceSum_[first_[b] + label[c]] += static_cast<double>(x[c]);
+            pieceCells_[first_[b] + label[c]] += 1.0;
+        }
+    });
+    std::fill(sum_.begin(), sum_.end(), 0.0);
+    std::fill(cells_.begin(), cells_.end(), 0.0);
+    for (int b : blocks_)
+        for (int p = first_[b]; p < first_[b + 1]; ++p) {
+            if (component_[p] < 0) continue;
+            sum_[component_[p]] += pieceSum_[p];
+            cells_[component_[p]] += pieceCells_[p];
+        }
+    forEachBlock(static_cast<int>(blocks_.size()), [&](int n) {
+        const int b = blocks_[n];
+        const std::uint16_t* label = label_.block(b);
+        T* x = v.block(b);
+        for (int c = 0; c < kBlockCells; ++c) {
+            const int component = label[c] == kNoLabel ? -1 : component_[first_[b] + label[c]];
+            if (component >= 0) x[c] -= static_cast<T>(sum_[component] / cells_[component]);
+        }
+    });
+}
+
+template void ClosedComponents::removeMeans(BlockArray<float>&);
+template void ClosedComponents::removeMeans(BlockArray<double>&);
+
+}  // namespace sim

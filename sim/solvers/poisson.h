@@ -1,0 +1,60 @@
+#pragma once
+
+#include "sim/solvers/components.h"
+#include "sim/solvers/multigrid.h"
+#include "sim/solvers/poisson_matrix.h"
+#include "sim/step_report.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sim {
+
+/// Solves A p = rhs by conjugate gradients in double, preconditioned by one multigrid cycle in float. Keeps the
+/// hierarchy and all vectors from call to call: once they have grown to size, nothing is allocated.
+///
+/// On components without a Dirichlet part the matrix leaves a constant undetermined: the mean of rhs over each is
+/// ignored, and that of p is 0.
+class PoissonSolver {
+ public:
+    /// @param matrix, rhs   on the blocks of the grid; what rhs has in cells that are no unknowns is ignored
+    /// @param tolerance     largest residual relative to the largest right-hand side [-]
+    /// @param p             in: a guess, out: the solution; 0 in cells that are no unknowns. If it has not the size of
+    ///                      the grid, it is resized and the guess is 0.
+    /// Not converged after maxIterations, or numbers that are not finite: told by the report.
+    SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
+                      double tolerance, int maxIterations, BlockArray<double>& p);
+
+    /// The preconditioner, as the last solve left it.
+    Multigrid& multigrid() { return multigrid_; }
+    /// Components without a Dirichlet part in the last solve.
+    int closedComponents() const { return components_.count(); }
+
+ private:
+    struct Problem {
+        const BlockGrid& grid;
+        const PoissonMatrix& matrix;
+        const BlockArray<double>& rhs;
+        BlockArray<double>& p;
+    };
+    struct BlockNorms {
+        double rhs, residual;
+    };
+
+    void start(const Problem& problem);
+    void startBlock(const Problem& problem, int block, bool isGuessZero);
+    void conjugateGradients(const Problem& problem, double target, int maxIterations, SolveReport& report);
+    double applyToDirection(const Problem& problem, double beta);
+    double advance(const Problem& problem, double alpha);
+    double largestResidual() const;
+
+    Multigrid multigrid_;
+    ClosedComponents components_;
+    BlockArray<double> residual_, direction_, nextDirection_, applied_;
+    std::vector<double> dot_;           ///< of each block
+    std::vector<BlockNorms> norm_;      ///< of each block
+    double largestRhs_ = 0.0;
+    double scale_ = 1.0;                ///< power of two that brings residuals near 1 for the float cycle
+};
+
+}  // namespace sim

@@ -1,0 +1,269 @@
+#include "tests/sim/solvers/poisson_laws.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+namespace sim::test {
+namespace {
+
+SolveReport solveFromZero(const PoissonScene& scene, BlockArray<double>& p, double tolerance = 1.0e-6)
+{
+    p = zeroPressure(scene);
+    return PoissonSolver().solve(scene.grid, scene.matrix, scene.rhs, tolerance, 200, p);
+}
+
+/// The unknowns in a row, for dense matrices.
+std::vector<Vec3i> unknownsOf(const PoissonScene& scene)
+{
+    std::vector<Vec3i> cells;
+    scene.forEachCell([&](const Vec3i& cell, int b, int c) {
+        if (scene.isUnknown(b, c)) cells.push_back(cell);
+    });
+    return cells;
+}
+
+Eigen::MatrixXd denseMatrix(const PoissonScene& scene, const std::vector<Vec3i>& cells)
+{
+    const int n = static_cast<int>(cells.size());
+    Eigen::MatrixXd a(n, n);
+    for (int column = 0; column < n; ++column) {
+        BlockArray<double> unit = zeroPressure(scene);
+        const CellRef at = scene.at(cells[column]);
+        unit.block(at.block)[at.cell] = 1.0;
+        for (int row = 0; row < n; ++row) a(row, column) = matrixTimes(scene, unit, cells[row]);
+    }
+    return a;
+}
+
+TEST(Poisson, ReachesTheToleranceItReports)
+{
+    for (const PoissonScene& scene : {poolWithWaves(60), boxWithSurface({32, 32, 32}), fullBox({24, 17, 9})})
+        for (double tolerance : {1.0e-3, 1.0e-6, 1.0e-9}) {
+            BlockArray<double> p;
+            const SolveReport report = solveFromZero(scene, p, tolerance);
+            EXPECT_TRUE(report.converged);
+            EXPECT_LE(report.residual, tolerance);
+            EXPECT_LE(relativeResidual(scene, p), tolerance + 1.0e-12);
+            EXPECT_NEAR(relativeResidual(scene, p), report.residual, 0.01 * report.residual + 1.0e-12);
+        }
+}
+
+TEST(Poisson, AgreesWithDenseFactorisation)
+{
+    std::mt19937 random(1);
+    for (int repeat = 0; repeat < 12; ++repeat) {
+        const PoissonScene scene = randomScene(random, {9, 5 + repeat % 4, 7}, {4, -3, 5}, 0.5 + 0.04 * repeat);
+        const std::vector<Vec3i> cells = unknownsOf(scene);
+        const Eigen::MatrixXd a = denseMatrix(scene, cells);
+        ASSERT_EQ(a, a.transpose());
+        Eigen::VectorXd rhs(a.rows());
+        for (int n = 0; n < a.rows(); ++n) rhs[n] = scene.value(scene.rhs, cells[n]);
+        const Eigen::VectorXd exact = a.ldlt().solve(rhs);
+
+        BlockArray<double> p;
+        ASSERT_TRUE(solveFromZero(scene, p, 1.0e-13).converged);
+        ASSERT_GT(exact.norm(), 0.0);
+        for (int n = 0; n < a.rows(); ++n)
+            EXPECT_NEAR(scene.value(p, cells[n]), exact[n], 1.0e-8 * exact.lpNorm<Eigen::Infinity>());
+    }
+}
+
+TEST(Poisson, IterationsGrowLittleWithSize)
+{
+    BlockArray<double> p;
+    EXPECT_LE(solveFromZero(boxWithSurface({32, 32, 32}), p).iterations, 11);
+    EXPECT_LE(solveFromZero(boxWithSurface({64, 64, 64}), p).iterations, 12);
+    EXPECT_LE(solveFromZero(fullBox({32, 32, 32}), p).iterations, 11);
+    EXPECT_LE(solveFromZero(fullBox({64, 64, 64}), p).iterations, 12);
+    EXPECT_LE(solveFromZero(poolWithWaves(), p).iterations, 12);
+}
+
+TEST(Poisson, LongThinAndFlatBoxesConvergeAsWell)
+{
+    for (const Vec3i& n : {Vec3i(200, 12, 3), Vec3i(3, 160, 5), Vec3i(5, 9, 150), Vec3i(1, 1, 120), Vec3i(90, 1, 90)}) {
+        BlockArray<double> p;
+        EXPECT_LE(solveFromZero(boxWithSurface(n), p).iterations, 15) << n.transpose();
+        EXPECT_LE(solveFromZero(fullBox(n), p).iterations, 15) << n.transpose();
+    }
+}
+
+TEST(Poisson, ThinCellsAndNearSurfacesConverge)
+{
+    std::mt19937 random(2);
+    for (double share : {0.5, 0.7, 0.9, 0.99}) {
+        const PoissonScene scene = randomScene(random, {48, 40, 36}, {-20, -20, -20}, share);
+        BlockArray<double> p;
+        const SolveReport report = solveFromZero(scene, p);
+        EXPECT_TRUE(report.converged);
+        EXPECT_LE(report.iterations, 30) << share;
+        EXPECT_LE(relativeResidual(scene, p), 1.0e-6);
+    }
+}
+
+/// 5000 drops of 1 to 20 cells, strewn over a pool.
+PoissonScene spray()
+{
+    std::mt19937 random(3);
+    const Vec3i size(160, 144, 160);
+    std::vector<char> liquid(static_cast<std::size_t>(size.prod()), 0);
+    const auto index = [&](const Vec3i& c) { return (c.z() * size.y() + c.y()) * size.x() + c.x(); };
+    for (int drop = 0; drop < 5000; ++drop) {
+        Vec3i c(static_cast<int>(random() % 160), 32 + static_cast<int>(random() % 112), static_cast<int>(random() % 160));
+        for (int n = 1 + static_cast<int>(random() % 20); n > 0; --n) {
+            liquid[index(c)] = 1;
+            const int axis = static_cast<int>(random() % 3);
+            c[axis] = std::clamp(c[axis] + (random() % 2 == 0 ? 1 : -1), axis == 1 ? 32 : 0, size[axis] - 1);
+        }
+    }
+    const auto phi = [=](const Vec3& x) {
+        const Vec3i c = x.array().floor().cast<int>();
+        const bool inside = (c.array() >= 0).all() && (c.array() < size.array()).all();
+        return inside && (c.y() < 24 || liquid[index(c)]) ? -0.4 : 0.6;
+    };
+    return makeScene({Vec3i(0, 0, 0), size, phi, boxWalls(Vec3i(0, 0, 0), size), roughRhs});
+}
+
+TEST(Poisson, ThousandsOfDropsNeedNoMoreIterationsThanThePool)
+{
+    const PoissonScene scene = spray();
+    BlockArray<double> p;
+    const SolveReport report = solveFromZero(scene, p);
+    EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.iterations, 15);
+    EXPECT_LE(relativeResidual(scene, p), 1.0e-6);
+}
+
+TEST(Poisson, WarmStartNeverNeedsMoreIterations)
+{
+    for (PoissonScene scene : {poolWithWaves(60), boxWithSurface({32, 32, 32}), fullBox({32, 24, 16})}) {
+        PoissonSolver solver;
+        BlockArray<double> p = zeroPressure(scene);
+        const int cold = solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p).iterations;
+        EXPECT_EQ(solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p).iterations, 0);
+        scene.forEachCell([&](const Vec3i& cell, int b, int c) {
+            scene.rhs.block(b)[c] *= 1.0 + 0.01 * std::sin(0.3 * cell.x() + 0.2 * cell.y());
+        });
+        const SolveReport warm = solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p);
+        EXPECT_LT(warm.iterations, cold);
+        EXPECT_LE(relativeResidual(scene, p), 1.0e-6);
+    }
+}
+
+TEST(Poisson, DependsOnShapeNotOnPlace)
+{
+    const Vec3i n(37, 21, 18);
+    BlockArray<double> here, there;
+    const SolveReport a = solveFromZero(boxWithSurface(n, {0, 0, 0}), here);
+    for (const Vec3i& corner : {Vec3i(-24, -8, -16), Vec3i(80008, -400000, 8), Vec3i(-8000000, 7999992, 16)}) {
+        const SolveReport b = solveFromZero(boxWithSurface(n, corner), there);
+        EXPECT_EQ(a.iterations, b.iterations);
+        ASSERT_EQ(here.size(), there.size());
+        double largest = 0.0, difference = 0.0;
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            largest = std::max(largest, std::abs(here.block(0)[i]));
+            difference = std::max(difference, std::abs(here.block(0)[i] - there.block(0)[i]));
+        }
+        EXPECT_LE(difference, 1.0e-6 * largest);  // the surface is rounded differently far away
+    }
+}
+
+TEST(Poisson, ScaleOfNumbersDoesNotMatter)
+{
+    const PoissonScene scene = boxWithSurface({24, 20, 16});
+    BlockArray<double> p, q;
+    const SolveReport a = solveFromZero(scene, p);
+    PoissonScene small = scene;
+    for (std::size_t i = 0; i < small.matrix.values.size(); ++i) small.matrix.values.block(0)[i] *= std::exp2(-40);
+    for (std::size_t i = 0; i < small.rhs.size(); ++i) small.rhs.block(0)[i] *= std::exp2(-120);
+    const SolveReport b = solveFromZero(small, q);
+    EXPECT_EQ(a.iterations, b.iterations);
+    for (std::size_t i = 0; i < q.size(); ++i) q.block(0)[i] *= std::exp2(80);
+    EXPECT_TRUE(sameBits(p, q));
+}
+
+TEST(Poisson, OneCell)
+{
+    PoissonScene scene;
+    scene.grid.setBlocks(std::vector<Vec3i>{{-3, 7, 1}});
+    scene.matrix.resize(1);
+    scene.rhs.resize(1);
+    scene.matrix.diagonal(0)[345] = 4.0;
+    scene.rhs.block(0)[345] = 6.0;
+    BlockArray<double> p;
+    const SolveReport report = solveFromZero(scene, p);
+    EXPECT_LE(report.iterations, 1);
+    EXPECT_NEAR(p.block(0)[345], 1.5, 1.0e-6);
+}
+
+TEST(Poisson, NothingToSolve)
+{
+    PoissonScene scene;
+    scene.matrix.resize(0);
+    scene.rhs.resize(0);
+    BlockArray<double> p;
+    SolveReport report = solveFromZero(scene, p);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, 0);
+
+    scene = boxWithSurface({12, 12, 12});
+    for (int b = 0; b < scene.grid.count(); ++b)
+        for (int c = 0; c < kBlockCells; ++c) scene.rhs.block(b)[c] = scene.isUnknown(b, c) ? 0.0 : 1.0;
+    p = zeroPressure(scene);
+    for (std::size_t i = 0; i < p.size() - kBlockCells; ++i) p.block(0)[i] = 3.0;
+    report = PoissonSolver().solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, 0);
+    EXPECT_TRUE(sameBits(p, zeroPressure(scene)));
+}
+
+TEST(Poisson, CellsThatAreNoUnknownsEndWithoutPressure)
+{
+    const PoissonScene scene = boxWithSurface({20, 20, 20});
+    BlockArray<double> p = zeroPressure(scene);
+    for (std::size_t i = 0; i < p.size() - kBlockCells; ++i) p.block(0)[i] = 7.0;
+    ASSERT_TRUE(PoissonSolver().solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p).converged);
+    int others = 0;
+    scene.forEachCell([&](const Vec3i&, int b, int c) {
+        if (scene.isUnknown(b, c)) return;
+        EXPECT_EQ(p.block(b)[c], 0.0);
+        ++others;
+    });
+    EXPECT_GT(others, 1000);
+    EXPECT_LE(relativeResidual(scene, p), 1.0e-6);
+}
+
+TEST(Poisson, SaysWhenItDidNotConverge)
+{
+    PoissonScene scene = boxWithSurface({32, 32, 32});
+    BlockArray<double> p = zeroPressure(scene);
+    SolveReport report = PoissonSolver().solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 3, p);
+    EXPECT_FALSE(report.converged);
+    EXPECT_EQ(report.iterations, 3);
+    EXPECT_GT(report.residual, 1.0e-6);
+
+    PoissonSolver solver;
+    PoissonScene broken = scene;
+    const CellRef at = broken.at({5, 5, 5});
+    broken.rhs.block(at.block)[at.cell] = std::nan("");
+    p = zeroPressure(scene);
+    EXPECT_FALSE(solver.solve(scene.grid, scene.matrix, broken.rhs, 1.0e-6, 50, p).converged);
+    p = zeroPressure(scene);  // and the next solve is none the worse
+    EXPECT_TRUE(solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 50, p).converged);
+    EXPECT_LE(relativeResidual(scene, p), 1.0e-6);
+}
+
+TEST(Poisson, FollowsASetOfBlocksThatChanges)
+{
+    PoissonSolver solver;
+    for (int n : {40, 12, 33, 60, 7}) {
+        const PoissonScene scene = boxWithSurface({n, n / 2 + 3, n}, {3 * n, -n, 5});
+        BlockArray<double> p, fresh;
+        const SolveReport report = solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-8, 200, p);
+        EXPECT_EQ(report.iterations, solveFromZero(scene, fresh, 1.0e-8).iterations);
+        EXPECT_TRUE(sameBits(p, fresh));
+    }
+}
+
+}  // namespace
+}  // namespace sim::test
