@@ -19,7 +19,7 @@ PatternPlaces referencePlaces(const SeedPlan& plan, const std::vector<Vec3>& exi
 PatternPlaces poissonPlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing);
 
 /// Least distance of the poisson pattern in pitches. Darts thrown until hardly any finds room lie about 1 / pitch³ dense then.
-inline constexpr double kPoissonDistance = 0.88;
+inline constexpr double kPoissonDistance = 0.83;
 
 /// Places of a lattice that a box may hold: place (i, j, k) + low is at first + pitch (i, j, k).
 struct PlaceLattice {

@@ -15,6 +15,13 @@ constexpr double kFar = 2.0;       ///< a group of triangles acts as one at this
 
 Vec3 areaVector(const std::array<Vec3, 3>& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]); }
 
+/// Thinner triangles are lines, for which rounding would decide where they face.
+bool hasArea(const std::array<Vec3, 3>& t)
+{
+    const double edge = std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+    return areaVector(t).norm() > 1.0e-12 * edge;
+}
+
 double squaredDistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b)
 {
     const Vec3 along = b - a;
@@ -46,7 +53,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh)
 {
     for (const Vec3i& t : mesh.triangles) {
         const Corners corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-        if (areaVector(corners).squaredNorm() > 0.0) corners_.push_back(corners);
+        if (hasArea(corners)) corners_.push_back(corners);
     }
     if (!corners_.empty()) build(0, static_cast<int>(corners_.size()));
 }

@@ -20,7 +20,7 @@ class TriangleTree {
     double distance(const Vec3& x, double limit) const;
 
     /// How often the mesh goes around x: 1 inside and 0 outside of a closed one, in between near holes. Far groups of triangles
-    /// act as one, to about a percent. Source: Barill et al. 2018, "Fast Winding Numbers for Soups and Clouds".
+    /// act as one, to a few percent. Source: Barill et al. 2018, "Fast Winding Numbers for Soups and Clouds".
     double windingNumber(const Vec3& x) const;
 
     /// Negative for a closed mesh that is turned inside out [cm^3].

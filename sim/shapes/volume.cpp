@@ -3,6 +3,7 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 
+#include <array>
 #include <cmath>
 
 namespace sim {
@@ -10,21 +11,29 @@ namespace sim {
 namespace {
 
 /// Halvings of a cell that the surface may cross.
-constexpr int kHalvings = 2;
+constexpr int kHalvings = 3;
 
-/// Share of a unit cube in which m·x < level, all m ≥ 0: corners counted in and out (inclusion and exclusion).
-double shareBelow(Vec3 m, double level)
+/// Share of a unit cube around 0 in which m·x < depth, all m ≥ 0: corners counted in and out (inclusion and exclusion).
+double shareBelow(const Vec3& m, double depth)
 {
-    // A tilt this small moves the result by less than its square; without it the formula is 0/0 for planes along an axis.
-    const double smallest = 1.0e-4 * m.maxCoeff();
-    m = m.cwiseMax(smallest);
-    double sum = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const int cx = corner & 1, cy = corner >> 1 & 1, cz = corner >> 2;
-        const double depth = level - (m[0] * cx + m[1] * cy + m[2] * cz);
-        if (depth > 0.0) sum += ((cx + cy + cz) % 2 == 0 ? 1.0 : -1.0) * depth * depth * depth;
+    // Axes along which the plane hardly rises drop out: they change the share by the square of that at most, and would make
+    // it 0/0.
+    std::array<double, kAxes> rise;
+    int axes = 0;
+    for (double r : m)
+        if (r > 1.0e-4 * m.maxCoeff()) rise[axes++] = r;
+    double sum = 0.0, scale = 1.0;
+    for (int corner = 0; corner < 1 << axes; ++corner) {
+        double below = depth, sign = 1.0;
+        for (int a = 0; a < axes; ++a) {
+            const bool far = corner >> a & 1;
+            below += far ? -0.5 * rise[a] : 0.5 * rise[a];
+            if (far) sign = -sign;
+        }
+        if (below > 0.0) sum += sign * std::pow(below, axes);
     }
-    return std::clamp(sum / (6.0 * m.prod()), 0.0, 1.0);
+    for (int a = 0; a < axes; ++a) scale *= rise[a] * (a + 1);
+    return std::clamp(sum / scale, 0.0, 1.0);
 }
 
 /// Share of the box of the given size around a point that lies inside the shape.
@@ -32,10 +41,7 @@ double shareInside(const Shape& shape, const Vec3& center, const Vec3& size, int
 {
     const double d = shape.distance(center);
     if (std::abs(d) >= 0.5 * size.norm()) return d < 0.0 ? 1.0 : 0.0;
-    if (halvings == 0) {
-        const Vec3 m = shape.normal(center).cwiseAbs().cwiseProduct(size);
-        return shareBelow(m, 0.5 * m.sum() - d);
-    }
+    if (halvings == 0) return shareBelow(shape.normal(center).cwiseAbs().cwiseProduct(size), -d);
     double sum = 0.0;
     for (int octant = 0; octant < 8; ++octant) {
         const Vec3 side(octant & 1 ? 0.25 : -0.25, octant & 2 ? 0.25 : -0.25, octant & 4 ? 0.25 : -0.25);
