@@ -83,9 +83,6 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     report.dt = dt;
     StageClock clock(report);
 
-    if (work.obstacles.anyMoving() || state.step == 0) {
-        clock.start(Stage::Obstacles);
-    }
     work.obstacles.moveTo(state.time, state.time + dt);
 
     if (emits(scene, state, state.time, state.time + dt)) {
@@ -97,6 +94,8 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
     carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
     work.grid.resize(grid.count(), flip);
+
+    if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
     work.obstacleField.update(grid, work.order.previous, work.obstacles);
 
     if (work.relaxReach > 0.0) {

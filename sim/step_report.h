@@ -9,10 +9,10 @@
 namespace sim {
 
 /// The stages of a step, in the order in which they run.
-enum class Stage { Obstacles, Emit, Sort, Relax, ParticlesToGrid, LevelSet, Pressure, Extrapolate, GridToParticles, Count };
+enum class Stage { Emit, Sort, Obstacles, Relax, ParticlesToGrid, LevelSet, Pressure, Extrapolate, GridToParticles, Count };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "obstacles", "emit", "sort", "relax", "particles_to_grid", "level_set", "pressure", "extrapolate", "grid_to_particles"};
+    "emit", "sort", "obstacles", "relax", "particles_to_grid", "level_set", "pressure", "extrapolate", "grid_to_particles"};
 
 /// What an iterative solve did.
 struct SolveReport {

@@ -90,9 +90,9 @@ void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b,
                 diagonal = select(inside, diagonal, zero);
                 rhs = select(inside, rowOutflow(obstacles, liquid, rows, j, k) * (-1.0 / grid.dx), zero);
             }
-            std::memcpy(work.matrix.diagonal.block(b) + row, &diagonal, sizeof diagonal);
+            std::memcpy(work.matrix.diagonal(b) + row, &diagonal, sizeof diagonal);
             std::memcpy(work.rhs.block(b) + row, &rhs, sizeof rhs);
-            for (int a = 0; a < kAxes; ++a) std::memcpy(work.matrix.coupling[a].block(b) + row, &coupling[a], sizeof coupling[a]);
+            for (int a = 0; a < kAxes; ++a) std::memcpy(work.matrix.coupling(a, b) + row, &coupling[a], sizeof coupling[a]);
         }
 }
 
@@ -132,9 +132,8 @@ SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacle
                             double dt, PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
 {
     const double mobility = dt / settings.density;
-    work.matrix.diagonal.resize(grid.count());
+    work.matrix.resize(grid.count());
     work.rhs.resize(grid.count());
-    for (auto& coupling : work.matrix.coupling) coupling.resize(grid.count());
     computeCoefficients(grid, obstacles, mobility / (grid.dx * grid.dx), settings.full, liquid, work);
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
     const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);

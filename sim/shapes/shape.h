@@ -12,7 +12,8 @@ namespace sim {
 
 /// A solid body given by its signed distance, negative inside. Immutable; copies share the body.
 /// Distances of primitives are exact; of unions, intersections and differences they are bounds outside of which
-/// nothing of the body lies (min, max).
+/// nothing of the body lies (min, max): never more than the distance to the surface.
+/// Shapes that make no sense (negative or infinite sizes, an axis that is not a unit vector) throw InputError.
 class Shape {
  public:
     Shape() = default;  ///< empty: infinitely far from everywhere
@@ -26,7 +27,10 @@ class Shape {
     /// Solid cylinder of half height `half` along a unit axis, with edges rounded by `round` (added on top and bottom, not
     /// on the radius: the side stays at `radius`).
     static Shape cylinder(const Vec3& center, const Vec3& axis, double radius, double half, double round);
-    /// A closed triangle mesh, sampled on a lattice of pitch `cell`.
+    /// A closed triangle mesh, sampled on a lattice of pitch `cell` that reaches 3 cells further than the mesh; trilinear in
+    /// between. Inside is where the winding number is above a half: small holes, doubled faces and a mesh turned inside
+    /// out as a whole do no harm. Outside of the lattice: the distance to it plus the value there, which is no less than the
+    /// distance to the mesh. Throws InputError when the lattice has more than 5e8 nodes.
     static Shape mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell);
 
     static Shape unite(std::vector<Shape> shapes);
@@ -34,12 +38,18 @@ class Shape {
     /// The first without all the others.
     static Shape subtract(std::vector<Shape> shapes);
     Shape inverted() const;
+    bool isInverted() const;  ///< the outside of another shape, which inverted() gives
+    /// The shape after a rigid motion. Boxes stay axis-aligned boxes under translations.
     Shape moved(const Eigen::Isometry3d& transform) const;
 
     bool empty() const { return body_ == nullptr; }
-    double distance(const Vec3& x) const;           ///< [cm]
-    Vec3 normal(const Vec3& x) const;               ///< unit gradient of the distance
-    Eigen::AlignedBox3d bounds() const;             ///< unbounded for inverted shapes
+    double distance(const Vec3& x) const;           ///< [cm]; +∞ for the empty shape
+    /// Unit gradient of the distance: outward. Where it does not exist (the middle of a ball) any unit vector along which the
+    /// distance does not fall.
+    Vec3 normal(const Vec3& x) const;
+    /// Tight for primitives; the common part of the children's for an intersection. Inverted shapes have corners at ±∞, the
+    /// empty shape an empty box.
+    Eigen::AlignedBox3d bounds() const;
 
     /// The box, if this is an axis-aligned box with sharp edges, or the inside of one (then `inside` is set):
     /// its walls are planes, which the solver can mirror exactly.
@@ -53,6 +63,8 @@ class Shape {
 
  private:
     explicit Shape(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
+    /// The bodies of the shapes that are not empty.
+    static std::vector<std::shared_ptr<const Body>> bodies(const std::vector<Shape>& shapes);
     std::shared_ptr<const Body> body_;
 };
 

@@ -1,0 +1,90 @@
+#include "sim/particles/seed.h"
+
+#include "sim/core/units.h"
+#include "sim/particles/seed_patterns.h"
+#include "sim/shapes/volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+using Pattern = FillSettings::Pattern;
+
+/// The pattern's own pitch [cells] (model-fluid 5.1, 5.2).
+double ownSpacing(Pattern pattern) { return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4; }
+
+/// Some of the positions, chosen at random, in their old order.
+std::vector<Vec3> chooseSome(const std::vector<Vec3>& positions, std::size_t count, const CounterRandom& random)
+{
+    struct Lot {
+        std::uint64_t rank;
+        std::size_t index;
+        bool operator<(const Lot& other) const { return rank != other.rank ? rank < other.rank : index < other.index; }
+    };
+    std::vector<Lot> lots(positions.size());
+    for (std::size_t i = 0; i < lots.size(); ++i) lots[i] = {random.bits(i), i};
+    std::nth_element(lots.begin(), lots.begin() + count, lots.end());
+    lots.resize(count);
+    std::sort(lots.begin(), lots.end(), [](const Lot& a, const Lot& b) { return a.index < b.index; });
+    std::vector<Vec3> chosen;
+    for (const Lot& lot : lots) chosen.push_back(positions[lot.index]);
+    return chosen;
+}
+
+Seeds seedReference(const SeedPlan& plan, const LiquidNearby& nearby)
+{
+    const double radius = nominalRadius(plan.fill, plan.dx);
+    return {referencePlaces(plan, nearby.positions).free, 4.0 / 3.0 * kPi * radius * radius * radius};
+}
+
+}  // namespace
+
+double particleSpacing(const FillSettings& fill, double dx)
+{
+    return dx * (fill.spacing > 0.0 ? fill.spacing : ownSpacing(fill.pattern));
+}
+
+double nominalRadius(const FillSettings& fill, double dx)
+{
+    // 0.5103 makes the default lattice's radius equal to the default reference's.
+    constexpr double kRadiusPerPitch = 0.5103;
+    const double pitch = particleSpacing(fill, dx);
+    return fill.pattern == Pattern::Reference ? pitch / std::sqrt(3.0) : kRadiusPerPitch * pitch;
+}
+
+double minimumDistance(const FillSettings& fill, double dx)
+{
+    const double pitch = particleSpacing(fill, dx);
+    switch (fill.pattern) {
+        case Pattern::Lattice: return pitch;
+        case Pattern::Reference: return 0.57735 * pitch;
+        case Pattern::Poisson: return kPoissonDistance * pitch;
+        default: return 0.0;
+    }
+}
+
+Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
+{
+    if (plan.fill.pattern == Pattern::Reference) return seedReference(plan, nearby);
+    const bool moves = !plan.velocity.isZero(0.0), darts = plan.fill.pattern == Pattern::Poisson;
+    std::vector<Shape> parts = {plan.source};
+    parts.insert(parts.end(), plan.solids.begin(), plan.solids.end());
+    const Shape region = Shape::subtract(parts);
+
+    PatternPlaces places = darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
+    const double count = moves && !darts ? meanLatticePlaces(plan, region) : static_cast<double>(places.count);
+    if (places.free.empty() || !(count > 0.0)) return {};
+    const double volume = boundedVolume(region, plan.dx) / count;
+
+    // Liquid that is packed more tightly than the pattern leaves gaps, too; filling all of them would make too much.
+    const double room = std::max(0.0, static_cast<double>(places.count) - nearby.volumeInside / volume);
+    const auto most = static_cast<std::size_t>(std::lround(room));
+    if (places.free.size() > most)
+        places.free = chooseSome(places.free, most, CounterRandom(plan.fill.seed, plan.stream, 1));
+    return {std::move(places.free), volume};
+}
+
+}  // namespace sim

@@ -1,0 +1,118 @@
+#include "sim/shapes/obj.h"
+
+#include "sim/core/check.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+namespace sim {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+constexpr std::size_t kMostElements = 100'000'000;  ///< vertices or triangles: more is not a mesh but a mistake
+
+/// The next word of a line, which is cut off; empty at its end.
+std::string_view nextWord(std::string_view& line)
+{
+    const std::size_t begin = std::min(line.find_first_not_of(kBlanks), line.size());
+    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+    const std::string_view word = line.substr(begin, end - begin);
+    line.remove_prefix(end);
+    return word;
+}
+
+/// Reads one file; knows the line for messages.
+class ObjReader {
+ public:
+    explicit ObjReader(const std::filesystem::path& file) : file_(file.string()), in_(file) {}
+
+    TriangleMesh read()
+    {
+        if (!in_) throw InputError(file_ + ": cannot be opened");
+        for (std::string line; std::getline(in_, line);) {
+            ++line_;
+            std::string_view rest(line);
+            rest = rest.substr(0, rest.find('#'));
+            const std::string_view kind = nextWord(rest);
+            if (kind == "v") readVertex(rest);
+            if (kind == "f") readFace(rest);
+            if (std::max(mesh_.vertices.size(), mesh_.triangles.size()) > kMostElements)
+                fail("more than 100 million vertices or triangles");
+        }
+        if (in_.bad()) throw InputError(file_ + ": could not be read to its end");
+        if (mesh_.triangles.empty()) throw InputError(file_ + ": has no faces");
+        return std::move(mesh_);
+    }
+
+ private:
+    [[noreturn]] void fail(const std::string& what) const
+    {
+        throw InputError(file_ + ":" + std::to_string(line_) + ": " + what);
+    }
+
+    void readVertex(std::string_view rest)
+    {
+        Vec3 v;
+        for (double& x : v) {
+            const std::string_view word = nextWord(rest);
+            if (word.empty()) fail("a vertex needs three coordinates");
+            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+            if (error != std::errc() || end != word.data() + word.size()) fail("not a number: \"" + std::string(word) + "\"");
+            if (!std::isfinite(x)) fail("not a finite number: \"" + std::string(word) + "\"");
+        }
+        mesh_.vertices.push_back(v);
+    }
+
+    int readCorner(std::string_view word) const
+    {
+        const std::string_view number = word.substr(0, word.find('/'));
+        long long index = 0;
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+        if (error != std::errc() || end != number.data() + number.size()) fail("not a corner: \"" + std::string(word) + "\"");
+        const auto count = static_cast<long long>(mesh_.vertices.size());
+        const long long fromZero = index > 0 ? index - 1 : count + index;
+        if (index == 0 || fromZero < 0 || fromZero >= count)
+            fail("vertex " + std::to_string(index) + " does not exist; there are " + std::to_string(count) + " so far");
+        return static_cast<int>(fromZero);
+    }
+
+    void readFace(std::string_view rest)
+    {
+        int first = -1, last = -1, corners = 0;
+        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
+            const int corner = readCorner(word);
+            ++corners;
+            if (corners == 1) first = corner;
+            if (corners > 2) mesh_.triangles.emplace_back(first, last, corner);
+            last = corner;
+        }
+        if (corners < 3) fail("a face needs three corners or more");
+    }
+
+    std::string file_;
+    std::ifstream in_;
+    int line_ = 0;
+    TriangleMesh mesh_;
+};
+
+}  // namespace
+
+TriangleMesh readObj(const std::filesystem::path& file) { return ObjReader(file).read(); }
+
+Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell)
+{
+    if (!(scale > 0.0) || !std::isfinite(scale)) throw InputError(file.string() + ": scale must be a positive number");
+    TriangleMesh mesh = readObj(file);
+    for (Vec3& v : mesh.vertices) v *= scale;
+    try {
+        return Shape::mesh(mesh.vertices, mesh.triangles, cell);
+    } catch (const InputError& e) {
+        throw InputError(file.string() + ": " + e.what());
+    }
+}
+
+}  // namespace sim

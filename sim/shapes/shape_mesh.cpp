@@ -1,0 +1,143 @@
+#include "sim/core/aligned_array.h"
+#include "sim/core/check.h"
+#include "sim/core/parallel.h"
+#include "sim/shapes/body.h"
+#include "sim/shapes/triangle_tree.h"
+
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr int kPadCells = 3;
+constexpr double kMostNodes = 5.0e8;   ///< 2 GB of distances
+
+/// Distances on a lattice, trilinear in between.
+struct SampledBody final : Shape::Body {
+    Vec3 lower;                       ///< first node
+    double cell = 0.0;
+    std::array<std::size_t, 3> size;  ///< nodes
+    AlignedArray<float> values;
+    Eigen::AlignedBox3d body;         ///< bounds of the mesh itself
+
+    Eigen::AlignedBox3d lattice() const
+    {
+        const Vec3 reach(static_cast<double>(size[0] - 1), static_cast<double>(size[1] - 1),
+                         static_cast<double>(size[2] - 1));
+        return {lower, lower + cell * reach};
+    }
+
+    /// The eight values around a point of the lattice, and how far between them it is, 0..1.
+    struct Corner {
+        const float* v;
+        Vec3 t;
+    };
+    Corner cornerAt(const Vec3& x) const
+    {
+        Corner c;
+        std::size_t index[3];
+        for (int a = 0; a < kAxes; ++a) {
+            const double q = std::clamp((x[a] - lower[a]) / cell, 0.0, static_cast<double>(size[a] - 1));
+            index[a] = std::min(static_cast<std::size_t>(q), size[a] - 2);
+            c.t[a] = q - static_cast<double>(index[a]);
+        }
+        c.v = values.data() + (index[2] * size[1] + index[1]) * size[0] + index[0];
+        return c;
+    }
+    double between(const Corner& c, int weightAxis) const
+    {
+        // The trilinear value, or its slope along weightAxis in units of the cell.
+        double sum = 0.0;
+        for (int corner = 0; corner < 8; ++corner) {
+            double w = 1.0;
+            for (int a = 0; a < kAxes; ++a) {
+                const bool far = corner >> a & 1;
+                w *= a == weightAxis ? (far ? 1.0 : -1.0) : (far ? c.t[a] : 1.0 - c.t[a]);
+            }
+            const std::size_t offset = ((corner >> 2) * size[1] + (corner >> 1 & 1)) * size[0] + (corner & 1);
+            sum += w * static_cast<double>(c.v[offset]);
+        }
+        return sum;
+    }
+
+    double distance(const Vec3& x) const override
+    {
+        const Eigen::AlignedBox3d box = lattice();
+        const double inside = between(cornerAt(x), -1);
+        return box.contains(x) ? inside : inside + box.exteriorDistance(x);
+    }
+    Vec3 normal(const Vec3& x) const override
+    {
+        const Eigen::AlignedBox3d box = lattice();
+        const Corner corner = cornerAt(x);
+        Vec3 slope(between(corner, 0), between(corner, 1), between(corner, 2));
+        slope /= cell;
+        if (!box.contains(x)) {
+            const Vec3 away = x - x.cwiseMax(box.min()).cwiseMin(box.max());
+            for (int a = 0; a < kAxes; ++a)
+                if (away[a] != 0.0) slope[a] = 0.0;  // the value there does not change along these
+            slope += away.stableNormalized();
+        }
+        return slope.squaredNorm() > 0.0 ? Vec3(slope.stableNormalized()) : Vec3(Vec3::UnitX());
+    }
+    Eigen::AlignedBox3d bounds(const Eigen::Isometry3d& t) const override { return movedBounds(body, t); }
+};
+
+void requireSound(const TriangleMesh& mesh, double cell)
+{
+    if (!(cell > 0.0) || !std::isfinite(cell)) throw InputError("a mesh's cell must be a positive number");
+    for (const Vec3& v : mesh.vertices)
+        if (!v.allFinite()) throw InputError("a mesh has a vertex whose coordinates are not finite");
+    for (const Vec3i& t : mesh.triangles)
+        if (t.minCoeff() < 0 || t.maxCoeff() >= static_cast<int>(mesh.vertices.size()))
+            throw InputError("a mesh has a triangle with a corner that does not exist");
+}
+
+/// Room for the lattice around the mesh; nothing is sampled yet.
+std::shared_ptr<SampledBody> latticeAround(const TriangleMesh& mesh, double cell)
+{
+    auto lattice = std::make_shared<SampledBody>();
+    for (const Vec3i& t : mesh.triangles)
+        for (int corner : t) lattice->body.extend(mesh.vertices[corner]);
+    const Vec3 cells = (lattice->body.sizes() / cell).array().ceil() + 2.0 * kPadCells;
+    const double nodes = (cells + Vec3::Ones()).prod();
+    if (!(nodes <= kMostNodes))
+        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) + " cm sampled with cells of " +
+                         std::to_string(cell) + " cm takes " + std::to_string(nodes) +
+                         " nodes, more than 5e8; use larger cells");
+    for (int a = 0; a < kAxes; ++a) lattice->size[a] = static_cast<std::size_t>(cells[a]) + 1;
+    lattice->cell = cell;
+    lattice->lower = lattice->body.center() - 0.5 * cell * cells;
+    lattice->values.resize(lattice->size[0] * lattice->size[1] * lattice->size[2]);
+    return lattice;
+}
+
+}  // namespace
+
+Shape Shape::mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell)
+{
+    const TriangleMesh mesh{vertices, triangles};
+    requireSound(mesh, cell);
+    const TriangleTree tree(mesh);
+    if (tree.empty()) throw InputError("a mesh has no triangle with an area");
+    const auto lattice = latticeAround(mesh, cell);
+    const double outward = tree.signedVolume() < 0.0 ? -1.0 : 1.0;
+    const double farthest = lattice->lattice().diagonal().norm();
+
+    const auto [nx, ny, nz] = lattice->size;
+    parallelFor(ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
+        double distance = farthest;
+        for (std::size_t i = 0; i < nx; ++i) {
+            const Vec3 place(static_cast<double>(i), static_cast<double>(row % ny), static_cast<double>(row / ny));
+            const Vec3 x = lattice->lower + cell * place;
+            // One node on, the distance has grown by no more than a cell (and a little, for rounding).
+            distance = tree.distance(x, distance + 1.001 * cell);
+            const bool inside = outward * tree.windingNumber(x) > 0.5;
+            lattice->values[row * nx + i] = static_cast<float>(inside ? -distance : distance);
+        }
+    });
+    return Shape(lattice);
+}
+
+}  // namespace sim

@@ -1,0 +1,100 @@
+#include "sim/simulation.h"
+
+#include "sim/core/check.h"
+#include "sim/core/parallel.h"
+#include "sim/liquid/energy.h"
+#include "sim/particles/emit.h"
+#include "sim/particles/seed.h"
+#include "sim/transfer/modes.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+/// Reach of the relaxation: a little more than the spacing of the finest source (model-fluid 5.4) [cm].
+double relaxReach(const Scene& scene)
+{
+    const RelaxSettings& relax = scene.settings.liquid.relax;
+    if (relax.rate == 0.0 || scene.sources.empty()) return 0.0;
+    double radius = std::numeric_limits<double>::infinity();
+    for (const SourceSettings& source : scene.sources) radius = std::min(radius, nominalRadius(source.fill, scene.settings.cell));
+    return relax.range * radius;
+}
+
+}  // namespace
+
+Simulation::Simulation(Scene scene) : scene_(std::move(scene))
+{
+    const Settings& settings = scene_.settings;
+    state_.time = settings.time.start;
+    state_.grid.dx = settings.cell;
+    state_.liquid.modeCount = storedModes(settings.transfer.modeCount());
+    state_.emittedVolume.assign(scene_.sources.size(), 0.0);
+    for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
+    work_.obstacles.moveTo(state_.time, state_.time);
+    work_.relaxReach = relaxReach(scene_);
+    emitLiquid(scene_, state_, state_.time, state_.time);
+    maxSpeed_ = parallelMax(state_.liquid.count, [&](std::size_t p) { return state_.liquid.velocity(p).norm(); });
+}
+
+Energies Simulation::energies() const { return liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity); }
+
+StepReport Simulation::step(double until)
+{
+    const auto fail = [&](std::string_view stage, std::string_view why) {
+        return RunError(fmt::format("scene {}, step {}, t = {:.6g} s, stage {}: {}", scene_.name, state_.step + 1, state_.time, stage, why));
+    };
+    const double largest = chooseTimeStep(scene_.settings, maxSpeed_);
+    if (!(largest >= scene_.settings.time.dtMin))
+        throw fail("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: a particle moves at {:.3g} cm/s",
+                                            largest, scene_.settings.time.dtMin, maxSpeed_));
+    const double left = until - state_.time;
+    // A step may be longer than the bound by round-off, so that 4e-3 s in steps of 2e-4 s are 20 and not 21.
+    const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - 1.0e-9)));
+    const double dt = left / parts;
+    const double cfl = cflNumber(scene_.settings, maxSpeed_, dt);
+    StepReport report;
+    try {
+        report = sim::step(state_, scene_, work_, dt);
+    } catch (const RunError& error) {
+        throw fail("sort", error.what());
+    }
+    if (parts == 1.0) state_.time = until;
+    report.cfl = cfl;
+    maxSpeed_ = report.maxSpeed;
+    if (!report.failure.empty()) throw fail("grid_to_particles", report.failure);
+    return report;
+}
+
+std::uint64_t stateHash(const State& state)
+{
+    std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> hash(XXH3_createState(), XXH3_freeState);
+    XXH3_64bits_reset(hash.get());
+    const auto add = [&](const void* data, std::size_t bytes) { XXH3_64bits_update(hash.get(), data, bytes); };
+    const LiquidParticles& liquid = state.liquid;
+    add(&state.time, sizeof state.time);
+    add(&state.step, sizeof state.step);
+    add(&liquid.count, sizeof liquid.count);
+    add(liquid.mass.data(), liquid.count * sizeof(double));
+    add(liquid.id.data(), liquid.count * sizeof(std::uint32_t));
+    for (int a = 0; a < kAxes; ++a) {
+        add(liquid.x[a].data(), liquid.count * sizeof(double));
+        for (int r = 0; r < liquid.modeCount; ++r) add(liquid.mode(a, r), liquid.count * sizeof(double));
+    }
+    for (int b = 0; b < state.grid.count(); ++b) {
+        add(state.grid.coords(b).data(), 3 * sizeof(int));
+        add(state.pressure.block(b), kBlockCells * sizeof(double));
+    }
+    add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
+    add(&state.ledger.emittedMass, sizeof(double));
+    add(&state.ledger.leftMass, sizeof(double));
+    add(state.ledger.leftMomentum.data(), 3 * sizeof(double));
+    return XXH3_64bits_digest(hash.get());
+}
+
+}  // namespace sim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "sim/scene/scene.h"
+#include "sim/state.h"
+#include "sim/step.h"
+
+namespace sim {
+
+/// A scene under way: its state and all that is needed to advance it.
+class Simulation {
+ public:
+    /// Builds the initial state. Throws InputError when a source has no room for a single particle.
+    explicit Simulation(Scene scene);
+
+    const State& state() const { return state_; }
+    const Scene& scene() const { return scene_; }
+    const Workspace& workspace() const { return work_; }
+    /// Energies of the initial state; afterwards the step's report tells them.
+    Energies energies() const;
+
+    /// One time step towards `until` [s]: what is left is cut into equal parts no longer than the largest stable step, so that the time
+    /// is hit exactly and no step is tiny. Throws RunError naming scene, step, stage and why; the state then is that of the last good
+    /// step, except for what the failed step moved.
+    StepReport step(double until);
+
+ private:
+    Scene scene_;
+    State state_;
+    Workspace work_;
+    double maxSpeed_ = 0.0;  ///< of the particles [cm/s]
+};
+
+/// Hash of everything that evolves; equal for any number of threads.
+std::uint64_t stateHash(const State& state);
+
+}  // namespace sim

@@ -1,0 +1,210 @@
+#include "sim/particles/seed.h"
+
+#include "sim/core/check.h"
+#include "sim/core/units.h"
+#include "sim/particles/point_bins.h"
+#include "sim/shapes/volume.h"
+
+#include <gtest/gtest.h>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cmath>
+#include <set>
+
+namespace sim {
+namespace {
+
+using Pattern = FillSettings::Pattern;
+
+SeedPlan planOf(const Shape& source, Pattern pattern, double spacing = 0.0, std::uint64_t seed = 1)
+{
+    SeedPlan plan;
+    plan.source = source;
+    plan.fill = {pattern, seed, spacing};
+    plan.dx = 0.288;
+    return plan;
+}
+
+SeedPlan damBreak(Pattern pattern)
+{
+    const Shape tank = Shape::roundedBox({-7.2, 14.4, 0.72}, {14.4, 14.4, 0.72}, 0.72);
+    SeedPlan plan = planOf(Shape::intersect({tank, Shape::box({13.92, 0.0, 0.72}, {15.84, 15.84, 1.44})}), pattern);
+    plan.solids = {tank.inverted()};
+    return plan;
+}
+
+const Pattern kPatterns[] = {Pattern::Lattice, Pattern::Reference, Pattern::Jittered, Pattern::Poisson};
+
+double leastDistance(const std::vector<Vec3>& x, double reach)
+{
+    const PointBins bins(x, reach);
+    double least = reach;
+    for (std::size_t p = 0; p < x.size(); ++p)
+        bins.anyNear(x[p], [&](std::size_t q) {
+            if (q != p) least = std::min(least, (x[q] - x[p]).norm());
+            return false;
+        });
+    return least;
+}
+
+TEST(Seed, ReferenceGivesAsManyParticlesAsPublished)
+{
+    EXPECT_NEAR(seedParticles(damBreak(Pattern::Reference)).positions.size() / 313501.0, 1.0, 0.02);
+    const Shape ball = Shape::ball({7.2, 5.76, 7.2}, 1.44);
+    EXPECT_NEAR(seedParticles(planOf(ball, Pattern::Reference)).positions.size() / 9876.0, 1.0, 0.02);
+    EXPECT_NEAR(seedParticles(planOf(ball, Pattern::Reference, 0.25)).positions.size() / 26532.0, 1.0, 0.02);
+}
+
+TEST(Seed, ReferenceKeepsThePublishedVolume)
+{
+    const Seeds seeds = seedParticles(planOf(Shape::ball(Vec3::Zero(), 1.44), Pattern::Reference));
+    EXPECT_NEAR(seeds.volume, 8.5104e-4, 1e-8);
+    EXPECT_NEAR(nominalRadius({Pattern::Reference, 1, 0.0}, 0.288), 0.058788, 1e-6);
+    EXPECT_NEAR(nominalRadius({Pattern::Lattice, 1, 0.0}, 0.288), 0.058788, 1e-5);
+}
+
+TEST(Seed, ALatticeIsAsLargeAsItsSource)
+{
+    for (const SeedPlan& plan : {damBreak(Pattern::Lattice), planOf(Shape::ball({0.3, 0.1, 0.2}, 1.44), Pattern::Lattice)}) {
+        const Seeds seeds = seedParticles(plan);
+        const double region = boundedVolume(plan.source, plan.dx), count = static_cast<double>(seeds.positions.size());
+        EXPECT_NEAR(count * std::pow(0.4 * 0.288, 3) / region, 1.0, 0.02);
+        EXPECT_NEAR(count * seeds.volume / region, 1.0, 1e-12);
+    }
+}
+
+TEST(Seed, EveryPatternButTheReferenceFillsItsSource)
+{
+    for (Pattern pattern : {Pattern::Lattice, Pattern::Jittered, Pattern::Poisson}) {
+        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 2.0), pattern);
+        const Seeds seeds = seedParticles(plan);
+        const double region = boundedVolume(plan.source, plan.dx);
+        EXPECT_NEAR(static_cast<double>(seeds.positions.size()) * seeds.volume / region, 1.0, 1e-12);
+        EXPECT_NEAR(seeds.volume / std::pow(0.4 * 0.288, 3), 1.0, 0.05);
+    }
+}
+
+TEST(Seed, ALatticeBeginsHalfAPitchInside)
+{
+    const Seeds seeds = seedParticles(planOf(Shape::box({1.0, 1.0, 1.0}, {0.5, 0.5, 0.5}), Pattern::Lattice));
+    EXPECT_TRUE(seeds.positions.front().isApprox(Vec3::Constant(0.5 + 0.2 * 0.288), 1e-12));
+    EXPECT_EQ(seeds.positions.size(), 729u);  // 1 / .1152 = 8.7 per edge
+}
+
+TEST(Seed, TwoPerCellLieOnTheGrid)
+{
+    SeedPlan plan = planOf(Shape::box({0.96, 0.96, 0.96}, Vec3::Constant(0.576)), Pattern::Lattice, 0.5);
+    plan.gridOrigin = Vec3::Constant(0.096);
+    const Seeds seeds = seedParticles(plan);
+    EXPECT_EQ(seeds.positions.size(), 512u);
+    EXPECT_NEAR(seeds.volume, std::pow(0.144, 3), 1e-6 * seeds.volume);
+    for (const Vec3& x : seeds.positions)
+        for (int a = 0; a < kAxes; ++a) {
+            const double q = (x[a] - 0.096) / 0.288 - std::floor((x[a] - 0.096) / 0.288);
+            EXPECT_NEAR(std::abs(q - 0.5), 0.25, 1e-9);
+        }
+}
+
+TEST(Seed, ParticlesLieInTheSourceAndOutsideOfSolids)
+{
+    for (Pattern pattern : kPatterns) {
+        SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.44), pattern);
+        plan.solids = {Shape::ball({1.0, 0.0, 0.0}, 0.8), Shape::box({0.0, -1.6, 0.0}, {2.0, 0.5, 2.0})};
+        const Seeds seeds = seedParticles(plan);
+        EXPECT_GT(seeds.positions.size(), 3000u);
+        for (const Vec3& x : seeds.positions) {
+            EXPECT_LT(plan.source.distance(x), 1e-6);
+            for (const Shape& solid : plan.solids) EXPECT_GT(solid.distance(x), -1e-9);
+        }
+        if (pattern == Pattern::Reference) continue;
+        const Shape region = Shape::subtract({plan.source, plan.solids[0], plan.solids[1]});
+        EXPECT_NEAR(static_cast<double>(seeds.positions.size()) * seeds.volume, boundedVolume(region, plan.dx), 1e-9);
+    }
+}
+
+TEST(Seed, ParticlesKeepTheirDistance)
+{
+    for (Pattern pattern : {Pattern::Lattice, Pattern::Reference, Pattern::Poisson}) {
+        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.44), pattern);
+        const double least = minimumDistance(plan.fill, plan.dx);
+        EXPECT_GT(least, 0.05);
+        EXPECT_GE(leastDistance(seedParticles(plan).positions, 2.0 * least), least * (1.0 - 1e-12));
+    }
+}
+
+TEST(Seed, ParticlesKeepTheirDistanceFromLiquidThatIsThere)
+{
+    const Shape ball = Shape::ball(Vec3::Zero(), 1.2);
+    for (Pattern pattern : {Pattern::Reference, Pattern::Poisson}) {
+        const SeedPlan first = planOf(ball, pattern), second = planOf(Shape::ball({0.6, 0.0, 0.0}, 1.2), pattern, 0.0, 2);
+        LiquidNearby nearby;
+        nearby.positions = seedParticles(first).positions;
+        std::vector<Vec3> all = nearby.positions;
+        const auto added = seedParticles(second, nearby).positions;
+        EXPECT_GT(added.size(), 1000u);
+        all.insert(all.end(), added.begin(), added.end());
+        const double least = minimumDistance(first.fill, first.dx);
+        EXPECT_GE(leastDistance(all, 2.0 * least), least * (1.0 - 1e-12));
+    }
+}
+
+TEST(Seed, AFullSourceTakesNoMore)
+{
+    for (Pattern pattern : kPatterns) {
+        SeedPlan plan = planOf(Shape::box(Vec3::Zero(), {0.6, 0.7, 0.8}), pattern);
+        const Seeds seeds = seedParticles(plan);
+        LiquidNearby nearby{seeds.positions, static_cast<double>(seeds.positions.size()) * seeds.volume};
+        EXPECT_TRUE(seedParticles(plan, nearby).positions.empty());
+    }
+}
+
+TEST(Seed, AShiftedLatticeOfLiquidLeavesNoGaps)
+{
+    SeedPlan plan = planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.152)), Pattern::Lattice);
+    LiquidNearby nearby;
+    for (const Vec3& x : seedParticles(planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.3824)), Pattern::Lattice)).positions)
+        nearby.positions.push_back(x + 0.1152 * Vec3(0.49, 0.31, 0.44));
+    EXPECT_TRUE(seedParticles(plan, nearby).positions.empty());
+}
+
+TEST(Seed, GivesTheSameBitsForAnyNumberOfThreads)
+{
+    for (Pattern pattern : kPatterns) {
+        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.44), pattern);
+        std::vector<Seeds> found;
+        for (int threads : {1, 2, 8}) {
+            tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+            tbb::task_arena arena(threads);
+            arena.execute([&] { found.push_back(seedParticles(plan)); });
+        }
+        for (const Seeds& other : found) {
+            EXPECT_EQ(other.volume, found[0].volume);
+            EXPECT_EQ(other.positions, found[0].positions);
+        }
+    }
+}
+
+TEST(Seed, OtherSeedsAndSourcesDrawOtherNumbers)
+{
+    for (Pattern pattern : {Pattern::Reference, Pattern::Jittered, Pattern::Poisson}) {
+        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.0), pattern), other = planOf(plan.source, pattern, 0.0, 2);
+        SeedPlan stream = plan;
+        stream.stream = 1;
+        EXPECT_NE(seedParticles(plan).positions, seedParticles(other).positions);
+        EXPECT_NE(seedParticles(plan).positions, seedParticles(stream).positions);
+    }
+}
+
+TEST(Seed, RefusesTheUnboundedAndTheHuge)
+{
+    for (Pattern pattern : kPatterns) {
+        EXPECT_THROW(seedParticles(planOf(Shape::ball(Vec3::Zero(), 1.0).inverted(), pattern)), InputError);
+        EXPECT_THROW(seedParticles(planOf(Shape::ball(Vec3::Zero(), 1000.0), pattern)), InputError);
+        EXPECT_TRUE(seedParticles(planOf(Shape(), pattern)).positions.empty());
+    }
+}
+
+}  // namespace
+}  // namespace sim

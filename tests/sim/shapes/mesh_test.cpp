@@ -1,0 +1,236 @@
+#include "sim/core/check.h"
+#include "sim/core/random.h"
+#include "sim/core/units.h"
+#include "sim/shapes/obj.h"
+#include "sim/shapes/shape.h"
+#include "sim/shapes/tessellate.h"
+#include "sim/shapes/triangle_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+
+namespace sim {
+namespace {
+
+Vec3 somePoint(std::uint64_t index, double half)
+{
+    const CounterRandom random(3, 0);
+    return half * Vec3(2.0 * random.uniform(index, 0) - 1.0, 2.0 * random.uniform(index, 1) - 1.0, 2.0 * random.uniform(index, 2) - 1.0);
+}
+
+double signedVolume(const TriangleMesh& mesh) { return TriangleTree(mesh).signedVolume(); }
+
+double area(const TriangleMesh& mesh)
+{
+    double sum = 0.0;
+    for (const Vec3i& t : mesh.triangles)
+        sum += 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
+    return sum;
+}
+
+/// Every edge is passed once in each direction.
+bool isClosed(const TriangleMesh& mesh)
+{
+    std::map<std::pair<int, int>, int> edges;
+    for (const Vec3i& t : mesh.triangles)
+        for (int c = 0; c < 3; ++c) {
+            const int a = t[c], b = t[(c + 1) % 3];
+            edges[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : 1000;
+        }
+    for (const auto& [edge, passes] : edges)
+        if (passes != 1001) return false;
+    return !edges.empty();
+}
+
+TriangleMesh ballMesh() { return tessellate(Shape::ball(Vec3::Zero(), 1.0), 0.08); }
+
+TEST(Tessellate, ABallIsClosedAndFacesOutward)
+{
+    const TriangleMesh mesh = ballMesh();
+    EXPECT_TRUE(isClosed(mesh));
+    EXPECT_NEAR(signedVolume(mesh) / (4.0 / 3.0 * kPi), 1.0, 0.01);
+    EXPECT_NEAR(area(mesh) / (4.0 * kPi), 1.0, 0.01);
+    for (const Vec3& v : mesh.vertices) EXPECT_NEAR(v.norm(), 1.0, 0.005);
+}
+
+TEST(Tessellate, ABoxHasTwelveTriangles)
+{
+    const TriangleMesh mesh = tessellate(Shape::box({1.0, 2.0, 3.0}, {0.5, 1.0, 1.5}), 0.1);
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    EXPECT_TRUE(isClosed(mesh));
+    EXPECT_NEAR(signedVolume(mesh), 6.0, 1e-12);
+}
+
+TEST(Tessellate, WhateverIsBoundedIsClosed)
+{
+    const Shape ball = Shape::ball(Vec3::Zero(), 1.0), box = Shape::box({0.5, 0.5, 0.5}, Vec3::Constant(0.5));
+    const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
+    for (const Shape& s : {Shape::subtract({ball, box}), Shape::unite({ball, box}), Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.25),
+                           box.moved(turn), Shape::cylinder(Vec3::Zero(), Vec3::UnitZ(), 1.0, 0.5, 0.0)}) {
+        const TriangleMesh mesh = tessellate(s, 0.125);
+        EXPECT_TRUE(isClosed(mesh));
+        EXPECT_GT(signedVolume(mesh), 0.5);
+    }
+}
+
+TEST(Tessellate, RefusesTheUnbounded)
+{
+    EXPECT_THROW(tessellate(Shape::ball(Vec3::Zero(), 1.0).inverted(), 0.1), InputError);
+    EXPECT_THROW(tessellate(Shape::unite({Shape::ball(Vec3::Zero(), 1.0), Shape::box(Vec3::Zero(), Vec3::Ones()).inverted()}), 0.1),
+                 InputError);
+    EXPECT_TRUE(tessellate(Shape(), 0.1).triangles.empty());
+}
+
+TEST(TriangleTree, FindsTheNearestTriangleAsALookAtAllDoes)
+{
+    const TriangleMesh mesh = tessellate(Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8}), 0.1);
+    const Shape box = Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8});
+    const TriangleTree tree(mesh);
+    for (int p = 0; p < 500; ++p) {
+        const Vec3 x = somePoint(p, 2.0);
+        EXPECT_NEAR(tree.distance(x, 100.0), std::abs(box.distance(x)), 1e-12);
+        EXPECT_EQ(tree.distance(x, 1.0e-6), 1.0e-6);
+    }
+}
+
+TEST(TriangleTree, WindsOnceAroundTheInside)
+{
+    const TriangleTree tree(ballMesh());
+    for (int p = 0; p < 500; ++p) {
+        const Vec3 x = somePoint(p, 1.5);
+        if (std::abs(x.norm() - 1.0) < 0.01) continue;
+        EXPECT_NEAR(tree.windingNumber(x), x.norm() < 1.0 ? 1.0 : 0.0, 0.06);
+    }
+}
+
+void expectLikeTheBall(const Shape& shape, double tolerance)
+{
+    const Shape ball = Shape::ball(Vec3::Zero(), 1.0);
+    for (int p = 0; p < 2000; ++p) {
+        const Vec3 x = somePoint(p, 1.2);
+        if (std::abs(ball.distance(x)) > 0.5) continue;
+        EXPECT_NEAR(shape.distance(x), ball.distance(x), tolerance) << x.transpose();
+    }
+}
+
+TEST(Mesh, OfABallIsLikeTheBall)
+{
+    const TriangleMesh mesh = ballMesh();
+    const Shape shape = Shape::mesh(mesh.vertices, mesh.triangles, 0.06);
+    expectLikeTheBall(shape, 0.006);
+    for (int p = 0; p < 200; ++p) {
+        const Vec3 x = somePoint(p, 2.0);
+        if (x.norm() < 0.4) continue;
+        const bool onLattice = x.cwiseAbs().maxCoeff() < 1.15;
+        EXPECT_GT(shape.normal(x).dot(x.normalized()), onLattice ? 0.98 : 0.8) << x.transpose();
+    }
+    EXPECT_LT((shape.bounds().sizes() - Vec3::Constant(2.0)).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(Mesh, FarAwayTheDistanceIsNoLessThanTrue)
+{
+    const TriangleMesh mesh = ballMesh();
+    const Shape shape = Shape::mesh(mesh.vertices, mesh.triangles, 0.1);
+    for (int p = 0; p < 200; ++p) {
+        const Vec3 x = somePoint(p, 6.0);
+        if (x.norm() < 2.0) continue;
+        EXPECT_GE(shape.distance(x), x.norm() - 1.01);
+        EXPECT_LE(shape.distance(x), x.norm() + 1.0);
+    }
+}
+
+TEST(Mesh, HolesDoubledAndTurnedFacesDoNotTurnItInsideOut)
+{
+    const TriangleMesh whole = ballMesh();
+    std::vector<Vec3i> holed, doubled = whole.triangles, turned;
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+        const Vec3i& c = whole.triangles[t];
+        if (t % 50 != 0) holed.push_back(c);
+        if (t % 3 == 0) doubled.push_back(c);
+        turned.emplace_back(c[0], c[2], c[1]);
+    }
+    expectLikeTheBall(Shape::mesh(whole.vertices, doubled, 0.1), 0.012);
+    expectLikeTheBall(Shape::mesh(whole.vertices, turned, 0.1), 0.012);
+    const Shape shape = Shape::mesh(whole.vertices, holed, 0.1);
+    for (int p = 0; p < 2000; ++p) {
+        const Vec3 x = somePoint(p, 1.5);
+        if (std::abs(x.norm() - 1.0) < 0.15) continue;
+        EXPECT_EQ(shape.distance(x) < 0.0, x.norm() < 1.0) << x.transpose();
+    }
+}
+
+TEST(Mesh, RefusesWhatItCannotSample)
+{
+    const TriangleMesh mesh = ballMesh();
+    EXPECT_THROW(Shape::mesh(mesh.vertices, mesh.triangles, 1.0e-3), InputError);
+    EXPECT_THROW(Shape::mesh(mesh.vertices, mesh.triangles, 0.0), InputError);
+    EXPECT_THROW(Shape::mesh(mesh.vertices, {Vec3i(0, 1, 1000000)}, 0.1), InputError);
+    EXPECT_THROW(Shape::mesh(mesh.vertices, {Vec3i(0, 1, 1)}, 0.1), InputError);
+    EXPECT_THROW(Shape::mesh({}, {}, 0.1), InputError);
+}
+
+class Obj : public ::testing::Test {
+ protected:
+    std::filesystem::path write(const std::string& text)
+    {
+        const auto file = std::filesystem::path(::testing::TempDir()) /
+                          (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".obj");
+        std::ofstream(file) << text;
+        return file;
+    }
+    std::string errorOf(const std::string& text)
+    {
+        try {
+            readObj(write(text));
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "no error";
+    }
+};
+
+constexpr const char* kCube =
+    "# a cube\nmtllib some.mtl\no cube\n"
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvn 0 0 1\nvt 0 0\n"
+    "f 4 3 2 1\nf 5/1 6/1 7/1 8/1\r\nf 1//1 2//1 6//1 5//1\nf -6/1/1 -5/1/1 -1/1/1 -2/1/1 # top\n\tf 2 3 7 6\nf 1 5 8 4\n";
+
+TEST_F(Obj, ReadsFacesInAllTheirForms)
+{
+    const TriangleMesh mesh = readObj(write(kCube));
+    EXPECT_EQ(mesh.vertices.size(), 8u);
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    EXPECT_EQ(mesh.triangles[0], Vec3i(3, 2, 1));
+    EXPECT_EQ(mesh.triangles[1], Vec3i(3, 1, 0));
+    EXPECT_EQ(mesh.triangles[6], Vec3i(2, 3, 7));
+}
+
+TEST_F(Obj, BecomesAShapeThatStaysWhereItIs)
+{
+    const Shape cube = shapeFromObj(write(kCube), 2.0, 0.1);
+    EXPECT_NEAR(cube.distance(Vec3::Ones()), -1.0, 0.05);
+    EXPECT_NEAR(cube.distance({-0.2, 1.0, 1.0}), 0.2, 0.01);
+    EXPECT_NEAR(cube.distance({2.1, 1.0, 1.0}), 0.1, 0.01);
+}
+
+TEST_F(Obj, SaysWhereAFileIsWrong)
+{
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    EXPECT_NE(errorOf("v 0 0\n").find(".obj:1: a vertex needs three"), std::string::npos);
+    EXPECT_NE(errorOf("v 0 0 0\nv 0 x 0\n").find(".obj:2: not a number: \"x\""), std::string::npos);
+    EXPECT_NE(errorOf("v 0 0 nan\n").find("not a finite number"), std::string::npos);
+    EXPECT_NE(errorOf("v 0 0 1e999\n").find(".obj:1: not"), std::string::npos);
+    EXPECT_NE(errorOf(corners + "f 1 2 4\n").find(".obj:4: vertex 4 does not exist"), std::string::npos);
+    EXPECT_NE(errorOf(corners + "f 1 2 0\n").find(".obj:4: vertex 0"), std::string::npos);
+    EXPECT_NE(errorOf(corners + "f 1 2 -4\n").find(".obj:4: vertex -4"), std::string::npos);
+    EXPECT_NE(errorOf(corners + "f 1 2\n").find(".obj:4: a face needs three"), std::string::npos);
+    EXPECT_NE(errorOf(corners + "f 1 2 c\n").find(".obj:4: not a corner: \"c\""), std::string::npos);
+    EXPECT_NE(errorOf(corners).find("has no faces"), std::string::npos);
+    EXPECT_THROW(readObj("there/is/no/such/file.obj"), InputError);
+    EXPECT_THROW(readObj(::testing::TempDir()), InputError);
+}
+
+}  // namespace
+}  // namespace sim
