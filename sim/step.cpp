@@ -8,7 +8,6 @@
 #include "sim/liquid/push_out.h"
 #include "sim/liquid/walls.h"
 #include "sim/particles/emit.h"
-#include "sim/particles/relax.h"
 
 #include <cmath>
 
@@ -100,7 +99,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     if (work.relaxReach > 0.0) {
         clock.start(Stage::Relax);
-        relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, dt, work.displacement);
+        relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, dt, work.relax, work.displacement);
     }
 
     clock.start(Stage::ParticlesToGrid);

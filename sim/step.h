@@ -3,6 +3,7 @@
 #include "sim/liquid/extrapolate.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
+#include "sim/particles/relax.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/transfer/gather.h"
@@ -22,6 +23,7 @@ struct Workspace {
     ExtrapolationScratch extrapolation;
     std::array<AlignedArray<double>, kAxes> displacement;  ///< by relaxation [cm]
     BlockArray<double> oldPressure;
+    RelaxScratch relax;
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
 };
 

@@ -9,7 +9,7 @@
 #include <immintrin.h>
 #endif
 
-// The only door to SIMD: packs of 8 doubles. Arithmetic and comparisons are the compiler's own vector operators; what has
+// The only door to SIMD: packs of 8 doubles or 16 floats. Arithmetic and comparisons are the compiler's own vector operators; what has
 // none (masked access, rounding) is here, once for AVX-512 and once in plain C++.
 
 namespace sim {
@@ -19,6 +19,10 @@ inline constexpr int kLanes = 8;
 using Pack = double __attribute__((vector_size(64)));
 using PackMask = long long __attribute__((vector_size(64)));          ///< all bits of a lane set, or none
 using HalfPack = double __attribute__((vector_size(32), aligned(8), may_alias));  ///< 4 doubles anywhere in memory
+
+inline constexpr int kFloatLanes = 16;
+using FloatPack = float __attribute__((vector_size(64)));
+using FloatMask = int __attribute__((vector_size(64)));
 
 /// f(integral_constant<int, 0>) … f(integral_constant<int, N − 1>): a loop that leaves no loop behind, so that arrays indexed in it
 /// live in registers.
@@ -37,6 +41,39 @@ template <int N, class F>
     Pack v;
     std::memcpy(&v, p, sizeof v);
     return v;
+}
+
+[[gnu::always_inline]] inline FloatPack loadFloats(const float* p)
+{
+    FloatPack v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+
+/// The lanes 0 … n − 1.
+[[gnu::always_inline]] inline FloatMask firstFloatLanes(int n)
+{
+    const FloatMask lane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return lane < n;
+}
+
+/// 1/√v to a relative 5e-6, finite for v = 0: an integer guess and two Newton steps, the same bits on every machine.
+[[gnu::always_inline]] inline FloatPack inverseSqrt(FloatPack v)
+{
+    const FloatMask guess = 0x5f375a86 - ((FloatMask)v >> 1);
+    FloatPack y = (FloatPack)guess;
+    y = y * (1.5f - (0.5f * v) * y * y);
+    return y * (1.5f - (0.5f * v) * y * y);
+}
+
+/// Lanes added in a fixed order, halves first. V is FloatPack or FloatMask.
+template <class V>
+[[gnu::always_inline]] inline auto sumFloatLanes(V v)
+{
+    v += __builtin_shuffle(v, FloatMask{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
+    v += __builtin_shuffle(v, FloatMask{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11});
+    v += __builtin_shuffle(v, FloatMask{2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13});
+    return v[0] + v[1];
 }
 
 /// a where the mask is set, else b.

@@ -21,78 +21,96 @@ Vec3 directionOfPair(std::uint32_t a, std::uint32_t b)
     return a < b ? direction : Vec3(-direction);
 }
 
-/// The pushes on one particle: Σ (1 − d²/R²)³ (x_i − x_j)/d.
-struct Push {
-    Vec3 at;
-    int self;
-    double inverseReachSquared;
-    Pack x = broadcast(0.0), y = broadcast(0.0), z = broadcast(0.0);
-    Vec3 coincident = Vec3::Zero();
+/// Positions relative to the lower corner of the particle's block, in units of the reach: floats are exact enough there.
+struct LocalPositions {
+    const float *x, *y, *z;
+};
 
-    /// Add those of the particles first … last − 1.
-    [[gnu::always_inline]] void addRun(const LiquidParticles& particles, int first, int last)
+/// The pushes on one particle: Σ (1 − q)³ (x_i − x_j)/d, q = d²/reach², over the particles first … last − 1 of runs of cells.
+struct Push {
+    FloatPack x{}, y{}, z{};
+    FloatMask same{};  ///< counts those that are at (almost) the same place, itself included
+
+    /// @param at  the particle, relative to the corner of the run's block
+    [[gnu::always_inline]] void addRun(const LocalPositions& positions, const Eigen::Vector3f& at, int first, int last)
     {
-        for (int s = first; s < last; s += kLanes) {
-            const PackMask lanes = firstLanes(last - s);
-            const Pack dx = at.x() - loadPack(particles.x[0].data() + s), dy = at.y() - loadPack(particles.x[1].data() + s),
-                       dz = at.z() - loadPack(particles.x[2].data() + s);
-            const Pack square = dx * dx + dy * dy + dz * dz, rest = 1.0 - square * inverseReachSquared;
-            const PackMask near = (rest > 0.0) & lanes;
-            if (maskBits(near) == 0) continue;
-            const PackMask apart = near & (square > 0.0);
-            const unsigned same = maskBits(near & (square == 0.0));
-            if (same != 0) addCoincident(particles, same, s);
-            const Pack strength = select(apart, rest * rest * rest / sqrtPack(select(apart, square, broadcast(1.0))), broadcast(0.0));
+        for (int s = first; s < last; s += kFloatLanes) {
+            const FloatPack dx = at.x() - loadFloats(positions.x + s), dy = at.y() - loadFloats(positions.y + s),
+                            dz = at.z() - loadFloats(positions.z + s);
+            const FloatPack q = dx * dx + dy * dy + dz * dz;
+            FloatPack rest = 1.0f - q;
+            rest = rest > 0.0f ? rest : FloatPack{};
+            if (last - s < kFloatLanes) rest = firstFloatLanes(last - s) ? rest : FloatPack{};
+            const FloatPack strength = rest * rest * rest * inverseSqrt(q);  // finite where q = 0, times a distance of 0
             x += strength * dx;
             y += strength * dy;
             z += strength * dz;
+            same += rest == 1.0f;
         }
     }
-
-    void addCoincident(const LiquidParticles& particles, unsigned lanes, int first)
-    {
-        for (int l = 0; l < kLanes; ++l)
-            if ((lanes >> l & 1) != 0 && first + l != self) coincident += directionOfPair(particles.id[self], particles.id[first + l]);
-    }
-
-    Vec3 sum() const { return coincident + Vec3(sumLanes(x), sumLanes(y), sumLanes(z)); }
+    Vec3 sum() const { return {sumFloatLanes(x), sumFloatLanes(y), sumFloatLanes(z)}; }
 };
 
-/// Pushes by the particles of all cells within reach. Along z the cells of a block are one run.
-void addNeighbours(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, int block, double reach, Push& push)
+/// Directions away from particles that are at exactly the same place: they stand in the same block.
+Vec3 leaveCoincident(const LiquidParticles& particles, int self, int first, int last)
 {
+    Vec3 sum = Vec3::Zero();
+    for (int s = first; s < last; ++s)
+        if (s != self && particles.position(s) == particles.position(self)) sum += directionOfPair(particles.id[self], particles.id[s]);
+    return sum;
+}
+
+/// The sum over all cells within reach. Along z the cells of a block are one run.
+Vec3 pushOn(const LiquidParticles& particles, const LocalPositions& local, const ParticleOrder& order, const BlockGrid& grid, int block, int self,
+            float cellsPerReach)
+{
+    const float blockEdge = kBlockEdge / cellsPerReach;
+    const Eigen::Vector3f at(local.x[self], local.y[self], local.z[self]);
     int low[3], high[3];
-    const Vec3 inCells = (push.at - grid.lowerCorner(block)) / grid.dx;
     for (int a = 0; a < kAxes; ++a) {
-        low[a] = static_cast<int>(std::floor(inCells[a] - reach / grid.dx));
-        high[a] = static_cast<int>(std::floor(inCells[a] + reach / grid.dx));
+        low[a] = static_cast<int>(std::floor((at[a] - 1.0f) * cellsPerReach));
+        high[a] = static_cast<int>(std::floor((at[a] + 1.0f) * cellsPerReach));
     }
+    Push push;
     for (int i = low[0]; i <= high[0]; ++i)
         for (int j = low[1]; j <= high[1]; ++j)
             for (int k = low[2]; k <= high[2];) {
                 const int last = std::min(high[2], k | 7);  // to the end of the block
-                const int b = grid.neighbours(block)[neighbourIndex(i >> 3, j >> 3, k >> 3)];
+                const Vec3i offset(i >> 3, j >> 3, k >> 3);
+                const int b = grid.neighbours(block)[neighbourIndex(offset.x(), offset.y(), offset.z())];
                 if (b != grid.count()) {
                     const int* cells = order.cells(b);
-                    push.addRun(particles, cells[cellRank(i & 7, j & 7, k & 7)], cells[cellRank(i & 7, j & 7, last & 7) + 1]);
+                    const int begin = cells[cellRank(i & 7, j & 7, k & 7)], end = cells[cellRank(i & 7, j & 7, last & 7) + 1];
+                    push.addRun(local, at - blockEdge * offset.cast<float>(), begin, end);
                 }
                 k = last + 1;
             }
+    if (sumFloatLanes(push.same) == -1) return push.sum();
+    return push.sum() + leaveCoincident(particles, self, order.begin(block), order.end(block));
 }
 
 }  // namespace
 
 void relaxationDisplacements(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, double rate, double reach,
-                             double dt, std::array<AlignedArray<double>, kAxes>& displacement)
+                             double dt, RelaxScratch& scratch, std::array<AlignedArray<double>, kAxes>& displacement)
 {
-    for (auto& d : displacement) d.resize(particles.mass.size());
+    for (int a = 0; a < kAxes; ++a) {
+        displacement[a].resize(particles.mass.size());
+        scratch.local[a].resize(particles.mass.size());
+    }
+    parallelFor(order.occupied.size(), [&](std::size_t n) {
+        const int b = order.occupied[n];
+        const Vec3 corner = grid.lowerCorner(b);
+        for (int a = 0; a < kAxes; ++a)
+            for (int s = order.begin(b); s < order.end(b); ++s)
+                scratch.local[a][s] = static_cast<float>((particles.x[a][s] - corner[a]) * (1.0 / reach));
+    });
+    const LocalPositions local{scratch.local[0].data(), scratch.local[1].data(), scratch.local[2].data()};
     const double scale = std::min(1.0, rate * dt) * reach;
     parallelFor(order.occupied.size(), [&](std::size_t n) {
         const int block = order.occupied[n];
         for (int s = order.begin(block); s < order.end(block); ++s) {
-            Push push{particles.position(s), s, 1.0 / (reach * reach)};
-            addNeighbours(particles, order, grid, block, reach, push);
-            const Vec3 d = scale * push.sum();
+            const Vec3 d = scale * pushOn(particles, local, order, grid, block, s, static_cast<float>(reach / grid.dx));
             for (int a = 0; a < kAxes; ++a) displacement[a][s] = d[a];
         }
     });
