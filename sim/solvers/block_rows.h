@@ -67,6 +67,15 @@ inline T maxOfRow(Row<T> a)
     return m;
 }
 
+/// One bit for each cell where the mask is set.
+template <class Mask>
+inline std::uint64_t bitsOf(Mask mask)
+{
+    std::uint64_t bits = 0;
+    for (int i = 0; i < kBlockEdge; ++i) bits |= std::uint64_t{mask[i] != 0} << i;
+    return bits;
+}
+
 inline Row<float> toFloat(Row<double> row)
 {
     return __builtin_convertvector(row, Row<float>);
@@ -104,32 +113,50 @@ struct BlockTile {
     static constexpr int kUpY = kBlockEdge, kUpZ = kRowsPerPlane * kBlockEdge;  ///< steps to the next rows in x
 
     alignas(64) T x[kFrameRows * kBlockEdge];
-    alignas(64) T sum[kBlockCells];             ///< right-hand side plus couplings times neighbours along y and z
-    alignas(64) T left[kBlockRows];             ///< x beyond the left end of each row …
-    alignas(64) T right[kBlockRows];            ///< … and beyond the right end …
-    alignas(64) T rightCoupling[kBlockRows];    ///< … with its coupling
+    alignas(64) T sum[kBlockCells];  ///< right-hand side plus couplings times neighbours along y and z
+    alignas(64) T left[kBlockRows];  ///< x beyond the left end of each row …
+    alignas(64) T right[kBlockRows]; ///< … and beyond the right end
 
-    static constexpr int frameRow(int r) { return ((r / 8 + 1) * kRowsPerPlane + r % 8 + 1) * kBlockEdge; }
-    T* row(int r) { return x + frameRow(r); }
-    const T* row(int r) const { return x + frameRow(r); }
+    BlockTile() { std::fill(x, x + kFrameRows * kBlockEdge, T(0)); }
 
-    void clear() { std::fill(x, x + kFrameRows * kBlockEdge, T(0)); }
+    T* row(int r) { return x + ((r / kBlockEdge + 1) * kRowsPerPlane + r % kBlockEdge + 1) * kBlockEdge; }
+    const T* row(int r) const { return const_cast<BlockTile*>(this)->row(r); }
+
+    /// x = row(r) on the given rows, 0 on the others.
+    template <class RowOfX>
+    void fill(std::uint64_t rows, const RowOfX& rowOfX)
+    {
+        forEachRow(rows, [&](int r) { storeRow<T>(row(r), rowOfX(r)); });
+        forEachRow(~rows, [&](int r) { storeRow<T>(row(r), Row<T>{}); });
+    }
+    void clearSum() { std::fill(sum, sum + kBlockCells, T(0)); }
     void clearNeighbours()
     {
         std::fill(left, left + kBlockRows, T(0));
         std::fill(right, right + kBlockRows, T(0));
-        std::fill(rightCoupling, rightCoupling + kBlockRows, T(0));
     }
 };
 
-/// Couplings of one block to the lower neighbours along each axis.
+/// forEachBlock with a tile to work in: body(b, tile).
+template <class T, class Body>
+inline void forEachBlockInTile(int blocks, Body&& body)
+{
+    constexpr int kBlocksPerTask = 4;
+    parallelFor(static_cast<std::size_t>((blocks + kBlocksPerTask - 1) / kBlocksPerTask), [&](std::size_t task) {
+        const int first = static_cast<int>(task) * kBlocksPerTask;
+        BlockTile<T> tile;
+        for (int b = first; b < std::min(blocks, first + kBlocksPerTask); ++b) body(b, tile);
+    });
+}
+
+/// Couplings of one block to the lower neighbours along each axis, and along x beyond the right end of each row.
 template <class T>
 struct BlockCouplings {
-    const T *x, *y, *z;
+    const T *x, *y, *z, *right;
 
     /// Couplings times neighbours, without those along x. The last rows of a plane and the last plane take their upper
     /// coupling from wherever the next row in memory is: it meets the zeros of the frame.
-    Row<T> acrossRows(const BlockTile<T>& tile, int r) const
+    [[gnu::always_inline]] Row<T> acrossRows(const BlockTile<T>& tile, int r) const
     {
         using Tile = BlockTile<T>;
         const T* p = tile.row(r);
@@ -139,11 +166,11 @@ struct BlockCouplings {
         return loadRow(tile.sum + c) + alongY + alongZ;
     }
     /// Couplings times neighbours along x.
-    Row<T> alongRow(const BlockTile<T>& tile, int r, Row<T> v) const
+    [[gnu::always_inline]] Row<T> alongRow(const BlockTile<T>& tile, int r, Row<T> v) const
     {
         const Row<T> lower = loadRow(x + r * kBlockEdge);
         return lower * lowerAlongX<T>(v, tile.left[r]) +
-               upperAlongX<T>(lower, tile.rightCoupling[r]) * upperAlongX<T>(v, tile.right[r]);
+               upperAlongX<T>(lower, right[r]) * upperAlongX<T>(v, tile.right[r]);
     }
 };
 
@@ -155,12 +182,11 @@ template <class T, class Couplings, class RowOfX, class CellOfX>
 inline void addNeighbours(BlockTile<T>& tile, int block, const std::array<int, 6>& neighbours, const Couplings& couplings,
                           const RowOfX& row, const CellOfX& cell)
 {
-    const BlockCouplings<T> own = couplings(block), beyondX = couplings(neighbours[1]);
+    const BlockCouplings<T> own = couplings(block);
     const BlockCouplings<T> beyondY = couplings(neighbours[3]), beyondZ = couplings(neighbours[5]);
     for (int r = 0; r < kBlockRows; ++r) {
         tile.left[r] = cell(neighbours[0], r * kBlockEdge + kBlockEdge - 1);
         tile.right[r] = cell(neighbours[1], r * kBlockEdge);
-        tile.rightCoupling[r] = beyondX.x[r * kBlockEdge];
     }
     const auto add = [&](int r, const T* coupling, Row<T> x) {
         storeRow<T>(tile.sum + r * kBlockEdge, loadRow(tile.sum + r * kBlockEdge) + loadRow(coupling) * x);

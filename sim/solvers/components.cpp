@@ -26,26 +26,24 @@ struct BlockBonds {
 
 BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
 {
-    const double* diagonal = matrix.diagonal(b);
-    const std::array<const double*, kAxes> lower = {matrix.coupling(0, b), matrix.coupling(1, b), matrix.coupling(2, b)};
     const auto& around = grid.neighbours(b);
-    constexpr std::array<int, kAxes> kStep = {1, kBlockEdge, kBlockRows};
+    const double *diagonal = matrix.diagonal(b), *x = matrix.coupling(0, b), *beyondX = matrix.coupling(0, around[14]);
+    const double *y = matrix.coupling(1, b), *beyondY = matrix.coupling(1, around[16]);
+    const double *z = matrix.coupling(2, b), *beyondZ = matrix.coupling(2, around[22]);
     BlockBonds bonds;
-    for (int c = 0; c < kBlockCells; ++c) {
-        if (!(diagonal[c] > 0.0)) continue;
-        const int k = c / kBlockRows, position[kAxes] = {c % kBlockEdge, c / kBlockEdge % kBlockEdge, k};
-        const std::uint64_t bit = std::uint64_t{1} << (c % kBlockRows);
-        double closed = 0.0;
-        for (int axis = 0; axis < kAxes; ++axis) {
-            const bool last = position[axis] == kBlockEdge - 1;
-            const int upperBlock = around[neighbourIndex(axis == 0, axis == 1, axis == 2)];
-            const double up = last ? matrix.coupling(axis, upperBlock)[c - (kBlockEdge - 1) * kStep[axis]]
-                                   : lower[axis][c + kStep[axis]];
-            closed += lower[axis][c] + up;
-            if (position[axis] > 0 && lower[axis][c] > 0.0) bonds.lower[axis][k] |= bit;
-        }
-        bonds.unknown[k] |= bit;
-        if (diagonal[c] - closed > kRounding * diagonal[c]) bonds.open[k] |= bit;
+    for (int r = 0; r < kBlockRows; ++r) {
+        const int c = r * kBlockEdge, j = r % kBlockEdge, k = r / kBlockEdge;
+        const Row<double> d = loadRow(diagonal + c), lowX = loadRow(x + c), lowY = loadRow(y + c), lowZ = loadRow(z + c);
+        const Row<double> upX = upperAlongX<double>(lowX, beyondX[c]);
+        const Row<double> upY = loadRow(j < kBlockEdge - 1 ? y + c + kBlockEdge : beyondY + c - (kBlockRows - kBlockEdge));
+        const Row<double> upZ = loadRow(k < kBlockEdge - 1 ? z + c + kBlockRows : beyondZ + c - (kBlockCells - kBlockRows));
+        const Row<double> open = d - ((lowX + upX) + (lowY + upY) + (lowZ + upZ));
+        const auto plane = [j](auto mask) { return bitsOf(mask) << (kBlockEdge * j); };
+        bonds.unknown[k] |= plane(d > 0.0);
+        bonds.open[k] |= plane((d > 0.0) & (open > kRounding * d));
+        bonds.lower[0][k] |= plane(lowX > 0.0) & 0xfefefefefefefefeu;
+        if (j > 0) bonds.lower[1][k] |= plane(lowY > 0.0);
+        if (k > 0) bonds.lower[2][k] |= plane(lowZ > 0.0);
     }
     return bonds;
 }

@@ -20,6 +20,7 @@ struct MultigridLevel {
     std::vector<std::array<int, 8>> children;   ///< … and of the next finer one; BlockGrid::kNone where there is none
 
     BlockArray<float, kKinds> matrix;           ///< 0 in cells that are no unknowns, the inverse of the diagonal too
+    AlignedArray<float> rightCoupling;          ///< of each row, 64 per block: beyond its right end
     BlockArray<float> dirichlet;                ///< diagonal minus couplings
     BlockArray<float> x, r;                     ///< unknown and right-hand side
     std::vector<std::uint64_t> rows;            ///< of each block, those that hold unknowns
@@ -28,7 +29,8 @@ struct MultigridLevel {
     int blocks() const { return grid.count(); }
     BlockCouplings<float> couplings(int b) const
     {
-        return {matrix.block(b, kCouplingX), matrix.block(b, kCouplingY), matrix.block(b, kCouplingZ)};
+        return {matrix.block(b, kCouplingX), matrix.block(b, kCouplingY), matrix.block(b, kCouplingZ),
+                rightCoupling.data() + b * std::size_t{kBlockRows}};
     }
 };
 

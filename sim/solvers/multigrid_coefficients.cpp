@@ -31,8 +31,7 @@ bool finishRow(Level& level, int b, int r, Row<float> diagonal)
     const Row<float> one = {1, 1, 1, 1, 1, 1, 1, 1};
     storeRow<float>(level.matrix.block(b, Level::kDiagonal) + c, isUnknown ? diagonal : Row<float>{});
     storeRow<float>(level.matrix.block(b, Level::kInverse) + c, isUnknown ? one / (isUnknown ? diagonal : one) : Row<float>{});
-    for (int i = 0; i < kBlockEdge; ++i)
-        if (isUnknown[i]) return true;
+    if (bitsOf(isUnknown) != 0) return true;
     storeRow(level.x.block(b) + c, Row<float>{});
     storeRow(level.r.block(b) + c, Row<float>{});
     return false;
@@ -80,13 +79,14 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
 {
     forEachBlock(level.blocks(), [&](int b) {
         const auto couplings = [&](int q) {
-            return BlockCouplings<double>{matrix.coupling(0, q), matrix.coupling(1, q), matrix.coupling(2, q)};
+            return BlockCouplings<double>{matrix.coupling(0, q), matrix.coupling(1, q), matrix.coupling(2, q), nullptr};
         };
         const auto& around = grid.neighbours(b);
         const std::array<BlockCouplings<double>, 4> c = {couplings(b), couplings(around[14]), couplings(around[16]),
                                                          couplings(around[22])};
         const double* diagonal = matrix.diagonal(b);
         std::uint64_t rows = 0;
+        float* right = level.rightCoupling.data() + b * std::size_t{kBlockRows};
         for (int r = 0; r < kBlockRows; ++r) {
             const int cell = r * kBlockEdge;
             const Row<double> d = loadRow(diagonal + cell), open = d - sumOfCouplings(c, r);
@@ -95,6 +95,7 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
             for (int axis = 0; axis < kAxes; ++axis)
                 storeRow(level.matrix.block(b, Level::kCouplingX + axis) + cell,
                          toFloat(loadRow(lower[axis] + cell)));
+            right[r] = static_cast<float>(c[1].x[cell]);
             if (finishRow(level, b, r, toFloat(d))) rows |= std::uint64_t{1} << r;
         }
         level.rows[b] = rows;
@@ -118,7 +119,9 @@ void gatherCoarse(const MultigridLevel& fine, MultigridLevel& coarse)
         const std::array<BlockCouplings<float>, 4> c = {coarse.couplings(b), coarse.couplings(around[1]),
                                                         coarse.couplings(around[3]), coarse.couplings(around[5])};
         std::uint64_t rows = 0;
+        float* right = coarse.rightCoupling.data() + b * std::size_t{kBlockRows};
         for (int r = 0; r < kBlockRows; ++r) {
+            right[r] = c[1].x[r * kBlockEdge];
             const Row<float> d = loadRow(coarse.dirichlet.block(b) + r * kBlockEdge) + sumOfCouplings(c, r);
             if (finishRow(coarse, b, r, d)) rows |= std::uint64_t{1} << r;
         }

@@ -9,7 +9,7 @@ namespace {
 using Level = MultigridLevel;
 
 template <Order order>
-void sweepRow(const BlockCouplings<float>& couplings, const float* inverse, BlockTile<float>& tile, int r)
+[[gnu::always_inline]] inline void sweepRow(const BlockCouplings<float>& couplings, const float* inverse, BlockTile<float>& tile, int r)
 {
     typedef int Mask __attribute__((vector_size(32)));
     constexpr Mask kEvenCells = {-1, 0, -1, 0, -1, 0, -1, 0};
@@ -62,68 +62,70 @@ void addNeighbours(const Level& level, int b, BlockTile<float>& tile)
         [&](int n, int c) { return level.x.block(n)[c]; });
 }
 
-}  // namespace
-
-void smooth(MultigridLevel& level, int colour, int sweeps, Order order, bool fromZero, bool neighbours,
-            const MultigridLevel* coarse)
+void loadBlock(const Level& level, int b, const Smoothing& smoothing, BlockTile<float>& tile)
 {
-    const std::vector<int>& list = level.colour[colour];
-    forEachBlock(static_cast<int>(list.size()), [&](int n) {
-        const int b = list[n];
-        const std::uint64_t rows = level.rows[b];
-        if (rows == 0) return;
-        BlockTile<float> tile;
-        tile.clear();
-        float* x = level.x.block(b);
-        if (!fromZero) {
-            forEachRow(rows, [&](int r) { storeRow(tile.row(r), loadRow(x + r * kBlockEdge)); });
-            if (coarse != nullptr) {
-                const float* correction = coarse->x.block(level.parent[b]);
-                const float* inverse = level.matrix.block(b, Level::kInverse);
-                const int corner = cornerInParent(level.grid.coords(b));
-                forEachRow(rows, [&](int r) {
-                    storeRow<float>(tile.row(r), loadRow(tile.row(r)) +
-                                                     whereUnknown(inverse, r, coarseRow(correction, corner, r)));
-                });
-            }
-        }
-        std::copy_n(level.r.block(b), kBlockCells, tile.sum);
-        if (neighbours)
-            addNeighbours(level, b, tile);
-        else
-            tile.clearNeighbours();
-        if (order == Order::Forward)
-            sweepBlock<Order::Forward>(level, b, sweeps, tile);
-        else
-            sweepBlock<Order::Backward>(level, b, sweeps, tile);
-        forEachRow(rows, [&](int r) { storeRow(x + r * kBlockEdge, loadRow(tile.row(r))); });
-    });
+    const std::uint64_t rows = level.rows[b];
+    const float* x = level.x.block(b);
+    if (smoothing.fromZero)
+        tile.fill(0, [](int) { return Row<float>{}; });
+    else if (smoothing.coarse == nullptr)
+        tile.fill(rows, [&](int r) { return loadRow(x + r * kBlockEdge); });
+    else {
+        const float* correction = smoothing.coarse->x.block(level.parent[b]);
+        const float* inverse = level.matrix.block(b, Level::kInverse);
+        const int corner = cornerInParent(level.grid.coords(b));
+        tile.fill(rows, [&](int r) {
+            return Row<float>(loadRow(x + r * kBlockEdge) +
+                              whereUnknown(inverse, r, coarseRow(correction, corner, r)));
+        });
+    }
+    const float* rhs = level.r.block(b);
+    for (int c = 0; c < kBlockCells; c += kBlockEdge) storeRow(tile.sum + c, loadRow(rhs + c));
 }
 
-void dotProducts(MultigridLevel& level)
+double dotWithRhs(const Level& level, int b, const BlockTile<float>& tile)
 {
-    forEachBlock(level.blocks(), [&](int b) {
-        const float *x = level.x.block(b), *r = level.r.block(b);
-        Row<double> sum = {};
-        forEachRow(level.rows[b], [&](int row) {
-            sum += toDouble(loadRow(x + row * kBlockEdge)) * toDouble(loadRow(r + row * kBlockEdge));
-        });
-        level.dot[b] = sumOfRow<double>(sum);
+    const float* rhs = level.r.block(b);
+    Row<double> sum = {};
+    forEachRow(level.rows[b], [&](int r) {
+        sum += toDouble(loadRow(tile.row(r))) * toDouble(loadRow(rhs + r * kBlockEdge));
+    });
+    return sumOfRow<double>(sum);
+}
+
+}  // namespace
+
+void smooth(MultigridLevel& level, const Smoothing& smoothing)
+{
+    const std::vector<int>& list = level.colour[smoothing.colour];
+    forEachBlockInTile<float>(static_cast<int>(list.size()), [&](int n, BlockTile<float>& tile) {
+        const int b = list[n];
+        if (level.rows[b] == 0) return;
+        loadBlock(level, b, smoothing, tile);
+        if (smoothing.alone)
+            tile.clearNeighbours();
+        else
+            addNeighbours(level, b, tile);
+        if (smoothing.order == Order::Forward)
+            sweepBlock<Order::Forward>(level, b, smoothing.sweeps, tile);
+        else
+            sweepBlock<Order::Backward>(level, b, smoothing.sweeps, tile);
+        float* x = level.x.block(b);
+        forEachRow(level.rows[b], [&](int r) { storeRow(x + r * kBlockEdge, loadRow(tile.row(r))); });
+        if (smoothing.dots) level.dot[b] = dotWithRhs(level, b, tile);
     });
 }
 
 void restrictResidual(const MultigridLevel& fine, MultigridLevel& coarse)
 {
-    forEachBlock(fine.blocks(), [&](int b) {
+    forEachBlockInTile<float>(fine.blocks(), [&](int b, BlockTile<float>& tile) {
         const std::uint64_t rows = fine.rows[b];
         alignas(64) float residual[kBlockCells] = {};
         if (rows != 0) {
-            BlockTile<float> tile;
-            tile.clear();
-            const float* x = fine.x.block(b);
+            const float *x = fine.x.block(b), *rhs = fine.r.block(b);
             const float* diagonal = fine.matrix.block(b, Level::kDiagonal);
-            forEachRow(rows, [&](int r) { storeRow(tile.row(r), loadRow(x + r * kBlockEdge)); });
-            std::copy_n(fine.r.block(b), kBlockCells, tile.sum);
+            tile.fill(rows, [&](int r) { return loadRow(x + r * kBlockEdge); });
+            for (int c = 0; c < kBlockCells; c += kBlockEdge) storeRow(tile.sum + c, loadRow(rhs + c));
             addNeighbours(fine, b, tile);
             const BlockCouplings<float> couplings = fine.couplings(b);
             forEachRow(rows, [&](int r) {
