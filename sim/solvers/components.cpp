@@ -48,20 +48,57 @@ BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
     return bonds;
 }
 
+/// The set grown along one axis, up and down, as far as the bonds go. A whole row in three
+/// strides of 1, 2 and 4: bonds over a stride are those over its halves.
+template <class Up, class Down>
+CellSet spread(CellSet set, CellSet bonds, const Up& up, const Down& down)
+{
+    CellSet upper = set, lower = set, bondsUp = bonds, bondsDown = down(bonds, 1);
+    for (int stride : {1, 2, 4}) {
+        upper |= up(upper, stride) & bondsUp;
+        lower |= down(lower, stride) & bondsDown;
+        bondsUp &= up(bondsUp, stride);
+        bondsDown &= down(bondsDown, stride);
+    }
+    return upper | lower;
+}
+
 /// All cells that hang together with those of the set.
 CellSet flood(CellSet set, const BlockBonds& bonds)
 {
-    const CellSet zero = {};
+    const auto upX = [](CellSet s, int n) { return s << n; };
+    const auto downX = [](CellSet s, int n) { return s >> n; };
+    const auto upY = [](CellSet s, int n) { return s << kBlockEdge * n; };
+    const auto downY = [](CellSet s, int n) { return s >> kBlockEdge * n; };
+    const CellSet none = {};
+    const auto upZ = [&](CellSet s, int n) {
+        if (n == 1) return CellSet(__builtin_shufflevector(s, none, 8, 0, 1, 2, 3, 4, 5, 6));
+        if (n == 2) return CellSet(__builtin_shufflevector(s, none, 8, 8, 0, 1, 2, 3, 4, 5));
+        return CellSet(__builtin_shufflevector(s, none, 8, 8, 8, 8, 0, 1, 2, 3));
+    };
+    const auto downZ = [&](CellSet s, int n) {
+        if (n == 1) return CellSet(__builtin_shufflevector(s, none, 1, 2, 3, 4, 5, 6, 7, 8));
+        if (n == 2) return CellSet(__builtin_shufflevector(s, none, 2, 3, 4, 5, 6, 7, 8, 8));
+        return CellSet(__builtin_shufflevector(s, none, 4, 5, 6, 7, 8, 8, 8, 8));
+    };
     for (;;) {
-        CellSet grown = set;
-        grown |= (grown << 1) & bonds.lower[0];
-        grown |= (grown & bonds.lower[0]) >> 1;
-        grown |= (grown << 8) & bonds.lower[1];
-        grown |= (grown & bonds.lower[1]) >> 8;
-        grown |= __builtin_shufflevector(grown, zero, 8, 0, 1, 2, 3, 4, 5, 6) & bonds.lower[2];
-        grown |= __builtin_shufflevector(grown & bonds.lower[2], zero, 1, 2, 3, 4, 5, 6, 7, 8);
+        CellSet grown = spread(set, bonds.lower[0], upX, downX);
+        grown = spread(grown, bonds.lower[1], upY, downY);
+        grown = spread(grown, bonds.lower[2], upZ, downZ);
         if (isEmpty(grown & ~set)) return set;
         set = grown;
+    }
+}
+
+/// Labels of the cells of a block that is one piece.
+void labelSinglePiece(CellSet unknown, std::uint16_t noLabel, std::uint16_t* label)
+{
+    using Labels = Row<std::uint16_t>;
+    const Labels bit = {1, 2, 4, 8, 16, 32, 64, 128};
+    for (int r = 0; r < kBlockRows; ++r) {
+        const auto cells = static_cast<std::uint16_t>(unknown[r / kBlockEdge] >> (r % kBlockEdge * kBlockEdge) & 0xff);
+        const Labels isIn = (bit & cells) != 0;
+        storeRow<std::uint16_t>(label + r * kBlockEdge, noLabel & ~isIn);
     }
 }
 
@@ -83,6 +120,12 @@ int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatr
 {
     const BlockBonds bonds = bondsOf(b, grid, matrix);
     std::uint16_t* label = label_.block(b);
+    const CellSet first = flood(firstOf(bonds.unknown), bonds);
+    if (isEmpty(bonds.unknown & ~first)) {
+        isOpenLocal_.block(b)[0] = !isEmpty(first & bonds.open);
+        labelSinglePiece(first, kNoLabel, label);
+        return isEmpty(first) ? 0 : 1;
+    }
     std::fill_n(label, kBlockCells, kNoLabel);
     int pieces = 0;
     for (CellSet rest = bonds.unknown; !isEmpty(rest); ++pieces) {

@@ -39,7 +39,8 @@ void finishShape(MultigridLevel& level)
     level.rows.resize(n + 1);
     level.rows[n] = 0;
     level.matrix.resize(n);
-    level.rightCoupling.resize((n + std::size_t{1}) * kBlockRows);
+    level.faces.resize((n + std::size_t{1}) * kAxes * kBlockRows);
+    std::fill_n(level.face(0, n), kAxes * kBlockRows, 0.0f);
     level.dirichlet.resize(n);
     level.x.resize(n);
     level.r.resize(n);

@@ -39,7 +39,7 @@ double largestOf(const std::vector<double>& values)
 }
 
 /// Ax of row r, its tile filled with a sum that began at 0.
-[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal, const BlockTile<double>& tile, int r)
+[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal, const FramedTile<double>& tile, int r)
 {
     const Row<double> v = loadRow(tile.row(r));
     return loadRow(diagonal + r * kBlockEdge) * v - couplings.acrossRows(tile, r) - couplings.alongRow(tile, r, v);
@@ -77,7 +77,7 @@ double PoissonSolver::measure(const Problem& problem)
 }
 
 /// residual = rhs − A p, and 0 in the rows of all vectors that hold no unknowns.
-void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, BlockTile<double>& tile)
+void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, FramedTile<double>& tile)
 {
     const double *diagonal = problem.matrix.diagonal(b), *rhs = problem.rhs.block(b), *p = problem.p.block(b);
     const BlockCouplings<double> own = couplings(problem, b);
@@ -120,8 +120,8 @@ void PoissonSolver::start(const Problem& problem)
 
     const bool isGuessZero = measure(problem) == 0.0;
     scale_ = largestRhs_ > 0.0 && std::isfinite(largestRhs_) ? std::exp2(-std::ilogb(largestRhs_)) : 1.0;
-    forEachBlockInTile<double>(
-        n, [&](int b, BlockTile<double>& tile) { startBlock(problem, b, isGuessZero, tile); });
+    forEachBlockInTile<FramedTile<double>>(
+        n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, isGuessZero, tile); });
     if (components_.count() == 0) return;
 
     components_.removeMeans(residual_);
@@ -148,7 +148,7 @@ double PoissonSolver::applyToDirection(const Problem& problem, bool isFirst, dou
         const double v = static_cast<double>(z.block(n)[c]);
         return isFirst ? v : v + beta * direction_.block(n)[c];
     };
-    forEachBlockInTile<double>(problem.grid.count(), [&](int b, BlockTile<double>& tile) {
+    forEachBlockInTile<FramedTile<double>>(problem.grid.count(), [&](int b, FramedTile<double>& tile) {
         const std::uint64_t rows = multigrid_.finest().rows[b];
         const double* diagonal = problem.matrix.diagonal(b);
         const BlockCouplings<double> own = couplings(problem, b);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/solvers/components.h"
+#include "sim/solvers/framed_tile.h"
 #include "sim/solvers/multigrid.h"
 #include "sim/solvers/poisson_matrix.h"
 #include "sim/step_report.h"
@@ -40,7 +41,7 @@ class PoissonSolver {
 
     void start(const Problem& problem);
     double measure(const Problem& problem);
-    void startBlock(const Problem& problem, int block, bool isGuessZero, BlockTile<double>& tile);
+    void startBlock(const Problem& problem, int block, bool isGuessZero, FramedTile<double>& tile);
     BlockCouplings<double> couplings(const Problem& problem, int block) const;
     void conjugateGradients(const Problem& problem, double target, int maxIterations, SolveReport& report);
     double applyToDirection(const Problem& problem, bool isFirst, double beta);
