@@ -75,13 +75,20 @@ inline T maxOfRow(Row<T> a)
     return m;
 }
 
-/// One bit for each cell where the mask is set.
+/// A set of cells of a block: word i holds one bit for each row, the cell at i along x.
+using CellSet = Row<std::uint64_t>;
+
+/// The cells of row r where the mask is set.
 template <class Mask>
-inline std::uint64_t bitsOf(Mask mask)
+inline CellSet cellsOfRow(Mask mask, int r)
 {
-    std::uint64_t bits = 0;
-    for (int i = 0; i < kBlockEdge; ++i) bits |= std::uint64_t{mask[i] != 0} << i;
-    return bits;
+    return __builtin_convertvector(mask, CellSet) & (std::uint64_t{1} << r);
+}
+
+/// The rows that hold cells of the set.
+inline std::uint64_t rowsOf(CellSet s)
+{
+    return (s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7]);
 }
 
 inline Row<float> toFloat(Row<double> row)

@@ -7,15 +7,12 @@ namespace sim {
 
 namespace {
 
-/// A set of cells of a block: one bit each, a plane of constant k per word.
-using CellSet = Row<std::uint64_t>;
-
 /// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
 constexpr double kRounding = 1.0e-12;
 
 bool isEmpty(CellSet s)
 {
-    return ((s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7])) == 0;
+    return rowsOf(s) == 0;
 }
 
 /// What a block's couplings say about which cells hang together.
@@ -38,13 +35,13 @@ BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
         const Row<double> upY = loadRow(j < kBlockEdge - 1 ? y + c + kBlockEdge : beyondY + c - (kBlockRows - kBlockEdge));
         const Row<double> upZ = loadRow(k < kBlockEdge - 1 ? z + c + kBlockRows : beyondZ + c - (kBlockCells - kBlockRows));
         const Row<double> open = d - ((lowX + upX) + (lowY + upY) + (lowZ + upZ));
-        const auto plane = [j](auto mask) { return bitsOf(mask) << (kBlockEdge * j); };
-        bonds.unknown[k] |= plane(d > 0.0);
-        bonds.open[k] |= plane((d > 0.0) & (open > kRounding * d));
-        bonds.lower[0][k] |= plane(lowX > 0.0) & 0xfefefefefefefefeu;
-        if (j > 0) bonds.lower[1][k] |= plane(lowY > 0.0);
-        if (k > 0) bonds.lower[2][k] |= plane(lowZ > 0.0);
+        bonds.unknown |= cellsOfRow(d > 0.0, r);
+        bonds.open |= cellsOfRow((d > 0.0) & (open > kRounding * d), r);
+        bonds.lower[0] |= cellsOfRow(lowX > 0.0, r);
+        if (j > 0) bonds.lower[1] |= cellsOfRow(lowY > 0.0, r);
+        if (k > 0) bonds.lower[2] |= cellsOfRow(lowZ > 0.0, r);
     }
+    bonds.lower[0][0] = 0;
     return bonds;
 }
 
@@ -66,21 +63,21 @@ CellSet spread(CellSet set, CellSet bonds, const Up& up, const Down& down)
 /// All cells that hang together with those of the set.
 CellSet flood(CellSet set, const BlockBonds& bonds)
 {
-    const auto upX = [](CellSet s, int n) { return s << n; };
-    const auto downX = [](CellSet s, int n) { return s >> n; };
-    const auto upY = [](CellSet s, int n) { return s << kBlockEdge * n; };
-    const auto downY = [](CellSet s, int n) { return s >> kBlockEdge * n; };
     const CellSet none = {};
-    const auto upZ = [&](CellSet s, int n) {
+    const auto upX = [&](CellSet s, int n) {
         if (n == 1) return CellSet(__builtin_shufflevector(s, none, 8, 0, 1, 2, 3, 4, 5, 6));
         if (n == 2) return CellSet(__builtin_shufflevector(s, none, 8, 8, 0, 1, 2, 3, 4, 5));
         return CellSet(__builtin_shufflevector(s, none, 8, 8, 8, 8, 0, 1, 2, 3));
     };
-    const auto downZ = [&](CellSet s, int n) {
+    const auto downX = [&](CellSet s, int n) {
         if (n == 1) return CellSet(__builtin_shufflevector(s, none, 1, 2, 3, 4, 5, 6, 7, 8));
         if (n == 2) return CellSet(__builtin_shufflevector(s, none, 2, 3, 4, 5, 6, 7, 8, 8));
         return CellSet(__builtin_shufflevector(s, none, 4, 5, 6, 7, 8, 8, 8, 8));
     };
+    const auto upY = [](CellSet s, int n) { return s << n; };
+    const auto downY = [](CellSet s, int n) { return s >> n; };
+    const auto upZ = [](CellSet s, int n) { return s << kBlockEdge * n; };
+    const auto downZ = [](CellSet s, int n) { return s >> kBlockEdge * n; };
     for (;;) {
         CellSet grown = spread(set, bonds.lower[0], upX, downX);
         grown = spread(grown, bonds.lower[1], upY, downY);
@@ -94,24 +91,22 @@ CellSet flood(CellSet set, const BlockBonds& bonds)
 void labelSinglePiece(CellSet unknown, std::uint16_t noLabel, std::uint16_t* label)
 {
     using Labels = Row<std::uint16_t>;
-    const Labels bit = {1, 2, 4, 8, 16, 32, 64, 128};
     for (int r = 0; r < kBlockRows; ++r) {
-        const auto cells = static_cast<std::uint16_t>(unknown[r / kBlockEdge] >> (r % kBlockEdge * kBlockEdge) & 0xff);
-        const Labels isIn = (bit & cells) != 0;
-        storeRow<std::uint16_t>(label + r * kBlockEdge, noLabel & ~isIn);
+        const Labels isIn = __builtin_convertvector(unknown >> r & 1, Labels);
+        storeRow<std::uint16_t>(label + r * kBlockEdge, noLabel * (1 - isIn));
     }
 }
 
-/// The set's first cell, as a set.
-CellSet firstOf(CellSet set)
+/// One cell of the set, as a set.
+CellSet oneOf(CellSet set)
 {
-    CellSet first = {};
-    for (int k = 0; k < kBlockEdge; ++k)
-        if (set[k] != 0) {
-            first[k] = set[k] & (~set[k] + 1);
-            return first;
+    CellSet one = {};
+    for (int i = 0; i < kBlockEdge; ++i)
+        if (set[i] != 0) {
+            one[i] = set[i] & (~set[i] + 1);
+            return one;
         }
-    return first;
+    return one;
 }
 
 }  // namespace
@@ -120,7 +115,7 @@ int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatr
 {
     const BlockBonds bonds = bondsOf(b, grid, matrix);
     std::uint16_t* label = label_.block(b);
-    const CellSet first = flood(firstOf(bonds.unknown), bonds);
+    const CellSet first = flood(oneOf(bonds.unknown), bonds);
     if (isEmpty(bonds.unknown & ~first)) {
         isOpenLocal_.block(b)[0] = !isEmpty(first & bonds.open);
         labelSinglePiece(first, kNoLabel, label);
@@ -129,12 +124,11 @@ int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatr
     std::fill_n(label, kBlockCells, kNoLabel);
     int pieces = 0;
     for (CellSet rest = bonds.unknown; !isEmpty(rest); ++pieces) {
-        const CellSet piece = flood(firstOf(rest), bonds);
+        const CellSet piece = flood(oneOf(rest), bonds);
         rest &= ~piece;
         isOpenLocal_.block(b)[pieces] = !isEmpty(piece & bonds.open);
-        for (int k = 0; k < kBlockEdge; ++k)
-            for (std::uint64_t bits = piece[k]; bits != 0; bits &= bits - 1)
-                label[k * kBlockRows + std::countr_zero(bits)] = static_cast<std::uint16_t>(pieces);
+        for (int i = 0; i < kBlockEdge; ++i)
+            forEachRow(piece[i], [&](int r) { label[r * kBlockEdge + i] = static_cast<std::uint16_t>(pieces); });
     }
     return pieces;
 }

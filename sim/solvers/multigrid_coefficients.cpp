@@ -53,18 +53,25 @@ Row<T> sumOfCouplings(const LowerRow& lower, int b, const std::array<int, kAxes>
     return (x + upX) + (y + upY) + (z + upZ);
 }
 
-/// Diagonal and its inverse of one row; rows without unknowns get x = 0 and are not in the result.
-bool finishRow(Level& level, int b, int r, Row<float> diagonal)
+/// Diagonal and its inverse of one row; returns its unknowns.
+CellSet finishRow(Level& level, int b, int r, Row<float> diagonal)
 {
     const int c = r * kBlockEdge;
     const auto isUnknown = diagonal > 0.0f;
     const Row<float> one = {1, 1, 1, 1, 1, 1, 1, 1};
     storeRow<float>(level.matrix.block(b, Level::kDiagonal) + c, isUnknown ? diagonal : Row<float>{});
     storeRow<float>(level.matrix.block(b, Level::kInverse) + c, isUnknown ? one / (isUnknown ? diagonal : one) : Row<float>{});
-    if (bitsOf(isUnknown) != 0) return true;
-    storeRow(level.x.block(b) + c, Row<float>{});
-    storeRow(level.r.block(b) + c, Row<float>{});
-    return false;
+    return cellsOfRow(isUnknown, r);
+}
+
+/// Remember which rows hold unknowns; the others get 0 in the vectors.
+void finishBlock(Level& level, int b, CellSet unknown)
+{
+    level.rows[b] = rowsOf(unknown);
+    forEachRow(~level.rows[b], [&](int r) {
+        storeRow(level.x.block(b) + r * kBlockEdge, Row<float>{});
+        storeRow(level.r.block(b) + r * kBlockEdge, Row<float>{});
+    });
 }
 
 /// Four numbers, the sums of neighbouring pairs.
@@ -100,15 +107,15 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
         const auto lower = [&](int axis, int block, int r) { return loadRow(matrix.coupling(axis, block) + r * kBlockEdge); };
         const auto& around = grid.neighbours(b);
         const std::array<int, kAxes> near = {around[14], around[16], around[22]};
-        std::uint64_t rows = 0;
+        CellSet unknown = {};
         for (int r = 0; r < kBlockRows; ++r) {
             const int c = r * kBlockEdge;
             const Row<double> d = loadRow(matrix.diagonal(b) + c), open = d - sumOfCouplings<double>(lower, b, near, r);
             storeRow(level.dirichlet.block(b) + c, toFloat(open > kRounding * d ? open : Row<double>{}));
             for (int axis = 0; axis < kAxes; ++axis) storeLowerRow(level, axis, b, r, toFloat(lower(axis, b, r)));
-            if (finishRow(level, b, r, toFloat(d))) rows |= std::uint64_t{1} << r;
+            unknown |= finishRow(level, b, r, toFloat(d));
         }
-        level.rows[b] = rows;
+        finishBlock(level, b, unknown);
     });
 }
 
@@ -129,12 +136,12 @@ void gatherCoarse(const MultigridLevel& fine, MultigridLevel& coarse)
     forEachBlock(coarse.blocks(), [&](int b) {
         const auto& around = coarse.neighbours[b];
         const std::array<int, kAxes> near = {around[1], around[3], around[5]};
-        std::uint64_t rows = 0;
+        CellSet unknown = {};
         for (int r = 0; r < kBlockRows; ++r) {
             const Row<float> dirichlet = loadRow(coarse.dirichlet.block(b) + r * kBlockEdge);
-            if (finishRow(coarse, b, r, dirichlet + sumOfCouplings<float>(lower, b, near, r))) rows |= std::uint64_t{1} << r;
+            unknown |= finishRow(coarse, b, r, dirichlet + sumOfCouplings<float>(lower, b, near, r));
         }
-        coarse.rows[b] = rows;
+        finishBlock(coarse, b, unknown);
     });
 }
 
