@@ -32,6 +32,14 @@ inline Row<T> loadRow(const T* p)
 }
 
 template <class T>
+inline Row<T> loadUnalignedRow(const T* p)
+{
+    Row<T> row;
+    __builtin_memcpy(&row, p, sizeof(row));
+    return row;
+}
+
+template <class T>
 inline void storeRow(T* p, Row<T> row)
 {
     __builtin_memcpy(__builtin_assume_aligned(p, sizeof(row)), &row, sizeof(row));
@@ -67,6 +75,22 @@ inline T maxOfRow(Row<T> a)
     return m;
 }
 
+/// A set of cells of a block: word i holds one bit for each row, the cell at i along x.
+using CellSet = Row<std::uint64_t>;
+
+/// The cells of row r where the mask is set.
+template <class Mask>
+inline CellSet cellsOfRow(Mask mask, int r)
+{
+    return __builtin_convertvector(mask, CellSet) & (std::uint64_t{1} << r);
+}
+
+/// The rows that hold cells of the set.
+inline std::uint64_t rowsOf(CellSet s)
+{
+    return (s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7]);
+}
+
 inline Row<float> toFloat(Row<double> row)
 {
     return __builtin_convertvector(row, Row<float>);
@@ -85,6 +109,18 @@ inline void forEachBlock(int blocks, Body&& body)
     parallelFor(static_cast<std::size_t>(blocks), kBlocksPerTask, [&](std::size_t b) { body(static_cast<int>(b)); });
 }
 
+/// forEachBlock with something to work in, the same for a few blocks in turn: body(b, tile).
+template <class Tile, class Body>
+inline void forEachBlockInTile(int blocks, Body&& body)
+{
+    constexpr int kBlocksPerTask = 4;
+    parallelFor(static_cast<std::size_t>((blocks + kBlocksPerTask - 1) / kBlocksPerTask), [&](std::size_t task) {
+        const int first = static_cast<int>(task) * kBlocksPerTask;
+        Tile tile;
+        for (int b = first; b < std::min(blocks, first + kBlocksPerTask); ++b) body(b, tile);
+    });
+}
+
 /// Rows with j + k even, as a set of bits.
 inline constexpr std::uint64_t kEvenRows = 0xAA55AA55AA55AA55u;
 
@@ -93,86 +129,6 @@ template <class Body>
 inline void forEachRow(std::uint64_t rows, Body&& body)
 {
     for (; rows != 0; rows &= rows - 1) body(std::countr_zero(rows));
-}
-
-/// A block of the unknown framed by rows of zeros, and what its neighbours add: with it every cell of the block
-/// is treated alike.
-template <class T>
-struct BlockTile {
-    static constexpr int kRowsPerPlane = kBlockEdge + 2;
-    static constexpr int kFrameRows = kRowsPerPlane * kRowsPerPlane;
-    static constexpr int kUpY = kBlockEdge, kUpZ = kRowsPerPlane * kBlockEdge;  ///< steps to the next rows in x
-
-    alignas(64) T x[kFrameRows * kBlockEdge];
-    alignas(64) T sum[kBlockCells];             ///< right-hand side plus couplings times neighbours along y and z
-    alignas(64) T left[kBlockRows];             ///< x beyond the left end of each row …
-    alignas(64) T right[kBlockRows];            ///< … and beyond the right end …
-    alignas(64) T rightCoupling[kBlockRows];    ///< … with its coupling
-
-    static constexpr int frameRow(int r) { return ((r / 8 + 1) * kRowsPerPlane + r % 8 + 1) * kBlockEdge; }
-    T* row(int r) { return x + frameRow(r); }
-    const T* row(int r) const { return x + frameRow(r); }
-
-    void clear() { std::fill(x, x + kFrameRows * kBlockEdge, T(0)); }
-    void clearNeighbours()
-    {
-        std::fill(left, left + kBlockRows, T(0));
-        std::fill(right, right + kBlockRows, T(0));
-        std::fill(rightCoupling, rightCoupling + kBlockRows, T(0));
-    }
-};
-
-/// Couplings of one block to the lower neighbours along each axis.
-template <class T>
-struct BlockCouplings {
-    const T *x, *y, *z;
-
-    /// Couplings times neighbours, without those along x. The last rows of a plane and the last plane take their upper
-    /// coupling from wherever the next row in memory is: it meets the zeros of the frame.
-    Row<T> acrossRows(const BlockTile<T>& tile, int r) const
-    {
-        using Tile = BlockTile<T>;
-        const T* p = tile.row(r);
-        const int c = r * kBlockEdge;
-        const Row<T> alongY = loadRow(y + c) * loadRow(p - Tile::kUpY) + loadRow(y + c + kBlockEdge) * loadRow(p + Tile::kUpY);
-        const Row<T> alongZ = loadRow(z + c) * loadRow(p - Tile::kUpZ) + loadRow(z + c + kBlockRows) * loadRow(p + Tile::kUpZ);
-        return loadRow(tile.sum + c) + alongY + alongZ;
-    }
-    /// Couplings times neighbours along x.
-    Row<T> alongRow(const BlockTile<T>& tile, int r, Row<T> v) const
-    {
-        const Row<T> lower = loadRow(x + r * kBlockEdge);
-        return lower * lowerAlongX<T>(v, tile.left[r]) +
-               upperAlongX<T>(lower, tile.rightCoupling[r]) * upperAlongX<T>(v, tile.right[r]);
-    }
-};
-
-/// Fill what the tile holds of the neighbours; its sum must hold the right-hand side already.
-/// @param neighbours   numbers of the blocks at −x +x −y +y −z +z
-/// @param couplings    couplings(block) of any block, the empty one included
-/// @param row          row(block, r): that row of the unknown; cell(block, c): one value of it
-template <class T, class Couplings, class RowOfX, class CellOfX>
-inline void addNeighbours(BlockTile<T>& tile, int block, const std::array<int, 6>& neighbours, const Couplings& couplings,
-                          const RowOfX& row, const CellOfX& cell)
-{
-    const BlockCouplings<T> own = couplings(block), beyondX = couplings(neighbours[1]);
-    const BlockCouplings<T> beyondY = couplings(neighbours[3]), beyondZ = couplings(neighbours[5]);
-    for (int r = 0; r < kBlockRows; ++r) {
-        tile.left[r] = cell(neighbours[0], r * kBlockEdge + kBlockEdge - 1);
-        tile.right[r] = cell(neighbours[1], r * kBlockEdge);
-        tile.rightCoupling[r] = beyondX.x[r * kBlockEdge];
-    }
-    const auto add = [&](int r, const T* coupling, Row<T> x) {
-        storeRow<T>(tile.sum + r * kBlockEdge, loadRow(tile.sum + r * kBlockEdge) + loadRow(coupling) * x);
-    };
-    for (int n = 0; n < kBlockEdge; ++n) {
-        const int firstY = n * kBlockEdge, lastY = firstY + kBlockEdge - 1;
-        const int firstZ = n, lastZ = n + kBlockRows - kBlockEdge;
-        add(firstY, own.y + firstY * kBlockEdge, row(neighbours[2], lastY));
-        add(lastY, beyondY.y + firstY * kBlockEdge, row(neighbours[3], firstY));
-        add(firstZ, own.z + firstZ * kBlockEdge, row(neighbours[4], lastZ));
-        add(lastZ, beyondZ.z + firstZ * kBlockEdge, row(neighbours[5], firstZ));
-    }
 }
 
 }  // namespace sim

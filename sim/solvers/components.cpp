@@ -7,15 +7,12 @@ namespace sim {
 
 namespace {
 
-/// A set of cells of a block: one bit each, a plane of constant k per word.
-using CellSet = Row<std::uint64_t>;
-
 /// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
 constexpr double kRounding = 1.0e-12;
 
 bool isEmpty(CellSet s)
 {
-    return ((s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7])) == 0;
+    return rowsOf(s) == 0;
 }
 
 /// What a block's couplings say about which cells hang together.
@@ -26,57 +23,90 @@ struct BlockBonds {
 
 BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
 {
-    const double* diagonal = matrix.diagonal(b);
-    const std::array<const double*, kAxes> lower = {matrix.coupling(0, b), matrix.coupling(1, b), matrix.coupling(2, b)};
     const auto& around = grid.neighbours(b);
-    constexpr std::array<int, kAxes> kStep = {1, kBlockEdge, kBlockRows};
+    const double *diagonal = matrix.diagonal(b), *x = matrix.coupling(0, b), *beyondX = matrix.coupling(0, around[14]);
+    const double *y = matrix.coupling(1, b), *beyondY = matrix.coupling(1, around[16]);
+    const double *z = matrix.coupling(2, b), *beyondZ = matrix.coupling(2, around[22]);
     BlockBonds bonds;
-    for (int c = 0; c < kBlockCells; ++c) {
-        if (!(diagonal[c] > 0.0)) continue;
-        const int k = c / kBlockRows, position[kAxes] = {c % kBlockEdge, c / kBlockEdge % kBlockEdge, k};
-        const std::uint64_t bit = std::uint64_t{1} << (c % kBlockRows);
-        double closed = 0.0;
-        for (int axis = 0; axis < kAxes; ++axis) {
-            const bool last = position[axis] == kBlockEdge - 1;
-            const int upperBlock = around[neighbourIndex(axis == 0, axis == 1, axis == 2)];
-            const double up = last ? matrix.coupling(axis, upperBlock)[c - (kBlockEdge - 1) * kStep[axis]]
-                                   : lower[axis][c + kStep[axis]];
-            closed += lower[axis][c] + up;
-            if (position[axis] > 0 && lower[axis][c] > 0.0) bonds.lower[axis][k] |= bit;
-        }
-        bonds.unknown[k] |= bit;
-        if (diagonal[c] - closed > kRounding * diagonal[c]) bonds.open[k] |= bit;
+    for (int r = 0; r < kBlockRows; ++r) {
+        const int c = r * kBlockEdge, j = r % kBlockEdge, k = r / kBlockEdge;
+        const Row<double> d = loadRow(diagonal + c), lowX = loadRow(x + c), lowY = loadRow(y + c), lowZ = loadRow(z + c);
+        const Row<double> upX = upperAlongX<double>(lowX, beyondX[c]);
+        const Row<double> upY = loadRow(j < kBlockEdge - 1 ? y + c + kBlockEdge : beyondY + c - (kBlockRows - kBlockEdge));
+        const Row<double> upZ = loadRow(k < kBlockEdge - 1 ? z + c + kBlockRows : beyondZ + c - (kBlockCells - kBlockRows));
+        const Row<double> open = d - ((lowX + upX) + (lowY + upY) + (lowZ + upZ));
+        bonds.unknown |= cellsOfRow(d > 0.0, r);
+        bonds.open |= cellsOfRow((d > 0.0) & (open > kRounding * d), r);
+        bonds.lower[0] |= cellsOfRow(lowX > 0.0, r);
+        if (j > 0) bonds.lower[1] |= cellsOfRow(lowY > 0.0, r);
+        if (k > 0) bonds.lower[2] |= cellsOfRow(lowZ > 0.0, r);
     }
+    bonds.lower[0][0] = 0;
     return bonds;
+}
+
+/// The set grown along one axis, up and down, as far as the bonds go. A whole row in three
+/// strides of 1, 2 and 4: bonds over a stride are those over its halves.
+template <class Up, class Down>
+CellSet spread(CellSet set, CellSet bonds, const Up& up, const Down& down)
+{
+    CellSet upper = set, lower = set, bondsUp = bonds, bondsDown = down(bonds, 1);
+    for (int stride : {1, 2, 4}) {
+        upper |= up(upper, stride) & bondsUp;
+        lower |= down(lower, stride) & bondsDown;
+        bondsUp &= up(bondsUp, stride);
+        bondsDown &= down(bondsDown, stride);
+    }
+    return upper | lower;
 }
 
 /// All cells that hang together with those of the set.
 CellSet flood(CellSet set, const BlockBonds& bonds)
 {
-    const CellSet zero = {};
+    const CellSet none = {};
+    const auto upX = [&](CellSet s, int n) {
+        if (n == 1) return CellSet(__builtin_shufflevector(s, none, 8, 0, 1, 2, 3, 4, 5, 6));
+        if (n == 2) return CellSet(__builtin_shufflevector(s, none, 8, 8, 0, 1, 2, 3, 4, 5));
+        return CellSet(__builtin_shufflevector(s, none, 8, 8, 8, 8, 0, 1, 2, 3));
+    };
+    const auto downX = [&](CellSet s, int n) {
+        if (n == 1) return CellSet(__builtin_shufflevector(s, none, 1, 2, 3, 4, 5, 6, 7, 8));
+        if (n == 2) return CellSet(__builtin_shufflevector(s, none, 2, 3, 4, 5, 6, 7, 8, 8));
+        return CellSet(__builtin_shufflevector(s, none, 4, 5, 6, 7, 8, 8, 8, 8));
+    };
+    const auto upY = [](CellSet s, int n) { return s << n; };
+    const auto downY = [](CellSet s, int n) { return s >> n; };
+    const auto upZ = [](CellSet s, int n) { return s << kBlockEdge * n; };
+    const auto downZ = [](CellSet s, int n) { return s >> kBlockEdge * n; };
     for (;;) {
-        CellSet grown = set;
-        grown |= (grown << 1) & bonds.lower[0];
-        grown |= (grown & bonds.lower[0]) >> 1;
-        grown |= (grown << 8) & bonds.lower[1];
-        grown |= (grown & bonds.lower[1]) >> 8;
-        grown |= __builtin_shufflevector(grown, zero, 8, 0, 1, 2, 3, 4, 5, 6) & bonds.lower[2];
-        grown |= __builtin_shufflevector(grown & bonds.lower[2], zero, 1, 2, 3, 4, 5, 6, 7, 8);
+        CellSet grown = spread(set, bonds.lower[0], upX, downX);
+        grown = spread(grown, bonds.lower[1], upY, downY);
+        grown = spread(grown, bonds.lower[2], upZ, downZ);
         if (isEmpty(grown & ~set)) return set;
         set = grown;
     }
 }
 
-/// The set's first cell, as a set.
-CellSet firstOf(CellSet set)
+/// Labels of the cells of a block that is one piece.
+void labelSinglePiece(CellSet unknown, std::uint16_t noLabel, std::uint16_t* label)
 {
-    CellSet first = {};
-    for (int k = 0; k < kBlockEdge; ++k)
-        if (set[k] != 0) {
-            first[k] = set[k] & (~set[k] + 1);
-            return first;
+    using Labels = Row<std::uint16_t>;
+    for (int r = 0; r < kBlockRows; ++r) {
+        const Labels isIn = __builtin_convertvector(unknown >> r & 1, Labels);
+        storeRow<std::uint16_t>(label + r * kBlockEdge, noLabel * (1 - isIn));
+    }
+}
+
+/// One cell of the set, as a set.
+CellSet oneOf(CellSet set)
+{
+    CellSet one = {};
+    for (int i = 0; i < kBlockEdge; ++i)
+        if (set[i] != 0) {
+            one[i] = set[i] & (~set[i] + 1);
+            return one;
         }
-    return first;
+    return one;
 }
 
 }  // namespace
@@ -85,15 +115,20 @@ int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatr
 {
     const BlockBonds bonds = bondsOf(b, grid, matrix);
     std::uint16_t* label = label_.block(b);
+    const CellSet first = flood(oneOf(bonds.unknown), bonds);
+    if (isEmpty(bonds.unknown & ~first)) {
+        isOpenLocal_.block(b)[0] = !isEmpty(first & bonds.open);
+        labelSinglePiece(first, kNoLabel, label);
+        return isEmpty(first) ? 0 : 1;
+    }
     std::fill_n(label, kBlockCells, kNoLabel);
     int pieces = 0;
     for (CellSet rest = bonds.unknown; !isEmpty(rest); ++pieces) {
-        const CellSet piece = flood(firstOf(rest), bonds);
+        const CellSet piece = flood(oneOf(rest), bonds);
         rest &= ~piece;
         isOpenLocal_.block(b)[pieces] = !isEmpty(piece & bonds.open);
-        for (int k = 0; k < kBlockEdge; ++k)
-            for (std::uint64_t bits = piece[k]; bits != 0; bits &= bits - 1)
-                label[k * kBlockRows + std::countr_zero(bits)] = static_cast<std::uint16_t>(pieces);
+        for (int i = 0; i < kBlockEdge; ++i)
+            forEachRow(piece[i], [&](int r) { label[r * kBlockEdge + i] = static_cast<std::uint16_t>(pieces); });
     }
     return pieces;
 }

@@ -39,6 +39,8 @@ void finishShape(MultigridLevel& level)
     level.rows.resize(n + 1);
     level.rows[n] = 0;
     level.matrix.resize(n);
+    level.faces.resize((n + std::size_t{1}) * kAxes * kBlockRows);
+    std::fill_n(level.face(0, n), kAxes * kBlockRows, 0.0f);
     level.dirichlet.resize(n);
     level.x.resize(n);
     level.r.resize(n);
@@ -101,8 +103,8 @@ void Multigrid::cycle(int l, bool fromZero)
     MultigridLevel& level = levels_[l];
     const int sweeps = level.blocks() > 1 ? options.sweeps : options.coarseSweeps;
 
-    smooth(level, 0, sweeps, Order::Forward, fromZero, !fromZero, nullptr);
-    smooth(level, 1, sweeps, Order::Forward, fromZero, true, nullptr);
+    smooth(level, {.colour = 0, .sweeps = sweeps, .fromZero = fromZero, .alone = fromZero});
+    smooth(level, {.colour = 1, .sweeps = sweeps, .fromZero = fromZero});
 
     const MultigridLevel* coarse = nullptr;
     if (l + 1 < count_) {
@@ -113,14 +115,14 @@ void Multigrid::cycle(int l, bool fromZero)
         prolong(*coarse, level, 0);
     }
 
-    smooth(level, 1, sweeps, Order::Backward, false, true, coarse);
-    smooth(level, 0, sweeps, Order::Backward, false, true, nullptr);
+    const bool isFinest = l == 0;
+    smooth(level, {.colour = 1, .sweeps = sweeps, .order = Order::Backward, .coarse = coarse, .dots = isFinest});
+    smooth(level, {.colour = 0, .sweeps = sweeps, .order = Order::Backward, .dots = isFinest});
 }
 
 double Multigrid::cycle()
 {
     cycle(0, true);
-    multigrid::dotProducts(levels_[0]);
     double sum = 0.0;
     for (double d : levels_[0].dot) sum += d;
     return sum;

@@ -11,6 +11,7 @@ namespace sim {
 
 /// One grid of the hierarchy, in float. Rows without unknowns stay 0 in every vector.
 struct MultigridLevel {
+    /// Couplings are those inside a block; what crosses to the lower neighbour block is in `faces`, and 0 here.
     enum Kind { kInverse, kDiagonal, kCouplingX, kCouplingY, kCouplingZ, kKinds };
 
     BlockGrid grid;                             ///< of this level; on the finest only coordinates, from the lowest corner
@@ -20,16 +21,15 @@ struct MultigridLevel {
     std::vector<std::array<int, 8>> children;   ///< … and of the next finer one; BlockGrid::kNone where there is none
 
     BlockArray<float, kKinds> matrix;           ///< 0 in cells that are no unknowns, the inverse of the diagonal too
+    AlignedArray<float> faces;                  ///< couplings across the three lower faces of each block, 64 each
     BlockArray<float> dirichlet;                ///< diagonal minus couplings
     BlockArray<float> x, r;                     ///< unknown and right-hand side
     std::vector<std::uint64_t> rows;            ///< of each block, those that hold unknowns
     std::vector<double> dot;                    ///< r·x of each block, of the finest level
 
     int blocks() const { return grid.count(); }
-    BlockCouplings<float> couplings(int b) const
-    {
-        return {matrix.block(b, kCouplingX), matrix.block(b, kCouplingY), matrix.block(b, kCouplingZ)};
-    }
+    float* face(int axis, int b) { return faces.data() + (b * std::size_t{kAxes} + axis) * kBlockRows; }
+    const float* face(int axis, int b) const { return faces.data() + (b * std::size_t{kAxes} + axis) * kBlockRows; }
 };
 
 /// Approximate inverse of a PoissonMatrix, symmetric and positive definite (semi-definite where the matrix is): one

@@ -10,68 +10,93 @@ using Level = MultigridLevel;
 /// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
 constexpr double kRounding = 1.0e-12;
 
-/// Sum of the six couplings of each cell of row r.
-template <class T>
-Row<T> sumOfCouplings(const std::array<BlockCouplings<T>, 4>& c, int r)
+/// Couplings of row r to the lower neighbours along an axis, those across the face of the block included.
+Row<float> lowerRow(const Level& level, int axis, int b, int r)
 {
-    const int cell = r * kBlockEdge;
-    const bool lastY = r % kBlockEdge == kBlockEdge - 1, lastZ = r / kBlockEdge == kBlockEdge - 1;
-    const T* upY = lastY ? c[2].y + cell - kBlockEdge * (kBlockEdge - 1) : c[0].y + cell + kBlockEdge;
-    const T* upZ = lastZ ? c[3].z + cell - kBlockRows * (kBlockEdge - 1) : c[0].z + cell + kBlockRows;
-    const Row<T> x = loadRow(c[0].x + cell);
-    return (x + upperAlongX<T>(x, c[1].x[cell])) + (loadRow(c[0].y + cell) + loadRow(upY)) +
-           (loadRow(c[0].z + cell) + loadRow(upZ));
+    const int j = r % kBlockEdge, k = r / kBlockEdge;
+    if (axis == 1 && j == 0) return loadRow(level.face(1, b) + k * kBlockEdge);
+    if (axis == 2 && k == 0) return loadRow(level.face(2, b) + j * kBlockEdge);
+    Row<float> row = loadRow(level.matrix.block(b, Level::kCouplingX + axis) + r * kBlockEdge);
+    if (axis == 0) row[0] = level.face(0, b)[r];
+    return row;
 }
 
-/// Diagonal and its inverse of one row; rows without unknowns get x = 0 and are not in the result.
-bool finishRow(Level& level, int b, int r, Row<float> diagonal)
+void storeLowerRow(Level& level, int axis, int b, int r, Row<float> row)
+{
+    const int j = r % kBlockEdge, k = r / kBlockEdge;
+    if (axis == 0) {
+        level.face(0, b)[r] = row[0];
+        row[0] = 0.0f;
+    }
+    if (axis == 1 && j == 0) {
+        storeRow(level.face(1, b) + k * kBlockEdge, row);
+        row = Row<float>{};
+    }
+    if (axis == 2 && k == 0) {
+        storeRow(level.face(2, b) + j * kBlockEdge, row);
+        row = Row<float>{};
+    }
+    storeRow(level.matrix.block(b, Level::kCouplingX + axis) + r * kBlockEdge, row);
+}
+
+/// Sum of the six couplings of each cell of row r; lower(axis, block, r) gives rows of couplings.
+/// @param near   numbers of the blocks at +x, +y, +z
+template <class T, class LowerRow>
+Row<T> sumOfCouplings(const LowerRow& lower, int b, const std::array<int, kAxes>& near, int r)
+{
+    constexpr int kLast = kBlockEdge - 1;
+    const int j = r % kBlockEdge, k = r / kBlockEdge;
+    const Row<T> x = lower(0, b, r), y = lower(1, b, r), z = lower(2, b, r);
+    const Row<T> upX = upperAlongX<T>(x, lower(0, near[0], r)[0]);
+    const Row<T> upY = j < kLast ? lower(1, b, r + 1) : lower(1, near[1], r - kLast);
+    const Row<T> upZ = k < kLast ? lower(2, b, r + kBlockEdge) : lower(2, near[2], j);
+    return (x + upX) + (y + upY) + (z + upZ);
+}
+
+/// Diagonal and its inverse of one row; returns its unknowns.
+CellSet finishRow(Level& level, int b, int r, Row<float> diagonal)
 {
     const int c = r * kBlockEdge;
     const auto isUnknown = diagonal > 0.0f;
     const Row<float> one = {1, 1, 1, 1, 1, 1, 1, 1};
     storeRow<float>(level.matrix.block(b, Level::kDiagonal) + c, isUnknown ? diagonal : Row<float>{});
     storeRow<float>(level.matrix.block(b, Level::kInverse) + c, isUnknown ? one / (isUnknown ? diagonal : one) : Row<float>{});
-    for (int i = 0; i < kBlockEdge; ++i)
-        if (isUnknown[i]) return true;
-    storeRow(level.x.block(b) + c, Row<float>{});
-    storeRow(level.r.block(b) + c, Row<float>{});
-    return false;
+    return cellsOfRow(isUnknown, r);
 }
 
-/// A block's eighth of the couplings and Dirichlet parts of its parent.
-void gatherChild(const Level& fine, int child, int corner, Level& coarse, int parent)
+/// Remember which rows hold unknowns; the others get 0 in the vectors.
+void finishBlock(Level& level, int b, CellSet unknown)
 {
-    const auto rowSum = [&](const float* p, bool bothY, bool bothZ) {
-        Row<float> sum = loadRow(p);
-        if (bothY) sum += loadRow(p + kBlockEdge);
-        if (bothZ) sum += loadRow(p + kBlockRows);
-        if (bothY && bothZ) sum += loadRow(p + kBlockRows + kBlockEdge);
-        return sum;
+    level.rows[b] = rowsOf(unknown);
+    forEachRow(~level.rows[b], [&](int r) {
+        storeRow(level.x.block(b) + r * kBlockEdge, Row<float>{});
+        storeRow(level.r.block(b) + r * kBlockEdge, Row<float>{});
+    });
+}
+
+/// Four numbers, the sums of neighbouring pairs.
+Row<float> pairSums(Row<float> a)
+{
+    const Row<float> b = a + __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6);
+    return __builtin_shufflevector(b, b, 0, 2, 4, 6, 0, 2, 4, 6);
+}
+
+/// Couplings (kinds 0, 1, 2) and Dirichlet parts (kind 3) of one coarse row: from the row's children at the left (c = 0)
+/// and right (c = 1), each half of it.
+Row<float> gatherRow(const Level& fine, int kind, const std::array<int, 2>& child, int fineRow)
+{
+    const auto half = [&](int b) {
+        if (b == BlockGrid::kNone) return Row<float>{};
+        const auto row = [&](int r) {
+            return kind < kAxes ? lowerRow(fine, kind, b, r) : loadRow(fine.dirichlet.block(b) + r * kBlockEdge);
+        };
+        Row<float> sum = row(fineRow);
+        if (kind != 1) sum += row(fineRow + 1);
+        if (kind != 2) sum += row(fineRow + kBlockEdge);
+        if (kind != 1 && kind != 2) sum += row(fineRow + kBlockEdge + 1);
+        return kind == 0 ? Row<float>(__builtin_shufflevector(sum, sum, 0, 2, 4, 6, 0, 2, 4, 6)) : pairSums(sum);
     };
-    const BlockCouplings<float> from = fine.couplings(child);
-    const float* dirichlet = fine.dirichlet.block(child);
-    for (int n = 0; n < 16; ++n) {
-        const int j = n % 4, k = n / 4, f = cellInBlock(0, 2 * j, 2 * k), c = corner + cellInBlock(0, j, k);
-        const Row<float> x = rowSum(from.x + f, true, true), y = rowSum(from.y + f, false, true);
-        const Row<float> z = rowSum(from.z + f, true, false), d = rowSum(dirichlet + f, true, true);
-        for (int i = 0; i < 4; ++i) {
-            coarse.matrix.block(parent, Level::kCouplingX)[c + i] = 0.5f * x[2 * i];
-            coarse.matrix.block(parent, Level::kCouplingY)[c + i] = 0.5f * (y[2 * i] + y[2 * i + 1]);
-            coarse.matrix.block(parent, Level::kCouplingZ)[c + i] = 0.5f * (z[2 * i] + z[2 * i + 1]);
-            coarse.dirichlet.block(parent)[c + i] = 0.5f * (d[2 * i] + d[2 * i + 1]);
-        }
-    }
-}
-
-void clearChild(Level& coarse, int parent, int corner)
-{
-    for (int n = 0; n < 16; ++n) {
-        const int c = corner + cellInBlock(0, n % 4, n / 4);
-        for (int kind = Level::kCouplingX; kind <= Level::kCouplingZ; ++kind)
-            std::fill_n(coarse.matrix.block(parent, kind) + c, 4, 0.0f);
-        std::fill_n(coarse.dirichlet.block(parent) + c, 4, 0.0f);
-        std::fill_n(coarse.r.block(parent) + c, 4, 0.0f);
-    }
+    return 0.5f * __builtin_shufflevector(half(child[0]), half(child[1]), 0, 1, 2, 3, 8, 9, 10, 11);
 }
 
 }  // namespace
@@ -79,50 +104,44 @@ void clearChild(Level& coarse, int parent, int corner)
 void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLevel& level)
 {
     forEachBlock(level.blocks(), [&](int b) {
-        const auto couplings = [&](int q) {
-            return BlockCouplings<double>{matrix.coupling(0, q), matrix.coupling(1, q), matrix.coupling(2, q)};
-        };
+        const auto lower = [&](int axis, int block, int r) { return loadRow(matrix.coupling(axis, block) + r * kBlockEdge); };
         const auto& around = grid.neighbours(b);
-        const std::array<BlockCouplings<double>, 4> c = {couplings(b), couplings(around[14]), couplings(around[16]),
-                                                         couplings(around[22])};
-        const double* diagonal = matrix.diagonal(b);
-        std::uint64_t rows = 0;
+        const std::array<int, kAxes> near = {around[14], around[16], around[22]};
+        CellSet unknown = {};
         for (int r = 0; r < kBlockRows; ++r) {
-            const int cell = r * kBlockEdge;
-            const Row<double> d = loadRow(diagonal + cell), open = d - sumOfCouplings(c, r);
-            storeRow(level.dirichlet.block(b) + cell, toFloat(open > kRounding * d ? open : Row<double>{}));
-            const std::array<const double*, 3> lower = {c[0].x, c[0].y, c[0].z};
-            for (int axis = 0; axis < kAxes; ++axis)
-                storeRow(level.matrix.block(b, Level::kCouplingX + axis) + cell,
-                         toFloat(loadRow(lower[axis] + cell)));
-            if (finishRow(level, b, r, toFloat(d))) rows |= std::uint64_t{1} << r;
+            const int c = r * kBlockEdge;
+            const Row<double> d = loadRow(matrix.diagonal(b) + c), open = d - sumOfCouplings<double>(lower, b, near, r);
+            storeRow(level.dirichlet.block(b) + c, toFloat(open > kRounding * d ? open : Row<double>{}));
+            for (int axis = 0; axis < kAxes; ++axis) storeLowerRow(level, axis, b, r, toFloat(lower(axis, b, r)));
+            unknown |= finishRow(level, b, r, toFloat(d));
         }
-        level.rows[b] = rows;
+        finishBlock(level, b, unknown);
     });
 }
 
 void gatherCoarse(const MultigridLevel& fine, MultigridLevel& coarse)
 {
     forEachBlock(coarse.blocks(), [&](int b) {
-        for (int n = 0; n < 8; ++n) {
-            const int child = coarse.children[b][n], parent = b;
-            const int corner = cellInBlock((n & 1) * 4, (n >> 1 & 1) * 4, (n >> 2) * 4);
-            if (child == BlockGrid::kNone)
-                clearChild(coarse, parent, corner);
-            else
-                gatherChild(fine, child, corner, coarse, parent);
+        for (int r = 0; r < kBlockRows; ++r) {
+            const int j = r % kBlockEdge, k = r / kBlockEdge, pair = (k / 4 * 2 + j / 4) * 2;
+            const std::array<int, 2> child = {coarse.children[b][pair], coarse.children[b][pair + 1]};
+            const int fineRow = k % 4 * 2 * kBlockEdge + j % 4 * 2;
+            for (int axis = 0; axis < kAxes; ++axis)
+                storeLowerRow(coarse, axis, b, r, gatherRow(fine, axis, child, fineRow));
+            storeRow(coarse.dirichlet.block(b) + r * kBlockEdge, gatherRow(fine, kAxes, child, fineRow));
+            storeRow(coarse.r.block(b) + r * kBlockEdge, Row<float>{});
         }
     });
+    const auto lower = [&](int axis, int block, int r) { return lowerRow(coarse, axis, block, r); };
     forEachBlock(coarse.blocks(), [&](int b) {
         const auto& around = coarse.neighbours[b];
-        const std::array<BlockCouplings<float>, 4> c = {coarse.couplings(b), coarse.couplings(around[1]),
-                                                        coarse.couplings(around[3]), coarse.couplings(around[5])};
-        std::uint64_t rows = 0;
+        const std::array<int, kAxes> near = {around[1], around[3], around[5]};
+        CellSet unknown = {};
         for (int r = 0; r < kBlockRows; ++r) {
-            const Row<float> d = loadRow(coarse.dirichlet.block(b) + r * kBlockEdge) + sumOfCouplings(c, r);
-            if (finishRow(coarse, b, r, d)) rows |= std::uint64_t{1} << r;
+            const Row<float> dirichlet = loadRow(coarse.dirichlet.block(b) + r * kBlockEdge);
+            unknown |= finishRow(coarse, b, r, dirichlet + sumOfCouplings<float>(lower, b, near, r));
         }
-        coarse.rows[b] = rows;
+        finishBlock(coarse, b, unknown);
     });
 }
 

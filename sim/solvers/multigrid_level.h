@@ -14,15 +14,18 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
 /// Coefficients of a coarse level from those of the next finer one.
 void gatherCoarse(const MultigridLevel& fine, MultigridLevel& coarse);
 
-/// Gauss-Seidel on the blocks of one colour, each with the given number of sweeps.
-/// @param fromZero   x of this colour is taken as 0, whatever it holds
-/// @param neighbours false: those of the other colour are taken as 0 as well
-/// @param coarse     not null: its x is added to this one's first
-void smooth(MultigridLevel& level, int colour, int sweeps, Order order, bool fromZero, bool neighbours,
-            const MultigridLevel* coarse);
+struct Smoothing {
+    int colour = 0;                         ///< of the blocks; those of the other colour stay as they are
+    int sweeps = 1;                         ///< in each block
+    Order order = Order::Forward;
+    bool fromZero = false;                  ///< x of these blocks is taken as 0, whatever it holds …
+    bool alone = false;                     ///< … and that of their neighbours too
+    const MultigridLevel* coarse = nullptr; ///< if given, its x is added to this one's first
+    bool dots = false;                      ///< level.dot = r·x of each of these blocks, afterwards
+};
 
-/// level.dot = r·x of each block.
-void dotProducts(MultigridLevel& level);
+/// Gauss-Seidel on the blocks of one colour.
+void smooth(MultigridLevel& level, const Smoothing& smoothing);
 
 /// coarse.r = sum of the residuals of the fine cells in each coarse one.
 void restrictResidual(const MultigridLevel& fine, MultigridLevel& coarse);

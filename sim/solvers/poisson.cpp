@@ -9,11 +9,6 @@ namespace sim {
 
 namespace {
 
-BlockCouplings<double> couplingsOf(const PoissonMatrix& matrix, int b)
-{
-    return {matrix.coupling(0, b), matrix.coupling(1, b), matrix.coupling(2, b)};
-}
-
 std::array<int, 6> faceNeighbours(const BlockGrid& grid, int b)
 {
     const auto& around = grid.neighbours(b);
@@ -36,8 +31,15 @@ Row<double> largerRow(Row<double> a, Row<double> b)
     return (b > a) | (b != b) ? b : a;
 }
 
+double largestOf(const std::vector<double>& values)
+{
+    double largest = 0.0;
+    for (double v : values) largest = larger(largest, v);
+    return largest;
+}
+
 /// Ax of row r, its tile filled with a sum that began at 0.
-Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal, const BlockTile<double>& tile, int r)
+[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal, const FramedTile<double>& tile, int r)
 {
     const Row<double> v = loadRow(tile.row(r));
     return loadRow(diagonal + r * kBlockEdge) * v - couplings.acrossRows(tile, r) - couplings.alongRow(tile, r, v);
@@ -45,41 +47,64 @@ Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* d
 
 }  // namespace
 
-/// residual = rhs − A p, its largest values, and all other vectors in order.
-void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero)
+BlockCouplings<double> PoissonSolver::couplings(const Problem& problem, int b) const
 {
-    const double* diagonal = problem.matrix.diagonal(b);
-    const double *rhs = problem.rhs.block(b), *p = problem.p.block(b);
-    const BlockCouplings<double> couplings = couplingsOf(problem.matrix, b);
+    return {problem.matrix.coupling(0, b), problem.matrix.coupling(1, b), problem.matrix.coupling(2, b),
+            rightCoupling_.data() + b * std::size_t{kBlockRows}};
+}
+
+/// Clear the guess in cells that are no unknowns and find the largest right-hand side; returns the largest guess.
+double PoissonSolver::measure(const Problem& problem)
+{
+    forEachBlock(problem.grid.count(), [&](int b) {
+        const double *diagonal = problem.matrix.diagonal(b), *rhs = problem.rhs.block(b);
+        const double* beyondX = problem.matrix.coupling(0, problem.grid.neighbours(b)[neighbourIndex(1, 0, 0)]);
+        double* p = problem.p.block(b);
+        Row<double> largestRhs = {}, largestGuess = {};
+        for (int c = 0; c < kBlockCells; c += kBlockEdge) {
+            const auto isUnknown = loadRow(diagonal + c) > 0.0;
+            const Row<double> guess = isUnknown ? loadRow(p + c) : Row<double>{};
+            storeRow(p + c, guess);
+            largestGuess = largerRow(largestGuess, absolute(guess));
+            largestRhs = largerRow(largestRhs, absolute(isUnknown ? loadRow(rhs + c) : Row<double>{}));
+            rightCoupling_[b * std::size_t{kBlockRows} + c / kBlockEdge] = beyondX[c];
+        }
+        largest_[b] = maxOfRow<double>(largestGuess);
+        largestRhsOfBlock_[b] = maxOfRow<double>(largestRhs);
+    });
+    largestRhs_ = largestOf(largestRhsOfBlock_);
+    return largestOf(largest_);
+}
+
+/// residual = rhs − A p, and 0 in the rows of all vectors that hold no unknowns.
+void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, FramedTile<double>& tile)
+{
+    const double *diagonal = problem.matrix.diagonal(b), *rhs = problem.rhs.block(b), *p = problem.p.block(b);
+    const BlockCouplings<double> own = couplings(problem, b);
     const std::uint64_t rows = multigrid_.finest().rows[b];
-    BlockTile<double> tile;
-    tile.clear();
-    std::fill_n(tile.sum, kBlockCells, 0.0);
-    if (isGuessZero)
-        tile.clearNeighbours();
-    else {
-        forEachRow(rows, [&](int r) { storeRow(tile.row(r), loadRow(p + r * kBlockEdge)); });
+    if (!isGuessZero) {
+        tile.fill(rows, [&](int r) { return loadRow(p + r * kBlockEdge); });
+        tile.clearSum();
         addNeighbours(
-            tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplingsOf(problem.matrix, n); },
+            tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplings(problem, n); },
             [&](int n, int r) { return loadRow(problem.p.block(n) + r * kBlockEdge); },
             [&](int n, int c) { return problem.p.block(n)[c]; });
     }
-    Row<double> largestRhs = {}, largest = {};
-    for (int r = 0; r < kBlockRows; ++r) {
+    Row<double> largest = {};
+    forEachRow(rows, [&](int r) {
         const int c = r * kBlockEdge;
-        Row<double> v = {}, residual = {};
-        if (rows >> r & 1) {
-            v = loadRow(diagonal + c) > 0.0 ? loadRow(rhs + c) : v;
-            residual = isGuessZero ? v : v - matrixTimes(couplings, diagonal, tile, r);
-            residual = loadRow(diagonal + c) > 0.0 ? residual : Row<double>{};
-        }
-        largestRhs = largerRow(largestRhs, absolute(v));
+        Row<double> residual = loadRow(rhs + c);
+        if (!isGuessZero) residual -= matrixTimes(own, diagonal, tile, r);
+        residual = loadRow(diagonal + c) > 0.0 ? residual : Row<double>{};
         largest = largerRow(largest, absolute(residual));
         storeRow(residual_.block(b) + c, residual);
-        storeRow(direction_.block(b) + c, Row<double>{});
-        if (!(rows >> r & 1)) storeRow(nextDirection_.block(b) + c, Row<double>{});
-    }
-    norm_[b] = {maxOfRow<double>(largestRhs), maxOfRow<double>(largest)};
+        storeRow(multigrid_.rightHandSide().block(b) + c, toFloat(scale_ * residual));
+    });
+    largest_[b] = maxOfRow<double>(largest);
+    forEachRow(~rows, [&](int r) {
+        for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_})
+            storeRow(v->block(b) + r * kBlockEdge, Row<double>{});
+    });
 }
 
 void PoissonSolver::start(const Problem& problem)
@@ -87,77 +112,53 @@ void PoissonSolver::start(const Problem& problem)
     const int n = problem.grid.count();
     multigrid_.build(problem.grid, problem.matrix);
     components_.find(problem.grid, problem.matrix);
-    for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_, &applied_}) v->resize(n);
-    dot_.resize(n);
-    norm_.resize(n);
+    const bool isNew = problem.p.size() != (n + std::size_t{1}) * kBlockCells;
+    for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_, &applied_, &problem.p}) v->resize(n);
+    if (isNew) forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
+    rightCoupling_.resize(n * std::size_t{kBlockRows});
+    for (std::vector<double>* v : {&dot_, &largest_, &largestRhsOfBlock_}) v->resize(n);
 
-    bool isGuessZero = problem.p.size() != residual_.size();
-    problem.p.resize(n);
-    if (isGuessZero) forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
-    // Cells that are no unknowns keep no guess.
-    const double largestGuess = parallelMax(n, [&](std::size_t block) {
-        const int b = static_cast<int>(block);
-        double* p = problem.p.block(b);
-        const double* diagonal = problem.matrix.diagonal(b);
+    const bool isGuessZero = measure(problem) == 0.0;
+    scale_ = largestRhs_ > 0.0 && std::isfinite(largestRhs_) ? std::exp2(-std::ilogb(largestRhs_)) : 1.0;
+    forEachBlockInTile<FramedTile<double>>(
+        n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, isGuessZero, tile); });
+    if (components_.count() == 0) return;
+
+    components_.removeMeans(residual_);
+    forEachBlock(n, [&](int b) {
         Row<double> largest = {};
         for (int c = 0; c < kBlockCells; c += kBlockEdge) {
-            const Row<double> v = loadRow(diagonal + c) > 0.0 ? loadRow(p + c) : Row<double>{};
-            storeRow(p + c, v);
-            largest = largerRow(largest, absolute(v));
+            const Row<double> r = loadRow(residual_.block(b) + c);
+            largest = largerRow(largest, absolute(r));
+            storeRow(multigrid_.rightHandSide().block(b) + c, toFloat(scale_ * r));
         }
-        return maxOfRow<double>(largest);
+        largest_[b] = maxOfRow<double>(largest);
     });
-    isGuessZero = largestGuess == 0.0;
-    forEachBlock(n, [&](int b) { startBlock(problem, b, isGuessZero); });
-    largestRhs_ = 0.0;
-    for (const BlockNorms& norm : norm_) largestRhs_ = larger(largestRhs_, norm.rhs);
-
-    if (components_.count() > 0) {
-        components_.removeMeans(residual_);
-        forEachBlock(n, [&](int b) {
-            Row<double> largest = {};
-            for (int c = 0; c < kBlockCells; c += kBlockEdge)
-                largest = largerRow(largest, absolute(loadRow(residual_.block(b) + c)));
-            norm_[b].residual = maxOfRow<double>(largest);
-        });
-    }
-    scale_ = largestRhs_ > 0.0 && std::isfinite(largestRhs_) ? std::exp2(-std::ilogb(largestRhs_)) : 1.0;
-    forEachBlock(n, [&](int b) {
-        float* out = multigrid_.rightHandSide().block(b);
-        for (int c = 0; c < kBlockCells; c += kBlockEdge)
-            storeRow(out + c, toFloat(scale_ * loadRow(residual_.block(b) + c)));
-    });
-}
-
-double PoissonSolver::largestResidual() const
-{
-    double largest = 0.0;
-    for (const BlockNorms& norm : norm_) largest = larger(largest, norm.residual);
-    return largest;
 }
 
 /// direction = z + beta direction, applied = A direction; returns their dot product.
-double PoissonSolver::applyToDirection(const Problem& problem, double beta)
+double PoissonSolver::applyToDirection(const Problem& problem, bool isFirst, double beta)
 {
     const BlockArray<float>& z = multigrid_.solution();
     const auto row = [&](int n, int r) {
-        const int c = r * kBlockEdge;
-        return toDouble(loadRow(z.block(n) + c)) + beta * loadRow(direction_.block(n) + c);
+        const Row<double> v = toDouble(loadRow(z.block(n) + r * kBlockEdge));
+        return isFirst ? v : Row<double>(v + beta * loadRow(direction_.block(n) + r * kBlockEdge));
     };
-    const auto cell = [&](int n, int c) { return static_cast<double>(z.block(n)[c]) + beta * direction_.block(n)[c]; };
-    forEachBlock(problem.grid.count(), [&](int b) {
+    const auto cell = [&](int n, int c) {
+        const double v = static_cast<double>(z.block(n)[c]);
+        return isFirst ? v : v + beta * direction_.block(n)[c];
+    };
+    forEachBlockInTile<FramedTile<double>>(problem.grid.count(), [&](int b, FramedTile<double>& tile) {
         const std::uint64_t rows = multigrid_.finest().rows[b];
         const double* diagonal = problem.matrix.diagonal(b);
-        const BlockCouplings<double> couplings = couplingsOf(problem.matrix, b);
-        BlockTile<double> tile;
-        tile.clear();
-        std::fill_n(tile.sum, kBlockCells, 0.0);
-        forEachRow(rows, [&](int r) { storeRow<double>(tile.row(r), row(b, r)); });
+        const BlockCouplings<double> own = couplings(problem, b);
+        tile.fill(rows, [&](int r) { return row(b, r); });
+        tile.clearSum();
         addNeighbours(
-            tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplingsOf(problem.matrix, n); }, row, cell);
+            tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplings(problem, n); }, row, cell);
         Row<double> sum = {};
         forEachRow(rows, [&](int r) {
-            const Row<double> v = loadRow(tile.row(r)), a = matrixTimes(couplings, diagonal, tile, r);
+            const Row<double> v = loadRow(tile.row(r)), a = matrixTimes(own, diagonal, tile, r);
             storeRow(nextDirection_.block(b) + r * kBlockEdge, v);
             storeRow(applied_.block(b) + r * kBlockEdge, a);
             sum += v * a;
@@ -186,20 +187,20 @@ double PoissonSolver::advance(const Problem& problem, double alpha)
             storeRow(out + c, toFloat(scale_ * r));
             largest = largerRow(largest, absolute(r));
         });
-        norm_[b].residual = maxOfRow<double>(largest);
+        largest_[b] = maxOfRow<double>(largest);
     });
-    return largestResidual();
+    return largestOf(largest_);
 }
 
 void PoissonSolver::conjugateGradients(const Problem& problem, double target, int maxIterations, SolveReport& report)
 {
-    double residual = largestResidual(), rho = 0.0;
+    double residual = largestOf(largest_), rho = 0.0;
     while (residual > target && report.iterations < maxIterations) {
         const double next = multigrid_.cycle() / scale_;
         components_.removeMeans(multigrid_.solution());
-        const double beta = rho > 0.0 ? next / rho : 0.0;
+        const double energy = applyToDirection(problem, report.iterations == 0, next / rho);
         rho = next;
-        const double alpha = rho / applyToDirection(problem, beta);
+        const double alpha = rho / energy;
         if (!std::isfinite(alpha) || alpha <= 0.0) break;
         residual = advance(problem, alpha);
         ++report.iterations;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/solvers/components.h"
+#include "sim/solvers/framed_tile.h"
 #include "sim/solvers/multigrid.h"
 #include "sim/solvers/poisson_matrix.h"
 #include "sim/step_report.h"
@@ -37,22 +38,23 @@ class PoissonSolver {
         const BlockArray<double>& rhs;
         BlockArray<double>& p;
     };
-    struct BlockNorms {
-        double rhs, residual;
-    };
 
     void start(const Problem& problem);
-    void startBlock(const Problem& problem, int block, bool isGuessZero);
+    double measure(const Problem& problem);
+    void startBlock(const Problem& problem, int block, bool isGuessZero, FramedTile<double>& tile);
+    BlockCouplings<double> couplings(const Problem& problem, int block) const;
     void conjugateGradients(const Problem& problem, double target, int maxIterations, SolveReport& report);
-    double applyToDirection(const Problem& problem, double beta);
+    double applyToDirection(const Problem& problem, bool isFirst, double beta);
     double advance(const Problem& problem, double alpha);
     double largestResidual() const;
 
     Multigrid multigrid_;
     ClosedComponents components_;
     BlockArray<double> residual_, direction_, nextDirection_, applied_;
-    std::vector<double> dot_;           ///< of each block
-    std::vector<BlockNorms> norm_;      ///< of each block
+    AlignedArray<double> rightCoupling_;        ///< of each row, 64 per block: beyond its right end
+    std::vector<double> dot_;                   ///< direction · A direction of each block
+    std::vector<double> largest_;               ///< largest residual of each block, and before that largest guess
+    std::vector<double> largestRhsOfBlock_;
     double largestRhs_ = 0.0;
     double scale_ = 1.0;                ///< power of two that brings residuals near 1 for the float cycle
 };

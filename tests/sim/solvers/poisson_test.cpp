@@ -90,13 +90,28 @@ TEST(Poisson, LongThinAndFlatBoxesConvergeAsWell)
 
 TEST(Poisson, ThinCellsAndNearSurfacesConverge)
 {
+    // Walls and surface as of a liquid in a tank that is not aligned with the grid: thin cells along the walls.
+    const Vec3i n(60, 50, 40);
+    const auto wall = [](int axis, const Vec3i& c) {
+        const Vec3 x = c.cast<double>() + Vec3(axis == 0 ? 0.0 : 0.5, axis == 1 ? 0.0 : 0.5, axis == 2 ? 0.0 : 0.5);
+        const double distance = std::min({x.x() + 0.3 * x.y() - 9.0, 58.0 + 0.1 * x.y() - x.x(), x.y() + 0.2 * x.z() - 5.0,
+                                          x.z() - 0.15 * x.x() - 2.0, 39.0 - 0.05 * x.y() - x.z()});
+        const double open = std::clamp(distance + 0.5, 0.0, 1.0);
+        return open < 1.0e-3 ? 0.0 : open;
+    };
+    const auto phi = [](const Vec3& x) { return x.y() - 30.0 - 4.0 * std::sin(0.3 * x.x()) * std::cos(0.2 * x.z()); };
+    const PoissonScene tank = makeScene({{0, 0, 0}, n, phi, wall, roughRhs});
+    BlockArray<double> p;
+    EXPECT_LE(solveFromZero(tank, p).iterations, 15);
+    EXPECT_LE(relativeResidual(tank, p), 1.0e-6);
+
+    // Worse than any liquid: every face at random, a quarter closed, the others open by 1e-3 to 1.
     std::mt19937 random(2);
     for (double share : {0.5, 0.7, 0.9, 0.99}) {
         const PoissonScene scene = randomScene(random, {48, 40, 36}, {-20, -20, -20}, share);
-        BlockArray<double> p;
         const SolveReport report = solveFromZero(scene, p);
         EXPECT_TRUE(report.converged);
-        EXPECT_LE(report.iterations, 30) << share;
+        EXPECT_LE(report.iterations, 75) << share;
         EXPECT_LE(relativeResidual(scene, p), 1.0e-6);
     }
 }
