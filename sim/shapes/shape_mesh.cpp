@@ -38,7 +38,8 @@ struct SampledBody final : Shape::Body {
         Corner c;
         std::size_t index[3];
         for (int a = 0; a < kAxes; ++a) {
-            const double q = std::clamp((x[a] - lower[a]) / cell, 0.0, static_cast<double>(size[a] - 1));
+            // In this order, what is not a number becomes 0, not an index.
+            const double q = std::max(0.0, std::min((x[a] - lower[a]) / cell, static_cast<double>(size[a] - 1)));
             index[a] = std::min(static_cast<std::size_t>(q), size[a] - 2);
             c.t[a] = q - static_cast<double>(index[a]);
         }
@@ -123,18 +124,16 @@ Shape Shape::mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& t
     if (tree.empty()) throw InputError("a mesh has no triangle with an area");
     const auto lattice = latticeAround(mesh, cell);
     const double outward = tree.signedVolume() < 0.0 ? -1.0 : 1.0;
-    const double farthest = lattice->lattice().diagonal().norm();
 
     const auto [nx, ny, nz] = lattice->size;
     parallelFor(ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
-        double distance = farthest;
+        TriangleTree::Nearest nearest{0.0, 0};
         for (std::size_t i = 0; i < nx; ++i) {
             const Vec3 place(static_cast<double>(i), static_cast<double>(row % ny), static_cast<double>(row / ny));
             const Vec3 x = lattice->lower + cell * place;
-            // One node on, the distance has grown by no more than a cell (and a little, for rounding).
-            distance = tree.distance(x, distance + 1.001 * cell);
+            nearest = tree.nearest(x, nearest.triangle);  // one node on, the same triangle is a good guess
             const bool inside = outward * tree.windingNumber(x) > 0.5;
-            lattice->values[row * nx + i] = static_cast<float>(inside ? -distance : distance);
+            lattice->values[row * nx + i] = static_cast<float>(inside ? -nearest.distance : nearest.distance);
         }
     });
     return Shape(lattice);

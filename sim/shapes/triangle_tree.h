@@ -16,8 +16,13 @@ class TriangleTree {
 
     bool empty() const { return corners_.empty(); }
 
-    /// Distance to the nearest triangle if that is less than `limit`, else `limit` [cm].
-    double distance(const Vec3& x, double limit) const;
+    /// The nearest triangle.
+    struct Nearest {
+        double distance;   ///< [cm]
+        int triangle;      ///< its number in the tree
+    };
+    /// `guess` is a triangle of the tree: the nearer it is, the quicker the search.
+    Nearest nearest(const Vec3& x, int guess = 0) const;
 
     /// How often the mesh goes around x: 1 inside and 0 outside of a closed one, in between near holes. Far groups of triangles
     /// act as one, to a few percent. Source: Barill et al. 2018, "Fast Winding Numbers for Soups and Clouds".

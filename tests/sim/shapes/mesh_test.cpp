@@ -84,15 +84,28 @@ TEST(Tessellate, RefusesTheUnbounded)
     EXPECT_TRUE(tessellate(Shape(), 0.1).triangles.empty());
 }
 
-TEST(TriangleTree, FindsTheNearestTriangleAsALookAtAllDoes)
+TEST(TriangleTree, FindsTheNearestTriangleWhateverTheGuess)
 {
-    const TriangleMesh mesh = tessellate(Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8}), 0.1);
-    const Shape box = Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8});
+    const TriangleMesh mesh = ballMesh();
     const TriangleTree tree(mesh);
     for (int p = 0; p < 500; ++p) {
         const Vec3 x = somePoint(p, 2.0);
-        EXPECT_NEAR(tree.distance(x, 100.0), std::abs(box.distance(x)), 1e-12);
-        EXPECT_EQ(tree.distance(x, 1.0e-6), 1.0e-6);
+        double nearest = std::abs(x.norm() - 1.0) + 0.01;  // the tessellated ball is no further from the true one
+        EXPECT_LE(tree.nearest(x).distance, nearest);
+        for (const Vec3& v : mesh.vertices) nearest = std::min(nearest, (v - x).norm());
+        EXPECT_LE(tree.nearest(x).distance, nearest);
+        EXPECT_GE(tree.nearest(x).distance, std::abs(x.norm() - 1.0) - 0.01);
+        EXPECT_EQ(tree.nearest(x, p).distance, tree.nearest(x).distance);
+    }
+}
+
+TEST(TriangleTree, KnowsFacesEdgesAndCornersOfABox)
+{
+    const Shape box = Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8});
+    const TriangleTree tree(tessellate(box, 0.1));
+    for (int p = 0; p < 500; ++p) {
+        const Vec3 x = somePoint(p, 2.0);
+        EXPECT_NEAR(tree.nearest(x).distance, std::abs(box.distance(x)), 1e-12);
     }
 }
 
