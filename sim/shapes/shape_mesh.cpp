@@ -11,15 +11,15 @@ namespace sim {
 namespace {
 
 constexpr int kPadCells = 3;
-constexpr double kMostNodes = 5.0e8;   ///< 2 GB of distances
+constexpr double kMostNodes = 5.0e8;  ///< 2 GB of distances
 
 /// Distances on a lattice, trilinear in between.
 struct SampledBody final : Shape::Body {
-    Vec3 lower;                       ///< first node
+    Vec3 lower;  ///< first node
     double cell = 0.0;
     std::array<std::size_t, 3> size;  ///< nodes
     AlignedArray<float> values;
-    Eigen::AlignedBox3d body;         ///< bounds of the mesh itself
+    Eigen::AlignedBox3d body;  ///< bounds of the mesh itself
 
     Eigen::AlignedBox3d lattice() const
     {
@@ -104,8 +104,8 @@ std::shared_ptr<SampledBody> latticeAround(const TriangleMesh& mesh, double cell
     const Vec3 cells = (lattice->body.sizes() / cell).array().ceil() + 2.0 * kPadCells;
     const double nodes = (cells + Vec3::Ones()).prod();
     if (!(nodes <= kMostNodes))
-        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) + " cm sampled with cells of " +
-                         std::to_string(cell) + " cm takes " + std::to_string(nodes) +
+        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) +
+                         " cm sampled with cells of " + std::to_string(cell) + " cm takes " + std::to_string(nodes) +
                          " nodes, more than 5e8; use larger cells");
     for (int a = 0; a < kAxes; ++a) lattice->size[a] = static_cast<std::size_t>(cells[a]) + 1;
     lattice->cell = cell;

@@ -11,15 +11,19 @@ namespace sim {
 namespace {
 
 constexpr int kLeafTriangles = 4;
-constexpr int kMostDepth = 64;     ///< of a tree of halves with 2^31 triangles, and some
-constexpr double kFar = 2.0;       ///< a group of triangles acts as one at this many radii
+constexpr int kMostDepth = 64;  ///< of a tree of halves with 2^31 triangles, and some
+constexpr double kFar = 2.0;    ///< a group of triangles acts as one at this many radii
 
-Vec3 areaVector(const std::array<Vec3, 3>& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]); }
+Vec3 areaVector(const std::array<Vec3, 3>& t)
+{
+    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
+}
 
 /// Thinner triangles are lines, for which rounding would decide where they face.
 bool hasArea(const std::array<Vec3, 3>& t)
 {
-    const double edge = std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+    const double edge =
+        std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
     return areaVector(t).norm() > 1.0e-12 * edge;
 }
 
