@@ -4,13 +4,15 @@
 
 namespace sim {
 
-/// Random numbers without a state: each is a function of (seed, stream, step, index, draw) alone, so that it does not matter
-/// which thread asks, or when. Bits are mixed by the finaliser of splitmix64 (Steele et al. 2014), once per part of the key.
+/// Random numbers without a state: each is a function of (seed, stream, step, index, draw) alone, so that it does not
+/// matter which thread asks, or when. Bits are mixed by the finaliser of splitmix64 (Steele et al. 2014), once per part
+/// of the key.
 class CounterRandom {
  public:
     CounterRandom(std::uint64_t seed, std::uint64_t stream, std::uint64_t step = 0)
         : key_(mix(mix(mix(seed) ^ stream) ^ step))
-    {}
+    {
+    }
 
     std::uint64_t bits(std::uint64_t index, std::uint64_t draw = 0) const { return mix(mix(key_ ^ index) ^ draw); }
 

@@ -11,7 +11,10 @@ namespace sim {
 
 namespace {
 
-bool isInstant(const Emission& e) { return e.to <= e.from; }
+bool isInstant(const Emission& e)
+{
+    return e.to <= e.from;
+}
 
 bool isActive(const Emission& e, double timeFrom, double timeTo)
 {
@@ -102,7 +105,8 @@ void emitFrom(const Scene& scene, std::size_t source, const Emission& emission, 
     if (seeds.positions.empty()) {
         if (!isInstant(emission)) return;
         throw InputError(nameOf(scene, source) + "has no room for a particle: it is empty, smaller than " +
-                         std::to_string(particleSpacing(plan.fill, plan.dx)) + " cm, inside an obstacle, or full already");
+                         std::to_string(particleSpacing(plan.fill, plan.dx)) +
+                         " cm, inside an obstacle, or full already");
     }
     const auto positions = upTo(seeds, emission.maxVolume - state.emittedVolume[source]);
     addParticles(positions, density * seeds.volume, emission.velocity, state);

@@ -18,7 +18,8 @@ class PointBins {
 
     bool empty() const { return points_.empty(); }
 
-    /// Calls visit(index) for all points in the bins around x, which hold all within reach, until it returns true; was there one?
+    /// Calls visit(index) for all points in the bins around x, which hold all within reach, until it returns true; was
+    /// there one?
     template <class Visit>
     bool anyNear(const Vec3& x, Visit&& visit) const
     {
@@ -51,7 +52,7 @@ class PointBins {
     Vec3 lower_ = Vec3::Zero();
     double width_ = 1.0;
     Vec3i size_ = Vec3i::Zero();
-    std::vector<std::size_t> begin_;   ///< of each bin in order_
+    std::vector<std::size_t> begin_;  ///< of each bin in order_
     std::vector<std::uint32_t> order_;
 };
 

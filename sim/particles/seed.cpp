@@ -14,7 +14,10 @@ namespace {
 using Pattern = FillSettings::Pattern;
 
 /// The pattern's own pitch [cells] (model-fluid 5.1, 5.2).
-double ownSpacing(Pattern pattern) { return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4; }
+double ownSpacing(Pattern pattern)
+{
+    return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4;
+}
 
 /// Some of the positions, chosen at random, in their old order.
 std::vector<Vec3> chooseSome(const std::vector<Vec3>& positions, std::size_t count, const CounterRandom& random)
@@ -59,10 +62,14 @@ double minimumDistance(const FillSettings& fill, double dx)
 {
     const double pitch = particleSpacing(fill, dx);
     switch (fill.pattern) {
-        case Pattern::Lattice: return pitch;
-        case Pattern::Reference: return 0.57735 * pitch;
-        case Pattern::Poisson: return kPoissonDistance * pitch;
-        default: return 0.0;
+        case Pattern::Lattice:
+            return pitch;
+        case Pattern::Reference:
+            return 0.57735 * pitch;
+        case Pattern::Poisson:
+            return kPoissonDistance * pitch;
+        default:
+            return 0.0;
     }
 }
 
@@ -74,7 +81,8 @@ Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
     parts.insert(parts.end(), plan.solids.begin(), plan.solids.end());
     const Shape region = Shape::subtract(parts);
 
-    PatternPlaces places = darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
+    PatternPlaces places =
+        darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
     const double count = moves && !darts ? meanLatticePlaces(plan, region) : static_cast<double>(places.count);
     if (places.free.empty() || !(count > 0.0)) return {};
     const double volume = boundedVolume(region, plan.dx) / count;

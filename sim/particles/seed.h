@@ -11,32 +11,34 @@ namespace sim {
 /// A source to be filled with particles, at one time (model-fluid 5.2).
 struct SeedPlan {
     Shape source;
-    std::vector<Shape> solids;          ///< no particle is laid inside of these
+    std::vector<Shape> solids;  ///< no particle is laid inside of these
     FillSettings fill;
-    double dx = 0.0;                    ///< cell of the grid [cm]
-    Vec3 gridOrigin = Vec3::Zero();     ///< lower corner of cell (0, 0, 0) [cm]
-    std::uint64_t stream = 0;           ///< number of the source: others draw other random numbers
-    /// A source that gives liquid for a while: the pattern moves with the liquid, so that places enter at one side as they leave at the
-    /// other, and whatever is laid anew fits to what was laid before. 0 for a body that is laid once.
-    Vec3 velocity = Vec3::Zero();       ///< [cm/s]
-    double age = 0.0;                   ///< time since the source began [s]
+    double dx = 0.0;                 ///< cell of the grid [cm]
+    Vec3 gridOrigin = Vec3::Zero();  ///< lower corner of cell (0, 0, 0) [cm]
+    std::uint64_t stream = 0;        ///< number of the source: others draw other random numbers
+    /// A source that gives liquid for a while: the pattern moves with the liquid, so that places enter at one side as
+    /// they leave at the other, and whatever is laid anew fits to what was laid before. 0 for a body that is laid once.
+    Vec3 velocity = Vec3::Zero();  ///< [cm/s]
+    double age = 0.0;              ///< time since the source began [s]
 };
 
 /// Liquid that is there already: no particle is laid where the pattern has one.
 struct LiquidNearby {
-    std::vector<Vec3> positions;        ///< of particles in the source and up to particleSpacing around it
-    double volumeInside = 0.0;          ///< of those in the source [cm^3]
+    std::vector<Vec3> positions;  ///< of particles in the source and up to particleSpacing around it
+    double volumeInside = 0.0;    ///< of those in the source [cm^3]
 };
 
 struct Seeds {
-    std::vector<Vec3> positions;        ///< in the order of the pattern's places
-    double volume = 0.0;                ///< of each particle [cm^3]
+    std::vector<Vec3> positions;  ///< in the order of the pattern's places
+    double volume = 0.0;          ///< of each particle [cm^3]
 };
 
-/// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source outside of solids,
-/// so that all of them together are as large as that region; of a moving pattern, on average over time. `reference` keeps its published
-/// volume, which is 0.56 of that. Where there is liquid already, places that have a particle stay as they are, and the rest is filled no
-/// further than to the region's volume. The same bits for any number of threads. Throws InputError when there are more than 4e8 places.
+/// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source
+/// outside of solids, so that all of them together are as large as that region; of a moving pattern, on average over
+/// time. `reference` keeps its published volume, which is 0.56 of that. Where there is liquid already, places that have
+/// a particle stay as they are, and the rest is filled no further than to the region's volume. The same bits for any
+/// number of threads. Throws InputError when the source is unbounded or has more than 4e8 places; the message ("is
+/// unbounded …") lacks the name of the source.
 Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby = {});
 
 /// Pitch of the pattern [cm].

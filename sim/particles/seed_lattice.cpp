@@ -10,8 +10,8 @@ namespace {
 /// Places nearer to the surface than this count as outside, so that rounding does not decide [pitches].
 constexpr double kSurface = 1.0e-9;
 
-/// Place (0, 0, 0) of a pattern that does not move: half a pitch inside the source's bounds; with two places per cell, a
-/// quarter cell inside of a cell of the grid.
+/// Place (0, 0, 0) of a pattern that does not move: half a pitch inside the source's bounds; with two places per cell,
+/// a quarter cell inside of a cell of the grid.
 Vec3 firstPlace(const SeedPlan& plan, double pitch)
 {
     const Vec3 half = Vec3::Constant(0.5 * pitch), corner = plan.source.bounds().min();
@@ -48,9 +48,11 @@ PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& ori
 {
     if (box.isEmpty()) return {origin, pitch};
     constexpr double kMostPlaces = 4.0e8, kMostAlong = 1 << 20;
-    const Vec3 low = ((box.min() - origin) / pitch).array() - margin, high = ((box.max() - origin) / pitch).array() + margin;
+    const Vec3 low = ((box.min() - origin) / pitch).array() - margin,
+               high = ((box.max() - origin) / pitch).array() + margin;
     if (!(low.cwiseAbs().maxCoeff() < kMostAlong && high.cwiseAbs().maxCoeff() < kMostAlong))
-        throw InputError("is unbounded, or too large to be filled with particles " + std::to_string(pitch) + " cm apart");
+        throw InputError("is unbounded, or too large to be filled with particles " + std::to_string(pitch) +
+                         " cm apart");
     PlaceLattice lattice;
     lattice.pitch = pitch;
     lattice.low = low.array().ceil().cast<int>();
@@ -76,7 +78,8 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
         const Vec3 x = sites.position(i, j, k);
         if (!(region.distance(x) < -kSurface * sites.lattice.pitch)) return;
         const Vec3 middle = sites.lattice.position(i, j, k);
-        const bool taken = bins.anyNear(middle, [&](std::size_t p) { return (existing[p] - middle).cwiseAbs().maxCoeff() < half; });
+        const bool taken =
+            bins.anyNear(middle, [&](std::size_t p) { return (existing[p] - middle).cwiseAbs().maxCoeff() < half; });
         list.push_back({x, taken});
     });
     PatternPlaces places;
@@ -88,7 +91,8 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
 
 double meanLatticePlaces(const SeedPlan& plan, const Shape& region)
 {
-    // Phases along the velocity: for a velocity along an axis they divide the pitch evenly, for others they spread over several.
+    // Phases along the velocity: for a velocity along an axis they divide the pitch evenly, for others they spread over
+    // several.
     constexpr int kPhases = 16, kPitches = 7;
     const double pitch = particleSpacing(plan.fill, plan.dx);
     const Vec3 direction = plan.velocity / plan.velocity.cwiseAbs().maxCoeff();
@@ -97,7 +101,8 @@ double meanLatticePlaces(const SeedPlan& plan, const Shape& region)
         const Sites sites(plan, (pitch * kPitches * phase / kPhases) * direction);
         const std::size_t rows = static_cast<std::size_t>(sites.lattice.size[1]) * sites.lattice.size[2];
         sum += parallelSum(rows, [&](std::size_t row) {
-            const int j = static_cast<int>(row % sites.lattice.size[1]), k = static_cast<int>(row / sites.lattice.size[1]);
+            const int j = static_cast<int>(row % sites.lattice.size[1]),
+                      k = static_cast<int>(row / sites.lattice.size[1]);
             int inside = 0;
             for (int i = 0; i < sites.lattice.size[0]; ++i)
                 inside += region.distance(sites.position(i, j, k)) < -kSurface * pitch;

@@ -8,8 +8,8 @@ namespace sim {
 
 /// What a pattern found, for seed.cpp only.
 struct PatternPlaces {
-    std::vector<Vec3> free;     ///< places without a particle
-    std::size_t count = 0;      ///< of all places of the pattern in the region, those with a particle included
+    std::vector<Vec3> free;  ///< places without a particle
+    std::size_t count = 0;   ///< of all places of the pattern in the region, those with a particle included
 };
 
 PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing);
@@ -18,7 +18,8 @@ double meanLatticePlaces(const SeedPlan& plan, const Shape& region);
 PatternPlaces referencePlaces(const SeedPlan& plan, const std::vector<Vec3>& existing);
 PatternPlaces poissonPlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing);
 
-/// Least distance of the poisson pattern in pitches. Darts thrown until hardly any finds room lie about 1 / pitch³ dense then.
+/// Least distance of the poisson pattern in pitches. Darts thrown until hardly any finds room lie about 1 / pitch³
+/// dense then.
 inline constexpr double kPoissonDistance = 0.83;
 
 /// Places of a lattice that a box may hold: place (i, j, k) + low is at first + pitch (i, j, k).
@@ -27,8 +28,8 @@ struct PlaceLattice {
     double pitch = 0.0;
     Vec3i low = Vec3i::Zero(), size = Vec3i::Zero();
 
-    /// Those with index ≥ the one whose place lies `margin` pitches below the box, up to `margin` above. `origin` is place (0, 0, 0).
-    /// Throws InputError when there are more than 4e8, or when the box is unbounded.
+    /// Those with index ≥ the one whose place lies `margin` pitches below the box, up to `margin` above. `origin` is
+    /// place (0, 0, 0). Throws InputError when there are more than 4e8, or when the box is unbounded.
     static PlaceLattice inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, double pitch, double margin);
 
     Vec3 position(int i, int j, int k) const { return first + pitch * Vec3(i, j, k); }

@@ -19,8 +19,10 @@ struct Cube {
 class DartBoard {
  public:
     DartBoard(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing)
-        : region_(region), random_(plan.fill.seed, plan.stream),
-          distance_(minimumDistance(plan.fill, plan.dx)), taken_(existing, distance_)
+        : region_(region),
+          random_(plan.fill.seed, plan.stream),
+          distance_(minimumDistance(plan.fill, plan.dx)),
+          taken_(existing, distance_)
     {
         const double pitch = particleSpacing(plan.fill, plan.dx);
         const Vec3 first = plan.source.bounds().min() + plan.age * plan.velocity;
@@ -36,7 +38,8 @@ class DartBoard {
             const Vec3i begin(color & 1, color >> 1 & 1, color >> 2);
             const Vec3i count = (lattice_.size - begin + Vec3i::Ones()).cwiseMax(0) / 2;
             parallelFor(static_cast<std::size_t>(count[1]) * count[2], [&](std::size_t row) {
-                const int j = begin[1] + 2 * static_cast<int>(row % count[1]), k = begin[2] + 2 * static_cast<int>(row / count[1]);
+                const int j = begin[1] + 2 * static_cast<int>(row % count[1]),
+                          k = begin[2] + 2 * static_cast<int>(row / count[1]);
                 for (int i = begin[0]; i < lattice_.size[0]; i += 2) throwAt(i, j, k, round);
             });
         }

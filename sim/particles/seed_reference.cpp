@@ -10,11 +10,11 @@ constexpr int kPullSteps = 5;
 
 struct Candidate {
     Vec3 x;
-    std::uint64_t rank;   ///< place in the random order of visits
+    std::uint64_t rank;  ///< place in the random order of visits
 };
 
-/// One candidate per place of a lattice over the source's bounds, each moved by up to a whole pitch, those outside of the source by up to
-/// √3 pitches pulled to its surface.
+/// One candidate per place of a lattice over the source's bounds, each moved by up to a whole pitch, those outside of
+/// the source by up to √3 pitches pulled to its surface.
 std::vector<Candidate> candidates(const SeedPlan& plan, const Shape& solids, double pitch)
 {
     const CounterRandom random(plan.fill.seed, plan.stream);
@@ -30,7 +30,8 @@ std::vector<Candidate> candidates(const SeedPlan& plan, const Shape& solids, dou
         double d = plan.source.distance(x);
         if (d > std::sqrt(3.0) * pitch || solids.distance(x) < 0.0) return;
         if (d > 0.0) {
-            for (int step = 0; step < kPullSteps && d > 0.0; ++step, d = plan.source.distance(x)) x -= d * plan.source.normal(x);
+            for (int step = 0; step < kPullSteps && d > 0.0; ++step, d = plan.source.distance(x))
+                x -= d * plan.source.normal(x);
             if (solids.distance(x) < -1.0e-9 * pitch) return;
         }
         list.push_back({x, random.bits(index, kRankDraw)});
@@ -46,8 +47,8 @@ PatternPlaces referencePlaces(const SeedPlan& plan, const std::vector<Vec3>& exi
     std::vector<Vec3> positions(all.size());
     parallelFor(all.size(), 4096, [&](std::size_t c) { positions[c] = all[c].x; });
 
-    // Visited in random order, a candidate is dropped if another that is not dropped yet is near. Those not visited yet are not dropped:
-    // what remains are the candidates that come last among their neighbours.
+    // Visited in random order, a candidate is dropped if another that is not dropped yet is near. Those not visited yet
+    // are not dropped: what remains are the candidates that come last among their neighbours.
     const PointBins bins(positions, distance), taken(existing, distance);
     std::vector<char> keep(all.size());
     parallelFor(all.size(), 256, [&](std::size_t c) {

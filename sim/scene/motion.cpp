@@ -64,14 +64,16 @@ Course<Vec3> pathCourse(const Piece& p, double t)
             (6.0 * u * (1.0 - u) * way + (1.0 - u) * (1.0 - 3.0 * u) * a + u * (3.0 * u - 2.0) * b) / span};
 }
 
-/// Slopes of a cubic that does not overshoot: weighted harmonic means of the neighbouring ones, 0 at turning points and at the ends.
+/// Slopes of a cubic that does not overshoot: weighted harmonic means of the neighbouring ones, 0 at turning points and
+/// at the ends.
 std::vector<Vec3> monotoneSlopes(const std::vector<double>& times, const std::vector<Vec3>& offsets)
 {
     std::vector<Vec3> slopes(offsets.size(), Vec3::Zero());
     for (std::size_t i = 1; i + 1 < offsets.size(); ++i) {
         const double before = times[i] - times[i - 1], after = times[i + 1] - times[i];
         for (int a = 0; a < kAxes; ++a) {
-            const double p = (offsets[i][a] - offsets[i - 1][a]) / before, q = (offsets[i + 1][a] - offsets[i][a]) / after;
+            const double p = (offsets[i][a] - offsets[i - 1][a]) / before,
+                         q = (offsets[i + 1][a] - offsets[i][a]) / after;
             const double share = (before + 2.0 * after) / (3.0 * (before + after));
             if (p * q > 0.0) slopes[i][a] = p * q / (share * q + (1.0 - share) * p);
         }
@@ -88,7 +90,8 @@ Eigen::Isometry3d pieceTransform(const Piece& p, double t)
     else if (!p.turns)
         m.translation() = course(p, t).place * p.axis;
     else
-        m = Eigen::Translation3d(p.origin) * Eigen::AngleAxisd(course(p, t).place, p.axis) * Eigen::Translation3d(-p.origin);
+        m = Eigen::Translation3d(p.origin) * Eigen::AngleAxisd(course(p, t).place, p.axis) *
+            Eigen::Translation3d(-p.origin);
     return m;
 }
 
@@ -117,7 +120,10 @@ void require(bool condition, const char* what)
     if (!condition) throw InputError(std::string("a motion's ") + what);
 }
 
-bool isUnit(const Vec3& v) { return std::abs(v.norm() - 1.0) < 1.0e-6; }
+bool isUnit(const Vec3& v)
+{
+    return std::abs(v.norm() - 1.0) < 1.0e-6;
+}
 
 }  // namespace
 
@@ -147,8 +153,8 @@ void Motion::addTranslation(double t0, double t1, const Vec3& by, double easeIn,
     add(p);
 }
 
-void Motion::addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame, double easeIn,
-                         double easeOut)
+void Motion::addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame,
+                         double easeIn, double easeOut)
 {
     require(isUnit(axis), "axis must be a unit vector");
     Piece p;

@@ -8,31 +8,36 @@
 
 namespace sim {
 
-/// Keyed motion of an obstacle (later of pins): where it is and how fast at a time. Pieces act one after another, in the order in
-/// which they begin: each moves what the earlier ones have moved. Before its span a piece has not begun, after it the body stays where
-/// the piece has left it. A span that is not longer than 0, an ease that does not fit into it, an axis that is not a unit vector or a
-/// number that is not finite throws InputError.
+/// Keyed motion of an obstacle (later of pins): where it is and how fast at a time. Pieces act one after another, in
+/// the order in which they begin: each moves what the earlier ones have moved. Before its span a piece has not begun,
+/// after it the body stays where the piece has left it. A span that is not longer than 0, an ease that does not fit
+/// into it, an axis that is not a unit vector or a number that is not finite throws InputError.
 class Motion {
  public:
-    /// World: the axis stands still while the body moves. Local: the axis is fixed to the body, given for the body as in the scene.
+    /// World: the axis stands still while the body moves. Local: the axis is fixed to the body, given for the body as
+    /// in the scene.
     enum class Frame { World, Local };
 
     /// Moves by `by` between t0 and t1, speeding up over easeIn and slowing down over easeOut [s].
     void addTranslation(double t0, double t1, const Vec3& by, double easeIn, double easeOut);
     /// Turns by `angle` [rad] about a unit axis through `origin`.
-    void addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame, double easeIn, double easeOut);
+    void addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame,
+                     double easeIn, double easeOut);
     /// Swings along a unit direction: amplitude [cm] times sin(2π frequency (t − t0)).
     void addOscillation(double t0, double t1, const Vec3& direction, double amplitude, double frequency);
     /// Swings about a unit axis through `origin`: amplitude [rad] times sin(2π frequency (t − t0)).
-    void addSwing(double t0, double t1, const Vec3& axis, double amplitude, double frequency, const Vec3& origin, Frame frame);
-    /// Passes through positions (offsets from the scene's) at given times, ascending, two or more. Cubic: smooth, at rest at both ends,
-    /// and never beyond the positions on either side (Fritsch and Butland 1984); else along straight lines.
+    void addSwing(double t0, double t1, const Vec3& axis, double amplitude, double frequency, const Vec3& origin,
+                  Frame frame);
+    /// Passes through positions (offsets from the scene's) at given times, ascending, two or more. Cubic: smooth, at
+    /// rest at both ends, and never beyond the positions on either side (Fritsch and Butland 1984); else along straight
+    /// lines.
     void addPath(const std::vector<double>& times, const std::vector<Vec3>& offsets, bool cubic);
 
     bool isStatic() const { return pieces_.empty(); }
     /// Position at time t relative to the one given in the scene.
     Eigen::Isometry3d transform(double t) const;
-    /// Velocity at time t of the body's point that is now at x [cm/s]: the exact derivative of transform(), from the right where it jumps.
+    /// Velocity at time t of the body's point that is now at x [cm/s]: the exact derivative of transform(), from the
+    /// right where it jumps.
     Vec3 velocity(double t, const Vec3& x) const;
     /// Does anything move in [t0, t1]?
     bool moves(double t0, double t1) const;
@@ -41,16 +46,16 @@ class Motion {
     struct Piece {
         enum class Course { Eased, Sine, Path };
         Course course = Course::Eased;
-        bool turns = false;                    ///< about the axis, else along it
+        bool turns = false;  ///< about the axis, else along it
         Frame frame = Frame::World;
-        double begin = 0.0, end = 0.0;         ///< [s]
-        Vec3 axis = Vec3::UnitX();             ///< unit
-        Vec3 origin = Vec3::Zero();            ///< [cm]
-        double amount = 0.0;                   ///< of an eased course its end, of a sine its amplitude [cm or rad]
-        double easeIn = 0.0, easeOut = 0.0;    ///< [s]
-        double frequency = 0.0;                ///< [1/s]
-        std::vector<double> times;             ///< of a path [s]
-        std::vector<Vec3> offsets, slopes;     ///< at these times [cm], [cm/s]
+        double begin = 0.0, end = 0.0;       ///< [s]
+        Vec3 axis = Vec3::UnitX();           ///< unit
+        Vec3 origin = Vec3::Zero();          ///< [cm]
+        double amount = 0.0;                 ///< of an eased course its end, of a sine its amplitude [cm or rad]
+        double easeIn = 0.0, easeOut = 0.0;  ///< [s]
+        double frequency = 0.0;              ///< [1/s]
+        std::vector<double> times;           ///< of a path [s]
+        std::vector<Vec3> offsets, slopes;   ///< at these times [cm], [cm/s]
         bool cubic = false;
     };
 

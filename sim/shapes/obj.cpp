@@ -61,7 +61,8 @@ class ObjReader {
             const std::string_view word = nextWord(rest);
             if (word.empty()) fail("a vertex needs three coordinates");
             const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-            if (error != std::errc() || end != word.data() + word.size()) fail("not a number: \"" + std::string(word) + "\"");
+            if (error != std::errc() || end != word.data() + word.size())
+                fail("not a number: \"" + std::string(word) + "\"");
             if (!std::isfinite(x)) fail("not a finite number: \"" + std::string(word) + "\"");
         }
         mesh_.vertices.push_back(v);
@@ -72,7 +73,8 @@ class ObjReader {
         const std::string_view number = word.substr(0, word.find('/'));
         long long index = 0;
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
-        if (error != std::errc() || end != number.data() + number.size()) fail("not a corner: \"" + std::string(word) + "\"");
+        if (error != std::errc() || end != number.data() + number.size())
+            fail("not a corner: \"" + std::string(word) + "\"");
         const auto count = static_cast<long long>(mesh_.vertices.size());
         const long long fromZero = index > 0 ? index - 1 : count + index;
         if (index == 0 || fromZero < 0 || fromZero >= count)
@@ -101,7 +103,10 @@ class ObjReader {
 
 }  // namespace
 
-TriangleMesh readObj(const std::filesystem::path& file) { return ObjReader(file).read(); }
+TriangleMesh readObj(const std::filesystem::path& file)
+{
+    return ObjReader(file).read();
+}
 
 Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell)
 {

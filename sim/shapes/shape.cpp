@@ -9,16 +9,25 @@ double Shape::distance(const Vec3& x) const
     return body_ ? body_->distance(x) : std::numeric_limits<double>::infinity();
 }
 
-Vec3 Shape::normal(const Vec3& x) const { return body_ ? body_->normal(x) : Vec3(Vec3::UnitX()); }
+Vec3 Shape::normal(const Vec3& x) const
+{
+    return body_ ? body_->normal(x) : Vec3(Vec3::UnitX());
+}
 
 Eigen::AlignedBox3d Shape::bounds() const
 {
     return body_ ? body_->bounds(Eigen::Isometry3d::Identity()) : Eigen::AlignedBox3d();
 }
 
-std::optional<Shape::AxisBox> Shape::axisBox() const { return body_ ? body_->axisBox() : std::nullopt; }
+std::optional<Shape::AxisBox> Shape::axisBox() const
+{
+    return body_ ? body_->axisBox() : std::nullopt;
+}
 
-bool Shape::isInverted() const { return body_ && body_->inner() != nullptr; }
+bool Shape::isInverted() const
+{
+    return body_ && body_->inner() != nullptr;
+}
 
 Shape Shape::moved(const Eigen::Isometry3d& transform) const
 {

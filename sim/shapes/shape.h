@@ -24,13 +24,13 @@ class Shape {
     static Shape ball(const Vec3& center, double radius);
     /// All points within radius of the segment from a to b.
     static Shape capsule(const Vec3& a, const Vec3& b, double radius);
-    /// Solid cylinder of half height `half` along a unit axis, with edges rounded by `round` (added on top and bottom, not
-    /// on the radius: the side stays at `radius`).
+    /// Solid cylinder of half height `half` along a unit axis, with edges rounded by `round` (added on top and bottom,
+    /// not on the radius: the side stays at `radius`).
     static Shape cylinder(const Vec3& center, const Vec3& axis, double radius, double half, double round);
-    /// A closed triangle mesh, sampled on a lattice of pitch `cell` that reaches 3 cells further than the mesh; trilinear in
-    /// between. Inside is where the winding number is above a half: small holes, doubled faces and a mesh turned inside
-    /// out as a whole do no harm. Outside of the lattice: the distance to it plus the value there, which is no less than the
-    /// distance to the mesh. Throws InputError when the lattice has more than 5e8 nodes.
+    /// A closed triangle mesh, sampled on a lattice of pitch `cell` that reaches 3 cells further than the mesh;
+    /// trilinear in between. Inside is where the winding number is above a half: small holes, doubled faces and a mesh
+    /// turned inside out as a whole do no harm. Outside of the lattice: the distance to it plus the value there, which
+    /// is no less than the distance to the mesh. Throws InputError when the lattice has more than 5e8 nodes.
     static Shape mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell);
 
     static Shape unite(std::vector<Shape> shapes);
@@ -43,12 +43,12 @@ class Shape {
     Shape moved(const Eigen::Isometry3d& transform) const;
 
     bool empty() const { return body_ == nullptr; }
-    double distance(const Vec3& x) const;           ///< [cm]; +∞ for the empty shape
-    /// Unit gradient of the distance: outward. Where it does not exist (the middle of a ball) any unit vector along which the
-    /// distance does not fall.
+    double distance(const Vec3& x) const;  ///< [cm]; +∞ for the empty shape
+    /// Unit gradient of the distance: outward. Where it does not exist (the middle of a ball) any unit vector along
+    /// which the distance does not fall.
     Vec3 normal(const Vec3& x) const;
-    /// Tight for primitives; the common part of the children's for an intersection. Inverted shapes have corners at ±∞, the
-    /// empty shape an empty box.
+    /// Tight for primitives; the common part of the children's for an intersection. Inverted shapes have corners at ±∞,
+    /// the empty shape an empty box.
     Eigen::AlignedBox3d bounds() const;
 
     /// The box, if this is an axis-aligned box with sharp edges, or the inside of one (then `inside` is set):

@@ -11,15 +11,15 @@ namespace sim {
 namespace {
 
 constexpr int kPadCells = 3;
-constexpr double kMostNodes = 5.0e8;   ///< 2 GB of distances
+constexpr double kMostNodes = 5.0e8;  ///< 2 GB of distances
 
 /// Distances on a lattice, trilinear in between.
 struct SampledBody final : Shape::Body {
-    Vec3 lower;                       ///< first node
+    Vec3 lower;  ///< first node
     double cell = 0.0;
     std::array<std::size_t, 3> size;  ///< nodes
     AlignedArray<float> values;
-    Eigen::AlignedBox3d body;         ///< bounds of the mesh itself
+    Eigen::AlignedBox3d body;  ///< bounds of the mesh itself
 
     Eigen::AlignedBox3d lattice() const
     {
@@ -38,7 +38,8 @@ struct SampledBody final : Shape::Body {
         Corner c;
         std::size_t index[3];
         for (int a = 0; a < kAxes; ++a) {
-            const double q = std::clamp((x[a] - lower[a]) / cell, 0.0, static_cast<double>(size[a] - 1));
+            // In this order, what is not a number becomes 0, not an index.
+            const double q = std::max(0.0, std::min((x[a] - lower[a]) / cell, static_cast<double>(size[a] - 1)));
             index[a] = std::min(static_cast<std::size_t>(q), size[a] - 2);
             c.t[a] = q - static_cast<double>(index[a]);
         }
@@ -103,8 +104,8 @@ std::shared_ptr<SampledBody> latticeAround(const TriangleMesh& mesh, double cell
     const Vec3 cells = (lattice->body.sizes() / cell).array().ceil() + 2.0 * kPadCells;
     const double nodes = (cells + Vec3::Ones()).prod();
     if (!(nodes <= kMostNodes))
-        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) + " cm sampled with cells of " +
-                         std::to_string(cell) + " cm takes " + std::to_string(nodes) +
+        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) +
+                         " cm sampled with cells of " + std::to_string(cell) + " cm takes " + std::to_string(nodes) +
                          " nodes, more than 5e8; use larger cells");
     for (int a = 0; a < kAxes; ++a) lattice->size[a] = static_cast<std::size_t>(cells[a]) + 1;
     lattice->cell = cell;
@@ -123,18 +124,16 @@ Shape Shape::mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& t
     if (tree.empty()) throw InputError("a mesh has no triangle with an area");
     const auto lattice = latticeAround(mesh, cell);
     const double outward = tree.signedVolume() < 0.0 ? -1.0 : 1.0;
-    const double farthest = lattice->lattice().diagonal().norm();
 
     const auto [nx, ny, nz] = lattice->size;
     parallelFor(ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
-        double distance = farthest;
+        TriangleTree::Nearest nearest{0.0, 0};
         for (std::size_t i = 0; i < nx; ++i) {
             const Vec3 place(static_cast<double>(i), static_cast<double>(row % ny), static_cast<double>(row / ny));
             const Vec3 x = lattice->lower + cell * place;
-            // One node on, the distance has grown by no more than a cell (and a little, for rounding).
-            distance = tree.distance(x, distance + 1.001 * cell);
+            nearest = tree.nearest(x, nearest.triangle);  // one node on, the same triangle is a good guess
             const bool inside = outward * tree.windingNumber(x) > 0.5;
-            lattice->values[row * nx + i] = static_cast<float>(inside ? -distance : distance);
+            lattice->values[row * nx + i] = static_cast<float>(inside ? -nearest.distance : nearest.distance);
         }
     });
     return Shape(lattice);

@@ -37,7 +37,7 @@ struct Outside final : Shape::Body {
     std::optional<Shape::AxisBox> axisBox() const override
     {
         auto box = body ? body->axisBox() : std::nullopt;
-        if (box) box->inside = !box->inside;
+        if (box) box->inside = true;  // never the inside of an inside: inverting twice gives the body itself
         return box;
     }
     const BodyPointer* inner() const override { return &body; }
@@ -77,7 +77,10 @@ struct Union final : Shape::Body {
         for (const BodyPointer& b : parts) all.extend(b->bounds(t));
         return all;
     }
-    BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return std::make_shared<Union>(moveAll(parts, t)); }
+    BodyPointer movedBody(const Eigen::Isometry3d& t) const override
+    {
+        return std::make_shared<Union>(moveAll(parts, t));
+    }
 };
 
 struct Intersection final : Shape::Body {
@@ -126,7 +129,10 @@ BodyPointer moveBody(const BodyPointer& body, const Eigen::Isometry3d& transform
     return moved ? moved : std::make_shared<Placed>(body, transform);
 }
 
-Shape Shape::inverted() const { return Shape(outsideOf(body_)); }
+Shape Shape::inverted() const
+{
+    return Shape(outsideOf(body_));
+}
 
 Shape Shape::unite(std::vector<Shape> shapes)
 {

@@ -18,9 +18,15 @@ void requireFinite(const Vec3& x, const char* what)
     if (!x.allFinite()) throw InputError(std::string(what) + " must have finite coordinates");
 }
 
-double signOf(double x) { return x < 0.0 ? -1.0 : 1.0; }
+double signOf(double x)
+{
+    return x < 0.0 ? -1.0 : 1.0;
+}
 
-bool isTranslation(const Eigen::Isometry3d& t) { return t.linear() == Mat3::Identity(); }
+bool isTranslation(const Eigen::Isometry3d& t)
+{
+    return t.linear() == Mat3::Identity();
+}
 
 /// Box with round edges, its faces along the axes.
 struct Box final : Shape::Body {
@@ -90,7 +96,7 @@ struct Ball final : Shape::Body {
 };
 
 struct Capsule final : Shape::Body {
-    Vec3 a, along;       ///< one end of the core and the way to the other
+    Vec3 a, along;  ///< one end of the core and the way to the other
     double radius, inverseSquare;
 
     Capsule(const Vec3& from, const Vec3& to, double r) : a(from), along(to - from), radius(r)
@@ -128,7 +134,8 @@ struct Cylinder final : Shape::Body {
 
     Cylinder(const Vec3& c, const Vec3& a, double r, double h, double edge)
         : center(c), axis(a), radius(r), half(h), round(edge)
-    {}
+    {
+    }
 
     double distance(const Vec3& x) const override
     {
@@ -163,7 +170,10 @@ struct Cylinder final : Shape::Body {
 
 }  // namespace
 
-Shape Shape::box(const Vec3& center, const Vec3& half) { return roundedBox(center, half, 0.0); }
+Shape Shape::box(const Vec3& center, const Vec3& half)
+{
+    return roundedBox(center, half, 0.0);
+}
 
 Shape Shape::roundedBox(const Vec3& center, const Vec3& half, double round)
 {

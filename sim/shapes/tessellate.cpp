@@ -26,8 +26,8 @@ TriangleMesh boxMesh(const Eigen::AlignedBox3d& box)
     return mesh;
 }
 
-/// Marches through the tetrahedra of a lattice: each cube is cut into the six that share its diagonal, so that the cuts of neighbouring cubes
-/// match and the mesh is closed.
+/// Marches through the tetrahedra of a lattice: each cube is cut into the six that share its diagonal, so that the cuts
+/// of neighbouring cubes match and the mesh is closed.
 class Marcher {
  public:
     Marcher(const Shape& shape, double cell) : shape_(shape), cell_(cell)
@@ -35,7 +35,8 @@ class Marcher {
         const Eigen::AlignedBox3d box = shape.bounds();
         const Vec3 cells = (box.sizes() / cell).array().ceil() + 2.0;
         constexpr double kMostCells = 2.0e8;
-        if (!(cells.prod() <= kMostCells)) throw InputError("a shape is unbounded or too large to be drawn with such cells");
+        if (!(cells.prod() <= kMostCells))
+            throw InputError("a shape is unbounded or too large to be drawn with such cells");
         for (int a = 0; a < kAxes; ++a) nodes_[a] = static_cast<std::size_t>(cells[a]) + 1;
         lower_ = box.center() - 0.5 * cell * cells;
     }
@@ -83,7 +84,8 @@ class Marcher {
         // Ways from corner 0 to corner 7, one axis at a time; every other way turns left.
         constexpr std::array<std::array<int, 2>, 6> kWays = {{{1, 3}, {2, 3}, {2, 6}, {4, 6}, {4, 5}, {1, 5}}};
         for (int w = 0; w < 6; ++w) {
-            std::array<std::size_t, 4> t = {base, base + offset(kWays[w][0]), base + offset(kWays[w][1]), base + offset(7)};
+            std::array<std::size_t, 4> t = {base, base + offset(kWays[w][0]), base + offset(kWays[w][1]),
+                                            base + offset(7)};
             if (w % 2 == 1) std::swap(t[1], t[2]);
             marchTetrahedron(t);
         }
@@ -103,7 +105,8 @@ class Marcher {
         if (inside == 1) {
             addTriangle(crossing(t[0], t[1]), crossing(t[0], t[2]), crossing(t[0], t[3]), mirrored);
         } else if (inside == 2) {
-            const int a = crossing(t[0], t[2]), b = crossing(t[0], t[3]), c = crossing(t[1], t[3]), d = crossing(t[1], t[2]);
+            const int a = crossing(t[0], t[2]), b = crossing(t[0], t[3]), c = crossing(t[1], t[3]),
+                      d = crossing(t[1], t[2]);
             addTriangle(a, b, c, mirrored);
             addTriangle(a, c, d, mirrored);
         } else if (inside == 3) {
@@ -120,8 +123,8 @@ class Marcher {
     int crossing(std::size_t a, std::size_t b)
     {
         if (a > b) std::swap(a, b);
-        const auto [entry, isNew] = crossings_.try_emplace(a * kEdgeKinds + edgeKind(b - a),
-                                                             static_cast<int>(mesh_.vertices.size()));
+        const auto [entry, isNew] =
+            crossings_.try_emplace(a * kEdgeKinds + edgeKind(b - a), static_cast<int>(mesh_.vertices.size()));
         if (isNew) {
             const double t = values_[a] / (values_[a] - values_[b]);
             mesh_.vertices.push_back((1.0 - t) * position(a) + t * position(b));

@@ -4,21 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sim {
 
 namespace {
 
 constexpr int kLeafTriangles = 4;
-constexpr int kMostDepth = 64;     ///< of a tree of halves with 2^31 triangles, and some
-constexpr double kFar = 2.0;       ///< a group of triangles acts as one at this many radii
+constexpr int kMostDepth = 64;  ///< of a tree of halves with 2^31 triangles, and some
+constexpr double kFar = 2.0;    ///< a group of triangles acts as one at this many radii
 
-Vec3 areaVector(const std::array<Vec3, 3>& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]); }
+Vec3 areaVector(const std::array<Vec3, 3>& t)
+{
+    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
+}
 
 /// Thinner triangles are lines, for which rounding would decide where they face.
 bool hasArea(const std::array<Vec3, 3>& t)
 {
-    const double edge = std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+    const double edge =
+        std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
     return areaVector(t).norm() > 1.0e-12 * edge;
 }
 
@@ -91,27 +96,33 @@ int TriangleTree::build(int first, int last)
     return number;
 }
 
-double TriangleTree::distance(const Vec3& x, double limit) const
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& x, int guess) const
 {
-    double best = limit * limit;
-    std::array<int, kMostDepth> waiting;
+    double best = squaredDistance(x, corners_[guess]);
+    struct Waiting {
+        double squaredDistance;
+        int node;
+    };
+    std::array<Waiting, kMostDepth> waiting;
     int count = 0;
-    waiting[count++] = 0;
+    waiting[count++] = {0.0, 0};
     while (count > 0) {
-        const int number = waiting[--count];
-        const Node& node = nodes_[number];
-        if (node.box.squaredExteriorDistance(x) >= best) continue;
+        const Waiting next = waiting[--count];
+        if (next.squaredDistance >= best) continue;
+        const Node& node = nodes_[next.node];
         if (node.right == 0) {
-            for (int i = node.first; i < node.last; ++i) best = std::min(best, squaredDistance(x, corners_[i]));
+            for (int i = node.first; i < node.last; ++i)
+                if (const double d = squaredDistance(x, corners_[i]); d < best) best = d, guess = i;
             continue;
         }
         // The nearer child is looked at first: it leaves less to do in the other.
-        const double left = nodes_[number + 1].box.squaredExteriorDistance(x);
-        const double right = nodes_[node.right].box.squaredExteriorDistance(x);
-        waiting[count++] = left < right ? node.right : number + 1;
-        waiting[count++] = left < right ? number + 1 : node.right;
+        Waiting near = {nodes_[next.node + 1].box.squaredExteriorDistance(x), next.node + 1};
+        Waiting far = {nodes_[node.right].box.squaredExteriorDistance(x), node.right};
+        if (far.squaredDistance < near.squaredDistance) std::swap(near, far);
+        if (far.squaredDistance < best) waiting[count++] = far;
+        if (near.squaredDistance < best) waiting[count++] = near;
     }
-    return std::sqrt(best);
+    return {std::sqrt(best), guess};
 }
 
 double TriangleTree::windingNumber(const Vec3& x) const

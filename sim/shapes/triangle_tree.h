@@ -16,11 +16,16 @@ class TriangleTree {
 
     bool empty() const { return corners_.empty(); }
 
-    /// Distance to the nearest triangle if that is less than `limit`, else `limit` [cm].
-    double distance(const Vec3& x, double limit) const;
+    /// The nearest triangle.
+    struct Nearest {
+        double distance;  ///< [cm]
+        int triangle;     ///< its number in the tree
+    };
+    /// `guess` is a triangle of the tree: the nearer it is, the quicker the search.
+    Nearest nearest(const Vec3& x, int guess = 0) const;
 
-    /// How often the mesh goes around x: 1 inside and 0 outside of a closed one, in between near holes. Far groups of triangles
-    /// act as one, to a few percent. Source: Barill et al. 2018, "Fast Winding Numbers for Soups and Clouds".
+    /// How often the mesh goes around x: 1 inside and 0 outside of a closed one, in between near holes. Far groups of
+    /// triangles act as one, to a few percent. Source: Barill et al. 2018, "Fast Winding Numbers for Soups and Clouds".
     double windingNumber(const Vec3& x) const;
 
     /// Negative for a closed mesh that is turned inside out [cm^3].
@@ -30,11 +35,11 @@ class TriangleTree {
     using Corners = std::array<Vec3, 3>;
     struct Node {
         Eigen::AlignedBox3d box;
-        Vec3 areaNormal = Vec3::Zero();   ///< sum of the triangles' area vectors …
-        Vec3 middle = Vec3::Zero();       ///< … their mean place, weighted by area
-        double radius = 0.0;              ///< of the ball around the middle that holds them all
-        int first = 0, last = 0;          ///< its triangles
-        int right = 0;                    ///< second child; the first is the next node; 0 for a leaf
+        Vec3 areaNormal = Vec3::Zero();  ///< sum of the triangles' area vectors …
+        Vec3 middle = Vec3::Zero();      ///< … their mean place, weighted by area
+        double radius = 0.0;             ///< of the ball around the middle that holds them all
+        int first = 0, last = 0;         ///< its triangles
+        int right = 0;                   ///< second child; the first is the next node; 0 for a leaf
     };
 
     int build(int first, int last);

@@ -16,8 +16,8 @@ constexpr int kHalvings = 3;
 /// Share of a unit cube around 0 in which m·x < depth, all m ≥ 0: corners counted in and out (inclusion and exclusion).
 double shareBelow(const Vec3& m, double depth)
 {
-    // Axes along which the plane hardly rises drop out: they change the share by the square of that at most, and would make
-    // it 0/0.
+    // Axes along which the plane hardly rises drop out: they change the share by the square of that at most, and would
+    // make it 0/0.
     std::array<double, kAxes> rise;
     int axes = 0;
     for (double r : m)
@@ -59,7 +59,8 @@ double boundedVolume(const Shape& shape, double cell)
     if (!box.sizes().allFinite()) throw InputError("the volume of an unbounded shape was asked for");
     const Vec3 counts = (box.sizes() / cell).array().ceil().max(1.0);
     constexpr double kMostCells = 1.0e9;
-    if (!(counts.prod() < kMostCells)) throw InputError("a shape is too large for its cells: its volume takes over 1e9 of them");
+    if (!(counts.prod() < kMostCells))
+        throw InputError("a shape is too large for its cells: its volume takes over 1e9 of them");
     const Vec3 size = box.sizes().cwiseQuotient(counts);
     const std::size_t nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
     const std::size_t rows = ny * static_cast<std::size_t>(counts[2]);

@@ -37,6 +37,11 @@ SeedPlan damBreak(Pattern pattern)
 
 const Pattern kPatterns[] = {Pattern::Lattice, Pattern::Reference, Pattern::Jittered, Pattern::Poisson};
 
+double countOf(const Seeds& seeds)
+{
+    return static_cast<double>(seeds.positions.size());
+}
+
 double leastDistance(const std::vector<Vec3>& x, double reach)
 {
     const PointBins bins(x, reach);
@@ -51,10 +56,10 @@ double leastDistance(const std::vector<Vec3>& x, double reach)
 
 TEST(Seed, ReferenceGivesAsManyParticlesAsPublished)
 {
-    EXPECT_NEAR(seedParticles(damBreak(Pattern::Reference)).positions.size() / 313501.0, 1.0, 0.02);
+    EXPECT_NEAR(countOf(seedParticles(damBreak(Pattern::Reference))) / 313501.0, 1.0, 0.02);
     const Shape ball = Shape::ball({7.2, 5.76, 7.2}, 1.44);
-    EXPECT_NEAR(seedParticles(planOf(ball, Pattern::Reference)).positions.size() / 9876.0, 1.0, 0.02);
-    EXPECT_NEAR(seedParticles(planOf(ball, Pattern::Reference, 0.25)).positions.size() / 26532.0, 1.0, 0.02);
+    EXPECT_NEAR(countOf(seedParticles(planOf(ball, Pattern::Reference))) / 9876.0, 1.0, 0.02);
+    EXPECT_NEAR(countOf(seedParticles(planOf(ball, Pattern::Reference, 0.25))) / 26532.0, 1.0, 0.02);
 }
 
 TEST(Seed, ReferenceKeepsThePublishedVolume)
@@ -67,9 +72,10 @@ TEST(Seed, ReferenceKeepsThePublishedVolume)
 
 TEST(Seed, ALatticeIsAsLargeAsItsSource)
 {
-    for (const SeedPlan& plan : {damBreak(Pattern::Lattice), planOf(Shape::ball({0.3, 0.1, 0.2}, 1.44), Pattern::Lattice)}) {
+    for (const SeedPlan& plan :
+         {damBreak(Pattern::Lattice), planOf(Shape::ball({0.3, 0.1, 0.2}, 1.44), Pattern::Lattice)}) {
         const Seeds seeds = seedParticles(plan);
-        const double region = boundedVolume(plan.source, plan.dx), count = static_cast<double>(seeds.positions.size());
+        const double region = boundedVolume(plan.source, plan.dx), count = countOf(seeds);
         EXPECT_NEAR(count * std::pow(0.4 * 0.288, 3) / region, 1.0, 0.02);
         EXPECT_NEAR(count * seeds.volume / region, 1.0, 1e-12);
     }
@@ -81,7 +87,7 @@ TEST(Seed, EveryPatternButTheReferenceFillsItsSource)
         const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 2.0), pattern);
         const Seeds seeds = seedParticles(plan);
         const double region = boundedVolume(plan.source, plan.dx);
-        EXPECT_NEAR(static_cast<double>(seeds.positions.size()) * seeds.volume / region, 1.0, 1e-12);
+        EXPECT_NEAR(countOf(seeds) * seeds.volume / region, 1.0, 1e-12);
         EXPECT_NEAR(seeds.volume / std::pow(0.4 * 0.288, 3), 1.0, 0.05);
     }
 }
@@ -120,7 +126,7 @@ TEST(Seed, ParticlesLieInTheSourceAndOutsideOfSolids)
         }
         if (pattern == Pattern::Reference) continue;
         const Shape region = Shape::subtract({plan.source, plan.solids[0], plan.solids[1]});
-        EXPECT_NEAR(static_cast<double>(seeds.positions.size()) * seeds.volume, boundedVolume(region, plan.dx), 1e-9);
+        EXPECT_NEAR(countOf(seeds) * seeds.volume, boundedVolume(region, plan.dx), 1e-9);
     }
 }
 
@@ -138,7 +144,8 @@ TEST(Seed, ParticlesKeepTheirDistanceFromLiquidThatIsThere)
 {
     const Shape ball = Shape::ball(Vec3::Zero(), 1.2);
     for (Pattern pattern : {Pattern::Reference, Pattern::Poisson}) {
-        const SeedPlan first = planOf(ball, pattern), second = planOf(Shape::ball({0.6, 0.0, 0.0}, 1.2), pattern, 0.0, 2);
+        const SeedPlan first = planOf(ball, pattern),
+                       second = planOf(Shape::ball({0.6, 0.0, 0.0}, 1.2), pattern, 0.0, 2);
         LiquidNearby nearby;
         nearby.positions = seedParticles(first).positions;
         std::vector<Vec3> all = nearby.positions;
@@ -155,7 +162,7 @@ TEST(Seed, AFullSourceTakesNoMore)
     for (Pattern pattern : kPatterns) {
         SeedPlan plan = planOf(Shape::box(Vec3::Zero(), {0.6, 0.7, 0.8}), pattern);
         const Seeds seeds = seedParticles(plan);
-        LiquidNearby nearby{seeds.positions, static_cast<double>(seeds.positions.size()) * seeds.volume};
+        LiquidNearby nearby{seeds.positions, countOf(seeds) * seeds.volume};
         EXPECT_TRUE(seedParticles(plan, nearby).positions.empty());
     }
 }
@@ -164,7 +171,8 @@ TEST(Seed, AShiftedLatticeOfLiquidLeavesNoGaps)
 {
     SeedPlan plan = planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.152)), Pattern::Lattice);
     LiquidNearby nearby;
-    for (const Vec3& x : seedParticles(planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.3824)), Pattern::Lattice)).positions)
+    for (const Vec3& x :
+         seedParticles(planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.3824)), Pattern::Lattice)).positions)
         nearby.positions.push_back(x + 0.1152 * Vec3(0.49, 0.31, 0.44));
     EXPECT_TRUE(seedParticles(plan, nearby).positions.empty());
 }
@@ -189,7 +197,8 @@ TEST(Seed, GivesTheSameBitsForAnyNumberOfThreads)
 TEST(Seed, OtherSeedsAndSourcesDrawOtherNumbers)
 {
     for (Pattern pattern : {Pattern::Reference, Pattern::Jittered, Pattern::Poisson}) {
-        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.0), pattern), other = planOf(plan.source, pattern, 0.0, 2);
+        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.0), pattern),
+                       other = planOf(plan.source, pattern, 0.0, 2);
         SeedPlan stream = plan;
         stream.stream = 1;
         EXPECT_NE(seedParticles(plan).positions, seedParticles(other).positions);

@@ -18,16 +18,21 @@ namespace {
 Vec3 somePoint(std::uint64_t index, double half)
 {
     const CounterRandom random(3, 0);
-    return half * Vec3(2.0 * random.uniform(index, 0) - 1.0, 2.0 * random.uniform(index, 1) - 1.0, 2.0 * random.uniform(index, 2) - 1.0);
+    return half * Vec3(2.0 * random.uniform(index, 0) - 1.0, 2.0 * random.uniform(index, 1) - 1.0,
+                       2.0 * random.uniform(index, 2) - 1.0);
 }
 
-double signedVolume(const TriangleMesh& mesh) { return TriangleTree(mesh).signedVolume(); }
+double signedVolume(const TriangleMesh& mesh)
+{
+    return TriangleTree(mesh).signedVolume();
+}
 
 double area(const TriangleMesh& mesh)
 {
     double sum = 0.0;
     for (const Vec3i& t : mesh.triangles)
-        sum += 0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
+        sum +=
+            0.5 * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm();
     return sum;
 }
 
@@ -45,7 +50,10 @@ bool isClosed(const TriangleMesh& mesh)
     return !edges.empty();
 }
 
-TriangleMesh ballMesh() { return tessellate(Shape::ball(Vec3::Zero(), 1.0), 0.08); }
+TriangleMesh ballMesh()
+{
+    return tessellate(Shape::ball(Vec3::Zero(), 1.0), 0.08);
+}
 
 TEST(Tessellate, ABallIsClosedAndFacesOutward)
 {
@@ -68,8 +76,9 @@ TEST(Tessellate, WhateverIsBoundedIsClosed)
 {
     const Shape ball = Shape::ball(Vec3::Zero(), 1.0), box = Shape::box({0.5, 0.5, 0.5}, Vec3::Constant(0.5));
     const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
-    for (const Shape& s : {Shape::subtract({ball, box}), Shape::unite({ball, box}), Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.25),
-                           box.moved(turn), Shape::cylinder(Vec3::Zero(), Vec3::UnitZ(), 1.0, 0.5, 0.0)}) {
+    for (const Shape& s :
+         {Shape::subtract({ball, box}), Shape::unite({ball, box}), Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.25),
+          box.moved(turn), Shape::cylinder(Vec3::Zero(), Vec3::UnitZ(), 1.0, 0.5, 0.0)}) {
         const TriangleMesh mesh = tessellate(s, 0.125);
         EXPECT_TRUE(isClosed(mesh));
         EXPECT_GT(signedVolume(mesh), 0.5);
@@ -79,20 +88,35 @@ TEST(Tessellate, WhateverIsBoundedIsClosed)
 TEST(Tessellate, RefusesTheUnbounded)
 {
     EXPECT_THROW(tessellate(Shape::ball(Vec3::Zero(), 1.0).inverted(), 0.1), InputError);
-    EXPECT_THROW(tessellate(Shape::unite({Shape::ball(Vec3::Zero(), 1.0), Shape::box(Vec3::Zero(), Vec3::Ones()).inverted()}), 0.1),
-                 InputError);
+    EXPECT_THROW(
+        tessellate(Shape::unite({Shape::ball(Vec3::Zero(), 1.0), Shape::box(Vec3::Zero(), Vec3::Ones()).inverted()}),
+                   0.1),
+        InputError);
     EXPECT_TRUE(tessellate(Shape(), 0.1).triangles.empty());
 }
 
-TEST(TriangleTree, FindsTheNearestTriangleAsALookAtAllDoes)
+TEST(TriangleTree, FindsTheNearestTriangleWhateverTheGuess)
 {
-    const TriangleMesh mesh = tessellate(Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8}), 0.1);
-    const Shape box = Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8});
+    const TriangleMesh mesh = ballMesh();
     const TriangleTree tree(mesh);
     for (int p = 0; p < 500; ++p) {
         const Vec3 x = somePoint(p, 2.0);
-        EXPECT_NEAR(tree.distance(x, 100.0), std::abs(box.distance(x)), 1e-12);
-        EXPECT_EQ(tree.distance(x, 1.0e-6), 1.0e-6);
+        double nearest = std::abs(x.norm() - 1.0) + 0.01;  // the tessellated ball is no further from the true one
+        EXPECT_LE(tree.nearest(x).distance, nearest);
+        for (const Vec3& v : mesh.vertices) nearest = std::min(nearest, (v - x).norm());
+        EXPECT_LE(tree.nearest(x).distance, nearest);
+        EXPECT_GE(tree.nearest(x).distance, std::abs(x.norm() - 1.0) - 0.01);
+        EXPECT_EQ(tree.nearest(x, p).distance, tree.nearest(x).distance);
+    }
+}
+
+TEST(TriangleTree, KnowsFacesEdgesAndCornersOfABox)
+{
+    const Shape box = Shape::box(Vec3::Zero(), {1.0, 0.5, 0.8});
+    const TriangleTree tree(tessellate(box, 0.1));
+    for (int p = 0; p < 500; ++p) {
+        const Vec3 x = somePoint(p, 2.0);
+        EXPECT_NEAR(tree.nearest(x).distance, std::abs(box.distance(x)), 1e-12);
     }
 }
 
@@ -195,7 +219,8 @@ class Obj : public ::testing::Test {
 constexpr const char* kCube =
     "# a cube\nmtllib some.mtl\no cube\n"
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvn 0 0 1\nvt 0 0\n"
-    "f 4 3 2 1\nf 5/1 6/1 7/1 8/1\r\nf 1//1 2//1 6//1 5//1\nf -6/1/1 -5/1/1 -1/1/1 -2/1/1 # top\n\tf 2 3 7 6\nf 1 5 8 4\n";
+    "f 4 3 2 1\nf 5/1 6/1 7/1 8/1\r\nf 1//1 2//1 6//1 5//1\nf -6/1/1 -5/1/1 -1/1/1 -2/1/1 # top\n\tf 2 3 7 6\nf 1 5 8 "
+    "4\n";
 
 TEST_F(Obj, ReadsFacesInAllTheirForms)
 {

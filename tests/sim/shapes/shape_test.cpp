@@ -172,6 +172,8 @@ TEST(Shape, NormalsOfOperatorsAreThoseOfTheChildThatDecides)
     const Shape a = Shape::ball({-2.0, 0.0, 0.0}, 1.0), b = Shape::ball({2.0, 0.0, 0.0}, 1.0);
     EXPECT_TRUE(Shape::unite({a, b}).normal({1.0, 3.0, 0.0}).isApprox(b.normal({1.0, 3.0, 0.0})));
     EXPECT_TRUE(Shape::intersect({a, b}).normal({1.0, 3.0, 0.0}).isApprox(a.normal({1.0, 3.0, 0.0})));
+    EXPECT_TRUE(Shape::intersect({b, a}).normal({0.05, 3.0, 0.0}).isApprox(a.normal({0.05, 3.0, 0.0})));
+    EXPECT_TRUE(Shape::unite({a, b}).normal({0.05, 3.0, 0.0}).isApprox(b.normal({0.05, 3.0, 0.0})));
     const Shape hollow = Shape::subtract({Shape::ball(Vec3::Zero(), 2.0), Shape::ball(Vec3::Zero(), 1.0)});
     EXPECT_TRUE(hollow.normal({1.1, 0.0, 0.0}).isApprox(Vec3(-1.0, 0.0, 0.0)));
     EXPECT_TRUE(hollow.normal({1.9, 0.0, 0.0}).isApprox(Vec3(1.0, 0.0, 0.0)));
@@ -200,7 +202,9 @@ TEST(Shape, InvertedShapesAreUnboundedAndTurnBack)
     EXPECT_FALSE(ball.inverted().inverted().isInverted());
     EXPECT_EQ(ball.inverted().bounds().max()[1], std::numeric_limits<double>::infinity());
     EXPECT_EQ(ball.inverted().moved(someMotion()).bounds().min()[2], -std::numeric_limits<double>::infinity());
-    EXPECT_TRUE(Shape::intersect({ball, Shape::box(Vec3::Zero(), Vec3::Constant(0.1)).inverted()}).bounds().isApprox(ball.bounds()));
+    EXPECT_TRUE(Shape::intersect({ball, Shape::box(Vec3::Zero(), Vec3::Constant(0.1)).inverted()})
+                    .bounds()
+                    .isApprox(ball.bounds()));
     EXPECT_TRUE(Shape::intersect({ball, Shape::ball({5.0, 0.0, 0.0}, 1.0)}).bounds().isEmpty());
 }
 
