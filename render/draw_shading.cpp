@@ -16,6 +16,7 @@ void DrawShading::draw(GLuint colorTexture, GLuint depthTexture, const ViewTrans
     gl_.Uniform2f(program_["nearFar"], transforms.zNear, transforms.zFar);
     gl_.Uniform1f(program_["strength"], strength);
     gl_.Uniform1f(program_["depthStep"], step);
+    gl_.Uniform1f(program_["pixelsPerTangent"], transforms.pixelsPerTangent());
     gl_.Uniform1f(program_["reach"], static_cast<float>(transforms.height) / 720.0f);
     gl_.ActiveTexture(GL_TEXTURE1);
     gl_.BindTexture(GL_TEXTURE_2D, depthTexture);

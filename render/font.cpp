@@ -98,7 +98,7 @@ float Font::width(std::string_view text, float size) const
 
 float Font::capHeight(float size) const
 {
-    int x0, y0, x1, y1;
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     stbtt_GetCodepointBox(&face_->info, 'H', &x0, &y0, &x1, &y1);
     return stbtt_ScaleForPixelHeight(&face_->info, size) * static_cast<float>(y1);
 }
@@ -111,7 +111,7 @@ PixelBox Font::draw(Image& image, std::string_view text, float x, float y, float
     int left = image.width, right = 0, top = image.height, bottom = 0;
     walk(face_->info, text, scale, [&](int point, float pen) {
         const float start = std::floor(x + pen), shift = x + pen - start;
-        int x0, y0, x1, y1;
+        int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
         stbtt_GetCodepointBitmapBoxSubpixel(&face_->info, point, scale, scale, shift, 0.0f, &x0, &y0, &x1, &y1);
         const PixelBox box = {static_cast<int>(start) + x0, baseline + y0, x1 - x0, y1 - y0};
         if (box.width <= 0 || box.height <= 0) return;

@@ -20,7 +20,7 @@ struct LiquidLook {
     std::array<float, 2> range = {0.0f, 200.0f};   ///< values at the ends of the colour map
     float radiusFactor = 1.0f;                     ///< drawn radius / FrameView radius [-]
     float pointPixels = 2.0f;                      ///< diameter of dots in a picture 720 pixels high [pixels]
-    float depthShading = 0.6f;                     ///< how much nearer liquid darkens what lies behind it, 0 … 1
+    float depthShading = 1.0f;                     ///< how strongly its shape shades the liquid: 0 = pure colours … 1
 };
 
 struct ObstacleLook {
