@@ -14,7 +14,7 @@ inline constexpr int kColorMapSize = 256;
 using ColorTable = std::array<Eigen::Vector3f, kColorMapSize>;   ///< red, green, blue in 0 … 1
 
 /// The map as 256 colours from the lowest value to the highest.
-/// Jet: identical to MATLAB's jet(256). Turbo: polynomial of A. Mikhailov (Google, 2019).
+/// Jet: identical to MATLAB's jet(256). Turbo: cubics through colours of A. Mikhailov's map (Google, 2019).
 /// Viridis: polynomial of M. Zucker (2019) to the map of S. van der Walt and N. Smith (matplotlib).
 ColorTable colorTable(ColorMap map);
 

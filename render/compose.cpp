@@ -47,7 +47,9 @@ Plan planFor(std::span<const Image> panels, bool hasLabels, const ComposeLook& l
     plan.columns = columnsFor(look.layout, count);
     plan.rows = (count + plan.columns - 1) / plan.columns;
     const auto inLetters = [&](float n) { return static_cast<int>(std::lround(n * plan.letter)); };
-    plan.letter = 1.15f * textSize(plan.panelWidth, plan.panelHeight);
+    // Read at the size of the whole: a row of many panels needs larger letters than one of them would.
+    plan.letter = std::max(1.15f * textSize(plan.panelWidth, plan.panelHeight),
+                           static_cast<float>(plan.columns * plan.panelWidth) / 75.0f);
     plan.gap = std::max(2, inLetters(0.25f));
     plan.labels = hasLabels ? inLetters(1.7f) : 0;
     plan.header = look.title.empty() && !look.time ? 0 : inLetters(1.6f);

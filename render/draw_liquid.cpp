@@ -1,8 +1,28 @@
 #include "render/draw_liquid.h"
 
-#include <array>
+#include "render/draw_targets.h"
+
+#include <cmath>
 
 namespace render {
+
+namespace {
+
+/// Mean place of what is dark, x to the right and y up [pixels].
+Eigen::Vector2f inkCentroid(const Image& image)
+{
+    Eigen::Vector2f sum(0.0f, 0.0f);
+    float total = 0.0f;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const float ink = static_cast<float>(255 - image.at(x, y)[0]);
+            sum += ink * Eigen::Vector2f(static_cast<float>(x) + 0.5f, static_cast<float>(image.height - y) - 0.5f);
+            total += ink;
+        }
+    return total > 0.0f ? Eigen::Vector2f(sum / total) : 0.5f * Eigen::Vector2f(static_cast<float>(image.width), static_cast<float>(image.height));
+}
+
+}  // namespace
 
 DrawLiquid::DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir)
     : gl_(gl), program_(gl, shaderDir, "liquid"), vertices_(gl), positions_(gl), values_(gl), colorMap_(gl)
@@ -19,18 +39,13 @@ void DrawLiquid::draw(const FrameView::Liquid& liquid, const ViewTransforms& tra
                       int samples)
 {
     if (liquid.positions.empty()) return;
+    const auto known = pointShift_.find(samples);
+    const Eigen::Vector2f shift = known == pointShift_.end() ? Eigen::Vector2f(0.0f, 0.0f) : known->second;
     gl_.BindVertexArray(vertices_.id());
-    gl_.BindBuffer(GL_ARRAY_BUFFER, positions_.id());
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(liquid.positions.size_bytes()), liquid.positions.data(),
-                   GL_STREAM_DRAW);
-    gl_.BindBuffer(GL_ARRAY_BUFFER, values_.id());
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(liquid.values.size_bytes()), liquid.values.data(),
-                   GL_STREAM_DRAW);
-    if (look.flat) gl_.DisableVertexAttribArray(1);  // values may be missing then
-    else gl_.EnableVertexAttribArray(1);
+    upload(liquid, !look.flat);
     useColorMap(look.colorMap);
     program_.use();
-    setUniforms(liquid, transforms, look, samples > 1);
+    setUniforms(liquid, transforms, look, samples > 1, shift);
 
     gl_.Enable(GL_PROGRAM_POINT_SIZE);
     gl_.Enable(GL_DEPTH_TEST);
@@ -41,6 +56,41 @@ void DrawLiquid::draw(const FrameView::Liquid& liquid, const ViewTransforms& tra
     gl_.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(liquid.positions.size()));
     gl_.Disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     requireNoGlError(gl_, "drawing the liquid");
+}
+
+void DrawLiquid::calibrate(int samples)
+{
+    if (pointShift_.contains(samples)) return;
+    constexpr int kSize = 32;
+    constexpr float kMiddle = 0.5f * kSize;
+    const Eigen::Vector3f position(0.0f, 0.0f, -1.0f);
+    const float noValue = 0.0f;
+    LiquidLook black;
+    black.style = LiquidStyle::Points;
+    black.flat = true;
+    black.flatColor.setZero();
+    black.pointPixels = 12.0f * 720.0f / kSize;
+    const ViewTransforms transforms = {Eigen::Matrix4f::Identity(), projection({}, 1.0, 0.5, 2.0).cast<float>(),
+                                       {0.0f, 0.0f, 0.0f}, 0.5f, 2.0f, kSize, kSize};
+    const DrawTargets targets(gl_, kSize, kSize, samples);
+    targets.beginScene({1.0f, 1.0f, 1.0f});
+    draw({{&position, 1}, {&noValue, 1}, 0.1f}, transforms, black, samples);
+    targets.resolve();
+    const Eigen::Vector2f place = inkCentroid(targets.readResolved());
+    const auto toHalves = [](float x) { return 0.5f * std::round(2.0f * x); };
+    pointShift_[samples] = {toHalves(kMiddle - place.x()), toHalves(kMiddle - place.y())};
+}
+
+void DrawLiquid::upload(const FrameView::Liquid& liquid, bool withValues) const
+{
+    const auto fillBuffer = [this](const Buffer& buffer, auto data) {
+        gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
+        gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), GL_STREAM_DRAW);
+    };
+    fillBuffer(positions_, liquid.positions);
+    fillBuffer(values_, liquid.values);
+    if (withValues) gl_.EnableVertexAttribArray(1);
+    else gl_.DisableVertexAttribArray(1);
 }
 
 void DrawLiquid::useColorMap(ColorMap map)
@@ -58,7 +108,7 @@ void DrawLiquid::useColorMap(ColorMap map)
 }
 
 void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,
-                             bool smoothEdges) const
+                             bool smoothEdges, const Eigen::Vector2f& pointShift) const
 {
     const bool dots = look.style == LiquidStyle::Points;
     gl_.UniformMatrix4fv(program_["view"], 1, GL_FALSE, transforms.view.data());
@@ -72,6 +122,8 @@ void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransfor
                   look.flat ? 1.0f : 0.0f);
     gl_.Uniform1i(program_["colorMap"], 0);
     gl_.Uniform1i(program_["smoothEdges"], smoothEdges ? 1 : 0);
+    gl_.Uniform2f(program_["clipShift"], 2.0f * pointShift.x() / static_cast<float>(transforms.width),
+                  2.0f * pointShift.y() / static_cast<float>(transforms.height));
 }
 
 }  // namespace render

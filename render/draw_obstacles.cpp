@@ -2,6 +2,7 @@
 
 #include "render/mesh_edges.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace render {
@@ -130,7 +131,7 @@ void DrawObstacles::drawEdges(GLsizei edges, const ViewTransforms& transforms, c
     gl_.Uniform3f(edgeProgram_["eyePosition"], transforms.eye.x(), transforms.eye.y(), transforms.eye.z());
     gl_.Uniform2f(edgeProgram_["halfPicture"], 0.5f * static_cast<float>(transforms.width),
                   0.5f * static_cast<float>(transforms.height));
-    gl_.Uniform1f(edgeProgram_["linePixels"], 1.5f * static_cast<float>(transforms.height) / 720.0f);
+    gl_.Uniform1f(edgeProgram_["linePixels"], std::max(1.0f, 1.5f * static_cast<float>(transforms.height) / 720.0f));
     gl_.BindVertexArray(edgeVertices_.id());
     gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, edges);
 }

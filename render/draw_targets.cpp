@@ -63,10 +63,13 @@ bool DrawTargets::fits(int width, int height, int samples) const
     return width == width_ && height == height_ && samples == samples_;
 }
 
-void DrawTargets::beginScene() const
+void DrawTargets::beginScene(const Eigen::Vector3f& background) const
 {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, scene_.id());
     gl_.Viewport(0, 0, width_, height_);
+    gl_.DepthMask(GL_TRUE);
+    gl_.ClearColor(background.x(), background.y(), background.z(), 1.0f);
+    gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void DrawTargets::resolve() const
@@ -79,9 +82,9 @@ void DrawTargets::resolve() const
     gl_.Viewport(0, 0, width_, height_);
 }
 
-Image DrawTargets::read() const
+Image DrawTargets::read(const Framebuffer& framebuffer) const
 {
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
     std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width_) * height_);
     gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
     gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());

@@ -97,6 +97,14 @@ Similarity structuralSimilarity(const Image& imageA, const Image& imageB)
     return result;
 }
 
+double meanColorDifference(const Image& a, const Image& b)
+{
+    requireSameSize(a, b);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+    return sum / static_cast<double>(std::max<std::size_t>(1, a.pixels.size()));
+}
+
 Image differenceImage(const Image& actual, const Image& expected)
 {
     requireSameSize(actual, expected);

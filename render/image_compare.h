@@ -14,6 +14,10 @@ struct Similarity {
 /// Throws std::invalid_argument if the pictures differ in size. At the border the window is cut and reweighted.
 Similarity structuralSimilarity(const Image& a, const Image& b);
 
+/// Mean over pixels and channels of |a − b|, in steps of 255: sees changes of hue that leave the luminance alone.
+/// Throws std::invalid_argument if the pictures differ in size.
+double meanColorDifference(const Image& a, const Image& b);
+
 /// The expected picture in pale grey with every difference in red over it, darker where it is larger.
 /// Throws std::invalid_argument if the pictures differ in size.
 Image differenceImage(const Image& actual, const Image& expected);

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
 
 namespace render {
 
@@ -16,17 +15,27 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
-/// For every position the first of those at the same place.
-std::vector<int> weld(std::span<const Vector3f> positions)
+float halfDiagonal(std::span<const Vector3f> positions)
 {
-    std::vector<int> order(positions.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](int i) { return std::tuple(positions[i].x(), positions[i].y(), positions[i].z(), i); };
-    std::ranges::sort(order, {}, key);
+    Eigen::AlignedBox3f box;
+    for (const Vector3f& x : positions) box.extend(x);
+    return box.isEmpty() ? 0.0f : 0.5f * box.diagonal().norm();
+}
+
+/// For every position the first of those at the same place, to a hundred-thousandth of the mesh's size.
+std::vector<int> weld(std::span<const Vector3f> positions, float size)
+{
+    const float pitch = size > 0.0f ? 1e-5f * size : 1.0f;
+    std::vector<std::array<long, 4>> places;       // lattice place, then index
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vector3f place = positions[i] / pitch;
+        places.push_back({std::lround(place.x()), std::lround(place.y()), std::lround(place.z()), static_cast<long>(i)});
+    }
+    std::ranges::sort(places);
     std::vector<int> first(positions.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const bool isCopy = k > 0 && positions[order[k]] == positions[order[k - 1]];
-        first[order[k]] = isCopy ? first[order[k - 1]] : order[k];
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const bool isCopy = k > 0 && std::equal(places[k].begin(), places[k].begin() + 3, places[k - 1].begin());
+        first[places[k][3]] = isCopy ? first[places[k - 1][3]] : static_cast<int>(places[k][3]);
     }
     return first;
 }
@@ -37,16 +46,17 @@ struct Faces {
     std::vector<float> areas;
 };
 
-Faces facesOf(const FrameView::Mesh& mesh)
+Faces facesOf(const FrameView::Mesh& mesh, float size)
 {
-    const std::vector<int> first = weld(mesh.positions);
+    const std::vector<int> first = weld(mesh.positions, size);
     Faces faces;
     for (const Vector3i& t : mesh.triangles) {
         if (t.minCoeff() < 0 || t.maxCoeff() >= static_cast<int>(mesh.positions.size()))
             throw std::invalid_argument("obstacle: a triangle names a position that is not there");
-        const Vector3f normal = (mesh.positions[t[1]] - mesh.positions[t[0]])
-                                    .cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
-        faces.corners.emplace_back(first[t[0]], first[t[1]], first[t[2]]);
+        const Vector3i corners(first[t[0]], first[t[1]], first[t[2]]);
+        const Vector3f& a = mesh.positions[corners[0]];
+        const Vector3f normal = (mesh.positions[corners[1]] - a).cross(mesh.positions[corners[2]] - a);
+        faces.corners.push_back(corners);
         faces.normals.push_back(normal.normalized());
         faces.areas.push_back(0.5f * normal.norm());
     }
@@ -94,27 +104,21 @@ void smoothNormals(const Faces& faces, std::size_t positions, float cosCrease, M
         }
 }
 
-float halfDiagonal(std::span<const Vector3f> positions)
-{
-    Eigen::AlignedBox3f box;
-    for (const Vector3f& x : positions) box.extend(x);
-    return box.isEmpty() ? 0.0f : 0.5f * box.diagonal().norm();
-}
-
 }  // namespace
 
 MeshEdges meshEdges(const FrameView::Mesh& mesh, float creaseDegrees)
 {
     constexpr float kFlat = 1e-3f;                 // [rad]: faces this close to one plane share no line
     const float crease = creaseDegrees * std::numbers::pi_v<float> / 180.0f;
-    const Faces faces = facesOf(mesh);
+    constexpr float kSliver = 1e-6f;               // triangles smaller than this share of size² say nothing of curvature
+    const float size = halfDiagonal(mesh.positions);
+    const Faces faces = facesOf(mesh, size);
     const std::vector<HalfEdge> halves = sortedHalfEdges(faces);
 
     MeshEdges result;
     result.bend.assign(faces.corners.size(), 0.0f);
     smoothNormals(faces, mesh.positions.size(), std::cos(crease), result);
 
-    const float size = halfDiagonal(mesh.positions);
     for (std::size_t h = 0; h < halves.size();) {
         const HalfEdge& half = halves[h];
         std::size_t end = h + 1;
@@ -127,7 +131,8 @@ MeshEdges meshEdges(const FrameView::Mesh& mesh, float creaseDegrees)
             result.edges.push_back({a, b, faces.normals[half.face], faces.normals[other], isSharp});
             // The bend along an edge, angle · length, belongs by halves to the faces that meet there.
             for (const int f : {half.face, other})
-                if (!isSharp) result.bend[f] += 0.5f * angle * (b - a).norm() / faces.areas[f] * size;
+                if (!isSharp && faces.areas[f] > kSliver * size * size)
+                    result.bend[f] += 0.5f * angle * (b - a).norm() / faces.areas[f] * size;
         }
         h = end;
     }

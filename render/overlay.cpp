@@ -63,11 +63,13 @@ std::string timeText(double seconds)
 std::vector<double> niceTicks(double from, double to)
 {
     if (!(from < to) || !std::isfinite(to - from)) return {};
-    const double wanted = (to - from) / 4.0;
-    const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-    double step = 10.0 * power;
-    for (const double factor : {5.0, 2.5, 2.0, 1.0})
-        if (factor * power >= wanted * (1.0 - 1e-9)) step = factor * power;
+    constexpr double kSteps = 4.0;
+    const double power = std::pow(10.0, std::floor(std::log10((to - from) / kSteps)));
+    double step = power;
+    for (const double factor : {2.0, 2.5, 5.0, 10.0}) {
+        const auto misses = [&](double candidate) { return std::abs((to - from) / candidate - kSteps); };
+        if (misses(factor * power) < misses(step)) step = factor * power;
+    }
     std::vector<double> ticks;
     const double slack = 1e-6 * step;
     for (double k = std::ceil((from - slack) / step); k * step <= to + slack; ++k) ticks.push_back(k * step);

@@ -18,7 +18,7 @@ enum class Corner { TopLeft, TopCenter, TopRight };
 struct ColorBar {
     ColorMap map = ColorMap::Jet;
     std::array<float, 2> range = {0.0f, 200.0f};
-    std::string title;                             ///< with the unit: "speed [cm/s]"
+    std::string title = "speed [cm/s]";            ///< with the unit
 };
 
 /// Height of a line of text in pictures of this size [pixels]: one thirtieth of the height, legible from 11 up.

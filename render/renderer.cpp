@@ -59,13 +59,6 @@ ViewTransforms transformsFor(const FrameView& view, const Camera& camera, const 
             camera.eye.cast<float>(), static_cast<float>(zNear), static_cast<float>(zFar), look.width, look.height};
 }
 
-void clear(const Gl& gl, const Eigen::Vector3f& background)
-{
-    gl.DepthMask(GL_TRUE);
-    gl.ClearColor(background.x(), background.y(), background.z(), 1.0f);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
 void drawOverlay(const FrameView& view, const Look& look, const Font& font, Image& image)
 {
     const OverlayLook& overlay = look.overlay;
@@ -101,12 +94,12 @@ Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& lo
     const int samples = std::clamp(look.samples, 1, std::max(1, p.maxSamples));
     if (!p.targets || !p.targets->fits(look.width, look.height, samples)) {
         p.targets.reset();
+        p.liquid.calibrate(samples);
         p.targets.emplace(p.gl, look.width, look.height, samples);
     }
     const ViewTransforms transforms = transformsFor(view, camera, look);
 
-    p.targets->beginScene();
-    clear(p.gl, look.background);
+    p.targets->beginScene(look.background);
     p.liquid.draw(view.liquid, transforms, look.liquid, samples);
     p.obstacles.draw(view.obstacles, transforms, look.obstacles);
     p.targets->resolve();

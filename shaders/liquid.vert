@@ -14,18 +14,23 @@ uniform vec2 range;              // values at the ends of the colour map
 uniform vec4 flatColor;          // a = 1: this colour for all
 uniform sampler2D colorMap;      // 256 x 1
 uniform bool smoothEdges;
+uniform vec2 clipShift;          // corrects where the driver puts points
 
 flat out vec3 color;
 flat out float discPixels;       // diameter of the disc
 flat out float spritePixels;     // side of the square around it
 
+const float kSmallestDisc = 2.0;  // pixels: smaller ones leave holes between them
+
 void main()
 {
     vec4 eye = view * vec4(position, 1.0);
     gl_Position = projection * eye;
+    gl_Position.xy += clipShift * gl_Position.w;
 
     float tangentSquared = max(eye.z * eye.z - radius * radius, 1e-12 * eye.z * eye.z);
-    discPixels = dotPixels > 0.0 ? dotPixels : 2.0 * pixelsPerTangent * radius * inversesqrt(tangentSquared);
+    float spherePixels = 2.0 * pixelsPerTangent * radius * inversesqrt(tangentSquared);
+    discPixels = dotPixels > 0.0 ? dotPixels : max(spherePixels, kSmallestDisc);
     spritePixels = discPixels + (smoothEdges ? 1.0 : 0.0);
     gl_PointSize = spritePixels;
 
