@@ -1,0 +1,39 @@
+#pragma once
+
+#include "render/frame_view.h"
+#include "render/gl_objects.h"
+#include "render/look.h"
+#include "render/view_transforms.h"
+
+#include <map>
+#include <optional>
+
+namespace render {
+
+/// Liquid particles as shaded spheres: one point sprite each, shaped and lit in the fragment shader.
+class DrawLiquid {
+ public:
+    DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir);
+    /// Draws with depth test and depth write. `samples` > 1: edges of spheres are blended between samples.
+    void draw(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look, int samples);
+
+    /// Draw one dot and see where it lands: llvmpipe (seen in Mesa 22.3) puts multisampled points half a pixel off.
+    /// Later draws with so many samples are corrected by what was found. Leaves other framebuffers bound.
+    void calibrate(int samples);
+
+ private:
+    void upload(const FrameView::Liquid& liquid, bool withValues) const;
+    void useColorMap(ColorMap map);
+    void setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,
+                     bool smoothEdges, const Eigen::Vector2f& pointShift) const;
+
+    const Gl& gl_;
+    Program program_;
+    VertexArray vertices_;
+    Buffer positions_, values_;
+    Texture colorMap_;
+    std::optional<ColorMap> uploadedMap_;
+    std::map<int, Eigen::Vector2f> pointShift_;    ///< by number of samples [pixels]
+};
+
+}  // namespace render

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "render/gl_objects.h"
+#include "render/image.h"
+
+#include <Eigen/Core>
+
+namespace render {
+
+/// The framebuffers of one picture size: the scene is drawn into `scene` (multisampled), resolved into textures, and
+/// shaded into `picture`, which is read back or shown.
+class DrawTargets {
+ public:
+    /// Throws std::runtime_error if OpenGL cannot hold pictures of this size.
+    DrawTargets(const Gl& gl, int width, int height, int samples);
+
+    bool fits(int width, int height, int samples) const;
+    void beginScene(const Eigen::Vector3f& background) const;  ///< clear `scene`, draw into it from here on
+    void resolve() const;                          ///< scene → colour and depth textures; draw into `picture` next
+    Image read() const { return read(picture_); }            ///< what `picture` holds, rows from the top
+    Image readResolved() const { return read(resolved_); }   ///< the same of the scene before shading
+
+    GLuint colorTexture() const { return color_.id(); }
+    GLuint depthTexture() const { return depth_.id(); }
+
+ private:
+    Image read(const Framebuffer& framebuffer) const;
+
+    const Gl& gl_;
+    int width_, height_, samples_;
+    Renderbuffer sceneColor_, sceneDepth_, pictureColor_;
+    Texture color_, depth_;
+    Framebuffer scene_, resolved_, picture_;
+};
+
+}  // namespace render

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "render/gl.h"
+
+#include <memory>
+#include <string>
+
+namespace render {
+
+/// An OpenGL 3.3 core context. Several may live in one process; each is used by one thread at a time.
+class GlContext {
+ public:
+    GlContext() = default;
+    virtual ~GlContext() = default;
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+
+    /// Make this the calling thread's context.
+    virtual void makeCurrent() = 0;
+    const Gl& gl() const { return gl_; }
+    /// What draws, say "llvmpipe (LLVM 15.0.6, 256 bits)". The context must be current.
+    std::string rendererName() const { return reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)); }
+
+ protected:
+    Gl gl_;
+};
+
+/// A context that needs neither a display nor a graphics card (OSMesa). Current on return.
+/// Throws std::runtime_error if the installed Mesa cannot offer OpenGL 3.3 core.
+/// Mesa reads LP_NUM_THREADS when the process makes its first context: 0 = draw in the calling thread alone.
+std::unique_ptr<GlContext> makeOsMesaContext();
+
+}  // namespace render

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "render/color_map.h"
+#include "render/font.h"
+#include "render/image.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// What is written over pictures, single or composed. All sizes follow the picture's.
+
+namespace render {
+
+enum class Corner { TopLeft, TopCenter, TopRight };
+
+struct ColorBar {
+    ColorMap map = ColorMap::Jet;
+    std::array<float, 2> range = {0.0f, 200.0f};
+    std::string title = "speed [cm/s]";            ///< with the unit
+};
+
+/// Height of a line of text in pictures of this size [pixels]: one thirtieth of the height, legible from 11 up.
+float textSize(int width, int height);
+
+/// Dark on light and light on dark.
+Rgb inkOn(Rgb background);
+
+/// "t = 0.124 s"
+std::string timeText(double seconds);
+
+/// Round numbers (steps of 1, 2, 2.5 or 5 times a power of ten) inside the range, about five of them.
+std::vector<double> niceTicks(double from, double to);
+
+/// Text in a corner. Returns the box of pixels that may have changed; empty text changes none.
+PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, Rgb ink);
+
+/// Upright bar at the right edge, with title and ticks. Returns the box of the colours alone.
+PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink);
+
+/// Lying bar in the middle of `box`, title to its left, ticks below; letters of `size` pixels. Returns the box of the
+/// colours alone.
+PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& box, float size,
+                           Rgb ink);
+
+}  // namespace render
