@@ -46,6 +46,7 @@ struct OutputSettings {
     std::string dir;                        ///< default out/<name>/<variant>
     double every = 4.0e-3;                  ///< simulated time per frame [s]
     bool frames = true;                     ///< write frame_00000.png, …
+    bool energy = true, stats = true;       ///< data files of a run
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };
@@ -60,6 +61,7 @@ struct Variant {
 };
 
 struct CompareSettings {
+    std::string name;                       ///< of the comparison; empty: the scene's
     std::vector<Variant> variants;
     CompareLayout layout = CompareLayout::Columns;
     bool video = true, sheet = false, energyPlot = true, table = true;

@@ -20,6 +20,7 @@ struct TimeSettings {
     TimeMode mode = TimeMode::Fixed;
     double cfl = 1.0;          ///< Cells a particle may cross per step, mode cfl [-]
     double maxCflLiquid = 3.0; ///< Hard bound on the same number in every mode [-]
+    double maxCflFabric = 1.0 / 3.0;  ///< The fabric's bound, read by fabric.solver grid only [-]
     double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]
 };
 
@@ -45,6 +46,16 @@ struct TransferSettings {
     }
 };
 
+/// The fabric's part of `transfer`; read by fabric.solver grid only.
+struct FabricTransferSettings {
+    TransferMethod method = TransferMethod::PolyPic;  ///< never Flip: the fabric then runs apic
+    int modes = 8;
+    XiMap xi = XiMap::Translation;
+    double keepStretch = 1.0;   ///< Factor on the symmetric part of the velocity gradient, kept per keepDt [0..1]
+    double keepRotation = 1.0;  ///< Factor on its antisymmetric part, kept per keepDt [0..1]
+    double keepVelocity = 1.0;  ///< Factor on the velocity itself, kept per keepDt [0..1]
+};
+
 struct RelaxSettings {
     double rate = 125.0;  ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
     double range = 2.0;   ///< Reach of the push in nominal particle radii [-]
@@ -56,6 +67,7 @@ struct LiquidSettings {
     double surfaceTension = 72.0;  ///< [dyn/cm]
     double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
     bool full = false;             ///< The liquid fills a closed box: there is no air
+    double particleSpacing = 0.0;  ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]
     double wallFriction = 0.0;     ///< 0 = free slip … 1 = the liquid sticks to walls [-]
     RelaxSettings relax;
 };
@@ -70,6 +82,7 @@ struct Settings {
     double cell = 0.0;                          ///< Grid cell size [cm]; required
     Vec3 gravity = Vec3(0.0, -kEarthGravity, 0.0);  ///< [cm/s^2]
     TransferSettings transfer;                  ///< of the liquid
+    FabricTransferSettings fabricTransfer;
     LiquidSettings liquid;
     SolverSettings solver;
 };

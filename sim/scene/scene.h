@@ -4,6 +4,8 @@
 #include "sim/settings.h"
 #include "sim/shapes/shape.h"
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,12 +32,18 @@ struct SourceSettings {
     Shape shape;
     FillSettings fill;
     std::vector<Emission> emissions;  ///< at least one
+    std::string where;                ///< "drop.yaml:14", for messages
+    std::string shapeText;            ///< the shape as a scene says it, in cgs, on one line
 };
 
 struct ObstacleSettings {
     std::string name;
     Shape shape;      ///< the solid itself: already inverted where the scene says `inside: true`
     Motion motion;
+    bool inside = false;     ///< the scene said `inside: true`
+    std::string where;       ///< "drop.yaml:14", for messages
+    std::string shapeText;   ///< the shape (before inverting) as a scene says it, in cgs, on one line
+    std::string motionText;  ///< the motion likewise; empty if static
 };
 
 /// One scene file, resolved: includes, variant and overrides applied, units converted to CGS.
@@ -47,6 +55,7 @@ struct Scene {
     std::vector<SourceSettings> sources;
     std::vector<ObstacleSettings> obstacles;
     std::optional<Shape> domain;      ///< liquid outside of it is deleted
+    std::string domainText;           ///< the same as a scene says it, in cgs, on one line
 };
 
 }  // namespace sim

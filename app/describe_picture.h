@@ -1,0 +1,154 @@
+#pragma once
+
+#include "app/picture_settings.h"
+#include "sim/scene/choice.h"
+#include "sim/scene/range.h"
+#include "sim/scene/units.h"
+
+#include <algorithm>
+#include <span>
+
+// The one declaration of the keys of render, output and compare; see sim/scene/describe.h.
+
+namespace app {
+
+using sim::Choice;
+using sim::Quantity;
+using sim::Range;
+
+inline std::span<const Choice<LiquidStyle>> choicesOf(LiquidStyle)
+{
+    static constexpr Choice<LiquidStyle> kAll[] = {
+        {"points", LiquidStyle::Points}, {"spheres", LiquidStyle::Spheres}, {"surface", LiquidStyle::Surface, false}};
+    return kAll;
+}
+
+inline std::span<const Choice<ColorBy>> choicesOf(ColorBy)
+{
+    static constexpr Choice<ColorBy> kAll[] = {
+        {"speed", ColorBy::Speed}, {"flat", ColorBy::Flat}, {"pressure", ColorBy::Flat, false}, {"saturation", ColorBy::Flat, false}};
+    return kAll;
+}
+
+inline std::span<const Choice<ColorMap>> choicesOf(ColorMap)
+{
+    static constexpr Choice<ColorMap> kAll[] = {{"jet", ColorMap::Jet}, {"turbo", ColorMap::Turbo}, {"viridis", ColorMap::Viridis}};
+    return kAll;
+}
+
+inline std::span<const Choice<ObstacleStyle>> choicesOf(ObstacleStyle)
+{
+    static constexpr Choice<ObstacleStyle> kAll[] = {
+        {"wire", ObstacleStyle::Wire}, {"translucent", ObstacleStyle::Translucent}, {"hidden", ObstacleStyle::Hidden}};
+    return kAll;
+}
+
+inline std::span<const Choice<CompareLayout>> choicesOf(CompareLayout)
+{
+    static constexpr Choice<CompareLayout> kAll[] = {
+        {"columns", CompareLayout::Columns}, {"rows", CompareLayout::Rows}, {"grid", CompareLayout::Grid}};
+    return kAll;
+}
+
+template <class V>
+void describeOrbit(V& v, CameraSettings& c)
+{
+    v.needs("target", "the point to look at, like target: [0, 5, 0]");
+    v.vector("target", c.lookAt, Quantity::Length, "Point to look at");
+    v.needs("distance", "how far the eye is from the target, like distance: 60");
+    v.number("distance", c.distance, Quantity::Length, Range::above(0.0), "Distance of the eye from the target");
+    v.number("azimuth", c.azimuthDegrees, Quantity::AngleDegrees, Range::any(), "Angle of the eye around the vertical");
+    v.number("elevation", c.elevationDegrees, Quantity::AngleDegrees, Range::between(-89.0, 89.0), "Angle of the eye above the horizon");
+    v.number("turn_per_s", c.turnDegreesPerSecond, Quantity::TurnRateDegrees, Range::any(), "Change of azimuth per simulated second");
+}
+
+template <class V>
+void describe(V& v, CameraSettings& c)
+{
+    v.onlyRuns("frame", "auto", {}, "Everything is in the picture");
+    v.when(!c.orbit && !c.autoFrame, [&](auto& w) {
+        w.vector("look_at", c.lookAt, Quantity::Length, "Point in the middle of the picture");
+        w.vector("eye", c.eye, Quantity::Length, "Place of the camera");
+    });
+    v.when(c.orbit, [&](auto& w) { w.group("orbit", "", [&](auto& o) { describeOrbit(o, c); }); });
+    v.vector("up", c.up, Quantity::None, "Direction that is up in the picture");
+    v.number("fov", c.fovDegrees, Quantity::AngleDegrees, Range::between(1.0, 170.0), "Vertical field of view");
+    v.require(c.up.norm() > 0.0, "up", "must be a direction, like [0, 1, 0]");
+    v.whenReading([&](auto& r) {
+        const bool isPlaced = r.has("look_at") || r.has("eye");
+        c.orbit = r.has("orbit");
+        c.autoFrame = !c.orbit && !isPlaced;
+        r.require(!(isPlaced && c.orbit), "orbit", "goes without look_at and eye; keep one of them");
+        r.require(!isPlaced || r.has("eye"), "look_at", "goes with eye; give both");
+        r.require(!isPlaced || r.has("look_at"), "eye", "goes with look_at; give both");
+        r.require(c.autoFrame || !r.has("frame"), "frame", "auto goes without look_at, eye and orbit");
+        r.require(!isPlaced || (c.eye - c.lookAt).norm() > 0.0, "eye", "must not be the point it looks at");
+    });
+}
+
+template <class V>
+void describeLiquidLook(V& v, RenderSettings& r)
+{
+    v.choice("style", r.liquidStyle, "How particles are drawn");
+    v.choice("color_by", r.colorBy, "What the colour shows");
+    v.choice("colormap", r.colorMap, "Colours from low to high");
+    v.pair("range", r.range, Quantity::Velocity, Range::any(), "Values at the ends of the colours");
+    v.require(r.range[0] < r.range[1], "range", "must end above its beginning");
+}
+
+template <class V>
+void describe(V& v, RenderSettings& r)
+{
+    v.pixels("size", r.width, r.height, 16, 16384, "Width and height of the picture in pixels");
+    v.color("background", r.background, "Red, green, blue, 0 to 1");
+    v.section("camera", r.camera, "");
+    v.group("liquid", "", [&](auto& w) { describeLiquidLook(w, r); });
+    v.group("obstacles", "", [&](auto& w) {
+        w.choice("style", r.obstacleStyle, "How obstacles are drawn");
+        w.number("opacity", r.obstacleOpacity, Quantity::None, Range::between(0.0, 1.0), "0 = invisible, 1 = solid");
+    });
+    v.flag("hud", r.hud, "Label and time stamp in the picture");
+    v.flag("colorbar", r.colorBar, "A bar that explains the colours");
+    v.integer("samples", r.samples, 1, 16, "Samples per pixel and axis of smooth edges, 1 = off");
+    for (const char* key : {"cloth", "yarns"}) v.later(key, "this version draws liquid and obstacles only; remove the section");
+}
+
+inline bool isCodecName(const std::string& name)
+{
+    const auto isAllowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), isAllowed);
+}
+
+template <class V>
+void describe(V& v, OutputSettings& o)
+{
+    v.text("dir", o.dir, "Folder of the results; left out: out/<name>/<variant>");
+    v.number("every", o.every, Quantity::Time, Range::above(0.0), "Simulated time from picture to picture");
+    v.either("frames", o.frames, "png", "none", "Pictures of every frame");
+    v.flags("data", {{"energy", &o.energy}, {"stats", &o.stats}, {"ledger", nullptr}, {"geometry", nullptr}, {"checkpoint", nullptr}},
+            "Data files of a run");
+    v.withoutEffect([](auto& w) { w.other("geometry_format", ""); });
+    v.group("video", "", [&](auto& w) {
+        w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");
+        w.text("codec", o.videoCodec, "Video codec, as ffmpeg names it");
+        w.require(isCodecName(o.videoCodec), "codec", "may have letters, digits, _ and - only, like libx264");
+    });
+}
+
+template <class V>
+void describe(V& v, CompareSettings& c)
+{
+    v.text("name", c.name, "Name of the comparison; left out: the scene's");
+    v.other("variants", "The runs to compare");
+    v.choice("layout", c.layout, "How pictures stand side by side");
+    v.flags("products", {{"video", &c.video}, {"sheet", &c.sheet}, {"energy_plot", &c.energyPlot}, {"table", &c.table}},
+            "What is made of the runs");
+    v.onlyRuns("sync", "time", {}, "Pictures of equal simulated time stand side by side");
+    v.text("reference", c.reference, "Label of the variant the others are held against");
+    v.withoutEffect([](auto& w) {
+        double tolerance = 0.0;
+        w.number("tolerance", tolerance, Quantity::None, Range::atLeast(0.0), "Difference of pictures that a test accepts");
+    });
+}
+
+}  // namespace app

@@ -1,0 +1,193 @@
+#pragma once
+
+#include "sim/scene/choice.h"
+#include "sim/scene/range.h"
+#include "sim/scene/scene.h"
+#include "sim/scene/units.h"
+#include "sim/settings.h"
+
+#include <span>
+
+// The one declaration of every key of a scene: where it is stored, unit, range, one line of help. Visitors do the rest:
+// SectionReader (YAML → struct), KeyList (what keys there are), SectionWriter (struct → commented YAML).
+
+namespace sim {
+
+inline std::span<const Choice<TimeMode>> choicesOf(TimeMode)
+{
+    static constexpr Choice<TimeMode> kAll[] = {{"fixed", TimeMode::Fixed}, {"cfl", TimeMode::Cfl}, {"adaptive", TimeMode::Adaptive}};
+    return kAll;
+}
+
+inline std::span<const Choice<TransferMethod>> choicesOf(TransferMethod)
+{
+    static constexpr Choice<TransferMethod> kAll[] = {{"pic", TransferMethod::Pic},
+                                                      {"flip", TransferMethod::Flip},
+                                                      {"apic", TransferMethod::Apic},
+                                                      {"polypic", TransferMethod::PolyPic}};
+    return kAll;
+}
+
+inline std::span<const Choice<XiMap>> choicesOf(XiMap)
+{
+    static constexpr Choice<XiMap> kAll[] = {{"translation", XiMap::Translation},
+                                             {"affine", XiMap::Affine},
+                                             {"affine_conservative", XiMap::AffineConservative}};
+    return kAll;
+}
+
+inline std::span<const Choice<FillSettings::Pattern>> choicesOf(FillSettings::Pattern)
+{
+    using P = FillSettings::Pattern;
+    static constexpr Choice<P> kAll[] = {
+        {"lattice", P::Lattice}, {"reference", P::Reference}, {"jittered", P::Jittered}, {"poisson", P::Poisson}};
+    return kAll;
+}
+
+template <class V>
+void describe(V& v, TimeSettings& t)
+{
+    v.number("dt", t.dt, Quantity::Time, Range::above(0.0), "Time step; its upper bound in modes cfl and adaptive");
+    v.number("duration", t.duration, Quantity::Time, Range::atLeast(0.0), "Simulated time from start to end");
+    v.number("start", t.start, Quantity::Time, Range::any(), "Time of the initial state");
+    v.choice("mode", t.mode, "How steps are chosen");
+    v.number("cfl", t.cfl, Quantity::None, Range::above(0.0), "Cells a particle may cross per step, mode cfl");
+    v.group("max_cfl", "Hard bounds on the cells crossed per step, in every mode", [&](auto& w) {
+        w.number("liquid", t.maxCflLiquid, Quantity::None, Range::above(0.0), "Bound of the liquid");
+        w.number("fabric", t.maxCflFabric, Quantity::None, Range::above(0.0), "Bound of the fabric, solver grid only");
+    });
+    v.number("dt_min", t.dtMin, Quantity::Time, Range::above(0.0), "A run that needs smaller steps stops with a message");
+    v.require(t.dtMin <= t.dt, "dt_min", "must not be above time.dt");
+    v.onlyRuns("integrator", "plain", {"reflected"}, "Order of the pressure and advection stages");
+    v.onlyRuns("advection", "euler", {"midpoint"}, "How particles follow the velocity");
+}
+
+template <class V>
+void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fabric)
+{
+    const Range share = Range::between(0.0, 1.0);
+    v.perPhase("method", liquid.method, fabric.method,
+               [](auto& w, const char* key, TransferMethod& m) { w.choice(key, m, "How velocities go to the grid and back"); });
+    v.perPhase("modes", liquid.modes, fabric.modes,
+               [](auto& w, const char* key, int& m) { w.integer(key, m, 1, 27, "Velocity modes per component, polypic only"); });
+    v.perPhase("xi", liquid.xi, fabric.xi,
+               [](auto& w, const char* key, XiMap& xi) { w.choice(key, xi, "How modes move with the particle, polypic only"); });
+    v.number("flip_ratio", liquid.flipRatio, Quantity::None, share, "FLIP share kept per keep_dt, flip only");
+    v.group("keep", "Factors kept per keep_dt; 1 = no damping", [&](auto& w) {
+        w.number("liquid_affine", liquid.keepAffine, Quantity::None, share, "On all modes of the liquid but the mean");
+        w.number("fabric_stretch", fabric.keepStretch, Quantity::None, share, "On the fabric's stretching rate");
+        w.number("fabric_rotation", fabric.keepRotation, Quantity::None, share, "On the fabric's rotation rate");
+        w.number("fabric_velocity", fabric.keepVelocity, Quantity::None, share, "On the fabric's velocity");
+    });
+    v.numberOrWord("keep_dt", liquid.keepDt, "step", liquid.keepPerStep, Quantity::Time, Range::above(0.0),
+                   "The step that the factors refer to, or: step = taken per step as they are");
+    v.flag("damp_modes", liquid.dampModes, "keep acts on PolyPIC modes too");
+    v.whenReading([&](auto&) {
+        if (fabric.method == TransferMethod::Flip) fabric.method = TransferMethod::Apic;
+    });
+}
+
+template <class V>
+void describe(V& v, RelaxSettings& r)
+{
+    v.number("rate", r.rate, Quantity::Frequency, Range::atLeast(0.0), "Rate at which crowded particles are pushed apart; 0 = off");
+    v.number("range", r.range, Quantity::None, Range::aboveTo(0.0, 10.0), "Reach of the push in nominal particle radii");
+}
+
+class SectionReader;
+
+/// Sets the material constants that `preset` names, if the section has it; "none" changes nothing.
+void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid);
+
+template <class V>
+void describe(V& v, LiquidSettings& l)
+{
+    v.other("preset", "Sets the next constants: water | oil | honey | acetal | none");
+    v.whenReading([&](auto& reader) { readLiquidPreset(reader, l); });
+    v.number("density", l.density, Quantity::Density, Range::above(0.0), "Mass per volume");
+    v.number("viscosity", l.viscosity, Quantity::Viscosity, Range::atLeast(0.0), "Dynamic viscosity");
+    v.number("surface_tension", l.surfaceTension, Quantity::SurfaceTension, Range::atLeast(0.0), "Surface tension against air");
+    v.number("contact_angle", l.contactAngle, Quantity::Angle, Range::between(0.0, 180.0), "Angle of the surface at fibres");
+    v.numberOr("particle_spacing", l.particleSpacing, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0),
+               "Pitch of the particles in cells; left out: 0.4, or 0.35355 for the reference pattern");
+    v.flag("full", l.full, "The liquid fills a closed box: there is no air");
+    v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0), "0 = free slip, 1 = the liquid sticks to walls");
+    v.section("relax", l.relax, "Pushing crowded particles apart");
+    v.onlyRuns("solve_viscosity", "false", {"true"}, "Viscosity inside the liquid");
+    v.onlyRuns("surface_tension_force", "false", {"true"}, "Surface tension moves the liquid");
+    v.withoutEffect([](auto& w) {
+        int substeps = 1, passes = 7;
+        w.integer("viscosity_substeps", substeps, 1, 1000, "Parts of a step of the viscosity solve");
+        w.integer("curvature_smoothing", passes, 0, 1000, "Smoothing passes on the curvature");
+    });
+    v.other("sources", "Where liquid starts");
+}
+
+template <class V>
+void describe(V& v, SolverSettings& s)
+{
+    v.number("pressure_tolerance", s.pressureTolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
+             "Largest residual relative to the largest right-hand side");
+    v.integer("max_iterations", s.maxIterations, 1, 1'000'000, "Iterations after which a solve stops");
+    v.withoutEffect([](auto& w) {
+        double tolerance = 1.0e-6;
+        w.number("viscosity_tolerance", tolerance, Quantity::None, Range::aboveTo(0.0, 0.1), "The same of the viscosity solve");
+        w.other("wicking_substeps", "Parts of a step of the flow inside fabric");
+    });
+}
+
+template <class V>
+void describeNames(V& v, Scene& s)
+{
+    v.text("name", s.name, "Name of the scene, and of the folder of its results");
+    v.text("title", s.title, "As pictures show it");
+    v.text("description", s.description, "What it shows");
+    v.texts("tags", s.tags, "Words to find it by");
+}
+
+/// What `fill` of a source says; `spacing` 0 stands for liquid.particle_spacing or the pattern's own.
+template <class V>
+void describe(V& v, FillSettings& f)
+{
+    v.choice("pattern", f.pattern, "How particles are laid out");
+    v.seed("seed", f.seed, "Start of the random numbers");
+    v.numberOr("spacing", f.spacing, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0), "Pitch of the particles in cells");
+}
+
+template <class V>
+void describe(V& v, Emission& e)
+{
+    v.number("from", e.from, Quantity::Time, Range::any(), "Begin of the span; left out: the start of the run");
+    v.needs("to", "the end of the span in which the source gives liquid, like to: 0.5");
+    v.number("to", e.to, Quantity::Time, Range::any(), "End of the span");
+    v.numberOr("max_volume", e.maxVolume, std::numeric_limits<double>::infinity(), Quantity::Volume, Range::above(0.0),
+               "The source stops when it has given so much");
+    v.vector("velocity", e.velocity, Quantity::Velocity, "Velocity of the new liquid");
+}
+
+/// The sections of a scene that are plain settings.
+template <class V>
+void describe(V& v, Settings& s)
+{
+    v.section("time", s.time, "");
+    v.group("transfer", "", [&](auto& w) { describeTransfer(w, s.transfer, s.fabricTransfer); });
+    v.needs("grid", "where the size of cells stands, like grid: {cell: 0.288}");
+    v.group("grid", "", [&](auto& w) {
+        w.needs("cell", "the edge of a grid cell, like cell: 0.288");
+        w.number("cell", s.cell, Quantity::Length, Range::above(0.0), "Edge of a grid cell");
+    });
+    v.vector("gravity", s.gravity, Quantity::Acceleration, "Acceleration of everything");
+    v.section("solver", s.solver, "");
+}
+
+/// Sections of scenes whose builders are not in this version: refused by name, so that nothing is silently left out.
+template <class V>
+void describeLater(V& v)
+{
+    constexpr const char* kLiquidOnly = "this version simulates liquid only; remove the section";
+    for (const char* key : {"fabrics", "materials", "porous", "coupling", "fabric", "contact"}) v.later(key, kLiquidOnly);
+    v.later("changes", "this version cannot change settings during a run; remove the section");
+    v.later("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
+}
+
+}  // namespace sim

@@ -1,0 +1,114 @@
+#include "sim/scene/load_scene.h"
+
+#include "sim/scene/describe.h"
+#include "sim/scene/measure_region.h"
+#include "sim/scene/read_bodies.h"
+#include "sim/scene/read_shape.h"
+#include "sim/scene/section_reader.h"
+#include "sim/scene/section_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr double kMaxParticles = 2.0e8;  // more do not fit into the memory of a workstation
+
+/// Keys of the top level, whoever reads them.
+template <class V>
+void describeTop(V& v, Settings& settings)
+{
+    v.other("drench", "");
+    v.other("scene", "");
+    describe(v, settings);
+    for (const char* key : {"liquid", "obstacles", "domain", "motion"}) v.other(key, "");
+    for (const char* key : {"render", "output", "compare"}) v.other(key, "");
+    for (const char* key : {"benchmark", "test"}) v.other(key, "");  // of other verbs; they change nothing in a run
+    describeLater(v);
+}
+
+void readNames(const Node& root, const std::string& file, Scene& scene)
+{
+    scene.name = asName(std::filesystem::path(file).stem().string());
+    const Node* section = root.find("scene");
+    SectionReader::read(section, "scene", [&](auto& v) { describeNames(v, scene); });
+    if (scene.name.empty() || scene.name != asName(scene.name)) {
+        const Node* name = section ? section->find("name") : nullptr;
+        fail(name ? name->place : root.place, fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
+                                                          scene.name.empty() ? "drop" : asName(scene.name)));
+    }
+}
+
+double pitchInCells(const FillSettings& fill)
+{
+    if (fill.spacing > 0.0) return fill.spacing;
+    return fill.pattern == FillSettings::Pattern::Reference ? 0.35355 : 0.4;
+}
+
+/// A source must hold some liquid, and not more than fits into memory.
+void checkSource(const SourceSettings& source, const Scene& scene)
+{
+    const std::string path = joinPath("liquid.sources", source.name);
+    if (measureRegion(source.shape, {}, std::nullopt).isEmpty) {
+        fail(source.where, fmt::format("{}: is empty: its shape has no volume; make its parts overlap", path));
+    }
+    const RegionMeasure region = measureRegion(source.shape, scene.obstacles, scene.domain);
+    if (region.isUnbounded) fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
+    if (region.isEmpty) {
+        fail(source.where, fmt::format("{}: is empty: its shape lies outside of the domain or inside obstacles; move it", path));
+    }
+    const double pitch = pitchInCells(source.fill) * scene.settings.cell;
+    const double count = region.volume / (pitch * pitch * pitch);
+    if (!(count <= kMaxParticles)) {
+        fail(source.where, fmt::format("{}: would be about {:.2g} particles (at most {:.0e} are possible); use a larger grid.cell than {:.3g} cm", path,
+                                       count, kMaxParticles, scene.settings.cell));
+    }
+}
+
+}  // namespace
+
+void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid)
+{
+    struct Preset {
+        double density, viscosity, surfaceTension;  // [g/cm^3], [P], [dyn/cm]
+    };
+    static constexpr Preset kPresets[] = {{1.0, 8.9e-3, 72.0}, {0.92, 0.81, 32.0}, {1.45, 80.0, 50.0}, {0.7802, 2.208e-3, 20.59375}};
+    const Node* node = section.find("preset");
+    if (!node) return;
+    const std::vector<std::string> names = {"water", "oil", "honey", "acetal", "none"};
+    const std::size_t chosen = readChoice(*node, section.pathOf("preset"), names, std::vector<bool>(names.size(), true));
+    if (chosen >= std::size(kPresets)) return;
+    liquid.density = kPresets[chosen].density;
+    liquid.viscosity = kPresets[chosen].viscosity;
+    liquid.surfaceTension = kPresets[chosen].surfaceTension;
+}
+
+Scene readScene(const SceneFile& file)
+{
+    Scene scene;
+    scene.file = file.file;
+    const Node& root = file.root;
+    SectionReader::read(&root, "", [&](auto& v) { describeTop(v, scene.settings); });
+    readNames(root, file.file, scene);
+    SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, scene.settings.liquid); });
+    scene.obstacles = readObstacles(root, scene.settings);
+    if (const Node* domain = root.find("domain")) {
+        ReadShape shape = readShape(*domain, "domain", scene.settings.cell);
+        scene.domain = std::move(shape.shape);
+        scene.domainText = std::move(shape.text);
+    }
+    scene.sources = readSources(root, scene.settings);
+    for (const SourceSettings& source : scene.sources) checkSource(source, scene);
+    return scene;
+}
+
+Scene loadScene(const std::filesystem::path& path, const LoadOptions& options)
+{
+    return readScene(loadSceneFile(path, options));
+}
+
+}  // namespace sim

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "sim/scene/node.h"
+
+#include <string>
+
+namespace sim {
+
+/// One dotted override: `transfer.method=apic`, in a variant or behind --set.
+struct Override {
+    std::string path;   ///< keys with dots between; an element of a list by its name or its number from 0
+    Node value;         ///< its place is where messages about the value point
+
+    /// As it would stand behind --set.
+    std::string text() const { return path + "=" + value.flow(); }
+};
+
+/// Reads "key.key=value"; the value is YAML on one line. Throws InputError naming the override.
+Override parseOverride(const std::string& text, bool isSi);
+
+/// Lays `over` on top of `base`: maps are merged key by key, anything else is replaced.
+void mergeOver(Node& base, const Node& over);
+
+/// Puts the value at its path, merging maps and making missing sections. Throws InputError where the path leads through
+/// something that has no keys, or to an element that a list does not have.
+void apply(const Override& change, Node& root);
+
+/// Writes out short forms, so that they merge like the long ones: `transfer: apic` is {method: apic},
+/// `fill: lattice` of a source is {pattern: lattice}.
+void expandShortForms(Node& root);
+
+/// Turns the keys of a map that stand for overrides into overrides: dotted keys as they are, nested maps as one each.
+std::vector<Override> overridesOf(const Node& map, const std::vector<std::string>& except);
+
+}  // namespace sim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "sim/core/check.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sim {
+
+/// One scene file, or one override of the command line, as messages name it.
+struct TextSource {
+    std::string name;          ///< "scenes/drop.yaml", or "--set time.dt=1e-3"
+    bool numbered = true;      ///< messages add the line
+    bool isSi = false;         ///< unit system of its bare numbers: cgs, or si
+    std::string directory = ".";  ///< what the file names in it are relative to
+};
+
+/// Where in the user's text a value stands. Survives merging, so that every complaint can name a line.
+struct Place {
+    std::shared_ptr<const TextSource> source;
+    int line = 0;
+
+    /// "drop.yaml:14", or the override as it was given.
+    std::string text() const;
+};
+
+/// Throws InputError "place: message", as one line.
+[[noreturn]] void fail(const Place& place, const std::string& message);
+[[noreturn]] void fail(const std::string& where, const std::string& message);
+
+/// The text in quotation marks for a message: control characters shown as '?', long ones cut.
+std::string inQuotes(std::string_view text);
+
+/// " (did you mean "viscosity"?)", or " (there is density, viscosity)" where nothing is near; a handful at most.
+std::string suggestion(std::string_view text, const std::vector<std::string>& known);
+
+/// "time" and "dt" → "time.dt".
+std::string joinPath(const std::string& path, const std::string& key);
+
+/// "a, b, c", cut after `limit` names.
+std::string listed(const std::vector<std::string>& names, std::size_t limit = 30);
+
+}  // namespace sim

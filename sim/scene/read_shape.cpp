@@ -1,0 +1,252 @@
+#include "sim/scene/read_shape.h"
+
+#include "sim/core/units.h"
+#include "sim/scene/section_reader.h"
+#include "sim/scene/section_writer.h"
+#include "sim/shapes/obj.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace sim {
+
+namespace {
+
+constexpr double kFarthest = 1.0e7;  // [cm], 100 km: sizes beyond it are slips, and their squares lose all digits
+
+struct Context {
+    std::string path;
+    double cell = 0.0;
+};
+
+/// The fields as one line of YAML, as a declaration writes them.
+template <class Fields>
+std::string flowOf(Fields fields)
+{
+    SectionWriter writer;
+    fields(writer);
+    return writer.flow();
+}
+
+const Range kSize = Range::aboveTo(0.0, kFarthest);
+const Range kRound = Range::between(0.0, kFarthest);
+
+void requireNear(const Node& node, const std::string& path, const Vec3& x)
+{
+    if (x.cwiseAbs().maxCoeff() > kFarthest) fail(node.place, fmt::format("{}: lies beyond {} cm", path, kFarthest));
+}
+
+Vec3 unitAxis(const Node& node, const std::string& path, const Vec3& axis)
+{
+    const double length = axis.norm();
+    if (!(length > 0.0) || !std::isfinite(length)) fail(node.place, fmt::format("{}.axis: must be a direction, like [0, 1, 0]", path));
+    return axis / length;
+}
+
+ReadShape readBox(const Node& node, const Context& context, bool isRound)
+{
+    Vec3 center = Vec3::Zero(), half = Vec3::Zero(), low = Vec3::Zero(), high = Vec3::Zero();
+    double round = 0.0;
+    const auto fields = [&](auto& v) {
+        v.vector("center", center, Quantity::Length, "");
+        v.vector("half", half, Quantity::Length, "");
+        v.when(false, [&](auto& w) {
+            w.vector("min", low, Quantity::Length, "");
+            w.vector("max", high, Quantity::Length, "");
+        });
+        if (isRound) v.needs("round", "the radius of the edges, added outside of half");
+        if (isRound) v.number("round", round, Quantity::Length, kRound, "");
+        v.whenReading([&](auto& r) {
+            const bool byCenter = r.has("center") && r.has("half"), byCorners = r.has("min") && r.has("max");
+            const int given = r.has("center") + r.has("half") + r.has("min") + r.has("max");
+            if (given != 2 || byCenter == byCorners) fail(node.place, fmt::format("{}: needs either center and half, or min and max", context.path));
+            if (byCorners) {
+                center = 0.5 * (low + high);
+                half = 0.5 * (high - low);
+            }
+            const bool hasSize = half.minCoeff() > 0.0 || (half.minCoeff() >= 0.0 && round > 0.0);
+            r.require(hasSize, byCorners ? "max" : "half",
+                      byCorners ? "must be above min in every direction" : "must be above 0 cm in every direction");
+        });
+    };
+    SectionReader::read(&node, context.path, fields);
+    requireNear(node, context.path, center.cwiseAbs() + half);
+    return {isRound ? Shape::roundedBox(center, half, round) : Shape::box(center, half), flowOf(fields)};
+}
+
+ReadShape readBall(const Node& node, const Context& context)
+{
+    Vec3 center = Vec3::Zero();
+    double radius = 0.0;
+    const auto fields = [&](auto& v) {
+        v.needs("center", "the middle of the ball, like center: [0, 5, 0]");
+        v.vector("center", center, Quantity::Length, "");
+        v.needs("radius", "the size of the ball, like radius: 1.44");
+        v.number("radius", radius, Quantity::Length, kSize, "");
+    };
+    SectionReader::read(&node, context.path, fields);
+    requireNear(node, context.path, center);
+    return {Shape::ball(center, radius), flowOf(fields)};
+}
+
+ReadShape readCapsule(const Node& node, const Context& context)
+{
+    Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+    double radius = 0.0;
+    const auto fields = [&](auto& v) {
+        v.needs("a", "one end of the axis, like a: [0, 0, 0]");
+        v.vector("a", a, Quantity::Length, "");
+        v.needs("b", "the other end of the axis, like b: [2, 0, 0]");
+        v.vector("b", b, Quantity::Length, "");
+        v.needs("radius", "the distance of the surface from the axis, like radius: 0.5");
+        v.number("radius", radius, Quantity::Length, kSize, "");
+    };
+    SectionReader::read(&node, context.path, fields);
+    requireNear(node, context.path, a.cwiseAbs().cwiseMax(b.cwiseAbs()));
+    return {Shape::capsule(a, b, radius), flowOf(fields)};
+}
+
+ReadShape readCylinder(const Node& node, const Context& context)
+{
+    Vec3 center = Vec3::Zero(), axis = Vec3::UnitY();
+    double radius = 0.0, half = 0.0, round = 0.0;
+    const auto fields = [&](auto& v) {
+        v.needs("center", "the middle of the cylinder, like center: [0, 5, 0]");
+        v.vector("center", center, Quantity::Length, "");
+        v.vector("axis", axis, Quantity::None, "");
+        v.needs("radius", "the distance of the side from the axis, like radius: 0.5");
+        v.number("radius", radius, Quantity::Length, kSize, "");
+        v.needs("half", "half of the height, like half: 2");
+        v.number("half", half, Quantity::Length, kSize, "");
+        v.number("round", round, Quantity::Length, kRound, "");
+        v.require(round <= radius, "round", "must not be above radius");
+    };
+    SectionReader::read(&node, context.path, fields);
+    requireNear(node, context.path, center);
+    return {Shape::cylinder(center, unitAxis(node, context.path, axis), radius, half, round), flowOf(fields)};
+}
+
+ReadShape readMesh(const Node& node, const Context& context)
+{
+    std::string file;
+    double scale = 1.0, cell = 0.5 * context.cell;
+    const auto fields = [&](auto& v) {
+        v.needs("file", "an OBJ file, relative to the scene, like file: cow.obj");
+        v.text("file", file, "");
+        v.number("scale", scale, Quantity::None, kSize, "");
+        v.number("cell", cell, Quantity::Length, kSize, "");
+        v.withoutEffect([](auto& w) {
+            std::string cache;
+            w.text("cache", cache, "");
+        });
+    };
+    SectionReader::read(&node, context.path, fields);
+    if (!(cell > 0.0)) fail(node.place, fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
+    namespace fs = std::filesystem;
+    const Node& name = *node.find("file");
+    const fs::path directory = name.place.source ? name.place.source->directory : ".";
+    const fs::path path = directory / fs::path(file);
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) fail(name.place, fmt::format("{}.file: there is no file {}", context.path, inQuotes(path.string())));
+    file = fs::absolute(path, error).lexically_normal().string();
+    try {
+        return {shapeFromObj(path, scale, cell), flowOf(fields)};
+    } catch (const InputError& e) {
+        fail(name.place, fmt::format("{}: {}", context.path, e.what()));
+    }
+}
+
+ReadShape readParts(const Node& node, const Context& context, const std::string& operation)
+{
+    if (!node.isList() || node.items.empty()) fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
+    std::vector<Shape> shapes;
+    std::string texts;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        ReadShape part = readShape(node.items[i], joinPath(context.path, std::to_string(i)), context.cell);
+        shapes.push_back(std::move(part.shape));
+        texts += (i > 0 ? ", " : "") + part.text;
+    }
+    const std::string text = "[" + texts + "]";
+    if (operation == "union") return {Shape::unite(std::move(shapes)), text};
+    if (operation == "intersect") return {Shape::intersect(std::move(shapes)), text};
+    return {Shape::subtract(std::move(shapes)), text};
+}
+
+ReadShape readBody(const Node& node, const Context& context, const std::string& kind)
+{
+    if (kind == "box") return readBox(node, context, false);
+    if (kind == "rounded_box") return readBox(node, context, true);
+    if (kind == "ball") return readBall(node, context);
+    if (kind == "capsule") return readCapsule(node, context);
+    if (kind == "cylinder") return readCylinder(node, context);
+    if (kind == "mesh") return readMesh(node, context);
+    if (kind != "invert") return readParts(node, context, kind);
+    ReadShape inner = readShape(node, context.path, context.cell);
+    return {inner.shape.inverted(), inner.text};
+}
+
+/// Turns the shape about a point: `origin`, or else the middle of its bounds (the scene's origin where it has none).
+void rotate(ReadShape& body, const Node& node, const std::string& path)
+{
+    Vec3 axis = Vec3::UnitY(), origin = Vec3::Zero();
+    const Eigen::AlignedBox3d bounds = body.shape.bounds();
+    if (!bounds.isEmpty() && bounds.sizes().maxCoeff() < kFarthest) origin = bounds.center();
+    double angle = 0.0;
+    const auto fields = [&](auto& v) {
+        v.needs("axis", "the direction to turn about, like axis: [0, 0, 1]");
+        v.vector("axis", axis, Quantity::None, "");
+        v.needs("angle", "how far to turn, in degrees, like angle: 30");
+        v.number("angle", angle, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
+        v.vector("origin", origin, Quantity::Length, "");
+    };
+    SectionReader::read(&node, path, fields);
+    requireNear(node, path, origin);
+    const Eigen::AngleAxisd turn(angle, unitAxis(node, path, axis));
+    body.shape = body.shape.moved(Eigen::Isometry3d(Eigen::Translation3d(origin) * turn * Eigen::Translation3d(-origin)));
+    body.text += ", rotate: " + flowOf(fields);
+}
+
+void translate(ReadShape& body, const Node& node, const std::string& path)
+{
+    Vec3 by = Vec3::Zero();
+    readNumbers(node, path, {by.data(), 3}, Quantity::Length, Range::between(-kFarthest, kFarthest));
+    body.shape = body.shape.moved(Eigen::Isometry3d(Eigen::Translation3d(by)));
+    body.text += fmt::format(", translate: [{}, {}, {}]", formatPlain(by[0]), formatPlain(by[1]), formatPlain(by[2]));
+}
+
+/// The one key of the shape that says what body it is.
+std::string kindOf(const Node& node, const std::string& path)
+{
+    static const std::vector<std::string> kKinds = {"box",  "rounded_box", "ball",      "capsule",  "cylinder",
+                                                    "mesh", "union",       "intersect", "subtract", "invert"};
+    if (!node.isMap()) fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path, node.called()));
+    std::vector<std::string> known = kKinds;
+    known.insert(known.end(), {"rotate", "translate"});
+    SectionReader(node, path).refuseKeysBut(known);
+    std::string kind;
+    for (const std::string& candidate : kKinds) {
+        if (!node.find(candidate)) continue;
+        if (!kind.empty()) fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
+        kind = candidate;
+    }
+    if (kind.empty()) fail(node.place, fmt::format("{}: names no body; it takes one of {}", path, listed(kKinds)));
+    return kind;
+}
+
+}  // namespace
+
+ReadShape readShape(const Node& node, const std::string& path, double cell)
+{
+    const std::string kind = kindOf(node, path);
+    const Node& given = *node.find(kind);
+    ReadShape body = readBody(given, {joinPath(path, kind), cell}, kind);
+    body.text = kind + ": " + body.text;
+    if (const Node* turn = node.find("rotate")) rotate(body, *turn, joinPath(path, "rotate"));
+    if (const Node* by = node.find("translate")) translate(body, *by, joinPath(path, "translate"));
+    body.text = "{" + body.text + "}";
+    return body;
+}
+
+}  // namespace sim

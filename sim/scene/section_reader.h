@@ -1,0 +1,241 @@
+#pragma once
+
+#include "sim/core/types.h"
+#include "sim/scene/choice.h"
+#include "sim/scene/node.h"
+#include "sim/scene/range.h"
+#include "sim/scene/units.h"
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+// Visitors of the declarations in describe.h: KeyList learns which keys there are, SectionReader fills a struct.
+
+namespace sim {
+
+/// One number, vector or word; `path` names it in messages. Throw InputError.
+double readNumber(const Node& node, const std::string& path, Quantity quantity, const Range& range);
+void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity, const Range& range);
+std::int64_t readInteger(const Node& node, const std::string& path, std::int64_t low, std::int64_t high);
+std::uint64_t readSeed(const Node& node, const std::string& path);
+bool readFlag(const Node& node, const std::string& path);
+const std::string& readText(const Node& node, const std::string& path);
+/// The number of the word in the list; a word that does not run is refused by name.
+std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words, const std::vector<bool>& runs);
+void readNamedFlags(const Node& node, const std::string& path, std::span<const NamedFlag> flags);
+std::vector<std::string> readTexts(const Node& node, const std::string& path);
+
+/// Collects the keys that a declaration knows; reads nothing.
+class KeyList {
+ public:
+    std::vector<std::string> keys;
+
+    void number(const char* key, double&, Quantity, Range, const char*) { add(key); }
+    void numberOr(const char* key, double&, double, Quantity, Range, const char*) { add(key); }
+    void numberOrWord(const char* key, double&, const char*, bool&, Quantity, Range, const char*) { add(key); }
+    void integer(const char* key, int&, int, int, const char*) { add(key); }
+    void seed(const char* key, std::uint64_t&, const char*) { add(key); }
+    void flag(const char* key, bool&, const char*) { add(key); }
+    void text(const char* key, std::string&, const char*) { add(key); }
+    void texts(const char* key, std::vector<std::string>&, const char*) { add(key); }
+    template <class E>
+    void choice(const char* key, E&, const char*)
+    {
+        add(key);
+    }
+    void vector(const char* key, Vec3&, Quantity, const char*) { add(key); }
+    void pair(const char* key, std::array<double, 2>&, Quantity, Range, const char*) { add(key); }
+    void pixels(const char* key, int&, int&, int, int, const char*) { add(key); }
+    void color(const char* key, Eigen::Vector3f&, const char*) { add(key); }
+    void flags(const char* key, std::initializer_list<NamedFlag>, const char*) { add(key); }
+    void either(const char* key, bool&, const char*, const char*, const char*) { add(key); }
+    template <class T>
+    void section(const char* key, T&, const char*)
+    {
+        add(key);
+    }
+    template <class Fields>
+    void group(const char* key, const char*, Fields)
+    {
+        add(key);
+    }
+    template <class T, class Field>
+    void perPhase(const char* key, T&, T&, Field)
+    {
+        add(key);
+    }
+    template <class Fields>
+    void when(bool, Fields fields)
+    {
+        fields(*this);
+    }
+    template <class Fields>
+    void withoutEffect(Fields fields)
+    {
+        fields(*this);
+    }
+    template <class Action>
+    void whenReading(Action)
+    {
+    }
+    void onlyRuns(const char* key, const char*, std::initializer_list<const char*>, const char*) { add(key); }
+    void later(const char* key, const char*) { add(key); }
+    void other(const char* key, const char*) { add(key); }
+    void needs(const char*, const char*) {}
+    void require(bool, const char*, const std::string&) {}
+
+ private:
+    void add(const char* key) { keys.emplace_back(key); }
+};
+
+/// Fills a struct from a map. What the map does not say keeps its value; a value that is wrong throws InputError.
+class SectionReader {
+ public:
+    /// Throws InputError if the node is no map; `path` names it in messages.
+    SectionReader(const Node& node, std::string path);
+
+    bool has(const char* key) const { return find(key) != nullptr; }
+    const Node* find(const char* key) const { return node_.find(key); }
+    std::string pathOf(const char* key) const { return joinPath(path_, key); }
+    /// The line of the key, or of the section where the key is missing.
+    Place placeOf(const char* key) const;
+
+    void number(const char* key, double& out, Quantity quantity, Range range, const char*)
+    {
+        if (const Node* n = find(key)) out = readNumber(*n, pathOf(key), quantity, range);
+    }
+    /// A number that may be left out, in which case it has a value of its own, `unset`.
+    void numberOr(const char* key, double& out, double, Quantity quantity, Range range, const char* help)
+    {
+        number(key, out, quantity, range, help);
+    }
+    /// Either a number, or the word that sets the flag.
+    void numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range, const char* help);
+    void integer(const char* key, int& out, int low, int high, const char*)
+    {
+        if (const Node* n = find(key)) out = static_cast<int>(readInteger(*n, pathOf(key), low, high));
+    }
+    void seed(const char* key, std::uint64_t& out, const char*)
+    {
+        if (const Node* n = find(key)) out = readSeed(*n, pathOf(key));
+    }
+    void flag(const char* key, bool& out, const char*)
+    {
+        if (const Node* n = find(key)) out = readFlag(*n, pathOf(key));
+    }
+    void text(const char* key, std::string& out, const char*)
+    {
+        if (const Node* n = find(key)) out = readText(*n, pathOf(key));
+    }
+    void texts(const char* key, std::vector<std::string>& out, const char*)
+    {
+        if (const Node* n = find(key)) out = readTexts(*n, pathOf(key));
+    }
+    template <class E>
+    void choice(const char* key, E& out, const char*)
+    {
+        const Node* n = find(key);
+        if (!n) return;
+        std::vector<std::string> words;
+        std::vector<bool> runs;
+        for (const Choice<E>& c : choicesOf(out)) {
+            words.emplace_back(c.word);
+            runs.push_back(c.runs);
+        }
+        out = choicesOf(out)[readChoice(*n, pathOf(key), words, runs)].value;
+    }
+    void vector(const char* key, Vec3& out, Quantity quantity, const char*)
+    {
+        if (const Node* n = find(key)) readNumbers(*n, pathOf(key), {out.data(), 3}, quantity, Range::any());
+    }
+    void pair(const char* key, std::array<double, 2>& out, Quantity quantity, Range range, const char*)
+    {
+        if (const Node* n = find(key)) readNumbers(*n, pathOf(key), out, quantity, range);
+    }
+    void pixels(const char* key, int& width, int& height, int low, int high, const char*);
+    void color(const char* key, Eigen::Vector3f& out, const char*);
+    void flags(const char* key, std::initializer_list<NamedFlag> all, const char*)
+    {
+        if (const Node* n = find(key)) readNamedFlags(*n, pathOf(key), {all.begin(), all.size()});
+    }
+    /// Either of two words.
+    void either(const char* key, bool& out, const char* yes, const char* no, const char*)
+    {
+        if (const Node* n = find(key)) out = readChoice(*n, pathOf(key), {yes, no}, {true, true}) == 0;
+    }
+    template <class T>
+    void section(const char* key, T& out, const char*)
+    {
+        read(find(key), pathOf(key), [&](auto& v) { describe(v, out); });
+    }
+    template <class Fields>
+    void group(const char* key, const char*, Fields fields)
+    {
+        read(find(key), pathOf(key), fields);
+    }
+    /// One value for both phases, or {liquid: …, fabric: …}.
+    template <class T, class Field>
+    void perPhase(const char* key, T& liquid, T& fabric, Field field)
+    {
+        const Node* n = find(key);
+        if (n && n->isMap()) {
+            read(n, pathOf(key), [&](auto& v) {
+                field(v, "liquid", liquid);
+                field(v, "fabric", fabric);
+            });
+        } else {
+            field(*this, key, liquid);
+            field(*this, key, fabric);
+        }
+    }
+    /// Fields that are printed only under a condition.
+    template <class Fields>
+    void when(bool, Fields fields)
+    {
+        fields(*this);
+    }
+    /// Fields that are read and checked, and change nothing in this version.
+    template <class Fields>
+    void withoutEffect(Fields fields)
+    {
+        fields(*this);
+    }
+    template <class Action>
+    void whenReading(Action action)
+    {
+        action(*this);
+    }
+    /// A choice of which this version runs one.
+    void onlyRuns(const char* key, const char* word, std::initializer_list<const char*> others, const char*);
+    /// A key that this version knows and refuses.
+    void later(const char* key, const char* message);
+    /// A key that other code reads.
+    void other(const char*, const char*) {}
+    void needs(const char* key, const char* what);
+    void require(bool isMet, const char* key, const std::string& message);
+
+    /// Reads one map by a declaration: first are there only keys it knows, then its fields. Without a map everything
+    /// keeps its value.
+    template <class Fields>
+    static void read(const Node* node, const std::string& path, Fields fields)
+    {
+        if (!node) return;
+        SectionReader reader(*node, path);
+        KeyList known;
+        fields(known);
+        reader.refuseKeysBut(known.keys);
+        fields(reader);
+    }
+
+    /// Throws at the first key that is not one of these.
+    void refuseKeysBut(const std::vector<std::string>& known) const;
+
+ private:
+    const Node& node_;
+    std::string path_;
+};
+
+}  // namespace sim

@@ -1,0 +1,265 @@
+#include "sim/scene/units.h"
+
+#include "sim/core/units.h"
+#include "sim/scene/place.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+namespace sim {
+
+namespace {
+
+/// Powers of the base units: length, mass, time, and the angle, which is kept apart to catch mistakes.
+struct Dimension {
+    int length = 0, mass = 0, time = 0, angle = 0;
+    bool operator==(const Dimension&) const = default;
+};
+
+struct QuantityInfo {
+    const char* name;
+    Dimension dimension;
+    const char* cgs;
+    const char* si;
+    double siInCgs;   ///< one SI unit
+};
+
+const QuantityInfo& infoOf(Quantity quantity)
+{
+    static constexpr std::array<QuantityInfo, 15> kInfo = {{
+        {"plain number", {}, "", "", 1.0},
+        {"length", {1, 0, 0, 0}, "cm", "m", 1.0e2},
+        {"time", {0, 0, 1, 0}, "s", "s", 1.0},
+        {"mass", {0, 1, 0, 0}, "g", "kg", 1.0e3},
+        {"velocity", {1, 0, -1, 0}, "cm/s", "m/s", 1.0e2},
+        {"acceleration", {1, 0, -2, 0}, "cm/s^2", "m/s^2", 1.0e2},
+        {"density", {-3, 1, 0, 0}, "g/cm^3", "kg/m^3", 1.0e-3},
+        {"pressure", {-1, 1, -2, 0}, "dyn/cm^2", "Pa", 1.0e1},
+        {"viscosity", {-1, 1, -1, 0}, "P", "Pa s", 1.0e1},
+        {"surface tension", {0, 1, -2, 0}, "dyn/cm", "N/m", 1.0e3},
+        {"volume", {3, 0, 0, 0}, "cm^3", "m^3", 1.0e6},
+        {"frequency", {0, 0, -1, 0}, "1/s", "1/s", 1.0},
+        {"angle", {0, 0, 0, 1}, "deg", "deg", 1.0},
+        {"angle", {0, 0, 0, 1}, "deg", "deg", 1.0},
+        {"turn rate", {0, 0, -1, 1}, "deg/s", "deg/s", 1.0},
+    }};
+    return kInfo[static_cast<std::size_t>(quantity)];
+}
+
+struct Unit {
+    const char* symbol;
+    double inCgs;
+    Dimension dimension;
+    bool takesPrefix = true;
+};
+
+// Angles count in degrees here: bare numbers of a scene are degrees, and the change to radians comes last.
+constexpr Unit kUnits[] = {
+    {"m", 1.0e2, {1, 0, 0, 0}},
+    {"g", 1.0, {0, 1, 0, 0}},
+    {"s", 1.0, {0, 0, 1, 0}},
+    {"min", 60.0, {0, 0, 1, 0}, false},
+    {"N", 1.0e5, {1, 1, -2, 0}},
+    {"dyn", 1.0, {1, 1, -2, 0}, false},
+    {"Pa", 1.0e1, {-1, 1, -2, 0}},
+    {"Ba", 1.0, {-1, 1, -2, 0}, false},
+    {"bar", 1.0e6, {-1, 1, -2, 0}},
+    {"P", 1.0, {-1, 1, -1, 0}},
+    {"J", 1.0e7, {2, 1, -2, 0}},
+    {"erg", 1.0, {2, 1, -2, 0}, false},
+    {"Hz", 1.0, {0, 0, -1, 0}},
+    {"l", 1.0e3, {3, 0, 0, 0}},
+    {"L", 1.0e3, {3, 0, 0, 0}},
+    {"deg", 1.0, {0, 0, 0, 1}, false},
+    {"°", 1.0, {0, 0, 0, 1}, false},
+    {"rad", 180.0 / kPi, {0, 0, 0, 1}},
+    {"%", 1.0e-2, {}, false},
+    {"1", 1.0, {}, false},
+};
+
+struct Prefix {
+    const char* symbol;
+    double factor;
+};
+constexpr Prefix kPrefixes[] = {{"n", 1.0e-9}, {"u", 1.0e-6}, {"µ", 1.0e-6}, {"μ", 1.0e-6}, {"m", 1.0e-3},
+                                {"c", 1.0e-2}, {"d", 1.0e-1}, {"k", 1.0e3},  {"M", 1.0e6},  {"G", 1.0e9}};
+
+struct Scale {
+    double factor = 1.0;
+    Dimension dimension;
+};
+
+std::optional<Scale> unitNamed(std::string_view symbol)
+{
+    for (const Unit& unit : kUnits) {
+        if (symbol == unit.symbol) return Scale{unit.inCgs, unit.dimension};
+    }
+    for (const Unit& unit : kUnits) {
+        if (!unit.takesPrefix) continue;
+        for (const Prefix& prefix : kPrefixes) {
+            const std::string_view head(prefix.symbol), tail(unit.symbol);
+            if (symbol.size() == head.size() + tail.size() && symbol.starts_with(head) && symbol.ends_with(tail)) {
+                return Scale{prefix.factor * unit.inCgs, unit.dimension};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+void multiply(Scale& scale, const Scale& unit, int power)
+{
+    // One unit at a time: cm^3 is exactly 1, where pow(0.01 · 100, 3) need not be.
+    for (int i = 0; i < std::abs(power); ++i) scale.factor = power > 0 ? scale.factor * unit.factor : scale.factor / unit.factor;
+    scale.dimension.length += power * unit.dimension.length;
+    scale.dimension.mass += power * unit.dimension.mass;
+    scale.dimension.time += power * unit.dimension.time;
+    scale.dimension.angle += power * unit.dimension.angle;
+}
+
+bool isSeparator(char c) { return c == ' ' || c == '*' || c == '/'; }
+
+/// Reads one factor "cm^2" or "s-1" into the scale; false if it is none.
+bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
+{
+    constexpr int kMaxPower = 9;
+    std::size_t end = word.size();
+    while (end > 1 && ((word[end - 1] >= '0' && word[end - 1] <= '9') || word[end - 1] == '-')) --end;
+    std::string_view symbol = word.substr(0, end), exponent = word.substr(end);
+    if (symbol.ends_with('^')) {
+        symbol.remove_suffix(1);
+        if (exponent.empty()) return false;
+    }
+    int power = 1;
+    if (!exponent.empty()) {
+        const auto [stop, error] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
+        if (error != std::errc() || stop != exponent.data() + exponent.size() || std::abs(power) > kMaxPower) return false;
+    }
+    const std::optional<Scale> unit = unitNamed(symbol);
+    if (!unit) return false;
+    multiply(scale, *unit, isDivisor ? -power : power);
+    return true;
+}
+
+void replaceAll(std::string& text, std::string_view from, std::string_view to)
+{
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+}
+
+/// Reads a product of units like "dyn s/cm^2"; a slash divides by the one unit after it.
+std::optional<Scale> parseUnit(std::string_view given)
+{
+    std::string text(given);
+    replaceAll(text, "²", "^2");
+    replaceAll(text, "³", "^3");
+    replaceAll(text, "·", " ");
+    Scale scale;
+    bool isDivisor = false;
+    for (std::size_t i = 0; i < text.size();) {
+        if (isSeparator(text[i])) {
+            if (text[i] == '/' && isDivisor) return std::nullopt;
+            isDivisor = isDivisor || text[i] == '/';
+            ++i;
+            continue;
+        }
+        std::size_t end = i;
+        while (end < text.size() && !isSeparator(text[end])) ++end;
+        if (!readFactor(std::string_view(text).substr(i, end - i), isDivisor, scale)) return std::nullopt;
+        isDivisor = false;
+        i = end;
+    }
+    if (isDivisor || !std::isfinite(scale.factor)) return std::nullopt;
+    return scale;
+}
+
+std::string describeDimension(const Dimension& dimension)
+{
+    for (int q = 0; q <= static_cast<int>(Quantity::TurnRateDegrees); ++q) {
+        const QuantityInfo& info = infoOf(static_cast<Quantity>(q));
+        if (info.dimension == dimension) return info.name;
+    }
+    return "different quantity";
+}
+
+std::string withArticle(const std::string& name)
+{
+    return (std::string_view("aeiou").find(name[0]) == std::string_view::npos ? "a " : "an ") + name;
+}
+
+double toStored(double inFile, Quantity quantity) { return quantity == Quantity::Angle ? inFile * kPi / 180.0 : inFile; }
+
+std::string example(Quantity quantity)
+{
+    const QuantityInfo& info = infoOf(quantity);
+    return *info.cgs ? fmt::format("{} like 0.5 or \"0.5 {}\"", withArticle(info.name), info.cgs) : "a number like 0.5";
+}
+
+ParsedNumber problem(std::string text) { return {0.0, std::move(text)}; }
+
+}  // namespace
+
+const char* nameOf(Quantity quantity) { return infoOf(quantity).name; }
+
+const char* unitOf(Quantity quantity, bool isSi) { return isSi ? infoOf(quantity).si : infoOf(quantity).cgs; }
+
+double inFileUnits(double stored, Quantity quantity) { return quantity == Quantity::Angle ? stored * 180.0 / kPi : stored; }
+
+ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
+{
+    const std::string_view given = text;
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc::result_out_of_range) return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
+    const std::string_view magnitude = text.starts_with('-') ? text.substr(1) : text;
+    for (const char* word : {".inf", ".Inf", ".INF", ".nan", ".NaN", ".NAN"}) {
+        if (magnitude == word) return problem(fmt::format("{} is not finite; write a number", inQuotes(given)));
+    }
+    if (error != std::errc()) return problem(fmt::format("{} is no number; needs {}", inQuotes(given), example(quantity)));
+    if (!std::isfinite(number)) return problem(fmt::format("{} is not finite; write a number", inQuotes(given)));
+
+    std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    while (unit.starts_with(' ')) unit.remove_prefix(1);
+    const QuantityInfo& info = infoOf(quantity);
+    double inFile = isSi ? number * info.siInCgs : number;
+    if (!unit.empty()) {
+        const std::optional<Scale> scale = parseUnit(unit);
+        if (!scale) return problem(fmt::format("{} has the unknown unit {}; needs {}", inQuotes(given), inQuotes(unit), example(quantity)));
+        if (!(scale->dimension == info.dimension)) {
+            return problem(fmt::format("{} is {}, needs {}{}", inQuotes(given), withArticle(describeDimension(scale->dimension)),
+                                       withArticle(info.name), *info.cgs ? fmt::format(" (in {})", info.cgs) : ""));
+        }
+        inFile = number * scale->factor;
+    }
+    if (!std::isfinite(inFile)) return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
+    return {toStored(inFile, quantity), ""};
+}
+
+std::string formatPlain(double value)
+{
+    std::string text = fmt::format("{}", value == 0.0 ? 0.0 : value);
+    const std::size_t exponent = text.find('e');
+    // YAML 1.1 readers take 1e-05 for a word; 1.0e-05 is a number everywhere.
+    if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+    return text;
+}
+
+std::string formatNumber(double stored, Quantity quantity)
+{
+    if (quantity != Quantity::Angle) return formatPlain(stored);
+    // The nearest short number of degrees that turns back into the same radians; else radians, which need no change.
+    const double degrees = inFileUnits(stored, quantity);
+    for (int digits = 6; digits <= 17; ++digits) {
+        const std::string text = fmt::format("{:.{}g}", degrees, digits);
+        if (parseNumber(text, quantity, false).value == stored) return text;
+    }
+    for (const double near : {std::nextafter(degrees, -1.0e9), std::nextafter(degrees, 1.0e9)}) {
+        if (toStored(near, quantity) == stored) return formatPlain(near);
+    }
+    return formatPlain(degrees);
+}
+
+}  // namespace sim
