@@ -25,7 +25,7 @@ void addScene(CLI::App& verb, Options& options)
 
 void addVariant(CLI::App& verb, Options& options)
 {
-    verb.add_option("--variant", options.variants, "one of the scene's compare.variants")->expected(1)->take_last();
+    verb.add_option("--variant", options.variants, "one of the scene's compare.variants")->take_all()->allow_extra_args(false);
 }
 
 void addOutput(CLI::App& verb, Options& options)
@@ -76,6 +76,15 @@ void addVerbs(CLI::App& program, Options& options)
     bench->callback([&options] { options.verb = Verb::Bench; });
 }
 
+/// The parser takes a word that is no verb for nothing at all and only misses the verb.
+void requireKnownVerb(const CLI::App& program, const std::string& word)
+{
+    std::vector<std::string> names;
+    for (const auto* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+    if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
+    throw sim::InputError(fmt::format("unknown verb \"{}\": there are {}", word, fmt::join(names, ", ")));
+}
+
 /// The parser's message as one line.
 std::string oneLine(std::string text)
 {
@@ -91,6 +100,7 @@ std::optional<Options> readOptions(int argc, const char* const* argv)
     options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
     CLI::App program("Drench simulates liquid meeting fabric and turns scenes into pictures and videos.", "drench");
     addVerbs(program, options);
+    if (argc > 1) requireKnownVerb(program, argv[1]);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -98,6 +108,8 @@ std::optional<Options> readOptions(int argc, const char* const* argv)
         program.exit(error);
         return std::nullopt;
     }
+    if (options.verb != Verb::Compare && options.variants.size() > 1)
+        throw sim::InputError("--variant: only one at a time, except for compare");
     return options;
 }
 

@@ -64,9 +64,8 @@ Progress::~Progress()
     if (lineOpen_) std::fputc('\n', out_);
 }
 
-void Progress::stepDone(double time, double dt, double stepSeconds, std::int64_t frame)
+void Progress::stepDone(double time, double dt, double stepSeconds)
 {
-    state_.frame = frame;
     state_.time = time;
     state_.dt = dt;
     state_.secondsPerStep =

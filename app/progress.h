@@ -34,8 +34,9 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// One more step done, `frame` frames finished. Writes only where it is time to.
-    void stepDone(double time, double dt, double stepSeconds, std::int64_t frame);
+    /// One more step done. Writes only where it is time to.
+    void stepDone(double time, double dt, double stepSeconds);
+    void frameDone() { ++state_.frame; }
 
     /// Write where it stands now.
     void show();

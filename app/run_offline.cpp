@@ -43,7 +43,7 @@ class FrameSink {
 };
 
 /// Step up to `until`, logging every step. Throws RunError for a state that cannot be trusted.
-void stepUntil(double until, std::int64_t framesDone, Steppable& simulation, Reports& reports, Progress& progress)
+void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& progress)
 {
     // Steps end on `until` itself but for the rounding of sums.
     constexpr double kRounding = 1.0e-12;
@@ -53,7 +53,7 @@ void stepUntil(double until, std::int64_t framesDone, Steppable& simulation, Rep
         const sim::StepReport report = simulation.step(until);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
         reports.step(state, report);
-        progress.stepDone(state.time, report.dt, seconds.count(), framesDone);
+        progress.stepDone(state.time, report.dt, seconds.count());
     }
 }
 
@@ -67,12 +67,13 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, Steppable& si
 
     sink.take(simulation.state(), 0);
     for (std::int64_t frame = 1; frame <= frames; ++frame) {
-        stepUntil(std::min(frameTime(setup, frame), end), frame - 1, simulation, reports, progress);
+        stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress);
         sink.take(simulation.state(), frame);
         reports.frameDone();
+        progress.frameDone();
         if (frame < frames && options.stopWanted()) return false;
     }
-    stepUntil(end, frames, simulation, reports, progress);
+    stepUntil(end, simulation, reports, progress);
     progress.show();
     return true;
 }
@@ -91,6 +92,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
     claimFolder(options.out, {setup.scene.name, setup.variant});
     Reports reports(options.out, setup, options.contentHash, options.threads);
     try {
+        writeWhole(options.out / "resolved.yaml", setup.resolved);
         const auto simulation = parts.startSimulation(setup);
         reports.initial(simulation->state(), simulation->energies());
         FrameSink sink(setup, parts, options);

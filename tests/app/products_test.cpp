@@ -43,13 +43,14 @@ TEST(Progress, ElsewhereThanOnATerminalLinesEnd)
     std::FILE* out = std::fopen((folder / "log").c_str(), "w");
     {
         Progress progress(out, "APIC", 0.0, 1.0, 10);
-        progress.stepDone(0.5, 0.01, 0.2, 5);
+        progress.stepDone(0.5, 0.01, 0.2);
+        progress.frameDone();
         progress.show();
     }
     std::fclose(out);
     const auto lines = test::linesOf(folder / "log");
     ASSERT_EQ(lines.size(), 1u);
-    EXPECT_TRUE(lines[0].starts_with("APIC  frame 5/10 · t 0.5 s · dt 1.0e-2 · 0.200 s/step · ETA ")) << lines[0];
+    EXPECT_TRUE(lines[0].starts_with("APIC  frame 1/10 · t 0.5 s · dt 1.0e-2 · 0.200 s/step · ETA ")) << lines[0];
 }
 
 TEST(Statistics, MedianIsTheMiddle)
