@@ -13,7 +13,7 @@ std::string hexDigits(std::uint64_t value) { return fmt::format("{:016x}", value
 
 std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash)
 {
-    const std::string all = fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.resolved);
+    const std::string all = fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
     return hexDigits(XXH64(all.data(), all.size(), programHash));
 }
 

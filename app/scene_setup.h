@@ -23,7 +23,8 @@ struct SceneSetup {
     PictureSettings pictures;
     std::string variant = "default";  ///< names its output folder
     std::string label;                ///< stands in its pictures; empty where the file is run as written
-    std::string resolved;             ///< every setting with its unit, as `check` prints it: equal text, equal run
+    std::string resolved;             ///< every setting with its unit, as `check` prints it
+    std::string identity;             ///< the part of it that the run itself depends on: equal text, equal run
 };
 
 /// What makes two runs the same: the resolved scene, how its pictures are drawn, and the program that ran it, as 16

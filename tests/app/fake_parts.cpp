@@ -139,6 +139,7 @@ SceneSetup toySetup(const ToySettings& toy)
     setup.pictures.output.every = toy.every;
     setup.pictures.compare.variants = {{"a", "A", {}}, {"b", "B|2", {}}};
     setup.resolved = fmt::format("duration: {}\nevery: {}\ndt: {}\nspeed: {}\n", toy.duration, toy.every, toy.dt, toy.speed);
+    setup.identity = setup.resolved;
     return setup;
 }
 
