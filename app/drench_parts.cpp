@@ -3,7 +3,7 @@
 #include "app/parts.h"
 #include "app/read_picture_settings.h"
 #include "sim/scene/load_scene.h"
-#include "sim/step.h"
+#include "sim/simulation.h"
 
 #include <algorithm>
 

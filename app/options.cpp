@@ -53,6 +53,7 @@ void addVerbs(CLI::App& program, Options& options)
     addOutput(*compare, options);
     compare->add_option("--variant", options.variants, "only this variant; may be repeated")->take_all()->allow_extra_args(false);
     compare->add_flag("--force", options.force, "redo variants that are done");
+    compare->add_flag("--or-run", options.orRun, "where there is nothing to compare, just run");
     compare->callback([&options] { options.verb = Verb::Compare; });
 
     auto* check = program.add_subcommand("check", "validate a scene and print it resolved, with units");

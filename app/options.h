@@ -22,6 +22,7 @@ struct Options {
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: no colour bar of their own
     bool force = false;                  ///< compare: redo variants that are done
+    bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;

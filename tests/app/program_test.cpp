@@ -138,6 +138,13 @@ TEST_F(Program, CompareRunsOnlyWhatIsMissing)
     EXPECT_NE(contentOf(folder.path() / "out/toy/a/report.json"), again) << "--force";
 }
 
+TEST_F(Program, CompareOrRunRunsTheOneVariantAskedFor)
+{
+    ASSERT_TRUE(run({"compare", "toy.yaml", "--or-run", "--variant", "b"}).ok());
+    EXPECT_EQ(reportOf("out/toy/b").at("status"), "done");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/toy/table.md"));
+}
+
 TEST_F(Program, CompareGoesOnAfterAVariantThatFails)
 {
     ASSERT_TRUE(run({"compare", "toy.yaml", "--no-video", "--variant", "a"}).ok());
