@@ -1,0 +1,123 @@
+#include "app/compare.h"
+
+#include "app/compare_table.h"
+#include "app/energy_plot.h"
+#include "app/output_files.h"
+#include "app/reports.h"
+#include "app/side_by_side.h"
+#include "sim/core/check.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace app {
+
+namespace {
+
+std::string names(const std::vector<Variant>& variants)
+{
+    std::vector<std::string> all;
+    for (const auto& v : variants) all.push_back(v.name);
+    return fmt::format("{}", fmt::join(all, ", "));
+}
+
+std::vector<Variant> wantedVariants(const Options& options, const CompareSettings& compare)
+{
+    if (compare.variants.empty())
+        throw sim::InputError(fmt::format("{}: nothing to compare: the scene has no compare.variants (drench run runs it as it is)",
+                                          options.scene));
+    if (options.variants.empty()) return compare.variants;
+    std::vector<Variant> wanted;
+    for (const auto& name : options.variants) {
+        const auto found = std::ranges::find(compare.variants, name, &Variant::name);
+        if (found == compare.variants.end())
+            throw sim::InputError(fmt::format("--variant {}: {} has no such variant; it has {}", name, options.scene, names(compare.variants)));
+        wanted.push_back(*found);
+    }
+    return wanted;
+}
+
+FrameSequence sequenceOf(const ComparedRun& run)
+{
+    return {.folder = run.folder,
+            .label = run.setup.label,
+            .start = run.setup.scene.settings.time.start,
+            .every = run.setup.pictures.output.every,
+            .last = frameCount(run.setup)};
+}
+
+void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::path& folder)
+{
+    std::vector<EnergyCurve> curves;
+    for (const auto& run : runs) curves.push_back({run.setup.variant, run.setup.label, run.folder / "energy.csv"});
+    joinEnergies(curves, folder / "energy.csv");
+    const auto& scene = runs.front().setup.scene;
+    if (canPlot())
+        plotEnergies(curves, scene.title.empty() ? scene.name : scene.title, folder);
+    else
+        spdlog::warn("no gnuplot along PATH, so no energy plot: the numbers are in {}", (folder / "energy.csv").string());
+}
+
+}  // namespace
+
+std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder)
+{
+    const SceneSetup asWritten = parts.loadScene({options.scene, "", options.sets});
+    const std::uint64_t program = programHash();
+    std::vector<ComparedRun> runs;
+    for (const auto& variant : wantedVariants(options, asWritten.pictures.compare)) {
+        ComparedRun run;
+        run.setup = parts.loadScene({options.scene, variant.name, options.sets});
+        run.folder = folder / variant.name;
+        run.contentHash = contentHash(run.setup, true, program);
+        runs.push_back(std::move(run));
+    }
+    return runs;
+}
+
+bool isDone(const ComparedRun& run, bool withFrames)
+{
+    const auto report = readReport(run.folder);
+    if (!report || report->status != "done" || report->contentHash != run.contentHash) return false;
+    if (!withFrames) return true;
+    for (std::int64_t n = 0; n <= frameCount(run.setup); ++n)
+        if (!std::filesystem::exists(run.folder / frameFileName(n))) return false;
+    return true;
+}
+
+std::vector<std::string> runArguments(const ComparedRun& run, const Options& options)
+{
+    std::vector<std::string> arguments = {"run",       options.scene,       "--variant", run.setup.variant,
+                                          "--out",     run.folder.string(), "--threads", fmt::format("{}", options.threads),
+                                          "--panel",   "--no-video"};
+    if (!options.frames) arguments.push_back("--no-frames");
+    for (const auto& set : options.sets) {
+        arguments.push_back("--set");
+        arguments.push_back(set);
+    }
+    return arguments;
+}
+
+void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames,
+                  const std::filesystem::path& folder, const std::function<bool()>& stopWanted)
+{
+    if (pictures.compare.table) {
+        std::vector<RunResult> results;
+        for (const auto& run : runs)
+            if (auto result = readReport(run.folder)) results.push_back(std::move(*result));
+        const auto& scene = runs.front().setup.scene;
+        const std::string table = compareTable(scene.title.empty() ? scene.name : scene.title, results, pictures.compare.reference);
+        writeWhole(folder / "table.md", table);
+        fmt::print("\n{}\n", table);
+    }
+    if (pictures.compare.energyPlot) drawEnergies(runs, folder);
+    if (!pictures.compare.video || !withFrames) return;
+    std::vector<FrameSequence> sequences;
+    for (const auto& run : runs) sequences.push_back(sequenceOf(run));
+    const auto made = composeSideBySide(sequences, pictures.output.every, pictures, parts, folder, stopWanted);
+    if (!made.empty()) fmt::print("side by side: {}\n", made.string());
+}
+
+}  // namespace app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/options.h"
+#include "app/parts.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// One variant of a comparison: an ordinary run in a folder of its own.
+struct ComparedRun {
+    SceneSetup setup;
+    std::filesystem::path folder;
+    std::string contentHash;
+};
+
+/// The variants a comparison is about, every one of them loaded and so validated before the first one starts.
+/// Throws InputError when the scene has none, or none of a name asked for.
+std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder);
+
+/// Is this very run, by this very program, already there to its end (with its pictures, if wanted)?
+bool isDone(const ComparedRun& run, bool withFrames);
+
+/// The command line of one variant's own process.
+std::vector<std::string> runArguments(const ComparedRun& run, const Options& options);
+
+/// Side-by-side video, energy plot with its CSV, and table of runs that are done, as the scene wishes.
+void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames,
+                  const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
+
+}  // namespace app

@@ -1,0 +1,56 @@
+#include "app/draw_frames.h"
+#include "app/obstacle_meshes.h"
+#include "app/parts.h"
+#include "app/read_picture_settings.h"
+#include "sim/scene/load_scene.h"
+#include "sim/simulation.h"
+
+#include <algorithm>
+
+namespace app {
+
+namespace {
+
+SceneSetup loadScene(const SceneRequest& request)
+{
+    const sim::SceneFile file = sim::loadSceneFile(request.file, {.variant = request.variant, .set = request.sets});
+    SceneSetup setup;
+    setup.scene = sim::readScene(file);
+    setup.pictures = readPictureSettings(file);
+    const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);
+    if (variant != setup.pictures.compare.variants.end()) {
+        setup.variant = variant->name;
+        setup.label = variant->label;
+    }
+    const std::string scene = sim::printScene(setup.scene);
+    setup.resolved = scene + printPictureSettings(setup.pictures);
+    PictureSettings alone = setup.pictures;
+    alone.compare = {};
+    setup.identity = scene + printPictureSettings(alone);
+    return setup;
+}
+
+class RealSimulation : public Steppable {
+ public:
+    explicit RealSimulation(const sim::Scene& scene) : simulation_(scene) {}
+    const sim::State& state() const override { return simulation_.state(); }
+    sim::StepReport step(double until) override { return simulation_.step(until); }
+    sim::Energies energies() const override { return simulation_.energies(); }
+    std::uint64_t stateHash() const override { return sim::stateHash(simulation_.state()); }
+
+ private:
+    sim::Simulation simulation_;
+};
+
+}  // namespace
+
+Parts drenchParts()
+{
+    return {.loadScene = loadScene,
+            .startSimulation = [](const SceneSetup& setup) { return std::make_unique<RealSimulation>(setup.scene); },
+            .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
+            .startRenderer = startOffscreenRenderer,
+            .putSideBySide = putSideBySide};
+}
+
+}  // namespace app

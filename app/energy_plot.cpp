@@ -1,0 +1,113 @@
+#include "app/energy_plot.h"
+
+#include "app/child_process.h"
+#include "app/output_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace app {
+
+namespace {
+
+/// A palette that colour-blind readers can tell apart (Okabe and Ito 2008), darkest contrasts first.
+constexpr std::array<std::string_view, 7> kPalette = {"#000000", "#d55e00", "#0072b2", "#009e73",
+                                                      "#cc79a7", "#e69f00", "#56b4e9"};
+
+/// Text between single quotes for gnuplot.
+std::string quoted(std::string text)
+{
+    for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2) text.insert(at, 1, '\'');
+    return '\'' + text + '\'';
+}
+
+/// The largest total energy in a file, by size [erg]; 0 if there is none.
+double largestEnergy(const std::filesystem::path& csv)
+{
+    constexpr int kTotalColumn = 4;
+    std::istringstream in(readWhole(csv));
+    std::string line;
+    double largest = 0.0;
+    for (std::getline(in, line); std::getline(in, line);) {
+        std::istringstream cells(line);
+        std::string cell;
+        for (int column = 0; column <= kTotalColumn; ++column) std::getline(cells, cell, ',');
+        if (const double value = std::strtod(cell.c_str(), nullptr); std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    }
+    return largest;
+}
+
+/// Axis numbers between 1 and 1000: a multiple of three.
+int axisScale(const std::vector<EnergyCurve>& curves)
+{
+    double largest = 0.0;
+    for (const auto& curve : curves) largest = std::max(largest, largestEnergy(curve.csv));
+    return largest > 0.0 ? 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0)) : 0;
+}
+
+/// One panel: `value` is a gnuplot expression of the columns of energy.csv.
+std::string panel(const std::vector<EnergyCurve>& curves, const std::string& name, const std::string& value, int scale)
+{
+    std::string text = fmt::format("set title {}\nplot", quoted(name));
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        text += fmt::format("{} {} skip 1 using 1:(({})*1e{}) with lines lw 2 lc rgb '{}' title {} noenhanced", i == 0 ? "" : ", \\\n    ",
+                            quoted(curves[i].csv.generic_string()), value, -scale, kPalette[i % kPalette.size()], quoted(curves[i].label));
+    return text + "\n";
+}
+
+}  // namespace
+
+void joinEnergies(const std::vector<EnergyCurve>& curves, const std::filesystem::path& target)
+{
+    std::string all;
+    for (const auto& curve : curves) {
+        std::istringstream in(readWhole(curve.csv));
+        std::string line;
+        std::getline(in, line);
+        if (all.empty()) all = "variant," + line + '\n';
+        while (std::getline(in, line)) all += curve.variant + ',' + line + '\n';
+    }
+    writeWhole(target, all);
+}
+
+std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title,
+                             const std::string& picture)
+{
+    const std::string unit = scale == 0 ? "erg" : fmt::format("10^{{{}}} erg", scale);
+    return fmt::format("set terminal pngcairo size 1650,560 font 'DejaVu Sans,12' linewidth 1\n"
+                       "set output {}\n"
+                       "set datafile separator ','\n"
+                       "set multiplot layout 1,3 title {} noenhanced font ',14'\n"
+                       "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
+                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\nset key top right samplen 2 spacing 1.1\n",
+                       quoted(picture), quoted(title), unit) +
+           panel(curves, "kinetic", "$2+$3", scale) + "unset key\nunset ylabel\n" + panel(curves, "potential", "$4", scale) +
+           panel(curves, "total", "$5", scale) + "unset multiplot\n";
+}
+
+bool canPlot() { return findProgram("gnuplot").has_value(); }
+
+void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)
+{
+    const auto program = findProgram("gnuplot");
+    if (!program) throw std::runtime_error("no gnuplot along PATH: install it to get the energy plot");
+    const int scale = axisScale(curves);
+    auto relative = curves;
+    for (auto& curve : relative) curve.csv = std::filesystem::relative(curve.csv, folder);
+    writeWhole(folder / "energy.gp", energyPlotScript(relative, scale, title, "energy.png"));
+
+    const auto part = partFile("energy.png");
+    writeWhole(folder / "energy.gp.part", energyPlotScript(relative, scale, title, part.string()));
+    const ChildExit end = runChild(*program, {"energy.gp.part"}, {.folder = folder});
+    std::filesystem::remove(folder / "energy.gp.part");
+    if (!end.ok()) throw std::runtime_error(fmt::format("gnuplot could not draw {}: {}", (folder / "energy.png").string(), end.lastWords()));
+    putInPlace(folder / part, folder / "energy.png");
+}
+
+}  // namespace app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// One curve of the energy plot.
+struct EnergyCurve {
+    std::string variant;                 ///< first column of the joined CSV
+    std::string label;                   ///< in the legend
+    std::filesystem::path csv;           ///< an energy.csv as a run leaves it
+};
+
+/// One table of all curves, long form: the columns of energy.csv behind one that names the variant.
+/// Throws std::runtime_error when a file cannot be read or written.
+void joinEnergies(const std::vector<EnergyCurve>& curves, const std::filesystem::path& target);
+
+/// The gnuplot program that draws kinetic, potential and total energy of all curves against time.
+/// @param scale  the axis is in 10^scale erg
+std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title,
+                             const std::string& picture);
+
+/// Is there a gnuplot?
+bool canPlot();
+
+/// Draw folder/energy.png, and leave folder/energy.gp beside it to draw it anew with. Throws std::runtime_error with
+/// gnuplot's own words.
+void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder);
+
+}  // namespace app

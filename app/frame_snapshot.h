@@ -1,0 +1,33 @@
+#pragma once
+
+#include "render/frame_view.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace app {
+
+/// One frame as it was when the simulation passed it: what a picture needs, copied out of the state in single precision,
+/// so that drawing it does not hold up the simulation.
+struct FrameSnapshot {
+    struct Mesh {
+        std::vector<Eigen::Vector3f> positions;   ///< [cm]
+        std::vector<Eigen::Vector3i> triangles;
+        bool inside = false;                      ///< a container, seen from within
+    };
+
+    std::int64_t number = 0;                      ///< 0 is the initial state
+    double time = 0.0;                            ///< [s]
+    std::vector<Eigen::Vector3f> positions;       ///< of the particles [cm]
+    std::vector<float> speeds;                    ///< one per position [cm/s]
+    float radius = 0.0f;                          ///< of a particle [cm]
+    std::vector<Mesh> obstacles;
+    std::vector<render::FrameView::Mesh> borrowedObstacles;  ///< the same, as view() lends them
+
+    /// Valid until the snapshot changes.
+    render::FrameView view();
+};
+
+}  // namespace app

@@ -1,0 +1,43 @@
+#include "app/obstacle_meshes.h"
+
+#include "sim/shapes/tessellate.h"
+
+namespace app {
+
+namespace {
+
+/// One obstacle where the scene file puts it, before any motion. A container is drawn as the shape it is the outside of.
+FrameSnapshot::Mesh restMesh(const sim::ObstacleSettings& obstacle, double cell)
+{
+    const bool inside = obstacle.shape.isInverted();
+    const sim::TriangleMesh mesh = sim::tessellate(inside ? obstacle.shape.inverted() : obstacle.shape, cell);
+    FrameSnapshot::Mesh rest;
+    rest.inside = inside;
+    rest.triangles = mesh.triangles;
+    for (const auto& vertex : mesh.vertices) rest.positions.push_back(vertex.cast<float>());
+    return rest;
+}
+
+}  // namespace
+
+PlaceObstacles meshObstacles(const sim::Scene& scene)
+{
+    // Half a grid cell resolves what the liquid can feel of a shape.
+    const double cell = 0.5 * scene.settings.cell;
+    std::vector<FrameSnapshot::Mesh> rest;
+    std::vector<sim::Motion> motions;
+    for (const auto& obstacle : scene.obstacles) {
+        rest.push_back(restMesh(obstacle, cell));
+        motions.push_back(obstacle.motion);
+    }
+    return [rest = std::move(rest), motions = std::move(motions)](double time, std::vector<FrameSnapshot::Mesh>& meshes) {
+        meshes = rest;
+        for (std::size_t o = 0; o < rest.size(); ++o) {
+            if (motions[o].isStatic()) continue;
+            const Eigen::Isometry3f transform = motions[o].transform(time).cast<float>();
+            for (auto& position : meshes[o].positions) position = transform * position;
+        }
+    };
+}
+
+}  // namespace app

@@ -1,0 +1,117 @@
+#include "app/options.h"
+
+#include "sim/core/check.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+namespace app {
+
+namespace {
+
+constexpr int kMaxThreads = 1024;
+
+void addScene(CLI::App& verb, Options& options)
+{
+    verb.add_option("scene", options.scene, "scene file (YAML)")->required();
+    verb.add_option("--set", options.sets, "override a key of the scene: dotted.key=value")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+void addVariant(CLI::App& verb, Options& options)
+{
+    verb.add_option("--variant", options.variants, "one of the scene's compare.variants")->take_all()->allow_extra_args(false);
+}
+
+void addOutput(CLI::App& verb, Options& options)
+{
+    verb.add_option("--out", options.out, "output folder");
+    verb.add_option("--threads", options.threads, "threads of the simulation (default: all)")->check(CLI::Range(1, kMaxThreads));
+    verb.add_flag("!--no-frames", options.frames, "no pictures");
+    verb.add_flag("!--no-video", options.video, "no video");
+}
+
+void addVerbs(CLI::App& program, Options& options)
+{
+    program.require_subcommand(1);
+    program.set_version_flag("--version", DRENCH_VERSION);
+
+    auto* run = program.add_subcommand("run", "run a scene, or one of its variants, to its end");
+    addScene(*run, options);
+    addVariant(*run, options);
+    addOutput(*run, options);
+    run->add_flag("--panel", options.asPanel, "pictures without colour bar and time, to stand beside others");
+    run->callback([&options] { options.verb = Verb::Run; });
+
+    auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");
+    addScene(*compare, options);
+    addOutput(*compare, options);
+    compare->add_option("--variant", options.variants, "only this variant; may be repeated")->take_all()->allow_extra_args(false);
+    compare->add_flag("--force", options.force, "redo variants that are done");
+    compare->add_flag("--or-run", options.orRun, "where there is nothing to compare, just run");
+    compare->callback([&options] { options.verb = Verb::Compare; });
+
+    auto* check = program.add_subcommand("check", "validate a scene and print it resolved, with units");
+    addScene(*check, options);
+    addVariant(*check, options);
+    check->callback([&options] { options.verb = Verb::Check; });
+
+    auto* bench = program.add_subcommand("bench", "time a scene by stage");
+    bench->add_option("--scene", options.scene, "a name in scenes/bench, or a scene file")->required();
+    bench->add_option("--threads", options.benchThreads, "numbers of threads to try: 1,2,4")
+        ->delimiter(',')
+        ->check(CLI::Range(1, kMaxThreads));
+    bench->add_option("--repeats", options.repeats, "runs of each")->check(CLI::Range(1, 1000));
+    bench->add_option("--steps", options.steps, "steps that are timed")->check(CLI::Range(1, 1'000'000));
+    bench->add_option("--warmup", options.warmupSteps, "steps before those")->check(CLI::Range(0, 1'000'000));
+    bench->add_option("--set", options.sets, "override a key of the scene")->take_all()->allow_extra_args(false);
+    addVariant(*bench, options);
+    bench->add_flag("--csv", options.csv, "write <results>/<machine>/<scene>.csv");
+    bench->add_option("--results", options.results, "folder of the CSV files");
+    bench->add_option("--machine", options.machine, "name of this machine in them");
+    bench->callback([&options] { options.verb = Verb::Bench; });
+}
+
+/// The parser takes a word that is no verb for nothing at all and only misses the verb.
+void requireKnownVerb(const CLI::App& program, const std::string& word)
+{
+    std::vector<std::string> names;
+    for (const auto* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+    if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
+    throw sim::InputError(fmt::format("unknown verb \"{}\": there are {}", word, fmt::join(names, ", ")));
+}
+
+/// The parser's message as one line.
+std::string oneLine(std::string text)
+{
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+}  // namespace
+
+std::optional<Options> readOptions(int argc, const char* const* argv)
+{
+    Options options;
+    options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+    CLI::App program("Drench simulates liquid meeting fabric and turns scenes into pictures and videos.", "drench");
+    addVerbs(program, options);
+    if (argc > 1) requireKnownVerb(program, argv[1]);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) throw sim::InputError(fmt::format("{} (drench --help tells more)", oneLine(error.what())));
+        program.exit(error);
+        return std::nullopt;
+    }
+    if (options.verb != Verb::Compare && options.variants.size() > 1)
+        throw sim::InputError("--variant: only one at a time, except for compare");
+    return options;
+}
+
+}  // namespace app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/scene_setup.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+enum class Verb { Run, Compare, Check, Bench };
+
+/// The command line.
+struct Options {
+    Verb verb = Verb::Run;
+    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file
+    std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
+    std::vector<std::string> sets;       ///< "dotted.key=value"
+    std::filesystem::path out;           ///< empty: out/<scene>/<variant>
+    int threads = 1;                     ///< run, compare
+    bool frames = true, video = true;
+    bool asPanel = false;                ///< pictures are to stand beside others: no colour bar of their own
+    bool force = false;                  ///< compare: redo variants that are done
+    bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
+
+    std::vector<int> benchThreads = {1};
+    int repeats = 3;
+    int steps = 20, warmupSteps = 2;
+    bool csv = false;
+    std::filesystem::path results = "tests/bench/results";
+    std::string machine;                 ///< names the folder of bench's CSV; empty: after the processor
+
+    /// The scene with the variant asked for, if any.
+    SceneRequest request() const { return {scene, variants.empty() ? "" : variants.front(), sets}; }
+};
+
+/// Nothing when the command line only asked for help or the version, which is then on standard output.
+/// Throws InputError, one line.
+std::optional<Options> readOptions(int argc, const char* const* argv);
+
+}  // namespace app

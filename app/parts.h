@@ -1,0 +1,54 @@
+#pragma once
+
+#include "app/frame_pipeline.h"
+#include "app/scene_setup.h"
+#include "sim/state.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace app {
+
+/// What the program needs of a simulation. The real one is in drench_parts.cpp, tests have a small one of their own.
+class Steppable {
+ public:
+    virtual ~Steppable() = default;
+    virtual const sim::State& state() const = 0;
+    /// One time step, at most up to `until` [s]. Throws RunError.
+    virtual sim::StepReport step(double until) = 0;
+    virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]
+    virtual std::uint64_t stateHash() const = 0;
+};
+
+/// Puts the triangles of every obstacle where they are at a time [s], reusing the storage.
+using PlaceObstacles = std::function<void(double time, std::vector<FrameSnapshot::Mesh>&)>;
+
+/// Pictures of one time, one per variant, put together into one.
+struct SideBySide {
+    int width = 0, height = 0;               ///< [pixels]
+    std::vector<std::uint8_t> rgb;           ///< rows from the top, 3 · width · height
+    std::function<void(const std::filesystem::path&)> writePng;
+};
+
+struct Panel {
+    std::filesystem::path picture;           ///< a PNG
+    std::string label;
+};
+
+/// What the program is put together from.
+struct Parts {
+    std::function<SceneSetup(const SceneRequest&)> loadScene;                       ///< throws InputError
+    std::function<std::unique_ptr<Steppable>(const SceneSetup&)> startSimulation;   ///< throws InputError
+    std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
+    /// Called on the thread that will draw. Panels of a comparison have no colour bar and time of their own.
+    std::function<DrawFrame(const SceneSetup&, bool asPanel)> startRenderer;
+    std::function<SideBySide(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
+};
+
+/// The real ones.
+Parts drenchParts();
+
+}  // namespace app

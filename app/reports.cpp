@@ -1,0 +1,207 @@
+#include "app/reports.h"
+
+#include "app/peak_memory.h"
+#include "app/statistics.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 4> kStatusNames = {"running", "done", "interrupted", "failed"};
+
+Json energyJson(const sim::Energies& e)
+{
+    return {{"kinetic", e.kinetic}, {"modal", e.modal}, {"potential", e.potential}, {"total", e.total()}};
+}
+
+/// Seconds of the stages that ran in this step.
+Json stageJson(const sim::StepReport& report)
+{
+    Json seconds = {{"total", report.seconds()}};
+    for (int s = 0; s < sim::kStages; ++s)
+        if (report.stageRan[s]) seconds[std::string(sim::kStageNames[s])] = report.stageSeconds[s];
+    return seconds;
+}
+
+std::string stepLine(const sim::State& state, const sim::StepReport& report)
+{
+    const Json line = {
+        {"step", state.step},
+        {"time", state.time},
+        {"dt", report.dt},
+        {"cfl", report.cfl},
+        {"max_speed", report.maxSpeed},
+        {"seconds", stageJson(report)},
+        {"iterations", report.pressure.iterations},
+        {"residual", report.pressure.residual},
+        {"converged", report.pressure.converged},
+        {"particles", report.particles},
+        {"blocks", report.blocks},
+        {"cells", report.liquidCells},
+        {"energy", energyJson(report.energies)},
+        {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}}},
+    };
+    return line.dump();
+}
+
+constexpr std::string_view kEnergyHeader = "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g";
+
+std::string energyRow(double time, const sim::Energies& e, std::size_t particles, double liquidMass)
+{
+    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g}", time, e.kinetic, e.modal, e.potential, e.total(),
+                       particles, liquidMass);
+}
+
+double since(std::chrono::steady_clock::time_point begin)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Json secondsPerStepJson(const StageTimes& times)
+{
+    Json stages = Json::object();
+    for (int s = 0; s < sim::kStages; ++s)
+        stages[std::string(sim::kStageNames[s])] =
+            times.stages[s].empty() ? Json(nullptr) : Json(times.medianMilliseconds(s) / 1000.0);
+    double sum = 0.0;
+    for (double t : times.total) sum += t;
+    return {{"median", median(times.total)},
+            {"mean", times.total.empty() ? 0.0 : sum / static_cast<double>(times.total.size())},
+            {"stages", stages}};
+}
+
+Json reportJson(const RunSummary& s)
+{
+    const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
+    Json json = {{"scene", s.scene}, {"title", s.title}, {"variant", s.variant}, {"label", s.label},
+                 {"status", kStatusNames[static_cast<int>(s.status)]}};
+    if (!s.reason.empty()) json["reason"] = s.reason;
+    json.update({{"steps", s.steps},
+                 {"frames", s.frames},
+                 {"simulated_time", s.simulatedTime},
+                 {"wall_seconds", s.wallSeconds},
+                 {"seconds_per_step", secondsPerStepJson(s.times)},
+                 {"peak_memory_mb", s.peakMemoryMegabytes},
+                 {"particles", s.particles},
+                 {"particles_mean", s.particleSum / steps},
+                 {"cells", s.cells},
+                 {"iterations", {{"mean", static_cast<double>(s.totalIterations) / steps}, {"max", s.maxIterations}, {"total", s.totalIterations}}},
+                 {"largest_cfl", s.largestCfl},
+                 {"mass_error", s.massError},
+                 {"state_hash", s.stateHash},
+                 {"threads", s.threads},
+                 {"version", s.version},
+                 {"content_hash", s.contentHash}});
+    return json;
+}
+
+}  // namespace
+
+void StageTimes::add(const sim::StepReport& step)
+{
+    total.push_back(step.seconds());
+    for (int s = 0; s < sim::kStages; ++s)
+        if (step.stageRan[s]) stages[s].push_back(step.stageSeconds[s]);
+}
+
+double StageTimes::medianMilliseconds(int stage) const { return 1000.0 * median(stages[stage]); }
+
+std::string stageTable(const StageTimes& times)
+{
+    std::string table = fmt::format("{:<20}{:>12}\n", "stage", "median ms");
+    for (int s = 0; s < sim::kStages; ++s)
+        table += fmt::format("{:<20}{:>12}\n", sim::kStageNames[s],
+                             times.stages[s].empty() ? "-" : fmt::format("{:.3f}", times.medianMilliseconds(s)));
+    return table + fmt::format("{:<20}{:>12.3f}\n", "step", 1000.0 * median(times.total));
+}
+
+std::optional<RunResult> readReport(const std::filesystem::path& folder)
+try {
+    const auto json = nlohmann::json::parse(readWhole(folder / "report.json"));
+    RunResult r;
+    r.variant = json.at("variant");
+    r.label = json.at("label");
+    r.status = json.at("status");
+    r.contentHash = json.at("content_hash");
+    r.stateHash = json.at("state_hash");
+    r.steps = json.at("steps");
+    r.frames = json.at("frames");
+    r.particles = json.at("particles");
+    r.simulatedTime = json.at("simulated_time");
+    r.wallSeconds = json.at("wall_seconds");
+    r.secondsPerStep = json.at("seconds_per_step").at("median");
+    r.peakMemoryMegabytes = json.at("peak_memory_mb");
+    r.meanIterations = json.at("iterations").at("mean");
+    r.maxIterations = json.at("iterations").at("max");
+    for (int s = 0; s < sim::kStages; ++s) {
+        const auto& value = json.at("seconds_per_step").at("stages").at(std::string(sim::kStageNames[s]));
+        if (!value.is_null()) r.stageSeconds[s] = value.get<double>();
+    }
+    return r;
+} catch (const std::exception&) {
+    return std::nullopt;
+}
+
+Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads)
+    : folder_(folder), steps_(folder / "steps.jsonl"), energy_(folder / "energy.csv"), begin_(setup.scene.settings.time.start)
+{
+    summary_.scene = setup.scene.name;
+    summary_.title = setup.scene.title;
+    summary_.variant = setup.variant;
+    summary_.label = setup.label;
+    summary_.contentHash = std::move(contentHash);
+    summary_.version = DRENCH_VERSION;
+    summary_.threads = threads;
+    energy_.add(kEnergyHeader);
+    writeReport();
+}
+
+void Reports::initial(const sim::State& state, const sim::Energies& energies)
+{
+    summary_.particles = state.liquid.count;
+    energy_.add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass));
+}
+
+void Reports::step(const sim::State& state, const sim::StepReport& report)
+{
+    steps_.add(stepLine(state, report));
+    energy_.add(energyRow(state.time, report.energies, report.particles, report.liquidMass));
+
+    ++summary_.steps;
+    summary_.simulatedTime = state.time - begin_;
+    summary_.times.add(report);
+    summary_.particles = report.particles;
+    summary_.cells = report.liquidCells;
+    summary_.particleSum += static_cast<double>(report.particles);
+    summary_.totalIterations += report.pressure.iterations;
+    summary_.maxIterations = std::max<std::int64_t>(summary_.maxIterations, report.pressure.iterations);
+    summary_.largestCfl = std::max(summary_.largestCfl, report.cfl);
+    const double entered = state.ledger.emittedMass;
+    if (entered > 0.0)
+        summary_.massError = std::max(summary_.massError, std::abs(entered - state.ledger.leftMass - report.liquidMass) / entered);
+}
+
+void Reports::finish(RunStatus status, const std::string& reason, const std::string& stateHash)
+{
+    summary_.status = status;
+    summary_.reason = reason;
+    summary_.stateHash = stateHash;
+    writeReport();
+}
+
+void Reports::writeReport()
+{
+    summary_.wallSeconds = since(start_);
+    summary_.peakMemoryMegabytes = peakMemoryMegabytes();
+    writeWhole(folder_ / "report.json", reportJson(summary_).dump(2) + '\n');
+}
+
+}  // namespace app

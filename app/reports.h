@@ -1,0 +1,86 @@
+#pragma once
+
+#include "app/output_files.h"
+#include "app/scene_setup.h"
+#include "sim/state.h"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+enum class RunStatus { Running, Done, Interrupted, Failed };
+
+/// Seconds of every step by stage, in the order of sim::kStageNames.
+struct StageTimes {
+    std::vector<double> total;                                ///< one per step [s]
+    std::array<std::vector<double>, sim::kStages> stages;     ///< one per step in which the stage ran [s]
+
+    void add(const sim::StepReport& step);
+    double medianMilliseconds(int stage) const;               ///< of the steps in which it ran
+};
+
+/// "stage, median ms" as lines of text; "-" for stages that never ran.
+std::string stageTable(const StageTimes& times);
+
+/// What report.json says about a run.
+struct RunSummary {
+    std::string scene, variant, label, title, contentHash, version;
+    RunStatus status = RunStatus::Running;
+    std::string reason;                      ///< why it did not get to its end, one line
+    std::int64_t steps = 0, frames = 0;
+    double simulatedTime = 0.0;              ///< [s]
+    double wallSeconds = 0.0, peakMemoryMegabytes = 0.0;
+    StageTimes times;
+    std::size_t particles = 0, cells = 0;    ///< at the end
+    double particleSum = 0.0;                ///< over the steps
+    std::int64_t totalIterations = 0, maxIterations = 0;
+    double largestCfl = 0.0;
+    double massError = 0.0;                  ///< (entered − left − there) / entered, largest over the steps [-]
+    std::string stateHash;
+    int threads = 0;
+};
+
+/// The numbers of report.json, as a comparison reads them back.
+struct RunResult {
+    std::string variant, label, status, contentHash, stateHash;
+    std::int64_t steps = 0, frames = 0, particles = 0, maxIterations = 0;
+    double simulatedTime = 0.0, wallSeconds = 0.0, secondsPerStep = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
+    std::array<std::optional<double>, sim::kStages> stageSeconds;   ///< medians; nothing for a stage that never ran
+};
+
+/// Nothing where there is no report or none that can be read.
+std::optional<RunResult> readReport(const std::filesystem::path& folder);
+
+/// The growing logs of one run, steps.jsonl and energy.csv, and its report.json. What is written is in the files at
+/// once, so that a run can be followed, and read after it was cut off.
+class Reports {
+ public:
+    /// Writes a report.json that says "running".
+    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads);
+
+    /// The state before the first step: the first row of energy.csv.
+    void initial(const sim::State& state, const sim::Energies& energies);
+    void step(const sim::State& state, const sim::StepReport& report);
+    void frameDone() { ++summary_.frames; }
+
+    /// Write report.json as it stands; `reason` for runs that did not get to their end.
+    void finish(RunStatus status, const std::string& reason, const std::string& stateHash);
+
+    const RunSummary& summary() const { return summary_; }
+
+ private:
+    void writeReport();
+    const std::filesystem::path folder_;
+    LineFile steps_, energy_;
+    RunSummary summary_;
+    double begin_ = 0.0;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace app

@@ -1,0 +1,50 @@
+#include "app/scene_setup.h"
+
+#include "app/output_files.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cmath>
+
+namespace app {
+
+std::string hexDigits(std::uint64_t value) { return fmt::format("{:016x}", value); }
+
+std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash)
+{
+    const std::string all = fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
+    return hexDigits(XXH64(all.data(), all.size(), programHash));
+}
+
+std::uint64_t programHash()
+{
+    const std::string program = readWhole("/proc/self/exe");
+    return XXH64(program.data(), program.size(), 0);
+}
+
+std::filesystem::path defaultFolder(const SceneSetup& setup)
+{
+    std::string folder = setup.pictures.output.dir.empty() ? "out/{name}/{variant}" : setup.pictures.output.dir;
+    const auto fillIn = [&](const std::string& word, const std::string& value) {
+        for (std::size_t at = 0; (at = folder.find(word, at)) != std::string::npos; at += value.size())
+            folder.replace(at, word.size(), value);
+    };
+    fillIn("{name}", setup.scene.name);
+    fillIn("{variant}", setup.variant);
+    return folder;
+}
+
+std::int64_t frameCount(const SceneSetup& setup)
+{
+    // A duration that is a whole number of frames but for rounding has its last frame.
+    constexpr double kRounding = 1.0e-9;
+    return std::llround(std::floor(setup.scene.settings.time.duration / setup.pictures.output.every + kRounding));
+}
+
+double frameTime(const SceneSetup& setup, std::int64_t frame)
+{
+    return setup.scene.settings.time.start + static_cast<double>(frame) * setup.pictures.output.every;
+}
+
+}  // namespace app

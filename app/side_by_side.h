@@ -1,0 +1,31 @@
+#pragma once
+
+#include "app/parts.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// The frames of one variant on disk.
+struct FrameSequence {
+    std::filesystem::path folder;
+    std::string label;
+    double start = 0.0, every = 0.0;   ///< simulated time of frame 0 and between frames [s]
+    std::int64_t last = 0;             ///< number of the last frame
+
+    /// The frame nearest in time; the last one when the variant is over.
+    std::int64_t frameAt(double time) const;
+};
+
+/// Put frames of equal simulated time side by side, one picture per `every` until the longest sequence ends, into
+/// folder/compare.mp4, or as PNGs into folder/side_by_side/ where there is no ffmpeg. Returns what it made; nothing if
+/// stopWanted said so on the way.
+std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequences, double every, const PictureSettings& pictures,
+                                        const Parts& parts, const std::filesystem::path& folder,
+                                        const std::function<bool()>& stopWanted);
+
+}  // namespace app

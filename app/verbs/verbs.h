@@ -1,0 +1,15 @@
+#pragma once
+
+#include "app/options.h"
+#include "app/parts.h"
+
+// One file per verb. Each returns the exit code, or throws.
+
+namespace app {
+
+int runVerbRun(const Options& options, const Parts& parts);
+int runVerbCompare(const Options& options, const Parts& parts);
+int runVerbCheck(const Options& options, const Parts& parts);
+int runVerbBench(const Options& options, const Parts& parts);
+
+}  // namespace app

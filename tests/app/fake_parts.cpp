@@ -1,0 +1,173 @@
+#include "tests/app/fake_parts.h"
+
+#include "sim/core/check.h"
+
+#include <fmt/format.h>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#include <stb/stb_image.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace app::test {
+
+namespace {
+
+constexpr int kWidth = 32, kHeight = 16;
+
+void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
+
+/// One particle that moves along x; nothing else.
+class ToySimulation : public Steppable {
+ public:
+    explicit ToySimulation(const ToySettings& toy) : toy_(toy)
+    {
+        state_.liquid.add(sim::Vec3::Zero(), 2.0, 0, sim::Vec3(toy.speed, 0.0, 0.0));
+        state_.ledger.emittedMass = 2.0;
+    }
+    const sim::State& state() const override { return state_; }
+    sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0]}; }
+    std::uint64_t stateHash() const override { return static_cast<std::uint64_t>(1.0e9 * state_.liquid.x[0][0]) + 1; }
+
+    sim::StepReport step(double until) override
+    {
+        wait(toy_.stepMilliseconds);
+        if (++state_.step == toy_.failAtStep) throw sim::RunError("toy.yaml: step 3, pressure: the toy fell over");
+        sim::StepReport report;
+        report.dt = std::min(toy_.dt, until - state_.time);
+        state_.time = until - state_.time <= toy_.dt ? until : state_.time + toy_.dt;
+        state_.liquid.x[0][0] += toy_.speed * report.dt;
+        const auto pressure = static_cast<std::size_t>(sim::Stage::Pressure);
+        report.stageRan[pressure] = true;
+        report.stageSeconds[pressure] = 0.001 * static_cast<double>(state_.step);
+        report.pressure.iterations = static_cast<int>(state_.step);
+        report.particles = 1;
+        report.liquidCells = 7;
+        report.energies = energies();
+        report.liquidMass = 2.0;
+        return report;
+    }
+
+ private:
+    const ToySettings toy_;
+    sim::State state_;
+};
+
+/// A small PNG, grey all over.
+void writePicture(const std::filesystem::path& file, std::uint8_t grey)
+{
+    const std::vector<std::uint8_t> rgb(3 * kWidth * kHeight, grey);
+    if (stbi_write_png(file.c_str(), kWidth, kHeight, 3, rgb.data(), 3 * kWidth) == 0)
+        throw std::runtime_error("cannot write " + file.string());
+}
+
+std::uint8_t greyOf(const std::filesystem::path& file)
+{
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 3),
+                                                                      &stbi_image_free);
+    if (!pixels || width != kWidth || height != kHeight) throw std::runtime_error("cannot read " + file.string());
+    return pixels.get()[0];
+}
+
+Picture drawToy(const ToySettings& toy, const FrameSnapshot& snapshot)
+{
+    wait(toy.drawMilliseconds);
+    if (snapshot.number == toy.failAtDrawing) throw std::runtime_error("the toy has no more colours");
+    const auto number = snapshot.number;
+    return [toy, number](const std::filesystem::path& file) {
+        wait(toy.writeMilliseconds);
+        if (number == toy.failAtWriting) throw std::runtime_error("cannot write " + file.string() + ": No space left on device");
+        writePicture(file, static_cast<std::uint8_t>(number));
+    };
+}
+
+SideBySide putToysSideBySide(const std::vector<Panel>& panels)
+{
+    SideBySide all;
+    all.width = kWidth * static_cast<int>(panels.size());
+    all.height = kHeight;
+    for (const auto& panel : panels) all.rgb.insert(all.rgb.end(), 3 * kWidth * kHeight, greyOf(panel.picture));
+    all.writePng = [grey = all.rgb.back()](const std::filesystem::path& file) { writePicture(file, grey); };
+    return all;
+}
+
+/// "key: number" or "key=number"
+void readLine(const std::string& line, char between, ToySettings& toy)
+{
+    const std::map<std::string, double*> doubles = {
+        {"duration", &toy.duration}, {"every", &toy.every}, {"dt", &toy.dt}, {"speed", &toy.speed}};
+    const std::map<std::string, int*> ints = {{"step_ms", &toy.stepMilliseconds}, {"fail_at_step", &toy.failAtStep}};
+    const auto split = line.find(between);
+    const std::string key = line.substr(0, split);
+    if (split == std::string::npos || (!doubles.contains(key) && !ints.contains(key)))
+        throw sim::InputError(fmt::format("toy.yaml: unknown key \"{}\"", key));
+    const double value = std::stod(line.substr(split + 1));
+    if (doubles.contains(key)) *doubles.at(key) = value;
+    if (ints.contains(key)) *ints.at(key) = static_cast<int>(value);
+}
+
+ToySettings readToy(const SceneRequest& request)
+{
+    std::ifstream in(request.file);
+    if (!in) throw sim::InputError(fmt::format("{}: cannot read this scene", request.file));
+    ToySettings toy;
+    for (std::string line; std::getline(in, line);) readLine(line, ':', toy);
+    if (request.variant == "b") toy.speed = 2.0;
+    for (const auto& set : request.sets) readLine(set, '=', toy);
+    return toy;
+}
+
+}  // namespace
+
+SceneSetup toySetup(const ToySettings& toy)
+{
+    SceneSetup setup;
+    setup.scene.name = "toy";
+    setup.scene.settings.time.duration = toy.duration;
+    setup.scene.settings.time.dt = toy.dt;
+    setup.pictures.output.every = toy.every;
+    setup.pictures.compare.variants = {{"a", "A", {}}, {"b", "B|2", {}}};
+    setup.resolved = fmt::format("duration: {}\nevery: {}\ndt: {}\nspeed: {}\n", toy.duration, toy.every, toy.dt, toy.speed);
+    setup.identity = setup.resolved;
+    return setup;
+}
+
+Parts toyParts(const ToySettings& toy)
+{
+    Parts parts;
+    parts.loadScene = [toy](const SceneRequest&) { return toySetup(toy); };
+    parts.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(toy); };
+    parts.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
+    parts.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
+    parts.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };
+    return parts;
+}
+
+Parts toyPartsFromFiles()
+{
+    // The scene that was loaded last tells the other parts what to do.
+    const auto toy = std::make_shared<ToySettings>();
+    Parts parts = toyParts({});
+    parts.loadScene = [toy](const SceneRequest& request) {
+        *toy = readToy(request);
+        SceneSetup setup = toySetup(*toy);
+        setup.variant = request.variant.empty() ? "default" : request.variant;
+        setup.label = request.variant == "b" ? "B|2" : request.variant == "a" ? "A" : "";
+        return setup;
+    };
+    parts.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(*toy); };
+    return parts;
+}
+
+}  // namespace app::test
