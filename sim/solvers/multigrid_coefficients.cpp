@@ -11,7 +11,7 @@ using Level = MultigridLevel;
 constexpr double kRounding = 1.0e-12;
 
 /// Couplings of row r to the lower neighbours along an axis, those across the face of the block included.
-Row<float> lowerRow(const Level& level, int axis, int b, int r)
+[[gnu::always_inline]] inline Row<float> lowerRow(const Level& level, int axis, int b, int r)
 {
     const int j = r % kBlockEdge, k = r / kBlockEdge;
     if (axis == 1 && j == 0) return loadRow(level.face(1, b) + k * kBlockEdge);
@@ -21,7 +21,7 @@ Row<float> lowerRow(const Level& level, int axis, int b, int r)
     return row;
 }
 
-void storeLowerRow(Level& level, int axis, int b, int r, Row<float> row)
+[[gnu::always_inline]] inline void storeLowerRow(Level& level, int axis, int b, int r, Row<float> row)
 {
     const int j = r % kBlockEdge, k = r / kBlockEdge;
     if (axis == 0) {
@@ -54,7 +54,7 @@ Row<T> sumOfCouplings(const LowerRow& lower, int b, const std::array<int, kAxes>
 }
 
 /// Diagonal and its inverse of one row; returns its unknowns.
-CellSet finishRow(Level& level, int b, int r, Row<float> diagonal)
+[[gnu::always_inline]] inline CellSet finishRow(Level& level, int b, int r, Row<float> diagonal)
 {
     const int c = r * kBlockEdge;
     const auto isUnknown = diagonal > 0.0f;
