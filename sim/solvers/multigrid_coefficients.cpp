@@ -7,9 +7,6 @@ namespace {
 
 using Level = MultigridLevel;
 
-/// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
-constexpr double kRounding = 1.0e-12;
-
 /// Couplings of row r to the lower neighbours along an axis, those across the face of the block included.
 [[gnu::always_inline]] inline Row<float> lowerRow(const Level& level, int axis, int b, int r)
 {
@@ -111,7 +108,7 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
         for (int r = 0; r < kBlockRows; ++r) {
             const int c = r * kBlockEdge;
             const Row<double> d = loadRow(matrix.diagonal(b) + c), open = d - sumOfCouplings<double>(lower, b, near, r);
-            storeRow(level.dirichlet.block(b) + c, toFloat(open > kRounding * d ? open : Row<double>{}));
+            storeRow(level.dirichlet.block(b) + c, toFloat(open > kDirichletRounding * d ? open : Row<double>{}));
             for (int axis = 0; axis < kAxes; ++axis) storeLowerRow(level, axis, b, r, toFloat(lower(axis, b, r)));
             unknown |= finishRow(level, b, r, toFloat(d));
         }
