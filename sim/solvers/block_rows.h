@@ -105,7 +105,7 @@ inline Row<double> toDouble(Row<float> row)
 template <class Body>
 inline void forEachBlock(int blocks, Body&& body)
 {
-    constexpr std::size_t kBlocksPerTask = 4;
+    constexpr std::size_t kBlocksPerTask = 8;
     parallelFor(static_cast<std::size_t>(blocks), kBlocksPerTask, [&](std::size_t b) { body(static_cast<int>(b)); });
 }
 
@@ -113,7 +113,7 @@ inline void forEachBlock(int blocks, Body&& body)
 template <class Tile, class Body>
 inline void forEachBlockInTile(int blocks, Body&& body)
 {
-    constexpr int kBlocksPerTask = 4;
+    constexpr int kBlocksPerTask = 8;
     parallelFor(static_cast<std::size_t>((blocks + kBlocksPerTask - 1) / kBlocksPerTask), [&](std::size_t task) {
         const int first = static_cast<int>(task) * kBlocksPerTask;
         Tile tile;

@@ -7,9 +7,6 @@ namespace sim {
 
 namespace {
 
-/// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
-constexpr double kRounding = 1.0e-12;
-
 bool isEmpty(CellSet s)
 {
     return rowsOf(s) == 0;
@@ -36,7 +33,7 @@ BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
         const Row<double> upZ = loadRow(k < kBlockEdge - 1 ? z + c + kBlockRows : beyondZ + c - (kBlockCells - kBlockRows));
         const Row<double> open = d - ((lowX + upX) + (lowY + upY) + (lowZ + upZ));
         bonds.unknown |= cellsOfRow(d > 0.0, r);
-        bonds.open |= cellsOfRow((d > 0.0) & (open > kRounding * d), r);
+        bonds.open |= cellsOfRow((d > 0.0) & (open > kDirichletRounding * d), r);
         bonds.lower[0] |= cellsOfRow(lowX > 0.0, r);
         if (j > 0) bonds.lower[1] |= cellsOfRow(lowY > 0.0, r);
         if (k > 0) bonds.lower[2] |= cellsOfRow(lowZ > 0.0, r);

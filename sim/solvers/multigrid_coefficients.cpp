@@ -7,11 +7,8 @@ namespace {
 
 using Level = MultigridLevel;
 
-/// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
-constexpr double kRounding = 1.0e-12;
-
 /// Couplings of row r to the lower neighbours along an axis, those across the face of the block included.
-Row<float> lowerRow(const Level& level, int axis, int b, int r)
+[[gnu::always_inline]] inline Row<float> lowerRow(const Level& level, int axis, int b, int r)
 {
     const int j = r % kBlockEdge, k = r / kBlockEdge;
     if (axis == 1 && j == 0) return loadRow(level.face(1, b) + k * kBlockEdge);
@@ -21,7 +18,7 @@ Row<float> lowerRow(const Level& level, int axis, int b, int r)
     return row;
 }
 
-void storeLowerRow(Level& level, int axis, int b, int r, Row<float> row)
+[[gnu::always_inline]] inline void storeLowerRow(Level& level, int axis, int b, int r, Row<float> row)
 {
     const int j = r % kBlockEdge, k = r / kBlockEdge;
     if (axis == 0) {
@@ -54,7 +51,7 @@ Row<T> sumOfCouplings(const LowerRow& lower, int b, const std::array<int, kAxes>
 }
 
 /// Diagonal and its inverse of one row; returns its unknowns.
-CellSet finishRow(Level& level, int b, int r, Row<float> diagonal)
+[[gnu::always_inline]] inline CellSet finishRow(Level& level, int b, int r, Row<float> diagonal)
 {
     const int c = r * kBlockEdge;
     const auto isUnknown = diagonal > 0.0f;
@@ -111,7 +108,7 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
         for (int r = 0; r < kBlockRows; ++r) {
             const int c = r * kBlockEdge;
             const Row<double> d = loadRow(matrix.diagonal(b) + c), open = d - sumOfCouplings<double>(lower, b, near, r);
-            storeRow(level.dirichlet.block(b) + c, toFloat(open > kRounding * d ? open : Row<double>{}));
+            storeRow(level.dirichlet.block(b) + c, toFloat(open > kDirichletRounding * d ? open : Row<double>{}));
             for (int axis = 0; axis < kAxes; ++axis) storeLowerRow(level, axis, b, r, toFloat(lower(axis, b, r)));
             unknown |= finishRow(level, b, r, toFloat(d));
         }

@@ -4,6 +4,9 @@
 
 namespace sim {
 
+/// Dirichlet parts below this share of the diagonal are rounding of a row that has none.
+inline constexpr double kDirichletRounding = 1.0e-12;
+
 /// Symmetric M-matrix with a 7-point stencil on the cells of a BlockGrid. Row c reads
 ///     diagonal_c p_c − Σ over the six neighbours n of coupling_cn p_n.
 /// A cell with diagonal 0 is no unknown. What the diagonal has more than the six couplings is the Dirichlet part, where
