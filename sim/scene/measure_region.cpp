@@ -7,11 +7,12 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kMaxBoxes = 400'000;  // of one level: an answer within a fraction of a second
+constexpr std::size_t kMaxBoxes = 100'000;  // of one level: an answer within milliseconds
 constexpr int kMaxLevels = 20;
 
 /// Distance to the region where all conditions hold: at most the true one, as shapes promise.
-double regionDistance(const Vec3& x, const Shape& source, const std::vector<ObstacleSettings>& obstacles, const std::optional<Shape>& domain)
+double regionDistance(const Vec3& x, const Shape& source, const std::vector<ObstacleSettings>& obstacles,
+                      const std::optional<Shape>& domain)
 {
     double d = source.distance(x);
     if (domain) d = std::max(d, domain->distance(x));
@@ -30,7 +31,8 @@ Vec3i boxCounts(const Eigen::AlignedBox3d& bounds)
 {
     const double longest = bounds.sizes().maxCoeff();
     Vec3i counts = Vec3i::Ones();
-    for (int a = 0; a < kAxes && longest > 0.0; ++a) counts[a] = std::max(1, static_cast<int>(std::ceil(12.0 * bounds.sizes()[a] / longest)));
+    for (int a = 0; a < kAxes && longest > 0.0; ++a)
+        counts[a] = std::max(1, static_cast<int>(std::ceil(12.0 * bounds.sizes()[a] / longest)));
     return counts;
 }
 
@@ -41,7 +43,8 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds)
     std::vector<Vec3> centers;
     for (int i = 0; i < counts[0]; ++i) {
         for (int j = 0; j < counts[1]; ++j) {
-            for (int k = 0; k < counts[2]; ++k) centers.push_back(bounds.min() + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
+            for (int k = 0; k < counts[2]; ++k)
+                centers.push_back(bounds.min() + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
         }
     }
     return centers;
@@ -49,7 +52,8 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds)
 
 }  // namespace
 
-RegionMeasure measureRegion(const Shape& source, const std::vector<ObstacleSettings>& obstacles, const std::optional<Shape>& domain)
+RegionMeasure measureRegion(const Shape& source, const std::vector<ObstacleSettings>& obstacles,
+                            const std::optional<Shape>& domain)
 {
     RegionMeasure result;
     Eigen::AlignedBox3d bounds = source.bounds();
