@@ -54,15 +54,15 @@ double pitchInCells(const FillSettings& fill)
 void checkSource(const SourceSettings& source, const Scene& scene)
 {
     const std::string path = joinPath("liquid.sources", source.name);
-    if (measureRegion(source.shape, {}, std::nullopt).isEmpty) {
-        fail(source.where, fmt::format("{}: is empty: its shape has no volume; make its parts overlap", path));
-    }
-    const RegionMeasure region = measureRegion(source.shape, scene.obstacles, scene.domain);
+    const RegionMeasure region = measureRegion(source, scene);
     if (region.isUnbounded)
         fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
     if (region.isEmpty) {
+        const bool isBodiless = measureRegion(source, Scene{}).isEmpty;
         fail(source.where,
-             fmt::format("{}: is empty: its shape lies outside of the domain or inside obstacles; move it", path));
+             fmt::format("{}: is empty: {}", path,
+                         isBodiless ? "its shape has no volume; make its parts overlap"
+                                    : "its shape lies outside of the domain or inside obstacles; move it"));
     }
     const double pitch = pitchInCells(source.fill) * scene.settings.cell;
     const double count = region.volume / (pitch * pitch * pitch);

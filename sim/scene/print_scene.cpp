@@ -23,7 +23,7 @@ std::string boundsText(const Shape& shape)
 
 void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
 {
-    const double volume = measureRegion(source.shape, scene.obstacles, scene.domain).volume;
+    const double volume = measureRegion(source, scene).volume;
     w.line("- name", Node::scalar(source.name, {}).flow(),
            fmt::format("about {:.4g} cm^3 of liquid, {}", volume, boundsText(source.shape)));
     w.line("  shape", source.shapeText, "[cm]");
