@@ -25,14 +25,17 @@ inline std::span<const Choice<LiquidStyle>> choicesOf(LiquidStyle)
 
 inline std::span<const Choice<ColorBy>> choicesOf(ColorBy)
 {
-    static constexpr Choice<ColorBy> kAll[] = {
-        {"speed", ColorBy::Speed}, {"flat", ColorBy::Flat}, {"pressure", ColorBy::Flat, false}, {"saturation", ColorBy::Flat, false}};
+    static constexpr Choice<ColorBy> kAll[] = {{"speed", ColorBy::Speed},
+                                               {"flat", ColorBy::Flat},
+                                               {"pressure", ColorBy::Flat, false},
+                                               {"saturation", ColorBy::Flat, false}};
     return kAll;
 }
 
 inline std::span<const Choice<ColorMap>> choicesOf(ColorMap)
 {
-    static constexpr Choice<ColorMap> kAll[] = {{"jet", ColorMap::Jet}, {"turbo", ColorMap::Turbo}, {"viridis", ColorMap::Viridis}};
+    static constexpr Choice<ColorMap> kAll[] = {
+        {"jet", ColorMap::Jet}, {"turbo", ColorMap::Turbo}, {"viridis", ColorMap::Viridis}};
     return kAll;
 }
 
@@ -58,8 +61,10 @@ void describeOrbit(V& v, CameraSettings& c)
     v.needs("distance", "how far the eye is from the target, like distance: 60");
     v.number("distance", c.distance, Quantity::Length, Range::above(0.0), "Distance of the eye from the target");
     v.number("azimuth", c.azimuthDegrees, Quantity::AngleDegrees, Range::any(), "Angle of the eye around the vertical");
-    v.number("elevation", c.elevationDegrees, Quantity::AngleDegrees, Range::between(-89.0, 89.0), "Angle of the eye above the horizon");
-    v.number("turn_per_s", c.turnDegreesPerSecond, Quantity::TurnRateDegrees, Range::any(), "Change of azimuth per simulated second");
+    v.number("elevation", c.elevationDegrees, Quantity::AngleDegrees, Range::between(-89.0, 89.0),
+             "Angle of the eye above the horizon");
+    v.number("turn_per_s", c.turnDegreesPerSecond, Quantity::TurnRateDegrees, Range::any(),
+             "Change of azimuth per simulated second");
 }
 
 template <class V>
@@ -110,12 +115,15 @@ void describe(V& v, RenderSettings& r)
     v.flag("hud", r.hud, "Label and time stamp in the picture");
     v.flag("colorbar", r.colorBar, "A bar that explains the colours");
     v.integer("samples", r.samples, 1, 16, "Samples per pixel and axis of smooth edges, 1 = off");
-    for (const char* key : {"cloth", "yarns"}) v.later(key, "this version draws liquid and obstacles only; remove the section");
+    for (const char* key : {"cloth", "yarns"})
+        v.later(key, "this version draws liquid and obstacles only; remove the section");
 }
 
 inline bool isCodecName(const std::string& name)
 {
-    const auto isAllowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    const auto isAllowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
     return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), isAllowed);
 }
 
@@ -125,7 +133,12 @@ void describe(V& v, OutputSettings& o)
     v.text("dir", o.dir, "Folder of the results; left out: out/<name>/<variant>");
     v.number("every", o.every, Quantity::Time, Range::above(0.0), "Simulated time from picture to picture");
     v.either("frames", o.frames, "png", "none", "Pictures of every frame");
-    v.flags("data", {{"energy", &o.energy}, {"stats", &o.stats}, {"ledger", nullptr}, {"geometry", nullptr}, {"checkpoint", nullptr}},
+    v.flags("data",
+            {{"energy", &o.energy},
+             {"stats", &o.stats},
+             {"ledger", nullptr},
+             {"geometry", nullptr},
+             {"checkpoint", nullptr}},
             "Data files of a run");
     v.withoutEffect([](auto& w) { w.other("geometry_format", ""); });
     v.group("video", "", [&](auto& w) {
@@ -147,7 +160,8 @@ void describe(V& v, CompareSettings& c)
     v.text("reference", c.reference, "Label of the variant the others are held against");
     v.withoutEffect([](auto& w) {
         double tolerance = 0.0;
-        w.number("tolerance", tolerance, Quantity::None, Range::atLeast(0.0), "Difference of pictures that a test accepts");
+        w.number("tolerance", tolerance, Quantity::None, Range::atLeast(0.0),
+                 "Difference of pictures that a test accepts");
     });
 }
 

@@ -30,7 +30,8 @@ void checkReference(const Node& root, const CompareSettings& compare)
     for (const Variant& v : compare.variants) labels.push_back(v.label);
     if (compare.reference.empty() || std::find(labels.begin(), labels.end(), compare.reference) != labels.end()) return;
     sim::fail(root.find("compare")->find("reference")->place,
-              fmt::format("compare.reference: {} is the label of no variant{}", sim::inQuotes(compare.reference), sim::suggestion(compare.reference, labels)));
+              fmt::format("compare.reference: {} is the label of no variant{}", sim::inQuotes(compare.reference),
+                          sim::suggestion(compare.reference, labels)));
 }
 
 void writeVariants(sim::SectionWriter& w, const std::vector<Variant>& variants)

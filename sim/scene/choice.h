@@ -16,7 +16,7 @@ struct Choice {
 /// One word of a list that switches something on.
 struct NamedFlag {
     const char* word;
-    bool* value;       ///< nullptr: known, but not in this version
+    bool* value;  ///< nullptr: known, but not in this version
 };
 
 }  // namespace sim

@@ -15,7 +15,8 @@ namespace sim {
 
 inline std::span<const Choice<TimeMode>> choicesOf(TimeMode)
 {
-    static constexpr Choice<TimeMode> kAll[] = {{"fixed", TimeMode::Fixed}, {"cfl", TimeMode::Cfl}, {"adaptive", TimeMode::Adaptive}};
+    static constexpr Choice<TimeMode> kAll[] = {
+        {"fixed", TimeMode::Fixed}, {"cfl", TimeMode::Cfl}, {"adaptive", TimeMode::Adaptive}};
     return kAll;
 }
 
@@ -56,7 +57,8 @@ void describe(V& v, TimeSettings& t)
         w.number("liquid", t.maxCflLiquid, Quantity::None, Range::above(0.0), "Bound of the liquid");
         w.number("fabric", t.maxCflFabric, Quantity::None, Range::above(0.0), "Bound of the fabric, solver grid only");
     });
-    v.number("dt_min", t.dtMin, Quantity::Time, Range::above(0.0), "A run that needs smaller steps stops with a message");
+    v.number("dt_min", t.dtMin, Quantity::Time, Range::above(0.0),
+             "A run that needs smaller steps stops with a message");
     v.require(t.dtMin <= t.dt, "dt_min", "must not be above time.dt");
     v.onlyRuns("integrator", "plain", {"reflected"}, "Order of the pressure and advection stages");
     v.onlyRuns("advection", "euler", {"midpoint"}, "How particles follow the velocity");
@@ -66,12 +68,15 @@ template <class V>
 void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fabric)
 {
     const Range share = Range::between(0.0, 1.0);
-    v.perPhase("method", liquid.method, fabric.method,
-               [](auto& w, const char* key, TransferMethod& m) { w.choice(key, m, "How velocities go to the grid and back"); });
-    v.perPhase("modes", liquid.modes, fabric.modes,
-               [](auto& w, const char* key, int& m) { w.integer(key, m, 1, 27, "Velocity modes per component, polypic only"); });
-    v.perPhase("xi", liquid.xi, fabric.xi,
-               [](auto& w, const char* key, XiMap& xi) { w.choice(key, xi, "How modes move with the particle, polypic only"); });
+    v.perPhase("method", liquid.method, fabric.method, [](auto& w, const char* key, TransferMethod& m) {
+        w.choice(key, m, "How velocities go to the grid and back");
+    });
+    v.perPhase("modes", liquid.modes, fabric.modes, [](auto& w, const char* key, int& m) {
+        w.integer(key, m, 1, 27, "Velocity modes per component, polypic only");
+    });
+    v.perPhase("xi", liquid.xi, fabric.xi, [](auto& w, const char* key, XiMap& xi) {
+        w.choice(key, xi, "How modes move with the particle, polypic only");
+    });
     v.number("flip_ratio", liquid.flipRatio, Quantity::None, share, "FLIP share kept per keep_dt, flip only");
     v.group("keep", "Factors kept per keep_dt; 1 = no damping", [&](auto& w) {
         w.number("liquid_affine", liquid.keepAffine, Quantity::None, share, "On all modes of the liquid but the mean");
@@ -90,8 +95,10 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
 template <class V>
 void describe(V& v, RelaxSettings& r)
 {
-    v.number("rate", r.rate, Quantity::Frequency, Range::atLeast(0.0), "Rate at which crowded particles are pushed apart; 0 = off");
-    v.number("range", r.range, Quantity::None, Range::aboveTo(0.0, 10.0), "Reach of the push in nominal particle radii");
+    v.number("rate", r.rate, Quantity::Frequency, Range::atLeast(0.0),
+             "Rate at which crowded particles are pushed apart; 0 = off");
+    v.number("range", r.range, Quantity::None, Range::aboveTo(0.0, 10.0),
+             "Reach of the push in nominal particle radii");
 }
 
 class SectionReader;
@@ -106,12 +113,15 @@ void describe(V& v, LiquidSettings& l)
     v.whenReading([&](auto& reader) { readLiquidPreset(reader, l); });
     v.number("density", l.density, Quantity::Density, Range::above(0.0), "Mass per volume");
     v.number("viscosity", l.viscosity, Quantity::Viscosity, Range::atLeast(0.0), "Dynamic viscosity");
-    v.number("surface_tension", l.surfaceTension, Quantity::SurfaceTension, Range::atLeast(0.0), "Surface tension against air");
-    v.number("contact_angle", l.contactAngle, Quantity::Angle, Range::between(0.0, 180.0), "Angle of the surface at fibres");
+    v.number("surface_tension", l.surfaceTension, Quantity::SurfaceTension, Range::atLeast(0.0),
+             "Surface tension against air");
+    v.number("contact_angle", l.contactAngle, Quantity::Angle, Range::between(0.0, 180.0),
+             "Angle of the surface at fibres");
     v.numberOr("particle_spacing", l.particleSpacing, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0),
                "Pitch of the particles in cells; left out: 0.4, or 0.35355 for the reference pattern");
     v.flag("full", l.full, "The liquid fills a closed box: there is no air");
-    v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0), "0 = free slip, 1 = the liquid sticks to walls");
+    v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0),
+             "0 = free slip, 1 = the liquid sticks to walls");
     v.section("relax", l.relax, "Pushing crowded particles apart");
     v.onlyRuns("solve_viscosity", "false", {"true"}, "Viscosity inside the liquid");
     v.onlyRuns("surface_tension_force", "false", {"true"}, "Surface tension moves the liquid");
@@ -131,7 +141,8 @@ void describe(V& v, SolverSettings& s)
     v.integer("max_iterations", s.maxIterations, 1, 1'000'000, "Iterations after which a solve stops");
     v.withoutEffect([](auto& w) {
         double tolerance = 1.0e-6;
-        w.number("viscosity_tolerance", tolerance, Quantity::None, Range::aboveTo(0.0, 0.1), "The same of the viscosity solve");
+        w.number("viscosity_tolerance", tolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
+                 "The same of the viscosity solve");
         w.other("wicking_substeps", "Parts of a step of the flow inside fabric");
     });
 }
@@ -185,7 +196,8 @@ template <class V>
 void describeLater(V& v)
 {
     constexpr const char* kLiquidOnly = "this version simulates liquid only; remove the section";
-    for (const char* key : {"fabrics", "materials", "porous", "coupling", "fabric", "contact"}) v.later(key, kLiquidOnly);
+    for (const char* key : {"fabrics", "materials", "porous", "coupling", "fabric", "contact"})
+        v.later(key, kLiquidOnly);
     v.later("changes", "this version cannot change settings during a run; remove the section");
     v.later("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
 }

@@ -38,8 +38,9 @@ void readNames(const Node& root, const std::string& file, Scene& scene)
     SectionReader::read(section, "scene", [&](auto& v) { describeNames(v, scene); });
     if (scene.name.empty() || scene.name != asName(scene.name)) {
         const Node* name = section ? section->find("name") : nullptr;
-        fail(name ? name->place : root.place, fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
-                                                          scene.name.empty() ? "drop" : asName(scene.name)));
+        fail(name ? name->place : root.place,
+             fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
+                         scene.name.empty() ? "drop" : asName(scene.name)));
     }
 }
 
@@ -53,19 +54,22 @@ double pitchInCells(const FillSettings& fill)
 void checkSource(const SourceSettings& source, const Scene& scene)
 {
     const std::string path = joinPath("liquid.sources", source.name);
-    if (measureRegion(source.shape, {}, std::nullopt).isEmpty) {
-        fail(source.where, fmt::format("{}: is empty: its shape has no volume; make its parts overlap", path));
-    }
-    const RegionMeasure region = measureRegion(source.shape, scene.obstacles, scene.domain);
-    if (region.isUnbounded) fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
+    const RegionMeasure region = measureRegion(source, scene);
+    if (region.isUnbounded)
+        fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
     if (region.isEmpty) {
-        fail(source.where, fmt::format("{}: is empty: its shape lies outside of the domain or inside obstacles; move it", path));
+        const bool isBodiless = measureRegion(source, Scene{}).isEmpty;
+        fail(source.where,
+             fmt::format("{}: is empty: {}", path,
+                         isBodiless ? "its shape has no volume; make its parts overlap"
+                                    : "its shape lies outside of the domain or inside obstacles; move it"));
     }
     const double pitch = pitchInCells(source.fill) * scene.settings.cell;
     const double count = region.volume / (pitch * pitch * pitch);
     if (!(count <= kMaxParticles)) {
-        fail(source.where, fmt::format("{}: would be about {:.2g} particles (at most {:.0e} are possible); use a larger grid.cell than {:.3g} cm", path,
-                                       count, kMaxParticles, scene.settings.cell));
+        fail(source.where, fmt::format("{}: would be about {:.2g} particles (at most {:.0e} are possible); use a "
+                                       "larger grid.cell than {:.3g} cm",
+                                       path, count, kMaxParticles, scene.settings.cell));
     }
 }
 
@@ -76,11 +80,13 @@ void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid)
     struct Preset {
         double density, viscosity, surfaceTension;  // [g/cm^3], [P], [dyn/cm]
     };
-    static constexpr Preset kPresets[] = {{1.0, 8.9e-3, 72.0}, {0.92, 0.81, 32.0}, {1.45, 80.0, 50.0}, {0.7802, 2.208e-3, 20.59375}};
+    static constexpr Preset kPresets[] = {
+        {1.0, 8.9e-3, 72.0}, {0.92, 0.81, 32.0}, {1.45, 80.0, 50.0}, {0.7802, 2.208e-3, 20.59375}};
     const Node* node = section.find("preset");
     if (!node) return;
     const std::vector<std::string> names = {"water", "oil", "honey", "acetal", "none"};
-    const std::size_t chosen = readChoice(*node, section.pathOf("preset"), names, std::vector<bool>(names.size(), true));
+    const std::size_t chosen =
+        readChoice(*node, section.pathOf("preset"), names, std::vector<bool>(names.size(), true));
     if (chosen >= std::size(kPresets)) return;
     liquid.density = kPresets[chosen].density;
     liquid.viscosity = kPresets[chosen].viscosity;

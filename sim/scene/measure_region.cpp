@@ -7,16 +7,24 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kMaxBoxes = 400'000;  // of one level: an answer within a fraction of a second
 constexpr int kMaxLevels = 20;
 
 /// Distance to the region where all conditions hold: at most the true one, as shapes promise.
-double regionDistance(const Vec3& x, const Shape& source, const std::vector<ObstacleSettings>& obstacles, const std::optional<Shape>& domain)
+double regionDistance(const Vec3& x, const SourceSettings& source, const Scene& scene)
 {
-    double d = source.distance(x);
-    if (domain) d = std::max(d, domain->distance(x));
-    for (const ObstacleSettings& o : obstacles) d = std::max(d, -o.shape.distance(x));
+    double d = source.shape.distance(x);
+    if (scene.domain) d = std::max(d, scene.domain->distance(x));
+    for (const ObstacleSettings& o : scene.obstacles) d = std::max(d, -o.shape.distance(x));
     return d;
+}
+
+/// Boxes of one level that can be looked at in a fraction of a second.
+std::size_t affordableBoxes(const SourceSettings& source, const Scene& scene)
+{
+    constexpr std::size_t kTextOfOnePart = 40, kDistancesInAll = 4'000'000, kMostBoxes = 100'000;
+    std::size_t text = source.shapeText.size() + scene.domainText.size();
+    for (const ObstacleSettings& o : scene.obstacles) text += o.shapeText.size();
+    return std::min(kMostBoxes, kDistancesInAll / (1 + text / kTextOfOnePart));
 }
 
 Vec3 childCenter(const Vec3& center, const Vec3& half, int child)
@@ -30,7 +38,8 @@ Vec3i boxCounts(const Eigen::AlignedBox3d& bounds)
 {
     const double longest = bounds.sizes().maxCoeff();
     Vec3i counts = Vec3i::Ones();
-    for (int a = 0; a < kAxes && longest > 0.0; ++a) counts[a] = std::max(1, static_cast<int>(std::ceil(12.0 * bounds.sizes()[a] / longest)));
+    for (int a = 0; a < kAxes && longest > 0.0; ++a)
+        counts[a] = std::max(1, static_cast<int>(std::ceil(12.0 * bounds.sizes()[a] / longest)));
     return counts;
 }
 
@@ -41,7 +50,8 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds)
     std::vector<Vec3> centers;
     for (int i = 0; i < counts[0]; ++i) {
         for (int j = 0; j < counts[1]; ++j) {
-            for (int k = 0; k < counts[2]; ++k) centers.push_back(bounds.min() + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
+            for (int k = 0; k < counts[2]; ++k)
+                centers.push_back(bounds.min() + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
         }
     }
     return centers;
@@ -49,12 +59,12 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds)
 
 }  // namespace
 
-RegionMeasure measureRegion(const Shape& source, const std::vector<ObstacleSettings>& obstacles, const std::optional<Shape>& domain)
+RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene)
 {
     RegionMeasure result;
-    Eigen::AlignedBox3d bounds = source.bounds();
-    if (domain) bounds = bounds.intersection(domain->bounds());
-    if (source.empty() || bounds.isEmpty()) {
+    Eigen::AlignedBox3d bounds = source.shape.bounds();
+    if (scene.domain) bounds = bounds.intersection(scene.domain->bounds());
+    if (source.shape.empty() || bounds.isEmpty()) {
         result.isEmpty = true;
         return result;
     }
@@ -66,14 +76,17 @@ RegionMeasure measureRegion(const Shape& source, const std::vector<ObstacleSetti
     std::vector<Vec3> open = boxCenters(bounds), next;
     Vec3 half = 0.5 * bounds.sizes().cwiseQuotient(boxCounts(bounds).cast<double>());
     bool isSomewhere = false;
+    const std::size_t affordable = affordableBoxes(source, scene);
     for (int level = 0; !open.empty(); ++level) {
         const double boxVolume = 8.0 * half.prod(), reach = half.norm();
-        const bool isLast = open.size() > kMaxBoxes / 8 || level == kMaxLevels;
+        const bool isLast = 8 * open.size() > affordable || level == kMaxLevels;
         next.clear();
+        bool isDecided = true;
         for (const Vec3& center : open) {
-            const double d = regionDistance(center, source, obstacles, domain);
+            const double d = regionDistance(center, source, scene);
             isSomewhere = isSomewhere || d < 0.0;
             if (d > reach) continue;
+            isDecided = false;
             if (d < -reach || isLast) {
                 // Of a box that the surface crosses, the part below it if the surface were flat.
                 const double share = std::clamp(0.5 - 0.5 * d / (reach / std::sqrt(3.0)), 0.0, 1.0);
@@ -82,7 +95,7 @@ RegionMeasure measureRegion(const Shape& source, const std::vector<ObstacleSetti
                 for (int child = 0; child < 8; ++child) next.push_back(childCenter(center, half, child));
             }
         }
-        result.isEmpty = !isSomewhere && (next.empty() && !isLast);
+        result.isEmpty = !isSomewhere && isDecided;
         if (isLast) break;
         std::swap(open, next);
         half *= 0.5;

@@ -11,6 +11,7 @@ struct RegionMeasure {
     bool isEmpty = false;      ///< certainly nothing, not only too small to be seen
 };
 
-RegionMeasure measureRegion(const Shape& source, const std::vector<ObstacleSettings>& obstacles, const std::optional<Shape>& domain);
+/// Quick even for shapes of thousands of parts: the more parts, the coarser.
+RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene);
 
 }  // namespace sim

@@ -71,11 +71,21 @@ std::string flowText(const std::string& text)
     std::string out = "\"";
     for (const char c : text) {
         switch (c) {
-            case '"': out += "\\\""; break;
-            case '\\': out += "\\\\"; break;
-            case '\n': out += "\\n"; break;
-            case '\t': out += "\\t"; break;
-            case '\r': out += "\\r"; break;
+            case '"':
+                out += "\\\"";
+                break;
+            case '\\':
+                out += "\\\\";
+                break;
+            case '\n':
+                out += "\\n";
+                break;
+            case '\t':
+                out += "\\t";
+                break;
+            case '\r':
+                out += "\\r";
+                break;
             default:
                 const auto byte = static_cast<unsigned char>(c);
                 out += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
@@ -102,10 +112,14 @@ std::string Node::flow() const
 std::string Node::called() const
 {
     switch (kind) {
-        case Kind::Null: return "nothing";
-        case Kind::Scalar: return inQuotes(text);
-        case Kind::List: return fmt::format("a list of {}", items.size());
-        default: return "a map";
+        case Kind::Null:
+            return "nothing";
+        case Kind::Scalar:
+            return inQuotes(text);
+        case Kind::List:
+            return items.empty() ? "an empty list" : fmt::format("a list of {}", items.size());
+        default:
+            return "a map";
     }
 }
 

@@ -14,10 +14,10 @@ struct Node {
     enum class Kind { Null, Scalar, List, Map };
 
     Kind kind = Kind::Null;
-    Place place;                     ///< in a map: the line of the key
-    std::string text;                ///< of a scalar
-    std::vector<std::string> keys;   ///< of a map, in the order of the file; as many as items
-    std::vector<Node> items;         ///< of a list or a map
+    Place place;                    ///< in a map: the line of the key
+    std::string text;               ///< of a scalar
+    std::vector<std::string> keys;  ///< of a map, in the order of the file; as many as items
+    std::vector<Node> items;        ///< of a list or a map
 
     bool isNull() const { return kind == Kind::Null; }
     bool isScalar() const { return kind == Kind::Scalar; }
@@ -41,7 +41,8 @@ struct Node {
 };
 
 /// Reads one YAML document. Anchors and aliases are copied out; depth, size and number of values are bounded.
-/// Throws InputError at the line of what is wrong: syntax, bytes that are no text, tabs as indentation, a key given twice.
+/// Throws InputError at the line of what is wrong: syntax, bytes that are no text, tabs as indentation, a key given
+/// twice.
 Node parseYaml(const std::string& text, const std::shared_ptr<const TextSource>& source);
 
 }  // namespace sim

@@ -44,7 +44,8 @@ Node& elementOf(Node& list, const std::string& part, const std::string& before, 
         if (!nameOf(element).empty()) names.push_back(nameOf(element));
     }
     if (isNumber || names.empty()) {
-        fail(change.value.place, fmt::format("{} has no element {}; it has {}, counted from 0", before, inQuotes(part), list.items.size()));
+        fail(change.value.place,
+             fmt::format("{} has no element {}; it has {}, counted from 0", before, inQuotes(part), list.items.size()));
     }
     fail(change.value.place, fmt::format("{} has no element {}{}", before, inQuotes(part), suggestion(part, names)));
 }
@@ -82,6 +83,13 @@ Node longForm(const Node& value, const std::vector<std::string>& path)
 
 }  // namespace
 
+void checkPath(const std::string& path, const Place& place)
+{
+    bool isPath = path.find('=') == std::string::npos;
+    for (const std::string& part : splitPath(path)) isPath = isPath && !part.empty();
+    if (!isPath) fail(place, fmt::format("{} is no path of keys; write key.key, like transfer.method", inQuotes(path)));
+}
+
 Override parseOverride(const std::string& text, bool isSi)
 {
     auto source = std::make_shared<TextSource>();
@@ -90,7 +98,8 @@ Override parseOverride(const std::string& text, bool isSi)
     source->isSi = isSi;
     const Place place{source, 1};
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) fail(place, "an override reads key.key=value, like transfer.method=apic");
+    if (equals == std::string::npos || equals == 0)
+        fail(place, "an override reads key.key=value, like transfer.method=apic");
     Node value = parseYaml(text.substr(equals + 1), source);
     if (value.isNull()) fail(place, "no value after the = sign");
     return {text.substr(0, equals), std::move(value)};
@@ -115,11 +124,11 @@ void mergeOver(Node& base, const Node& over)
 void apply(const Override& change, Node& root)
 {
     const Place& place = change.value.place;
+    checkPath(change.path, place);
     const std::vector<std::string> path = splitPath(change.path);
     Node* node = &root;
     std::string before;
     for (const std::string& part : path) {
-        if (part.empty()) fail(place, fmt::format("{} is no path of keys; write key.key, like transfer.method", inQuotes(change.path)));
         if (node->isList()) {
             node = &elementOf(*node, part, before, change);
         } else if (node->isMap()) {
@@ -151,6 +160,7 @@ std::vector<Override> overridesOf(const Node& map, const std::vector<std::string
     std::vector<Override> changes;
     for (std::size_t i = 0; i < map.keys.size(); ++i) {
         if (std::find(except.begin(), except.end(), map.keys[i]) != except.end()) continue;
+        checkPath(map.keys[i], map.items[i].place);
         changes.push_back({map.keys[i], map.items[i]});
     }
     return changes;

@@ -8,12 +8,15 @@ namespace sim {
 
 /// One dotted override: `transfer.method=apic`, in a variant or behind --set.
 struct Override {
-    std::string path;   ///< keys with dots between; an element of a list by its name or its number from 0
-    Node value;         ///< its place is where messages about the value point
+    std::string path;  ///< keys with dots between; an element of a list by its name or its number from 0
+    Node value;        ///< its place is where messages about the value point
 
     /// As it would stand behind --set.
     std::string text() const { return path + "=" + value.flow(); }
 };
+
+/// Throws InputError unless it is words with dots between, without a = sign.
+void checkPath(const std::string& path, const Place& place);
 
 /// Reads "key.key=value"; the value is YAML on one line. Throws InputError naming the override.
 Override parseOverride(const std::string& text, bool isSi);
@@ -29,7 +32,8 @@ void apply(const Override& change, Node& root);
 /// `fill: lattice` of a source is {pattern: lattice}.
 void expandShortForms(Node& root);
 
-/// Turns the keys of a map that stand for overrides into overrides: dotted keys as they are, nested maps as one each.
+/// The keys of a map as overrides, but those in `except`: dotted keys as they are, nested maps as one each.
+/// Throws InputError at a key that is no path.
 std::vector<Override> overridesOf(const Node& map, const std::vector<std::string>& except);
 
 }  // namespace sim

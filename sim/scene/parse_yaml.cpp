@@ -1,8 +1,8 @@
 #include "sim/scene/node.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 #include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
 
 #include <map>
 #include <sstream>
@@ -27,7 +27,10 @@ class TreeBuilder : public YAML::EventHandler {
     void OnDocumentStart(const YAML::Mark&) override {}
     void OnDocumentEnd() override {}
 
-    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(leaf(Node::Kind::Null, mark, ""), anchor); }
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override
+    {
+        add(leaf(Node::Kind::Null, mark, ""), anchor);
+    }
 
     void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string& value) override
     {
@@ -37,7 +40,8 @@ class TreeBuilder : public YAML::EventHandler {
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override
     {
         const auto found = anchors_.find(anchor);
-        if (found == anchors_.end()) fail(placeOf(mark), "this alias stands inside its own anchor; write the value out");
+        if (found == anchors_.end())
+            fail(placeOf(mark), "this alias stands inside its own anchor; write the value out");
         count_ += found->second.size;
         checkCount(mark);
         Node copy = found->second.node;
@@ -50,7 +54,8 @@ class TreeBuilder : public YAML::EventHandler {
     {
         open(Node::Kind::List, mark, anchor);
     }
-    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override
+    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                    YAML::EmitterStyle::value) override
     {
         open(Node::Kind::Map, mark, anchor);
     }
@@ -76,7 +81,9 @@ class TreeBuilder : public YAML::EventHandler {
 
     void checkCount(const YAML::Mark& mark) const
     {
-        if (count_ > kMaxNodes) fail(placeOf(mark), fmt::format("more than {} values, aliases copied out; a scene has hundreds", kMaxNodes));
+        if (count_ > kMaxNodes)
+            fail(placeOf(mark),
+                 fmt::format("more than {} values, aliases copied out; a scene has hundreds", kMaxNodes));
     }
 
     Node leaf(Node::Kind kind, const YAML::Mark& mark, const std::string& text)
@@ -134,9 +141,12 @@ class TreeBuilder : public YAML::EventHandler {
 
     void takeKey(Open& parent, const Node& node)
     {
-        if (!node.isScalar() || node.text.empty()) fail(node.place, fmt::format("a key must be a word, not {}", node.called()));
+        if (!node.isScalar() || node.text.empty())
+            fail(node.place, fmt::format("a key must be a word, not {}", node.called()));
         const auto [first, isNew] = parent.seen.emplace(node.text, node.place.line);
-        if (!isNew) fail(node.place, fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
+        if (!isNew)
+            fail(node.place,
+                 fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
         parent.key = node.text;
         parent.keyPlace = node.place;
         parent.hasKey = true;
@@ -154,7 +164,10 @@ std::size_t characterLength(std::string_view text, std::size_t i)
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
     const unsigned first = byte(i);
     if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xC2 && first < 0xE0 ? 2 : (first & 0xF0) == 0xE0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+    const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
+                               : (first & 0xF0) == 0xE0        ? 3
+                               : first >= 0xF0 && first < 0xF5 ? 4
+                                                               : 0;
     for (std::size_t k = 1; k < length; ++k) {
         if ((byte(i + k) & 0xC0) != 0x80) return 0;
     }
@@ -170,7 +183,7 @@ void checkText(const std::string& text, const std::shared_ptr<const TextSource>&
         const auto c = static_cast<unsigned char>(text[i]);
         const std::size_t length = characterLength(text, i);
         const bool isControl = (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
-        if (length == 0 || isControl) fail(place, "this is no text (a byte that is not UTF-8); a scene is a YAML text file");
+        if (length == 0 || isControl) fail(place, "a byte that is no text (not UTF-8); a scene is a YAML text file");
         if (c == '\t' && inIndentation) fail(place, "a tab in the indentation; YAML wants spaces there");
         if (c == '\n') {
             ++place.line;
@@ -194,7 +207,8 @@ Node parseYaml(const std::string& text, const std::shared_ptr<const TextSource>&
         parser.HandleNextDocument(tree);
         if (tree.isEmpty) return Node{Node::Kind::Null, {source, 1}, {}, {}, {}};
         TreeBuilder second(source);
-        if (parser.HandleNextDocument(second)) fail(second.root.place, "a second document (after ---); one file holds one scene");
+        if (parser.HandleNextDocument(second))
+            fail(second.root.place, "a second document (after ---); one file holds one scene");
     } catch (const YAML::Exception& e) {
         fail(Place{source, std::max(1, e.mark.line + 1)}, fmt::format("not valid YAML: {}", e.msg));
     }

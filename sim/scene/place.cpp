@@ -60,11 +60,16 @@ void fail(const Place& place, const std::string& message)
     fail(place.text(), message);
 }
 
-std::string inQuotes(std::string_view text)
+std::string fileInQuotes(const std::string& path)
 {
-    constexpr std::size_t kShown = 48;
-    if (text.size() <= kShown) return withoutControls(fmt::format("\"{}\"", text));
-    std::size_t end = kShown;
+    constexpr std::size_t kLongestPath = 4096;
+    return inQuotes(path, kLongestPath);
+}
+
+std::string inQuotes(std::string_view text, std::size_t shown)
+{
+    if (text.size() <= shown) return withoutControls(fmt::format("\"{}\"", text));
+    std::size_t end = shown;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a character
     return withoutControls(fmt::format("\"{}…\"", text.substr(0, end)));
 }

@@ -11,9 +11,9 @@ namespace sim {
 
 /// One scene file, or one override of the command line, as messages name it.
 struct TextSource {
-    std::string name;          ///< "scenes/drop.yaml", or "--set time.dt=1e-3"
-    bool numbered = true;      ///< messages add the line
-    bool isSi = false;         ///< unit system of its bare numbers: cgs, or si
+    std::string name;             ///< "scenes/drop.yaml", or "--set time.dt=1e-3"
+    bool numbered = true;         ///< messages add the line
+    bool isSi = false;            ///< unit system of its bare numbers: cgs, or si
     std::string directory = ".";  ///< what the file names in it are relative to
 };
 
@@ -31,7 +31,9 @@ struct Place {
 [[noreturn]] void fail(const std::string& where, const std::string& message);
 
 /// The text in quotation marks for a message: control characters shown as '?', long ones cut.
-std::string inQuotes(std::string_view text);
+std::string inQuotes(std::string_view text, std::size_t shown = 48);
+/// The same for a path, which is told in full.
+std::string fileInQuotes(const std::string& path);
 
 /// " (did you mean "viscosity"?)", or " (there is density, viscosity)" where nothing is near; a handful at most.
 std::string suggestion(std::string_view text, const std::vector<std::string>& known);

@@ -23,8 +23,9 @@ std::string boundsText(const Shape& shape)
 
 void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
 {
-    const double volume = measureRegion(source.shape, scene.obstacles, scene.domain).volume;
-    w.line("- name", Node::scalar(source.name, {}).flow(), fmt::format("about {:.4g} cm^3 of liquid, {}", volume, boundsText(source.shape)));
+    const double volume = measureRegion(source, scene).volume;
+    w.line("- name", Node::scalar(source.name, {}).flow(),
+           fmt::format("about {:.4g} cm^3 of liquid, {}", volume, boundsText(source.shape)));
     w.line("  shape", source.shapeText, "[cm]");
     w.below("  fill", "", [&](SectionWriter& inner) {
         inner.indentBy(1);
@@ -52,7 +53,8 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
 void writeObstacle(SectionWriter& w, const ObstacleSettings& obstacle)
 {
     const Shape body = obstacle.inside ? obstacle.shape.inverted() : obstacle.shape;
-    w.line("- name", Node::scalar(obstacle.name, {}).flow(), fmt::format("{}{}", obstacle.inside ? "around " : "", boundsText(body)));
+    w.line("- name", Node::scalar(obstacle.name, {}).flow(),
+           fmt::format("{}{}", obstacle.inside ? "around " : "", boundsText(body)));
     w.line("  shape", obstacle.shapeText, "[cm]");
     w.line("  inside", obstacle.inside ? "true" : "false", "The solid is everything outside of the shape");
     if (!obstacle.motionText.empty()) w.line("  motion", obstacle.motionText, "[s], [cm], [deg]");

@@ -9,7 +9,7 @@ namespace sim {
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    bool isLowOpen = false;   ///< low itself is not allowed
+    bool isLowOpen = false;  ///< low itself is not allowed
 
     static Range any() { return {}; }
     static Range above(double low) { return {low, std::numeric_limits<double>::infinity(), true}; }

@@ -16,7 +16,8 @@ namespace {
 const Node* listAt(const Node* map, const char* key, const std::string& path, const char* example)
 {
     const Node* node = map ? map->find(key) : nullptr;
-    if (node && !node->isList()) fail(node->place, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
+    if (node && !node->isList())
+        fail(node->place, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
     return node;
 }
 
@@ -26,9 +27,12 @@ std::string nameIn(const Node& element, std::size_t index, const std::string& pa
     const Node* name = element.find("name");
     if (!name) return std::to_string(index);
     const std::string& text = readText(*name, joinPath(path, std::to_string(index) + ".name"));
-    const auto isAllowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    const auto isAllowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
     if (text.empty() || !std::all_of(text.begin(), text.end(), isAllowed)) {
-        fail(name->place, fmt::format("{}.{}.name: {} may have letters, digits, _ and - only", path, index, inQuotes(text)));
+        fail(name->place,
+             fmt::format("{}.{}.name: {} may have letters, digits, _ and - only", path, index, inQuotes(text)));
     }
     return text;
 }
@@ -38,14 +42,16 @@ void requireUnique(const std::vector<Settings>& all, const std::string& path)
 {
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            if (all[i].name == all[k].name) fail(all[i].where, fmt::format("{}: two are named {}; rename one", path, inQuotes(all[i].name)));
+            if (all[i].name == all[k].name)
+                fail(all[i].where, fmt::format("{}: two are named {}; rename one", path, inQuotes(all[i].name)));
         }
     }
 }
 
 void checkEmission(const Emission& e, const Node& node, const std::string& path, double start)
 {
-    if (e.to < start) fail(node.place, fmt::format("{}: ends at {} s, before the run starts at {} s", path, e.to, start));
+    if (e.to < start)
+        fail(node.place, fmt::format("{}: ends at {} s, before the run starts at {} s", path, e.to, start));
     const bool isInitial = e.from == start && e.to == start;
     if (!isInitial && !(e.to > e.from)) fail(node.place, fmt::format("{}: to must be after from", path));
 }
@@ -54,7 +60,8 @@ std::vector<Emission> readEmissions(const Node& source, const std::string& path,
 {
     const Node* list = listAt(&source, "emit", joinPath(path, "emit"), "[{from: 0, to: 0.5}]");
     if (!list) return {initial};
-    if (list->items.empty()) fail(list->place, fmt::format("{}.emit: is empty; remove it, or give a span like {{from: 0, to: 0.5}}", path));
+    if (list->items.empty())
+        fail(list->place, fmt::format("{}.emit: is empty; remove it, or give a span like {{from: 0, to: 0.5}}", path));
     std::vector<Emission> all;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
         const std::string itemPath = fmt::format("{}.emit.{}", path, i);
@@ -89,7 +96,8 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     return source;
 }
 
-ObstacleSettings readObstacle(const Node& node, const std::string& name, const std::string& path, const Settings& settings)
+ObstacleSettings readObstacle(const Node& node, const std::string& name, const std::string& path,
+                              const Settings& settings)
 {
     ObstacleSettings obstacle;
     obstacle.name = name;
@@ -130,10 +138,13 @@ ObstacleSettings& obstacleNamed(const std::string& name, const Node& node, std::
 }
 
 /// Gives an obstacle the motion that the section `motion` has for it.
-void giveMotion(const Node& pieces, const std::string& name, const std::string& path, std::vector<ObstacleSettings>& obstacles)
+void giveMotion(const Node& pieces, const std::string& name, const std::string& path,
+                std::vector<ObstacleSettings>& obstacles)
 {
     ObstacleSettings& obstacle = obstacleNamed(name, pieces, obstacles);
-    if (!obstacle.motionText.empty()) fail(pieces.place, fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
+    if (!obstacle.motionText.empty())
+        fail(pieces.place,
+             fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
     ReadMotion read = readMotion(pieces, path);
     obstacle.motion = std::move(read.motion);
     obstacle.motionText = std::move(read.text);
@@ -148,7 +159,10 @@ void readMotions(const Node& section, std::vector<ObstacleSettings>& obstacles)
         }
         return;
     }
-    if (!section.isList()) fail(section.place, fmt::format("motion: needs a list like [{{obstacle: paddle, t: [0, 1], translate: [0, 5, 0]}}], not {}", section.called()));
+    if (!section.isList())
+        fail(section.place,
+             fmt::format("motion: needs a list like [{{obstacle: paddle, t: [0, 1], translate: [0, 5, 0]}}], not {}",
+                         section.called()));
     Node byName = Node::map(section.place);
     for (const Node& item : section.items) {
         const Node* name = item.find("obstacle") ? item.find("obstacle") : item.find("group");
@@ -171,7 +185,8 @@ std::vector<SourceSettings> readSources(const Node& root, const Settings& settin
     const std::string path = "liquid.sources";
     const Node* list = listAt(root.find("liquid"), "sources", path, "[{shape: …}]");
     if (!list || list->items.empty()) {
-        fail(list ? list->place : root.place, "liquid.sources: a scene needs at least one source, like - shape: {ball: {center: [0, 5, 0], radius: 1}}");
+        fail(list ? list->place : root.place,
+             "liquid.sources: a scene needs at least one source, like - shape: {ball: {center: [0, 5, 0], radius: 1}}");
     }
     for (std::size_t i = 0; i < list->items.size(); ++i) {
         const std::string name = nameIn(list->items[i], i, path);

@@ -41,7 +41,8 @@ void requireNear(const Node& node, const std::string& path, const Vec3& x)
 Vec3 unitAxis(const Node& node, const std::string& path, const Vec3& axis)
 {
     const double length = axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length)) fail(node.place, fmt::format("{}.axis: must be a direction, like [0, 1, 0]", path));
+    if (!(length > 0.0) || !std::isfinite(length))
+        fail(node.place, fmt::format("{}.axis: must be a direction, like [0, 1, 0]", path));
     return axis / length;
 }
 
@@ -61,7 +62,8 @@ ReadShape readBox(const Node& node, const Context& context, bool isRound)
         v.whenReading([&](auto& r) {
             const bool byCenter = r.has("center") && r.has("half"), byCorners = r.has("min") && r.has("max");
             const int given = r.has("center") + r.has("half") + r.has("min") + r.has("max");
-            if (given != 2 || byCenter == byCorners) fail(node.place, fmt::format("{}: needs either center and half, or min and max", context.path));
+            if (given != 2 || byCenter == byCorners)
+                fail(node.place, fmt::format("{}: needs either center and half, or min and max", context.path));
             if (byCorners) {
                 center = 0.5 * (low + high);
                 half = 0.5 * (high - low);
@@ -143,13 +145,16 @@ ReadShape readMesh(const Node& node, const Context& context)
         });
     };
     SectionReader::read(&node, context.path, fields);
-    if (!(cell > 0.0)) fail(node.place, fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
+    if (!(cell > 0.0))
+        fail(node.place,
+             fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
     namespace fs = std::filesystem;
     const Node& name = *node.find("file");
     const fs::path directory = name.place.source ? name.place.source->directory : ".";
     const fs::path path = directory / fs::path(file);
     std::error_code error;
-    if (!fs::is_regular_file(path, error)) fail(name.place, fmt::format("{}.file: there is no file {}", context.path, inQuotes(path.string())));
+    if (!fs::is_regular_file(path, error))
+        fail(name.place, fmt::format("{}.file: there is no file {}", context.path, fileInQuotes(path.string())));
     file = fs::absolute(path, error).lexically_normal().string();
     try {
         return {shapeFromObj(path, scale, cell), flowOf(fields)};
@@ -160,7 +165,8 @@ ReadShape readMesh(const Node& node, const Context& context)
 
 ReadShape readParts(const Node& node, const Context& context, const std::string& operation)
 {
-    if (!node.isList() || node.items.empty()) fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
+    if (!node.isList() || node.items.empty())
+        fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
     std::vector<Shape> shapes;
     std::string texts;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -204,7 +210,8 @@ void rotate(ReadShape& body, const Node& node, const std::string& path)
     SectionReader::read(&node, path, fields);
     requireNear(node, path, origin);
     const Eigen::AngleAxisd turn(angle, unitAxis(node, path, axis));
-    body.shape = body.shape.moved(Eigen::Isometry3d(Eigen::Translation3d(origin) * turn * Eigen::Translation3d(-origin)));
+    body.shape =
+        body.shape.moved(Eigen::Isometry3d(Eigen::Translation3d(origin) * turn * Eigen::Translation3d(-origin)));
     body.text += ", rotate: " + flowOf(fields);
 }
 
@@ -221,14 +228,17 @@ std::string kindOf(const Node& node, const std::string& path)
 {
     static const std::vector<std::string> kKinds = {"box",  "rounded_box", "ball",      "capsule",  "cylinder",
                                                     "mesh", "union",       "intersect", "subtract", "invert"};
-    if (!node.isMap()) fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path, node.called()));
+    if (!node.isMap())
+        fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path,
+                                     node.called()));
     std::vector<std::string> known = kKinds;
     known.insert(known.end(), {"rotate", "translate"});
     SectionReader(node, path).refuseKeysBut(known);
     std::string kind;
     for (const std::string& candidate : kKinds) {
         if (!node.find(candidate)) continue;
-        if (!kind.empty()) fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
+        if (!kind.empty())
+            fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
         kind = candidate;
     }
     if (kind.empty()) fail(node.place, fmt::format("{}: names no body; it takes one of {}", path, listed(kKinds)));

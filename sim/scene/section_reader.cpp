@@ -37,19 +37,22 @@ std::string Range::text(const std::string& unit) const
 double readNumber(const Node& node, const std::string& path, Quantity quantity, const Range& range)
 {
     const char* unit = unitOf(quantity);
-    if (!node.isScalar()) failAt(node, path, fmt::format("needs a {}, not {}", nameOf(quantity), node.called()));
+    if (!node.isScalar()) failAt(node, path, fmt::format("needs {}, not {}", nameOf(quantity), node.called()));
     const ParsedNumber number = parseNumber(node.text, quantity, node.place.source && node.place.source->isSi);
     if (!number.problem.empty()) failAt(node, path, number.problem);
     const double inFile = inFileUnits(number.value, quantity);
-    if (!range.contains(inFile)) failAt(node, path, fmt::format("{} is out of range; must be {}", inQuotes(node.text), range.text(unit)));
+    if (!range.contains(inFile))
+        failAt(node, path, fmt::format("{} is out of range; must be {}", inQuotes(node.text), range.text(unit)));
     return number.value;
 }
 
-void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity, const Range& range)
+void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity,
+                 const Range& range)
 {
     if (!node.isList() || node.items.size() != out.size()) {
-        failAt(node, path, fmt::format("needs a list of {} numbers, like {}, not {}", out.size(),
-                                       out.size() == 3 ? "[0, 1, 0]" : "[0, 1]", node.called()));
+        failAt(node, path,
+               fmt::format("needs a list of {} numbers, like {}, not {}", out.size(),
+                           out.size() == 3 ? "[0, 1, 0]" : "[0, 1]", node.called()));
     }
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = readNumber(node.items[i], path, quantity, range);
 }
@@ -57,22 +60,26 @@ void readNumbers(const Node& node, const std::string& path, std::span<double> ou
 std::int64_t readInteger(const Node& node, const std::string& path, std::int64_t low, std::int64_t high)
 {
     std::int64_t value = 0;
-    if (!node.isScalar() || !parseWhole(node.text, value)) failAt(node, path, fmt::format("needs a whole number, {} to {}, not {}", low, high, node.called()));
-    if (value < low || value > high) failAt(node, path, fmt::format("{} is out of range; must be {} to {}", value, low, high));
+    if (!node.isScalar() || !parseWhole(node.text, value))
+        failAt(node, path, fmt::format("needs a whole number, {} to {}, not {}", low, high, node.called()));
+    if (value < low || value > high)
+        failAt(node, path, fmt::format("{} is out of range; must be {} to {}", value, low, high));
     return value;
 }
 
 std::uint64_t readSeed(const Node& node, const std::string& path)
 {
     std::uint64_t value = 0;
-    if (!node.isScalar() || !parseWhole(node.text, value)) failAt(node, path, fmt::format("needs a whole number, 0 or more, not {}", node.called()));
+    if (!node.isScalar() || !parseWhole(node.text, value))
+        failAt(node, path, fmt::format("needs a whole number, 0 or more, not {}", node.called()));
     return value;
 }
 
 bool readFlag(const Node& node, const std::string& path)
 {
     if (node.isScalar() && node.text == "true") return true;
-    if (!node.isScalar() || node.text != "false") failAt(node, path, fmt::format("needs true or false, not {}", node.called()));
+    if (!node.isScalar() || node.text != "false")
+        failAt(node, path, fmt::format("needs true or false, not {}", node.called()));
     return false;
 }
 
@@ -90,17 +97,22 @@ std::vector<std::string> readTexts(const Node& node, const std::string& path)
     return texts;
 }
 
-std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words, const std::vector<bool>& runs)
+std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words,
+                       const std::vector<bool>& runs)
 {
     std::vector<std::string> usable;
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (runs[i]) usable.push_back(words[i]);
     }
-    if (!node.isScalar()) failAt(node, path, fmt::format("needs one word of {}, not {}", listed(usable), node.called()));
+    if (!node.isScalar())
+        failAt(node, path, fmt::format("needs one word of {}, not {}", listed(usable), node.called()));
     const auto found = std::find(words.begin(), words.end(), node.text);
-    if (found == words.end()) failAt(node, path, fmt::format("{} is unknown{}", inQuotes(node.text), suggestion(node.text, usable)));
+    if (found == words.end())
+        failAt(node, path, fmt::format("{} is unknown{}", inQuotes(node.text), suggestion(node.text, usable)));
     const auto index = static_cast<std::size_t>(found - words.begin());
-    if (!runs[index]) failAt(node, path, fmt::format("{} does not run in this version; write {}", node.text, fmt::join(usable, " or ")));
+    if (!runs[index])
+        failAt(node, path,
+               fmt::format("{} does not run in this version; write {}", node.text, fmt::join(usable, " or ")));
     return index;
 }
 
@@ -118,9 +130,11 @@ void readNamedFlags(const Node& node, const std::string& path, std::span<const N
     for (const Node& item : node.items) {
         const std::string& text = readText(item, path);
         const auto found = std::find(words.begin(), words.end(), text);
-        if (found == words.end()) failAt(item, path, fmt::format("{} is unknown{}", inQuotes(text), suggestion(text, usable)));
+        if (found == words.end())
+            failAt(item, path, fmt::format("{} is unknown{}", inQuotes(text), suggestion(text, usable)));
         bool* value = flags[static_cast<std::size_t>(found - words.begin())].value;
-        if (!value) failAt(item, path, fmt::format("{} does not run in this version; there is {}", text, listed(usable)));
+        if (!value)
+            failAt(item, path, fmt::format("{} does not run in this version; there is {}", text, listed(usable)));
         *value = true;
     }
 }
@@ -136,8 +150,8 @@ Place SectionReader::placeOf(const char* key) const
     return node_.place;
 }
 
-void SectionReader::numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range,
-                                 const char*)
+void SectionReader::numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity,
+                                 Range range, const char*)
 {
     const Node* n = find(key);
     if (!n) return;
@@ -149,7 +163,8 @@ void SectionReader::pixels(const char* key, int& width, int& height, int low, in
 {
     const Node* n = find(key);
     if (!n) return;
-    if (!n->isList() || n->items.size() != 2) failAt(*n, pathOf(key), fmt::format("needs a list of 2 whole numbers, like [960, 540], not {}", n->called()));
+    if (!n->isList() || n->items.size() != 2)
+        failAt(*n, pathOf(key), fmt::format("needs a list of 2 whole numbers, like [960, 540], not {}", n->called()));
     width = static_cast<int>(readInteger(n->items[0], pathOf(key), low, high));
     height = static_cast<int>(readInteger(n->items[1], pathOf(key), low, high));
 }
@@ -191,16 +206,20 @@ void SectionReader::require(bool isMet, const char* key, const std::string& mess
     if (!isMet) fail(placeOf(key), fmt::format("{}: {}", pathOf(key), message));
 }
 
-void SectionReader::refuseKeysBut(const std::vector<std::string>& known) const
+void SectionReader::refuseKeysBut(const std::vector<std::string>& known, const std::vector<std::string>& later) const
 {
+    const auto isIn = [](const std::vector<std::string>& list, const std::string& key) {
+        return std::find(list.begin(), list.end(), key) != list.end();
+    };
     for (std::size_t i = 0; i < node_.keys.size(); ++i) {
         const std::string& key = node_.keys[i];
-        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        if (isIn(known, key) || isIn(later, key)) continue;
         const std::string where = path_.empty() ? "" : " in " + path_;
         const bool isDotted = key.find('.') != std::string::npos;
-        fail(node_.items[i].place, fmt::format("unknown key {}{}{}", inQuotes(key), where,
-                                                isDotted ? "; dotted keys stand in variants and behind --set, write them as maps here"
-                                                         : suggestion(key, known)));
+        fail(node_.items[i].place,
+             fmt::format("unknown key {}{}{}", inQuotes(key), where,
+                         isDotted ? "; dotted keys stand in variants and behind --set, write them as maps here"
+                                  : suggestion(key, known)));
     }
 }
 

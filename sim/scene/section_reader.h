@@ -18,13 +18,15 @@ namespace sim {
 
 /// One number, vector or word; `path` names it in messages. Throw InputError.
 double readNumber(const Node& node, const std::string& path, Quantity quantity, const Range& range);
-void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity, const Range& range);
+void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity,
+                 const Range& range);
 std::int64_t readInteger(const Node& node, const std::string& path, std::int64_t low, std::int64_t high);
 std::uint64_t readSeed(const Node& node, const std::string& path);
 bool readFlag(const Node& node, const std::string& path);
 const std::string& readText(const Node& node, const std::string& path);
 /// The number of the word in the list; a word that does not run is refused by name.
-std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words, const std::vector<bool>& runs);
+std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words,
+                       const std::vector<bool>& runs);
 void readNamedFlags(const Node& node, const std::string& path, std::span<const NamedFlag> flags);
 std::vector<std::string> readTexts(const Node& node, const std::string& path);
 
@@ -32,6 +34,7 @@ std::vector<std::string> readTexts(const Node& node, const std::string& path);
 class KeyList {
  public:
     std::vector<std::string> keys;
+    std::vector<std::string> laterKeys;  ///< known, and refused in this version
 
     void number(const char* key, double&, Quantity, Range, const char*) { add(key); }
     void numberOr(const char* key, double&, double, Quantity, Range, const char*) { add(key); }
@@ -82,7 +85,7 @@ class KeyList {
     {
     }
     void onlyRuns(const char* key, const char*, std::initializer_list<const char*>, const char*) { add(key); }
-    void later(const char* key, const char*) { add(key); }
+    void later(const char* key, const char*) { laterKeys.emplace_back(key); }
     void other(const char* key, const char*) { add(key); }
     void needs(const char*, const char*) {}
     void require(bool, const char*, const std::string&) {}
@@ -113,7 +116,8 @@ class SectionReader {
         number(key, out, quantity, range, help);
     }
     /// Either a number, or the word that sets the flag.
-    void numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range, const char* help);
+    void numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range,
+                      const char* help);
     void integer(const char* key, int& out, int low, int high, const char*)
     {
         if (const Node* n = find(key)) out = static_cast<int>(readInteger(*n, pathOf(key), low, high));
@@ -226,12 +230,12 @@ class SectionReader {
         SectionReader reader(*node, path);
         KeyList known;
         fields(known);
-        reader.refuseKeysBut(known.keys);
+        reader.refuseKeysBut(known.keys, known.laterKeys);
         fields(reader);
     }
 
-    /// Throws at the first key that is not one of these.
-    void refuseKeysBut(const std::vector<std::string>& known) const;
+    /// Throws at the first key that is not one of these; only those of the first list are suggested.
+    void refuseKeysBut(const std::vector<std::string>& known, const std::vector<std::string>& later = {}) const;
 
  private:
     const Node& node_;

@@ -16,7 +16,8 @@ std::string SectionWriter::take() const
     std::string out;
     for (const Line& l : lines_) {
         out += l.text;
-        if (!l.comment.empty()) out += std::string(l.text.size() < column ? column - l.text.size() : 0, ' ') + "  # " + l.comment;
+        if (!l.comment.empty())
+            out += std::string(l.text.size() < column ? column - l.text.size() : 0, ' ') + "  # " + l.comment;
         out += '\n';
     }
     return out;

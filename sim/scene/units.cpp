@@ -25,7 +25,7 @@ struct QuantityInfo {
     Dimension dimension;
     const char* cgs;
     const char* si;
-    double siInCgs;   ///< one SI unit
+    double siInCgs;  ///< one SI unit
 };
 
 const QuantityInfo& infoOf(Quantity quantity)
@@ -59,26 +59,16 @@ struct Unit {
 
 // Angles count in degrees here: bare numbers of a scene are degrees, and the change to radians comes last.
 constexpr Unit kUnits[] = {
-    {"m", 1.0e2, {1, 0, 0, 0}},
-    {"g", 1.0, {0, 1, 0, 0}},
-    {"s", 1.0, {0, 0, 1, 0}},
-    {"min", 60.0, {0, 0, 1, 0}, false},
-    {"N", 1.0e5, {1, 1, -2, 0}},
-    {"dyn", 1.0, {1, 1, -2, 0}, false},
-    {"Pa", 1.0e1, {-1, 1, -2, 0}},
-    {"Ba", 1.0, {-1, 1, -2, 0}, false},
-    {"bar", 1.0e6, {-1, 1, -2, 0}},
-    {"P", 1.0, {-1, 1, -1, 0}},
-    {"J", 1.0e7, {2, 1, -2, 0}},
-    {"erg", 1.0, {2, 1, -2, 0}, false},
-    {"Hz", 1.0, {0, 0, -1, 0}},
-    {"l", 1.0e3, {3, 0, 0, 0}},
-    {"L", 1.0e3, {3, 0, 0, 0}},
-    {"deg", 1.0, {0, 0, 0, 1}, false},
-    {"°", 1.0, {0, 0, 0, 1}, false},
-    {"rad", 180.0 / kPi, {0, 0, 0, 1}},
-    {"%", 1.0e-2, {}, false},
-    {"1", 1.0, {}, false},
+    {"m", 1.0e2, {1, 0, 0, 0}},      {"g", 1.0, {0, 1, 0, 0}},
+    {"s", 1.0, {0, 0, 1, 0}},        {"min", 60.0, {0, 0, 1, 0}, false},
+    {"N", 1.0e5, {1, 1, -2, 0}},     {"dyn", 1.0, {1, 1, -2, 0}, false},
+    {"Pa", 1.0e1, {-1, 1, -2, 0}},   {"Ba", 1.0, {-1, 1, -2, 0}, false},
+    {"bar", 1.0e6, {-1, 1, -2, 0}},  {"P", 1.0, {-1, 1, -1, 0}},
+    {"J", 1.0e7, {2, 1, -2, 0}},     {"erg", 1.0, {2, 1, -2, 0}, false},
+    {"Hz", 1.0, {0, 0, -1, 0}},      {"l", 1.0e3, {3, 0, 0, 0}},
+    {"L", 1.0e3, {3, 0, 0, 0}},      {"deg", 1.0, {0, 0, 0, 1}, false},
+    {"°", 1.0, {0, 0, 0, 1}, false}, {"rad", 180.0 / kPi, {0, 0, 0, 1}},
+    {"%", 1.0e-2, {}, false},        {"1", 1.0, {}, false},
 };
 
 struct Prefix {
@@ -113,14 +103,18 @@ std::optional<Scale> unitNamed(std::string_view symbol)
 void multiply(Scale& scale, const Scale& unit, int power)
 {
     // One unit at a time: cm^3 is exactly 1, where pow(0.01 · 100, 3) need not be.
-    for (int i = 0; i < std::abs(power); ++i) scale.factor = power > 0 ? scale.factor * unit.factor : scale.factor / unit.factor;
+    for (int i = 0; i < std::abs(power); ++i)
+        scale.factor = power > 0 ? scale.factor * unit.factor : scale.factor / unit.factor;
     scale.dimension.length += power * unit.dimension.length;
     scale.dimension.mass += power * unit.dimension.mass;
     scale.dimension.time += power * unit.dimension.time;
     scale.dimension.angle += power * unit.dimension.angle;
 }
 
-bool isSeparator(char c) { return c == ' ' || c == '*' || c == '/'; }
+bool isSeparator(char c)
+{
+    return c == ' ' || c == '*' || c == '/';
+}
 
 /// Reads one factor "cm^2" or "s-1" into the scale; false if it is none.
 bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
@@ -136,7 +130,8 @@ bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
     int power = 1;
     if (!exponent.empty()) {
         const auto [stop, error] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
-        if (error != std::errc() || stop != exponent.data() + exponent.size() || std::abs(power) > kMaxPower) return false;
+        if (error != std::errc() || stop != exponent.data() + exponent.size() || std::abs(power) > kMaxPower)
+            return false;
     }
     const std::optional<Scale> unit = unitNamed(symbol);
     if (!unit) return false;
@@ -146,7 +141,8 @@ bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
 
 void replaceAll(std::string& text, std::string_view from, std::string_view to)
 {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
 }
 
 /// Reads a product of units like "dyn s/cm^2"; a slash divides by the one unit after it.
@@ -189,48 +185,70 @@ std::string withArticle(const std::string& name)
     return (std::string_view("aeiou").find(name[0]) == std::string_view::npos ? "a " : "an ") + name;
 }
 
-double toStored(double inFile, Quantity quantity) { return quantity == Quantity::Angle ? inFile * kPi / 180.0 : inFile; }
+double toStored(double inFile, Quantity quantity)
+{
+    return quantity == Quantity::Angle ? inFile * kPi / 180.0 : inFile;
+}
 
 std::string example(Quantity quantity)
 {
     const QuantityInfo& info = infoOf(quantity);
-    return *info.cgs ? fmt::format("{} like 0.5 or \"0.5 {}\"", withArticle(info.name), info.cgs) : "a number like 0.5";
+    return *info.cgs ? fmt::format("{} like 0.5 or \"0.5 {}\"", nameOf(quantity), info.cgs) : "a number like 0.5";
 }
 
-ParsedNumber problem(std::string text) { return {0.0, std::move(text)}; }
+ParsedNumber problem(std::string text)
+{
+    return {0.0, std::move(text)};
+}
 
 }  // namespace
 
-const char* nameOf(Quantity quantity) { return infoOf(quantity).name; }
+std::string nameOf(Quantity quantity)
+{
+    return withArticle(infoOf(quantity).name);
+}
 
-const char* unitOf(Quantity quantity, bool isSi) { return isSi ? infoOf(quantity).si : infoOf(quantity).cgs; }
+const char* unitOf(Quantity quantity, bool isSi)
+{
+    return isSi ? infoOf(quantity).si : infoOf(quantity).cgs;
+}
 
-double inFileUnits(double stored, Quantity quantity) { return quantity == Quantity::Angle ? stored * 180.0 / kPi : stored; }
+double inFileUnits(double stored, Quantity quantity)
+{
+    return quantity == Quantity::Angle ? stored * 180.0 / kPi : stored;
+}
 
 ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
 {
     const std::string_view given = text;
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc::result_out_of_range) return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
+    if (error == std::errc::result_out_of_range)
+        return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
     const std::string_view magnitude = text.starts_with('-') ? text.substr(1) : text;
     for (const char* word : {".inf", ".Inf", ".INF", ".nan", ".NaN", ".NAN"}) {
         if (magnitude == word) return problem(fmt::format("{} is not finite; write a number", inQuotes(given)));
     }
-    if (error != std::errc()) return problem(fmt::format("{} is no number; needs {}", inQuotes(given), example(quantity)));
+    if (error != std::errc())
+        return problem(fmt::format("{} is no number; needs {}", inQuotes(given), example(quantity)));
     if (!std::isfinite(number)) return problem(fmt::format("{} is not finite; write a number", inQuotes(given)));
 
     std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     const QuantityInfo& info = infoOf(quantity);
+    if (quantity == Quantity::Angle && unit == "rad")
+        return {number, ""};  // as it is stored: not through degrees and back
     double inFile = isSi ? number * info.siInCgs : number;
     if (!unit.empty()) {
         const std::optional<Scale> scale = parseUnit(unit);
-        if (!scale) return problem(fmt::format("{} has the unknown unit {}; needs {}", inQuotes(given), inQuotes(unit), example(quantity)));
+        if (!scale)
+            return problem(fmt::format("{} has the unknown unit {}; needs {}", inQuotes(given), inQuotes(unit),
+                                       example(quantity)));
         if (!(scale->dimension == info.dimension)) {
-            return problem(fmt::format("{} is {}, needs {}{}", inQuotes(given), withArticle(describeDimension(scale->dimension)),
-                                       withArticle(info.name), *info.cgs ? fmt::format(" (in {})", info.cgs) : ""));
+            return problem(fmt::format("{} is {}, needs {}{}", inQuotes(given),
+                                       withArticle(describeDimension(scale->dimension)), nameOf(quantity),
+                                       *info.cgs ? fmt::format(" (in {})", info.cgs) : ""));
         }
         inFile = number * scale->factor;
     }
@@ -259,7 +277,7 @@ std::string formatNumber(double stored, Quantity quantity)
     for (const double near : {std::nextafter(degrees, -1.0e9), std::nextafter(degrees, 1.0e9)}) {
         if (toStored(near, quantity) == stored) return formatPlain(near);
     }
-    return formatPlain(degrees);
+    return formatPlain(stored) + " rad";
 }
 
 }  // namespace sim

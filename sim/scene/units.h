@@ -20,15 +20,16 @@ enum class Quantity {
     SurfaceTension,
     Volume,
     Frequency,
-    Angle,              ///< stored in radians, written in degrees
-    AngleDegrees,       ///< stored in degrees (pictures)
-    TurnRateDegrees,    ///< stored in degrees per second (pictures)
+    Angle,            ///< stored in radians, written in degrees
+    AngleDegrees,     ///< stored in degrees (pictures)
+    TurnRateDegrees,  ///< stored in degrees per second (pictures)
 };
 
-/// "length", "surface tension".
-const char* nameOf(Quantity quantity);
+/// "a length", "an angle", "a plain number".
+std::string nameOf(Quantity quantity);
 
-/// Unit of a bare number, in which ranges are told and resolved scenes are printed: "cm/s", "deg"; "" for plain numbers.
+/// Unit of a bare number, in which ranges are told and resolved scenes are printed: "cm/s", "deg"; "" for plain
+/// numbers.
 const char* unitOf(Quantity quantity, bool isSi = false);
 
 /// Either a number as it is stored (CGS, radians) or what is wrong with the text.

@@ -1,0 +1,100 @@
+#include "app/read_picture_settings.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+app::PictureSettings read(const std::string& text)
+{
+    return app::readPictureSettings(sim::sceneFileFromText(text, "good.yaml"));
+}
+
+TEST(PictureSettings, AreDefaultsWhereTheSceneSaysNothing)
+{
+    const app::PictureSettings settings = read("grid: {cell: 1}\n"), defaults;
+    EXPECT_EQ(defaults.render.width, settings.render.width);
+    EXPECT_EQ(defaults.render.liquidStyle, settings.render.liquidStyle);
+    EXPECT_TRUE(settings.render.camera.autoFrame);
+    EXPECT_EQ(defaults.output.every, settings.output.every);
+    EXPECT_TRUE(settings.compare.variants.empty());
+}
+
+TEST(PictureSettings, AllArrive)
+{
+    const app::PictureSettings s = read(R"(
+render:
+  size: [640, 480]
+  background: [0, 0.5, 1]
+  camera: {look_at: [1, 2, 3], eye: [4, 5, 6], up: [0, 0, 1], fov: 50}
+  liquid: {style: points, color_by: flat, colormap: turbo, range: [1, 2]}
+  obstacles: {style: wire, opacity: 0.5}
+  hud: false
+  colorbar: false
+  samples: 8
+output: {dir: here, every: 2 ms, frames: none, data: [energy], video: {fps: 25, codec: libx265}}
+compare: {name: all, variants: {transfer.method: [pic, apic]}, layout: rows, products: [sheet, table], reference: pic}
+)");
+    EXPECT_EQ(640, s.render.width);
+    EXPECT_EQ(480, s.render.height);
+    EXPECT_EQ(0.5f, s.render.background[1]);
+    EXPECT_FALSE(s.render.camera.autoFrame);
+    EXPECT_EQ(Eigen::Vector3d(4, 5, 6), s.render.camera.eye);
+    EXPECT_EQ(Eigen::Vector3d(0, 0, 1), s.render.camera.up);
+    EXPECT_EQ(50.0, s.render.camera.fovDegrees);
+    EXPECT_EQ(app::LiquidStyle::Points, s.render.liquidStyle);
+    EXPECT_EQ(app::ColorBy::Flat, s.render.colorBy);
+    EXPECT_EQ(app::ColorMap::Turbo, s.render.colorMap);
+    EXPECT_EQ(2.0, s.render.range[1]);
+    EXPECT_EQ(app::ObstacleStyle::Wire, s.render.obstacleStyle);
+    EXPECT_FALSE(s.render.hud);
+    EXPECT_EQ(8, s.render.samples);
+    EXPECT_EQ("here", s.output.dir);
+    EXPECT_EQ(2.0e-3, s.output.every);
+    EXPECT_FALSE(s.output.frames);
+    EXPECT_TRUE(s.output.energy);
+    EXPECT_FALSE(s.output.stats);
+    EXPECT_EQ("libx265", s.output.videoCodec);
+    ASSERT_EQ(2u, s.compare.variants.size());
+    EXPECT_EQ("apic", s.compare.variants[1].name);
+    EXPECT_EQ((std::vector<std::string>{"transfer.method=apic"}), s.compare.variants[1].overrides);
+    EXPECT_EQ(app::CompareLayout::Rows, s.compare.layout);
+    EXPECT_FALSE(s.compare.video);
+    EXPECT_TRUE(s.compare.sheet);
+    EXPECT_EQ("pic", s.compare.reference);
+}
+
+TEST(PictureSettings, OrbitIsACameraOfItsOwn)
+{
+    const app::CameraSettings c =
+        read("render: {camera: {orbit: {target: [1, 2, 3], distance: 9, azimuth: 20, elevation: 10, turn_per_s: 5}}}\n")
+            .render.camera;
+    EXPECT_TRUE(c.orbit);
+    EXPECT_FALSE(c.autoFrame);
+    EXPECT_EQ(Eigen::Vector3d(1, 2, 3), c.lookAt);
+    EXPECT_EQ(20.0, c.azimuthDegrees);
+    EXPECT_EQ(5.0, c.turnDegreesPerSecond);
+}
+
+TEST(PictureSettings, LengthsFollowTheUnitsOfTheFile)
+{
+    const app::RenderSettings r =
+        read("units: si\nrender: {camera: {look_at: [0, 0, 0], eye: [0, 0, 1]}, liquid: {range: [0, 2]}}\n").render;
+    EXPECT_EQ(100.0, r.camera.eye[2]);
+    EXPECT_EQ(200.0, r.range[1]);
+}
+
+TEST(PictureSettings, VariantsThemselvesAreGivenAsOverrides)
+{
+    const app::CompareSettings c = read(R"(
+compare:
+  variants:
+    - {label: "Best of all", transfer: {method: apic, modes: 4}, liquid.sources.a.velocity: [1, 2, 3], scene.title: "a: b"}
+)")
+                                       .compare;
+    EXPECT_EQ("best_of_all", c.variants[0].name);
+    EXPECT_EQ((std::vector<std::string>{"transfer={method: apic, modes: 4}", "liquid.sources.a.velocity=[1, 2, 3]",
+                                        "scene.title=\"a: b\""}),
+              c.variants[0].overrides);
+}
+
+}  // namespace

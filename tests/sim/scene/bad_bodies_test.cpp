@@ -1,0 +1,316 @@
+#include "tests/sim/scene/bad_scene.h"
+
+// Sources, shapes, obstacles and motions.
+
+namespace {
+
+const BadScene kBadScenes[] = {
+    {"NoSources", "grid: {cell: 0.1}\n",
+     "bad.yaml:1: liquid.sources: a scene needs at least one source, like - shape: {ball: {center: [0, 5, 0], radius: 1}}"},
+    {"EmptySources", R"(grid: {cell: 0.1}
+liquid: {sources: []}
+)",
+     "bad.yaml:2: liquid.sources: a scene needs at least one source, like - shape: {ball: {center: [0, 5, 0], radius: 1}}"},
+    {"SourcesIsMap", R"(grid: {cell: 0.1}
+liquid: {sources: {column: 1}}
+)",
+     "bad.yaml:2: liquid.sources: needs a list like [{shape: …}], not a map"},
+    {"SourceIsWord", R"(grid: {cell: 0.1}
+liquid: {sources: [ball]}
+)",
+     "bad.yaml:2: liquid.sources.0: needs a map of keys, not \"ball\""},
+    {"SourceWithoutShape", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - name: drop
+)",
+     "bad.yaml:4: liquid.sources.drop.shape is missing; it is what the liquid fills, like shape: {ball: {center: [0, 5, 0], radius: 1}}"},
+    {"SourceNamesTwice", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - {name: a, shape: {ball: {center: [0,0,0], radius: 1}}}
+    - {name: a, shape: {ball: {center: [0,0,0], radius: 1}}}
+)",
+     "bad.yaml:5: liquid.sources: two are named \"a\"; rename one"},
+    {"SourceNameWithDot", R"(grid: {cell: 0.1}
+liquid: {sources: [{name: a.b, shape: {ball: {center: [0,0,0], radius: 1}}}]}
+)",
+     "bad.yaml:2: liquid.sources.0.name: \"a.b\" may have letters, digits, _ and - only"},
+    {"ShapeUnknown", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {bal: {center: [0, 0, 0], radius: 1}}
+)",
+     "bad.yaml:4: unknown key \"bal\" in liquid.sources.0.shape (did you mean \"ball\"?)"},
+    {"ShapeWithoutBody", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {translate: [1, 0, 0]}
+)",
+     "bad.yaml:4: liquid.sources.0.shape: names no body; it takes one of box, rounded_box, ball, capsule, cylinder, mesh, union, intersect, subtract, invert"},
+    {"ShapeWithTwoBodies", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}, box: {center: [0, 0, 0], half: [1, 1, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape: has both box and ball; put them into a union"},
+    {"ShapeIsWord", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: ball
+)",
+     "bad.yaml:4: liquid.sources.0.shape: needs a shape like {ball: {center: [0, 5, 0], radius: 1}}, not \"ball\""},
+    {"NegativeRadius", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: -1}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.ball.radius: \"-1\" is out of range; must be above 0, at most 10000000 cm"},
+    {"NoRadius", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.ball.radius is missing; it is the size of the ball, like radius: 1.44"},
+    {"NanCenter", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, .nan, 0], radius: 1}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.ball.center: \".nan\" is not finite; write a number"},
+    {"FarCenter", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 1.0e+9, 0], radius: 1}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.ball: lies beyond 10000000 cm"},
+    {"BoxNegative", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {box: {center: [0, 0, 0], half: [1, -1, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.box.half: must be above 0 cm in every direction"},
+    {"BoxInsideOut", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {box: {min: [0, 0, 0], max: [1, 0, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.box.max: must be above min in every direction"},
+    {"BoxHalfGiven", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {box: {min: [0, 0, 0], half: [1, 1, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.box: needs either center and half, or min and max"},
+    {"RoundedBoxWithoutRound", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {rounded_box: {center: [0, 0, 0], half: [1, 1, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.rounded_box.round is missing; it is the radius of the edges, added outside of half"},
+    {"CylinderAxisZero", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {cylinder: {center: [0, 0, 0], axis: [0, 0, 0], radius: 1, half: 1}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.cylinder.axis: must be a direction, like [0, 1, 0]"},
+    {"UnionOfNothing", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {union: []}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.union: needs a list of shapes, not an empty list"},
+    {"UnionOfMap", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {union: {ball: {center: [0, 0, 0], radius: 1}}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.union: needs a list of shapes, not a map"},
+    {"BadPartOfUnion", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {union: [{ball: {center: [0, 0, 0], radius: 1}}, {ball: {center: [0, 0, 0], radius: 0}}]}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.union.1.ball.radius: \"0\" is out of range; must be above 0, at most 10000000 cm"},
+    {"MeshMissing", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {mesh: {file: nowhere.obj}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.mesh.file: there is no file \"./nowhere.obj\""},
+    {"RotateWithoutAngle", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}, rotate: {axis: [0, 0, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0.shape.rotate.angle is missing; it is how far to turn, in degrees, like angle: 30"},
+    {"SourceApart", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {intersect: [{ball: {center: [0, 0, 0], radius: 1}}, {ball: {center: [5, 0, 0], radius: 1}}]}
+)",
+     "bad.yaml:4: liquid.sources.0: is empty: its shape has no volume; make its parts overlap"},
+    {"SourceUnbounded", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {invert: {ball: {center: [0, 0, 0], radius: 1}}}
+)",
+     "bad.yaml:4: liquid.sources.0: reaches to infinity; intersect its shape with a box"},
+    {"SourceOutsideOfDomain", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+domain: {box: {min: [5, 0, 0], max: [6, 1, 1]}}
+)",
+     "bad.yaml:4: liquid.sources.0: is empty: its shape lies outside of the domain or inside obstacles; move it"},
+    {"SourceInsideObstacle", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+obstacles: [{shape: {ball: {center: [0, 0, 0], radius: 2}}}]
+)",
+     "bad.yaml:4: liquid.sources.0: is empty: its shape lies outside of the domain or inside obstacles; move it"},
+    {"TooManyParticles", R"(grid: {cell: 1.0e-4}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: liquid.sources.0: would be about 6.5e+13 particles (at most 2e+08 are possible); use a larger grid.cell than 0.0001 cm"},
+    {"EmitEmpty", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      emit: []
+)",
+     "bad.yaml:5: liquid.sources.0.emit: is empty; remove it, or give a span like {from: 0, to: 0.5}"},
+    {"EmitBackwards", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      emit: [{from: 1, to: 0.5}]
+)",
+     "bad.yaml:5: liquid.sources.0.emit.0: to must be after from"},
+    {"EmitBeforeStart", R"(grid: {cell: 0.1}
+time: {start: 2}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      emit: [{from: 0, to: 1}]
+)",
+     "bad.yaml:6: liquid.sources.0.emit.0: ends at 1 s, before the run starts at 2 s"},
+    {"EmitWithoutEnd", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      emit: [{from: 1}]
+)",
+     "bad.yaml:5: liquid.sources.0.emit.0.to is missing; it is the end of the span in which the source gives liquid, like to: 0.5"},
+    {"FillUnknown", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      fill: latice
+)",
+     "bad.yaml:5: liquid.sources.0.fill.pattern: \"latice\" is unknown (did you mean \"lattice\"?)"},
+    {"SeedNegative", R"(grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      fill: {seed: -1}
+)",
+     "bad.yaml:5: liquid.sources.0.fill.seed: needs a whole number, 0 or more, not \"-1\""},
+    {"ObstaclesIsMap", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles: {tank: 1}
+)",
+     "bad.yaml:3: obstacles: needs a list like [{shape: …}], not a map"},
+    {"ObstacleInsideIsWord", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles: [{shape: {ball: {center: [9, 0, 0], radius: 1}}, inside: maybe}]
+)",
+     "bad.yaml:3: obstacles.0.inside: needs true or false, not \"maybe\""},
+    {"MotionBackwards", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {t: [1, 0], translate: [0, 1, 0]}
+)",
+     "bad.yaml:6: obstacles.paddle.motion.t: must end after it begins"},
+    {"MotionEases", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {t: [0, 1], ease: [0.6, 0.6], translate: [0, 1, 0]}
+)",
+     "bad.yaml:6: obstacles.paddle.motion.ease: both together must fit into t"},
+    {"MotionOfNothing", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {t: [0, 1]}
+)",
+     "bad.yaml:6: obstacles.paddle.motion: needs one of translate, rotate, oscillate, keys"},
+    {"MotionOfBoth", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {t: [0, 1], translate: [0, 1, 0], rotate: {angle: 90}}
+)",
+     "bad.yaml:6: obstacles.paddle.motion: needs one of translate, rotate, oscillate, keys"},
+    {"MotionWithoutSpan", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {translate: [0, 1, 0]}
+)",
+     "bad.yaml:6: obstacles.paddle.motion: t is missing; it is the span of time, like t: [0, 0.2]"},
+    {"MotionKeysBackwards", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {keys: [[0, 0, 0, 0], [1, 1, 0, 0], [1, 2, 0, 0]]}
+)",
+     "bad.yaml:6: obstacles.paddle.motion.keys: times must ascend"},
+    {"MotionKeysShort", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {keys: [[0, 0, 0, 0], [1, 1, 0]]}
+)",
+     "bad.yaml:6: obstacles.paddle.motion.keys: a row is [t, x, y, z], not a list of 3"},
+    {"MotionAngleWithoutAmplitude", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+obstacles:
+  - name: paddle
+    shape: {ball: {center: [9, 0, 0], radius: 1}}
+    motion: {t: [0, 1], oscillate: {frequency: 2}}
+)",
+     "bad.yaml:6: obstacles.paddle.motion.oscillate.amplitude is missing; it is how far it swings to each side, a length (with axis: an angle)"},
+    {"MotionOfNobody", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+motion: [{obstacle: paddel, t: [0, 1], translate: [0, 1, 0]}]
+)",
+     "bad.yaml:3: motion: no obstacle is named \"paddel\""},
+    {"MotionNameless", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+motion: [{t: [0, 1], translate: [0, 1, 0]}]
+)",
+     "bad.yaml:3: motion: obstacle is missing; it is the name of what moves, like obstacle: paddle"},
+};
+
+class BadBodies : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadBodies, SayWhereWhatAndWhatWouldDo)
+{
+    expectItsMessage(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(LoadScene, BadBodies, testing::ValuesIn(kBadScenes),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+}  // namespace

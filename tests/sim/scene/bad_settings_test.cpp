@@ -1,0 +1,335 @@
+#include "tests/sim/scene/bad_scene.h"
+
+// Syntax, sections, numbers and words.
+
+namespace {
+
+const BadScene kBadScenes[] = {
+    {"Empty", "",
+     "bad.yaml: the file is empty; a scene needs at least grid and one source"},
+    {"OnlyAComment", "# nothing\n",
+     "bad.yaml: the file is empty; a scene needs at least grid and one source"},
+    {"NoMap", R"(- 1
+- 2
+)",
+     "bad.yaml:1: a scene is a map of sections, not a list of 2"},
+    {"AWord", "hello\n",
+     "bad.yaml:1: a scene is a map of sections, not \"hello\""},
+    {"SecondDocument", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+---
+grid: {cell: 0.1}
+)",
+     "bad.yaml:4: a second document (after ---); one file holds one scene"},
+    {"UnclosedBracket", R"(grid: {cell: 0.1
+liquid: 1
+)",
+     "bad.yaml:2: not valid YAML: end of map flow not found"},
+    {"Truncated", R"(grid:
+  cell: 0.1
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0,)",
+     "bad.yaml:5: not valid YAML: end of sequence flow not found"},
+    {"BadIndentation", R"(grid:
+  cell: 0.1
+ liquid: 1
+)",
+     "bad.yaml:3: not valid YAML: end of map not found"},
+    {"Tab", "grid:\n\tcell: 0.1\n",
+     "bad.yaml:2: a tab in the indentation; YAML wants spaces there"},
+    {"ControlByte", "grid: {cell: 0.1}\nscene: {name: \x01}\n",
+     "bad.yaml:2: a byte that is no text (not UTF-8); a scene is a YAML text file"},
+    {"DuplicateKey", R"(grid: {cell: 0.1}
+time: {dt: 1, duration: 1}
+grid: {cell: 0.2}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:3: key \"grid\" is given twice, first in line 1; keep one"},
+    {"DuplicateNestedKey", R"(grid: {cell: 0.1}
+time:
+  dt: 1
+  duration: 2
+  dt: 3
+)",
+     "bad.yaml:5: key \"dt\" is given twice, first in line 3; keep one"},
+    {"KeyIsList", R"(grid: {cell: 0.1}
+? [a, b]
+: 1
+)",
+     "bad.yaml:2: a key must be a word, not a list of 2"},
+    {"UndefinedAlias", R"(grid: {cell: 0.1}
+gravity: *down
+)",
+     "bad.yaml:2: not valid YAML: the referenced anchor is not defined"},
+    {"AliasInItself", "a: &x [*x]\n",
+     "bad.yaml:1: this alias stands inside its own anchor; write the value out"},
+    {"AliasBomb", R"(a: &a [x,x,x,x,x,x,x,x,x,x]
+b: &b [*a,*a,*a,*a,*a,*a,*a,*a,*a,*a]
+c: &c [*b,*b,*b,*b,*b,*b,*b,*b,*b,*b]
+d: &d [*c,*c,*c,*c,*c,*c,*c,*c,*c,*c]
+e: &e [*d,*d,*d,*d,*d,*d,*d,*d,*d,*d]
+f: &f [*e,*e,*e,*e,*e,*e,*e,*e,*e,*e]
+)",
+     "bad.yaml:6: more than 500000 values, aliases copied out; a scene has hundreds"},
+    {"TooDeep", "a: [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]\n",
+     "bad.yaml:1: more than 48 levels of nesting"},
+    {"NewerSchema", R"(drench: 2
+future: 1
+)",
+     "bad.yaml:1: this scene wants schema version 2, this program reads version 1; use a newer drench"},
+    {"NoSchemaVersion", "drench: one\n",
+     "bad.yaml:1: drench: \"one\" is no schema version; write drench: 1"},
+    {"UnknownUnits", R"(units: imperial
+grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:1: units: \"imperial\" is unknown; write cgs or si"},
+    {"NoGrid", "liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}\n",
+     "bad.yaml:1: grid is missing; it is where the size of cells stands, like grid: {cell: 0.288}"},
+    {"NoCell", R"(grid: {}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:1: grid.cell is missing; it is the edge of a grid cell, like cell: 0.288"},
+    {"NearKey", R"(grid: {cell: 0.1}
+time:
+  dtt: 0.1
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:3: unknown key \"dtt\" in time (did you mean \"dt\"?)"},
+    {"NearKeyInLiquid", R"(grid: {cell: 0.1}
+liquid:
+  viscocity: 1
+)",
+     "bad.yaml:3: unknown key \"viscocity\" in liquid (did you mean \"viscosity\"?)"},
+    {"FarKey", R"(grid: {cell: 0.1}
+solver: {bananas: 1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: unknown key \"bananas\" in solver (there is pressure_tolerance, max_iterations, viscosity_tolerance, wicking_substeps)"},
+    {"NearSection", R"(gird: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:1: unknown key \"gird\" (did you mean \"grid\"?)"},
+    {"DottedKey", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+time.dt: 0.1
+)",
+     "bad.yaml:3: unknown key \"time.dt\"; dotted keys stand in variants and behind --set, write them as maps here"},
+    {"SectionIsNumber", R"(grid: {cell: 0.1}
+time: 5
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time: needs a map of keys, not \"5\""},
+    {"SectionIsEmpty", R"(grid: {cell: 0.1}
+time:
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time: needs a map of keys, not nothing"},
+    {"SectionIsList", R"(grid: {cell: 0.1}
+solver: [1]
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: solver: needs a map of keys, not a list of 1"},
+    {"NumberIsWord", R"(grid: {cell: 0.1}
+time: {dt: fast}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \"fast\" is no number; needs a time like 0.5 or \"0.5 s\""},
+    {"NumberIsList", R"(grid: {cell: 0.1}
+time: {dt: [1, 2]}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: needs a time, not a list of 2"},
+    {"NumberIsMap", R"(grid: {cell: 0.1}
+time: {dt: {a: 1}}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: needs a time, not a map"},
+    {"NumberIsNull", R"(grid: {cell: 0.1}
+time: {dt: }
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: needs a time, not nothing"},
+    {"NumberIsBool", R"(grid: {cell: 0.1}
+time: {dt: true}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \"true\" is no number; needs a time like 0.5 or \"0.5 s\""},
+    {"Nan", R"(grid: {cell: 0.1}
+time: {dt: nan}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \"nan\" is not finite; write a number"},
+    {"YamlNan", R"(grid: {cell: 0.1}
+time: {dt: .nan}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \".nan\" is not finite; write a number"},
+    {"Inf", R"(grid: {cell: 0.1}
+time: {duration: inf}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.duration: \"inf\" is not finite; write a number"},
+    {"YamlInf", R"(grid: {cell: 0.1}
+gravity: [0, -.inf, 0]
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: gravity: \"-.inf\" is not finite; write a number"},
+    {"Huge", R"(grid: {cell: 0.1}
+time: {duration: 1e999}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.duration: \"1e999\" is out of the range of numbers"},
+    {"HugeInUnits", R"(grid: {cell: 0.1}
+time: {duration: 1e308 Gs}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.duration: \"1e308 Gs\" is out of the range of numbers"},
+    {"NegativeDt", R"(grid: {cell: 0.1}
+time:
+  dt: -0.1
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:3: time.dt: \"-0.1\" is out of range; must be above 0 s"},
+    {"ZeroCell", R"(grid: {cell: 0}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:1: grid.cell: \"0\" is out of range; must be above 0 cm"},
+    {"NegativeCell", R"(grid: {cell: -1 mm}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:1: grid.cell: \"-1 mm\" is out of range; must be above 0 cm"},
+    {"NegativeDuration", R"(grid: {cell: 0.1}
+time: {duration: -1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.duration: \"-1\" is out of range; must be at least 0 s"},
+    {"DtMinAboveDt", R"(grid: {cell: 0.1}
+time: {dt: 1.0e-3, dt_min: 1.0e-2}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt_min: must not be above time.dt"},
+    {"UnknownMode", R"(grid: {cell: 0.1}
+time: {mode: adaptve}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.mode: \"adaptve\" is unknown (did you mean \"adaptive\"?)"},
+    {"ModeIsList", R"(grid: {cell: 0.1}
+time: {mode: [fixed]}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.mode: needs one word of fixed, cfl, adaptive, not a list of 1"},
+    {"LaterIntegrator", R"(grid: {cell: 0.1}
+time: {integrator: reflected}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.integrator: reflected does not run in this version; write plain"},
+    {"LaterViscosity", R"(grid: {cell: 0.1}
+liquid: {solve_viscosity: true}
+)",
+     "bad.yaml:2: liquid.solve_viscosity: true does not run in this version; write false"},
+    {"ModesZero", R"(grid: {cell: 0.1}
+transfer: {modes: 0}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.modes: 0 is out of range; must be 1 to 27"},
+    {"Modes28", R"(grid: {cell: 0.1}
+transfer: {modes: {liquid: 8, fabric: 28}}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.modes.fabric: 28 is out of range; must be 1 to 27"},
+    {"ModesFraction", R"(grid: {cell: 0.1}
+transfer: {modes: 8.5}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.modes: needs a whole number, 1 to 27, not \"8.5\""},
+    {"MethodUnknown", R"(grid: {cell: 0.1}
+transfer: apicc
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.method: \"apicc\" is unknown (did you mean \"apic\"?)"},
+    {"PhaseUnknown", R"(grid: {cell: 0.1}
+transfer: {method: {liquid: apic, cloth: pic}}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: unknown key \"cloth\" in transfer.method (there is liquid, fabric)"},
+    {"FlagIsNumber", R"(grid: {cell: 0.1}
+transfer: {damp_modes: 1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.damp_modes: needs true or false, not \"1\""},
+    {"KeepAboveOne", R"(grid: {cell: 0.1}
+transfer: {keep: {liquid_affine: 1.1}}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.keep.liquid_affine: \"1.1\" is out of range; must be 0 to 1"},
+    {"KeepDtWord", R"(grid: {cell: 0.1}
+transfer: {keep_dt: never}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: transfer.keep_dt: \"never\" is no number; needs a time like 0.5 or \"0.5 s\""},
+    {"VectorTooShort", R"(grid: {cell: 0.1}
+gravity: [0, -981]
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: gravity: needs a list of 3 numbers, like [0, 1, 0], not a list of 2"},
+    {"VectorIsNumber", R"(grid: {cell: 0.1}
+gravity: -981
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: gravity: needs a list of 3 numbers, like [0, 1, 0], not \"-981\""},
+    {"VectorOfWords", R"(grid: {cell: 0.1}
+gravity: [a, b, c]
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: gravity: \"a\" is no number; needs an acceleration like 0.5 or \"0.5 cm/s^2\""},
+    {"WrongDimension", R"(grid: {cell: 0.1}
+time: {dt: 3 cm}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \"3 cm\" is a length, needs a time (in s)"},
+    {"UnknownUnit", R"(grid: {cell: 0.1}
+time: {dt: 3 parsec}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \"3 parsec\" has the unknown unit \"parsec\"; needs a time like 0.5 or \"0.5 s\""},
+    {"UnitOfPlainNumber", R"(grid: {cell: 0.1}
+time: {cfl: 3 cm}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.cfl: \"3 cm\" is a length, needs a plain number"},
+    {"StrangeDimension", R"(grid: {cell: 0.1}
+time: {dt: 3 g cm}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:2: time.dt: \"3 g cm\" is a different quantity, needs a time (in s)"},
+    {"LengthForAngle", R"(grid: {cell: 0.1}
+liquid: {contact_angle: 2 cm}
+)",
+     "bad.yaml:2: liquid.contact_angle: \"2 cm\" is a length, needs an angle (in deg)"},
+    {"UnknownPreset", R"(grid: {cell: 0.1}
+liquid: {preset: watr}
+)",
+     "bad.yaml:2: liquid.preset: \"watr\" is unknown (did you mean \"water\"?)"},
+    {"FrictionAboveOne", R"(grid: {cell: 0.1}
+liquid: {wall_friction: 2}
+)",
+     "bad.yaml:2: liquid.wall_friction: \"2\" is out of range; must be 0 to 1"},
+    {"SpacingZero", R"(grid: {cell: 0.1}
+liquid: {particle_spacing: 0}
+)",
+     "bad.yaml:2: liquid.particle_spacing: \"0\" is out of range; must be above 0, at most 1"},
+};
+
+class BadSettings : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSettings, SayWhereWhatAndWhatWouldDo)
+{
+    expectItsMessage(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(LoadScene, BadSettings, testing::ValuesIn(kBadScenes),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+}  // namespace

@@ -1,0 +1,247 @@
+#include "tests/sim/scene/bad_scene.h"
+
+// Sections of later versions, pictures, variants and overrides.
+
+namespace {
+
+const BadScene kBadScenes[] = {
+    {"Fabrics", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+fabrics:
+  - {name: cloth}
+)",
+     "bad.yaml:3: fabrics: this version simulates liquid only; remove the section"},
+    {"Changes", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+changes: []
+)",
+     "bad.yaml:3: changes: this version cannot change settings during a run; remove the section"},
+    {"Sinks", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+sinks: []
+)",
+     "bad.yaml:3: sinks: this version has no sinks; use domain to delete liquid outside of a shape"},
+    {"SceneName", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+scene: {name: Dam Break!}
+)",
+     "bad.yaml:3: scene.name: \"Dam Break!\" may have a-z, 0-9 and _ only; dam_break_ would do"},
+    {"TagsIsWord", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+scene: {tags: paper}
+)",
+     "bad.yaml:3: scene.tags: needs a list of words, not \"paper\""},
+    {"IncludeIsNumberMap", R"(include: {a: 1}
+grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml:1: include names files, like [dam_break.yaml], not a map"},
+    {"RenderUnknownKey", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {colour: 1}
+)",
+     "bad.yaml:3: unknown key \"colour\" in render (there is size, background, camera, liquid, obstacles, hud, colorbar, samples)"},
+    {"RenderSurface", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {liquid: {style: surface}}
+)",
+     "bad.yaml:3: render.liquid.style: surface does not run in this version; write points or spheres"},
+    {"RenderYarns", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {yarns: {tube_sides: 8}}
+)",
+     "bad.yaml:3: render.yarns: this version draws liquid and obstacles only; remove the section"},
+    {"RenderSize", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {size: [960]}
+)",
+     "bad.yaml:3: render.size: needs a list of 2 whole numbers, like [960, 540], not a list of 1"},
+    {"RenderSizeZero", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {size: [0, 540]}
+)",
+     "bad.yaml:3: render.size: 0 is out of range; must be 16 to 16384"},
+    {"BackgroundOutOfRange", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {background: [255, 255, 255]}
+)",
+     "bad.yaml:3: render.background: \"255\" is out of range; must be 0 to 1"},
+    {"RangeBackwards", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {liquid: {range: [200, 0]}}
+)",
+     "bad.yaml:3: render.liquid.range: must end above its beginning"},
+    {"EyeWithoutLookAt", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {camera: {eye: [0, 0, 1]}}
+)",
+     "bad.yaml:3: render.camera.eye: goes with look_at; give both"},
+    {"OrbitAndEye", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {camera: {eye: [0, 0, 1], look_at: [0, 0, 0], orbit: {target: [0, 0, 0], distance: 5}}}
+)",
+     "bad.yaml:3: render.camera.orbit: goes without look_at and eye; keep one of them"},
+    {"OutputGeometry", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {data: [energy, geometry]}
+)",
+     "bad.yaml:3: output.data: geometry does not run in this version; there is energy, stats"},
+    {"OutputDataUnknown", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {data: [enrgy]}
+)",
+     "bad.yaml:3: output.data: \"enrgy\" is unknown (did you mean \"energy\"?)"},
+    {"OutputEveryZero", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {every: 0}
+)",
+     "bad.yaml:3: output.every: \"0\" is out of range; must be above 0 s"},
+    {"OutputFrames", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {frames: jpg}
+)",
+     "bad.yaml:3: output.frames: \"jpg\" is unknown (there is png, none)"},
+    {"Codec", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {video: {codec: 'x; rm'}}
+)",
+     "bad.yaml:3: output.video.codec: may have letters, digits, _ and - only, like libx264"},
+    {"ReferenceUnknown", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: {transfer.method: [pic, apic]}, reference: apicc}
+)",
+     "bad.yaml:3: compare.reference: \"apicc\" is the label of no variant (did you mean \"apic\"?)"},
+    {"VariantsEmpty", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: []}
+)",
+     "bad.yaml:3: compare.variants must list variants, or map keys to lists of values, not an empty list"},
+    {"VariantsProductOfWord", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: {transfer.method: pic}}
+)",
+     "bad.yaml:3: compare.variants.transfer.method must be a list of values to try, not \"pic\""},
+    {"VariantWithoutLabel", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: [{transfer.method: pic}]}
+)",
+     "bad.yaml:3: a variant needs a label, like label: APIC"},
+    {"VariantNameTwice", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare:
+  variants:
+    - {label: PIC, transfer.method: pic}
+    - {label: pic, transfer.method: pic}
+)",
+     "bad.yaml:6: two variants are named \"pic\"; give one of them another name"},
+    {"VariantNamedDefault", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: [{label: Default, transfer.method: pic}]}
+)",
+     "bad.yaml:3: a variant cannot be named default: that is the scene without a variant"},
+    {"VariantName", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: [{name: A-B, label: x}]}
+)",
+     "bad.yaml:3: variant name \"A-B\" may have a-z, 0-9 and _ only; a_b would do"},
+    {"VariantUnknown", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare:
+  variants:
+    - {label: PIC, transfer.method: pic}
+    - {label: Bad, transfer.method: picc}
+    - {label: Typo, tranfer.method: pic}
+    - {label: Gone, liquid.sources.column.fill: lattice}
+)",
+     "bad.yaml: no variant \"nothing\"; there is pic, bad, typo, gone", "nothing"},
+    {"VariantOfNone", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "bad.yaml: no variant \"pic\": the scene has none", "pic"},
+    {"VariantBadValue", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare:
+  variants:
+    - {label: PIC, transfer.method: pic}
+    - {label: Bad, transfer.method: picc}
+    - {label: Typo, tranfer.method: pic}
+    - {label: Gone, liquid.sources.column.fill: lattice}
+)",
+     "bad.yaml:6: transfer.method: \"picc\" is unknown (did you mean \"pic\"?)", "bad"},
+    {"VariantBadKey", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare:
+  variants:
+    - {label: PIC, transfer.method: pic}
+    - {label: Bad, transfer.method: picc}
+    - {label: Typo, tranfer.method: pic}
+    - {label: Gone, liquid.sources.column.fill: lattice}
+)",
+     "bad.yaml:7: unknown key \"tranfer\" (did you mean \"transfer\"?)", "typo"},
+    {"VariantBadElement", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare:
+  variants:
+    - {label: PIC, transfer.method: pic}
+    - {label: Bad, transfer.method: picc}
+    - {label: Typo, tranfer.method: pic}
+    - {label: Gone, liquid.sources.column.fill: lattice}
+)",
+     "bad.yaml:8: liquid.sources has no element \"column\"; it has 1, counted from 0", "gone"},
+    {"SetWithoutEquals", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set time.dt: an override reads key.key=value, like transfer.method=apic", "", {"time.dt"}},
+    {"SetWithoutKey", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set =3: an override reads key.key=value, like transfer.method=apic", "", {"=3"}},
+    {"SetWithoutValue", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set time.dt=: no value after the = sign", "", {"time.dt="}},
+    {"SetEmptyPart", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set time..dt=3: \"time..dt\" is no path of keys; write key.key, like transfer.method", "", {"time..dt=3"}},
+    {"SetBadYaml", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set time.dt=[1: not valid YAML: end of sequence flow not found", "", {"time.dt=[1"}},
+    {"SetUnknownKey", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set time.dtt=3: unknown key \"dtt\" in time (did you mean \"dt\"?)", "", {"time.dtt=3"}},
+    {"SetBadValue", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set time.dt=-3: time.dt: \"-3\" is out of range; must be above 0 s", "", {"time.dt=-3"}},
+    {"SetThroughNumber", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set grid.cell.size=3: grid.cell is \"0.1\", it has no key \"size\"", "", {"grid.cell.size=3"}},
+    {"SetElementOutOfRange", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set liquid.sources.1.fill=lattice: liquid.sources has no element \"1\"; it has 1, counted from 0", "", {"liquid.sources.1.fill=lattice"}},
+    {"SetElementNamed", R"(grid: {cell: 0.1}
+liquid: {sources: [{name: column, shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set liquid.sources.colum.fill=lattice: liquid.sources has no element \"colum\" (did you mean \"column\"?)", "", {"liquid.sources.colum.fill=lattice"}},
+    {"SetUnits", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+)",
+     "--set units=si: units belongs to a file and cannot be overridden", "", {"units=si"}},
+};
+
+class BadVariants : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadVariants, SayWhereWhatAndWhatWouldDo)
+{
+    expectItsMessage(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(LoadScene, BadVariants, testing::ValuesIn(kBadScenes),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+}  // namespace
