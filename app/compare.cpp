@@ -16,6 +16,8 @@ namespace app {
 
 namespace {
 
+constexpr int kSheetRows = 6;  ///< times in a contact sheet
+
 std::string names(const std::vector<Variant>& variants)
 {
     std::vector<std::string> all;
@@ -100,7 +102,7 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
     return arguments;
 }
 
-void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames,
+void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,
                   const std::filesystem::path& folder, const std::function<bool()>& stopWanted)
 {
     if (pictures.compare.table) {
@@ -113,9 +115,11 @@ void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& p
         fmt::print("\n{}\n", table);
     }
     if (pictures.compare.energyPlot) drawEnergies(runs, folder);
-    if (!pictures.compare.video || !withFrames) return;
+    if (!withFrames) return;
     std::vector<FrameSequence> sequences;
     for (const auto& run : runs) sequences.push_back(sequenceOf(run));
+    if (pictures.compare.sheet) composeSheet(sequences, kSheetRows, pictures, parts, folder);
+    if (!withVideo || !pictures.compare.video) return;
     const auto made = composeSideBySide(sequences, pictures.output.every, pictures, parts, folder, stopWanted);
     if (!made.empty()) fmt::print("side by side: {}\n", made.string());
 }

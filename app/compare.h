@@ -27,8 +27,8 @@ bool isDone(const ComparedRun& run, bool withFrames);
 /// The command line of one variant's own process.
 std::vector<std::string> runArguments(const ComparedRun& run, const Options& options);
 
-/// Side-by-side video, energy plot with its CSV, and table of runs that are done, as the scene wishes.
-void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames,
+/// Table, energy plot with its CSV, contact sheet and side-by-side video of runs that are done, as the scene wishes.
+void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,
                   const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
 
 }  // namespace app

@@ -48,7 +48,7 @@ render::Look lookOf(const RenderSettings& settings, const std::string& label, bo
     look.liquid.range = rangeOf(settings);
     look.obstacles.style = obstacleStyleOf(settings.obstacleStyle);
     look.obstacles.opacity = static_cast<float>(settings.obstacleOpacity);
-    look.overlay.label = settings.hud ? label : "";
+    look.overlay.label = settings.hud && !asPanel ? label : "";
     look.overlay.timeStamp = settings.hud && !asPanel;
     look.overlay.colorBar = settings.colorBar && !asPanel;
     look.overlay.colorBarTitle = kColorBarTitle;
@@ -99,29 +99,33 @@ DrawFrame startOffscreenRenderer(const SceneSetup& setup, bool asPanel)
     };
 }
 
-SideBySide putSideBySide(const std::vector<Panel>& panels, const PictureSettings& pictures, double time)
+RgbPicture putSideBySide(const std::vector<Panel>& panels, const PictureSettings& pictures, double time)
 {
     std::vector<render::Image> images;
     std::vector<std::string> labels;
     for (const auto& panel : panels) {
         images.push_back(render::readPng(panel.picture));
-        if (!pictures.render.hud) labels.push_back(panel.label);  // else every panel bears its own
+        labels.push_back(panel.label);
     }
     const auto& settings = pictures.render;
     render::ComposeLook look;
     look.layout = pictures.compare.layout == CompareLayout::Rows   ? render::PanelLayout::Rows
                   : pictures.compare.layout == CompareLayout::Grid ? render::PanelLayout::Grid
                                                                    : render::PanelLayout::Columns;
-    look.time = time;
+    if (settings.hud) look.time = time;
     if (settings.colorBar && settings.colorBy == ColorBy::Speed)
         look.colorBar = render::ColorBar{.map = colorMapOf(settings.colorMap), .range = rangeOf(settings), .title = kColorBarTitle};
     look.background = render::toRgb(settings.background);
     const render::Font font;
-    auto image = std::make_shared<render::Image>(render::compose(images, labels, font, look).image);
-    return {.width = image->width,
-            .height = image->height,
-            .rgb = image->pixels,
-            .writePng = [image](const std::filesystem::path& file) { render::writePng(*image, file); }};
+    render::Image image = render::compose(images, labels, font, look).image;
+    return {.width = image.width, .height = image.height, .rgb = std::move(image.pixels)};
+}
+
+void writeRgbPng(const RgbPicture& picture, const std::filesystem::path& file)
+{
+    render::Image image(picture.width, picture.height);
+    image.pixels = picture.rgb;
+    render::writePng(image, file);
 }
 
 }  // namespace app

@@ -6,10 +6,12 @@ namespace app {
 
 /// A renderer without a window, for the calling thread, that draws frames as the scene's file says.
 /// A camera that frames everything is placed by the first frame and stays.
-/// @param asPanel  without the colour bar and time that stand beside all panels of a comparison
+/// @param asPanel  without the label, time and colour bar that putSideBySide() puts around all panels of a comparison
 DrawFrame startOffscreenRenderer(const SceneSetup& setup, bool asPanel);
 
-/// Panels of one time side by side, with the time and one colour bar for all.
-SideBySide putSideBySide(const std::vector<Panel>& panels, const PictureSettings& pictures, double time);
+/// Panels of one time side by side, each under its label, with the time and one colour bar for all.
+RgbPicture putSideBySide(const std::vector<Panel>& panels, const PictureSettings& pictures, double time);
+
+void writeRgbPng(const RgbPicture& picture, const std::filesystem::path& file);
 
 }  // namespace app

@@ -50,7 +50,8 @@ Parts drenchParts()
             .startSimulation = [](const SceneSetup& setup) { return std::make_unique<RealSimulation>(setup.scene); },
             .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
             .startRenderer = startOffscreenRenderer,
-            .putSideBySide = putSideBySide};
+            .putSideBySide = putSideBySide,
+            .writePng = writeRgbPng};
 }
 
 }  // namespace app

@@ -80,12 +80,13 @@ std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, 
                              const std::string& picture)
 {
     const std::string unit = scale == 0 ? "erg" : fmt::format("10^{{{}}} erg", scale);
-    return fmt::format("set terminal pngcairo size 1650,560 font 'DejaVu Sans,12' linewidth 1\n"
+    return fmt::format("set terminal pngcairo size 1650,580 font 'DejaVu Sans,12' linewidth 1\n"
                        "set output {}\n"
                        "set datafile separator ','\n"
-                       "set multiplot layout 1,3 title {} noenhanced font ',14'\n"
+                       "set multiplot layout 1,3 margins 0.06,0.985,0.24,0.86 spacing 0.06 title {} noenhanced font ',14'\n"
                        "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
-                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\nset key top right samplen 2 spacing 1.1\n",
+                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
+                       "set key at screen 0.5,0.045 center center horizontal samplen 2\n",
                        quoted(picture), quoted(title), unit) +
            panel(curves, "kinetic", "$2+$3", scale) + "unset key\nunset ylabel\n" + panel(curves, "potential", "$4", scale) +
            panel(curves, "total", "$5", scale) + "unset multiplot\n";

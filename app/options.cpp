@@ -45,7 +45,7 @@ void addVerbs(CLI::App& program, Options& options)
     addScene(*run, options);
     addVariant(*run, options);
     addOutput(*run, options);
-    run->add_flag("--panel", options.asPanel, "pictures without colour bar and time, to stand beside others");
+    run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
     run->callback([&options] { options.verb = Verb::Run; });
 
     auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");

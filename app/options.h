@@ -20,7 +20,7 @@ struct Options {
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
     int threads = 1;                     ///< run, compare
     bool frames = true, video = true;
-    bool asPanel = false;                ///< pictures are to stand beside others: no colour bar of their own
+    bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     bool force = false;                  ///< compare: redo variants that are done
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
 

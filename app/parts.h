@@ -26,11 +26,10 @@ class Steppable {
 /// Puts the triangles of every obstacle where they are at a time [s], reusing the storage.
 using PlaceObstacles = std::function<void(double time, std::vector<FrameSnapshot::Mesh>&)>;
 
-/// Pictures of one time, one per variant, put together into one.
-struct SideBySide {
+/// Pixels of a picture made of others.
+struct RgbPicture {
     int width = 0, height = 0;               ///< [pixels]
     std::vector<std::uint8_t> rgb;           ///< rows from the top, 3 · width · height
-    std::function<void(const std::filesystem::path&)> writePng;
 };
 
 struct Panel {
@@ -43,9 +42,11 @@ struct Parts {
     std::function<SceneSetup(const SceneRequest&)> loadScene;                       ///< throws InputError
     std::function<std::unique_ptr<Steppable>(const SceneSetup&)> startSimulation;   ///< throws InputError
     std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
-    /// Called on the thread that will draw. Panels of a comparison have no colour bar and time of their own.
+    /// Called on the thread that will draw. Panels of a comparison have no label, time and colour bar of their own.
     std::function<DrawFrame(const SceneSetup&, bool asPanel)> startRenderer;
-    std::function<SideBySide(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
+    /// Pictures of one time [s], one per variant, put together into one; always of the same size for the same panels.
+    std::function<RgbPicture(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
+    std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;   ///< whole or not at all
 };
 
 /// The real ones.

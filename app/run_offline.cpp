@@ -89,11 +89,12 @@ try {
 
 RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
 {
+    // First what the user may have got wrong: earlier results stay until this run can begin.
+    const auto simulation = parts.startSimulation(setup);
     claimFolder(options.out, {setup.scene.name, setup.variant});
     Reports reports(options.out, setup, options.contentHash, options.threads);
     try {
         writeWhole(options.out / "resolved.yaml", setup.resolved);
-        const auto simulation = parts.startSimulation(setup);
         reports.initial(simulation->state(), simulation->energies());
         FrameSink sink(setup, parts, options);
         const bool ended = runFrames(setup, options, *simulation, sink, reports);

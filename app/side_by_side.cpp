@@ -8,16 +8,28 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace app {
 
 namespace {
 
-SideBySide pictureAt(double time, const std::vector<FrameSequence>& sequences, const PictureSettings& pictures, const Parts& parts)
+RgbPicture pictureAt(double time, const std::vector<FrameSequence>& sequences, const PictureSettings& pictures, const Parts& parts)
 {
     std::vector<Panel> panels;
     for (const auto& s : sequences) panels.push_back({s.folder / frameFileName(s.frameAt(time)), s.label});
     return parts.putSideBySide(panels, pictures, time);
+}
+
+/// When the first sequence begins and the last one ends [s].
+std::pair<double, double> span(const std::vector<FrameSequence>& sequences)
+{
+    double start = sequences.front().start, end = start;
+    for (const auto& s : sequences) {
+        start = std::min(start, s.start);
+        end = std::max(end, s.start + static_cast<double>(s.last) * s.every);
+    }
+    return {start, end};
 }
 
 /// Remove the pictures of an earlier comparison that had more of them.
@@ -37,11 +49,7 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
                                         const Parts& parts, const std::filesystem::path& folder,
                                         const std::function<bool()>& stopWanted)
 {
-    double start = sequences.front().start, end = start;
-    for (const auto& s : sequences) {
-        start = std::min(start, s.start);
-        end = std::max(end, s.start + static_cast<double>(s.last) * s.every);
-    }
+    const auto [start, end] = span(sequences);
     const bool asVideo = canMakeVideos();
     const auto target = folder / (asVideo ? "compare.mp4" : "side_by_side");
     if (!asVideo) {
@@ -53,9 +61,9 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
     const std::int64_t pictureCount = std::llround((end - start) / every) + 1;
     for (std::int64_t n = 0; n < pictureCount; ++n) {
         if (stopWanted()) return {};
-        const SideBySide picture = pictureAt(start + static_cast<double>(n) * every, sequences, pictures, parts);
+        const RgbPicture picture = pictureAt(start + static_cast<double>(n) * every, sequences, pictures, parts);
         if (!asVideo) {
-            picture.writePng(target / frameFileName(n));
+            parts.writePng(picture, target / frameFileName(n));
             continue;
         }
         if (!video)
@@ -65,6 +73,20 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
     }
     if (video) video->finish();
     return target;
+}
+
+void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Parts& parts,
+                  const std::filesystem::path& folder)
+{
+    const auto [start, end] = span(sequences);
+    RgbPicture sheet;
+    for (int row = 0; row < rows; ++row) {
+        const RgbPicture picture = pictureAt(std::lerp(start, end, row / std::max(1.0, rows - 1.0)), sequences, pictures, parts);
+        sheet.width = picture.width;
+        sheet.height += picture.height;
+        sheet.rgb.insert(sheet.rgb.end(), picture.rgb.begin(), picture.rgb.end());
+    }
+    parts.writePng(sheet, folder / "sheet.png");
 }
 
 }  // namespace app

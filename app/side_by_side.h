@@ -28,4 +28,8 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
                                         const Parts& parts, const std::filesystem::path& folder,
                                         const std::function<bool()>& stopWanted);
 
+/// The contact sheet, folder/sheet.png: pictures of `rows` times, evenly spread from beginning to end, one below the other.
+void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Parts& parts,
+                  const std::filesystem::path& folder);
+
 }  // namespace app

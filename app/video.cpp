@@ -14,8 +14,10 @@ namespace {
 /// From decoded pictures to a file any player takes. crf 16 shows no blocks in smooth colours.
 std::vector<std::string> outputArguments(const std::string& codec, const std::filesystem::path& part)
 {
+    // The comma inside min() is ffmpeg's own separator unless it is escaped; pictures that fit are left as they are.
+    const std::string fit = fmt::format("scale=w='min(iw\\,{0})':h='if(gt(iw\\,{0})\\,-2\\,ih)'", kMaxVideoWidth);
     return {"-an", "-c:v", codec, "-crf", "16", "-preset", "medium", "-pix_fmt", "yuv420p",
-            "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-movflags", "+faststart", "-f", "mp4", part.string()};
+            "-vf", fit + ",pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-movflags", "+faststart", "-f", "mp4", part.string()};
 }
 
 std::vector<std::string> ffmpegArguments(std::vector<std::string> input, const std::vector<std::string>& output)

@@ -14,8 +14,11 @@ namespace app {
 /// Is there an ffmpeg to make videos with?
 bool canMakeVideos();
 
+/// Players give up on wider videos: wider pictures are scaled down to it [pixels].
+inline constexpr int kMaxVideoWidth = 4096;
+
 struct VideoFormat {
-    int width = 0, height = 0;     ///< of the pictures [pixels]; a video's are even, so an odd edge gains a white line
+    int width = 0, height = 0;     ///< of the pictures [pixels]; see kMaxVideoWidth. An odd edge gains a white line
     double fps = 50.0;
     std::string codec = "libx264";
 };

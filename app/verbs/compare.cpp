@@ -46,7 +46,7 @@ int runVerbCompare(const Options& options, const Parts& parts)
         }
         done.push_back(run);
     }
-    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames && options.video, folder, stopWanted);
+    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, stopWanted);
     if (stopWanted()) return 1;
     if (done.size() == runs.size()) return 0;
     spdlog::error("{} of {} variants did not get to their end", runs.size() - done.size(), runs.size());

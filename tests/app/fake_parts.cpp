@@ -63,12 +63,15 @@ class ToySimulation : public Steppable {
     sim::State state_;
 };
 
-/// A small PNG, grey all over.
-void writePicture(const std::filesystem::path& file, std::uint8_t grey)
+void writePicture(const RgbPicture& picture, const std::filesystem::path& file)
 {
-    const std::vector<std::uint8_t> rgb(3 * kWidth * kHeight, grey);
-    if (stbi_write_png(file.c_str(), kWidth, kHeight, 3, rgb.data(), 3 * kWidth) == 0)
+    if (stbi_write_png(file.c_str(), picture.width, picture.height, 3, picture.rgb.data(), 3 * picture.width) == 0)
         throw std::runtime_error("cannot write " + file.string());
+}
+
+RgbPicture greyPicture(std::uint8_t grey)
+{
+    return {.width = kWidth, .height = kHeight, .rgb = std::vector<std::uint8_t>(3 * kWidth * kHeight, grey)};
 }
 
 std::uint8_t greyOf(const std::filesystem::path& file)
@@ -88,17 +91,16 @@ Picture drawToy(const ToySettings& toy, const FrameSnapshot& snapshot)
     return [toy, number](const std::filesystem::path& file) {
         wait(toy.writeMilliseconds);
         if (number == toy.failAtWriting) throw std::runtime_error("cannot write " + file.string() + ": No space left on device");
-        writePicture(file, static_cast<std::uint8_t>(number));
+        writePicture(greyPicture(static_cast<std::uint8_t>(number)), file);
     };
 }
 
-SideBySide putToysSideBySide(const std::vector<Panel>& panels)
+RgbPicture putToysSideBySide(const std::vector<Panel>& panels)
 {
-    SideBySide all;
+    RgbPicture all;
     all.width = kWidth * static_cast<int>(panels.size());
     all.height = kHeight;
     for (const auto& panel : panels) all.rgb.insert(all.rgb.end(), 3 * kWidth * kHeight, greyOf(panel.picture));
-    all.writePng = [grey = all.rgb.back()](const std::filesystem::path& file) { writePicture(file, grey); };
     return all;
 }
 
@@ -138,6 +140,7 @@ SceneSetup toySetup(const ToySettings& toy)
     setup.scene.settings.time.dt = toy.dt;
     setup.pictures.output.every = toy.every;
     setup.pictures.compare.variants = {{"a", "A", {}}, {"b", "B|2", {}}};
+    setup.pictures.compare.sheet = true;
     setup.resolved = fmt::format("duration: {}\nevery: {}\ndt: {}\nspeed: {}\n", toy.duration, toy.every, toy.dt, toy.speed);
     setup.identity = setup.resolved;
     return setup;
@@ -151,6 +154,7 @@ Parts toyParts(const ToySettings& toy)
     parts.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
     parts.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
     parts.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };
+    parts.writePng = writePicture;
     return parts;
 }
 

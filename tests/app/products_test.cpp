@@ -157,6 +157,19 @@ TEST(Video, IsAnMp4OfAllPictures)
     EXPECT_FALSE(std::filesystem::exists(folder / "video.mp4.part"));
 }
 
+TEST(Video, PicturesTooWideForPlayersAreScaledDown)
+{
+    const auto probe = findProgram("ffprobe");
+    if (!canMakeVideos() || !probe) GTEST_SKIP() << "no ffmpeg here";
+    TemporaryFolder folder;
+    VideoWriter video(folder / "video.mp4", {.width = 2 * kMaxVideoWidth, .height = 64, .fps = 50.0});
+    video.add(std::vector<std::uint8_t>(std::size_t{3} * 2 * kMaxVideoWidth * 64));
+    video.finish();
+    const ChildExit end = runChild(*findProgram("sh"), {"-c", "ffprobe -v error -show_entries stream=width,height -of csv=p=0 video.mp4 >&2"},
+                                   {.folder = folder.path()});
+    EXPECT_EQ(end.errorText, "4096,32\n");
+}
+
 TEST(Video, TellsWhyFfmpegFailed)
 {
     if (!canMakeVideos()) GTEST_SKIP() << "no ffmpeg here";

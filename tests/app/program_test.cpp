@@ -118,6 +118,7 @@ TEST_F(Program, CompareLeavesEveryVariantAndItsProducts)
     const auto out = folder.path() / "out/toy";
     EXPECT_NE(contentOf(out / "table.md").find("| B\\|2 |"), std::string::npos);
     EXPECT_EQ(test::linesOf(out / "energy.csv").size(), 1u + 2u * 10u);
+    EXPECT_TRUE(test::contentOf(out / "sheet.png").starts_with("\x89PNG"));
     EXPECT_EQ(std::filesystem::exists(out / "energy.png"), findProgram("gnuplot").has_value());
     EXPECT_EQ(std::filesystem::exists(out / "compare.mp4"), canMakeVideos());
 }

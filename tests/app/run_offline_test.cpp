@@ -182,6 +182,17 @@ TEST(RunOffline, AShorterRunLeavesNoFramesOfALongerOne)
     EXPECT_EQ(test::contentOf(folder / "notes.txt"), "mine") << "what is not ours stays";
 }
 
+TEST(RunOffline, ASceneThatCannotBeginLeavesEarlierResultsAlone)
+{
+    TemporaryFolder folder;
+    runToy({}, folder.path());
+    auto parts = test::toyParts({});
+    parts.startSimulation = [](const SceneSetup&) -> std::unique_ptr<Steppable> { throw sim::InputError("no room for a particle"); };
+    EXPECT_THROW(runOffline(test::toySetup({}), parts, {.out = folder.path(), .contentHash = ""}), sim::InputError);
+    EXPECT_EQ(reportOf(folder.path()).at("status"), "done");
+    EXPECT_TRUE(std::filesystem::exists(folder / frameFileName(5)));
+}
+
 TEST(OutputFolder, RefusesAFile)
 {
     TemporaryFolder folder;
