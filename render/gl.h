@@ -45,6 +45,7 @@
     X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)          \
     X(PFNGLGENTEXTURESPROC, GenTextures)                    \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)            \
+    X(PFNGLFINISHPROC, Finish)                              \
     X(PFNGLGETERRORPROC, GetError)                          \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                    \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)        \
