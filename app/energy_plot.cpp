@@ -83,7 +83,7 @@ std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, 
     return fmt::format("set terminal pngcairo size 1650,580 font 'DejaVu Sans,12' linewidth 1\n"
                        "set output {}\n"
                        "set datafile separator ','\n"
-                       "set multiplot layout 1,3 margins 0.06,0.985,0.24,0.86 spacing 0.06 title {} noenhanced font ',14'\n"
+                       "set multiplot layout 1,3 margins 0.085,0.985,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
                        "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
                        "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
                        "set key at screen 0.5,0.045 center center horizontal samplen 2\n",
