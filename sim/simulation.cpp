@@ -16,14 +16,14 @@ namespace sim {
 
 namespace {
 
-/// Reach of the relaxation: a little more than the spacing of the finest source (model-fluid 5.4) [cm].
+/// Reach of the relaxation: a little more than the spacing of the finest source (model-fluid 5.4), at most a cell [cm].
 double relaxReach(const Scene& scene)
 {
     const RelaxSettings& relax = scene.settings.liquid.relax;
     if (relax.rate == 0.0 || scene.sources.empty()) return 0.0;
     double radius = std::numeric_limits<double>::infinity();
     for (const SourceSettings& source : scene.sources) radius = std::min(radius, nominalRadius(source.fill, scene.settings.cell));
-    return relax.range * radius;
+    return std::min(relax.range * radius, scene.settings.cell);
 }
 
 }  // namespace
@@ -91,6 +91,7 @@ std::uint64_t stateHash(const State& state)
         add(state.pressure.block(b), kBlockCells * sizeof(double));
     }
     add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
+    add(&state.unrelaxed, sizeof state.unrelaxed);
     add(&state.ledger.emittedMass, sizeof(double));
     add(&state.ledger.leftMass, sizeof(double));
     add(state.ledger.leftMomentum.data(), 3 * sizeof(double));

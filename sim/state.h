@@ -15,6 +15,7 @@ struct State {
     BlockGrid grid;                ///< the blocks of the last step …
     BlockArray<double> pressure;   ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
     std::vector<double> emittedVolume;  ///< by each source so far [cm^3]
+    double unrelaxed = 0.0;        ///< time since the particles were last relaxed [s]
     Ledger ledger;
 };
 

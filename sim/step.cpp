@@ -33,9 +33,18 @@ GatherSettings gatherSettings(const Scene& scene, const Workspace& work, double 
         settings.flipRatio = keptOver(transfer.flipRatio, transfer, dt);
         settings.flipVelocity = &work.grid.flipVelocity;
     }
-    if (work.relaxReach > 0.0) settings.displacement = work.displacement.data();
+    if (work.displaces) settings.displacement = work.displacement.data();
     if (work.grid.hasGaps) settings.gaps = &work.grid.gaps;
     return settings;
+}
+
+/// Is it time to push crowded particles apart? Several short steps share one relaxation, as long as it stays gentle.
+bool isRelaxationDue(State& state, const RelaxSettings& relax, double reach, double dt)
+{
+    if (reach == 0.0) return false;
+    state.unrelaxed += dt;
+    constexpr double kRoundOff = 1.0 + 1.0e-9;  // eight steps of 2e-4 s at the default rate make exactly the strength
+    return relax.rate * (state.unrelaxed + dt) > kRelaxStrength * kRoundOff;
 }
 
 /// Pressure of the last step, in the blocks of this one.
@@ -97,9 +106,12 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
     work.obstacleField.update(grid, work.order.previous, work.obstacles);
 
-    if (work.relaxReach > 0.0) {
+    work.displaces = isRelaxationDue(state, settings.liquid.relax, work.relaxReach, dt);
+    if (work.displaces) {
         clock.start(Stage::Relax);
-        relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, dt, work.relax, work.displacement);
+        relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, state.unrelaxed, work.relax,
+                                work.displacement);
+        state.unrelaxed = 0.0;
     }
 
     clock.start(Stage::ParticlesToGrid);

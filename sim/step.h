@@ -21,7 +21,8 @@ struct Workspace {
     GatherScratch gather;
     PressureWorkspace pressure;
     ExtrapolationScratch extrapolation;
-    std::array<AlignedArray<double>, kAxes> displacement;  ///< by relaxation [cm]
+    std::array<AlignedArray<double>, kAxes> displacement;  ///< by relaxation [cm] …
+    bool displaces = false;                                ///< … in this step
     BlockArray<double> oldPressure;
     RelaxScratch relax;
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off

@@ -57,13 +57,17 @@ template <int N, class F>
     return lane < n;
 }
 
-/// 1/√v to a relative 5e-6, finite for v = 0: an integer guess and two Newton steps, the same bits on every machine.
-[[gnu::always_inline]] inline FloatPack inverseSqrt(FloatPack v)
+/// 1/√v to a relative 1e-4; something finite or infinite where v is 0.
+[[gnu::always_inline]] inline FloatPack roughInverseSqrt(FloatPack v)
 {
-    const FloatMask guess = 0x5f375a86 - ((FloatMask)v >> 1);
+#ifdef __AVX512F__
+    return (FloatPack)_mm512_maskz_rsqrt14_ps(0xffff, (__m512)v);
+#else
+    const FloatMask guess = 0x5f375a86 - ((FloatMask)v >> 1);  // an integer guess and two Newton steps
     FloatPack y = (FloatPack)guess;
     y = y * (1.5f - (0.5f * v) * y * y);
     return y * (1.5f - (0.5f * v) * y * y);
+#endif
 }
 
 /// Lanes added in a fixed order, halves first. V is FloatPack or FloatMask.

@@ -21,27 +21,30 @@ Vec3 directionOfPair(std::uint32_t a, std::uint32_t b)
     return a < b ? direction : Vec3(-direction);
 }
 
+constexpr float kTiny = 1.0e-12f;  ///< keeps the direction to oneself, 0/0, at 0
+
 /// Positions relative to the lower corner of the particle's block, in units of the reach: floats are exact enough there.
 struct LocalPositions {
     const float *x, *y, *z;
 };
 
-/// The pushes on one particle: Σ (1 − q)³ (x_i − x_j)/d, q = d²/reach², over the particles first … last − 1 of runs of cells.
+/// The pushes on one particle: Σ (1 − q)³ (x_i − x_j)/d, q = d²/reach².
 struct Push {
     FloatPack x{}, y{}, z{};
     FloatMask same{};  ///< counts those that are at (almost) the same place, itself included
 
-    /// @param at  the particle, relative to the corner of the run's block
-    [[gnu::always_inline]] void addRun(const LocalPositions& positions, const Eigen::Vector3f& at, int first, int last)
+    /// Add those by the particles first … last − 1, which stand in neighbouring cells of one block along z. What follows them in the block
+    /// is further away than the reach; the next block's particles, from blockEnd on, would be misplaced.
+    /// @param at  the particle, relative to the corner of that block
+    [[gnu::always_inline]] void addRun(const LocalPositions& positions, float atX, float atY, float atZ, int first, int last, int blockEnd)
     {
         for (int s = first; s < last; s += kFloatLanes) {
-            const FloatPack dx = at.x() - loadFloats(positions.x + s), dy = at.y() - loadFloats(positions.y + s),
-                            dz = at.z() - loadFloats(positions.z + s);
+            const FloatPack dx = atX - loadFloats(positions.x + s), dy = atY - loadFloats(positions.y + s), dz = atZ - loadFloats(positions.z + s);
             const FloatPack q = dx * dx + dy * dy + dz * dz;
             FloatPack rest = 1.0f - q;
             rest = rest > 0.0f ? rest : FloatPack{};
-            if (last - s < kFloatLanes) rest = firstFloatLanes(last - s) ? rest : FloatPack{};
-            const FloatPack strength = rest * rest * rest * inverseSqrt(q);  // finite where q = 0, times a distance of 0
+            if (s + kFloatLanes > blockEnd) rest = firstFloatLanes(blockEnd - s) ? rest : FloatPack{};
+            const FloatPack strength = rest * rest * rest * roughInverseSqrt(q + kTiny);
             x += strength * dx;
             y += strength * dy;
             z += strength * dz;
@@ -51,7 +54,7 @@ struct Push {
     Vec3 sum() const { return {sumFloatLanes(x), sumFloatLanes(y), sumFloatLanes(z)}; }
 };
 
-/// Directions away from particles that are at exactly the same place: they stand in the same block.
+/// Directions away from particles that are at exactly the same place: they stand in the same cell.
 Vec3 leaveCoincident(const LiquidParticles& particles, int self, int first, int last)
 {
     Vec3 sum = Vec3::Zero();
@@ -60,39 +63,78 @@ Vec3 leaveCoincident(const LiquidParticles& particles, int self, int first, int 
     return sum;
 }
 
-/// The sum over all cells within reach. Along z the cells of a block are one run.
-Vec3 pushOn(const LiquidParticles& particles, const LocalPositions& local, const ParticleOrder& order, const BlockGrid& grid, int block, int self,
-            float cellsPerReach)
-{
-    const float blockEdge = kBlockEdge / cellsPerReach;
-    const Eigen::Vector3f at(local.x[self], local.y[self], local.z[self]);
-    int low[3], high[3];
-    for (int a = 0; a < kAxes; ++a) {
-        low[a] = static_cast<int>(std::floor((at[a] - 1.0f) * cellsPerReach));
-        high[a] = static_cast<int>(std::floor((at[a] + 1.0f) * cellsPerReach));
-    }
-    Push push;
-    for (int i = low[0]; i <= high[0]; ++i)
-        for (int j = low[1]; j <= high[1]; ++j)
-            for (int k = low[2]; k <= high[2];) {
-                const int last = std::min(high[2], k | 7);  // to the end of the block
-                const Vec3i offset(i >> 3, j >> 3, k >> 3);
-                const int b = grid.neighbours(block)[neighbourIndex(offset.x(), offset.y(), offset.z())];
-                if (b != grid.count()) {
-                    const int* cells = order.cells(b);
-                    const int begin = cells[cellRank(i & 7, j & 7, k & 7)], end = cells[cellRank(i & 7, j & 7, last & 7) + 1];
-                    push.addRun(local, at - blockEdge * offset.cast<float>(), begin, end);
-                }
-                k = last + 1;
+/// The three cells of one column around a cell, below to above.
+struct Column {
+    int begin[3], end[3], blockEnd[3];
+    float offsetX, offsetY, offsetZ[3];  ///< of their blocks' corners from that of the cell's block, in units of the reach
+};
+
+/// The 3×3 columns around a cell, x first. Absent blocks hold empty runs.
+struct Neighbourhood {
+    Column columns[9];
+
+    Neighbourhood(const ParticleOrder& order, const BlockGrid& grid, int block, const Vec3i& cell, float blockEdge)
+    {
+        for (int c = 0; c < 9; ++c) {
+            const int ci = cell.x() + c % 3 - 1, cj = cell.y() + c / 3 - 1;
+            Column& column = columns[c];
+            column.offsetX = blockEdge * static_cast<float>(ci >> 3);
+            column.offsetY = blockEdge * static_cast<float>(cj >> 3);
+            for (int n = 0; n < 3; ++n) {
+                const int ck = cell.z() + n - 1, b = grid.neighbours(block)[neighbourIndex(ci >> 3, cj >> 3, ck >> 3)];
+                const bool exists = b != grid.count();
+                const int* start = exists ? order.cells(b) + cellRank(ci & 7, cj & 7, ck & 7) : nullptr;
+                column.begin[n] = exists ? start[0] : 0;
+                column.end[n] = exists ? start[1] : 0;
+                column.blockEnd[n] = exists ? order.end(b) : 0;
+                column.offsetZ[n] = blockEdge * static_cast<float>(ck >> 3);
             }
-    if (sumFloatLanes(push.same) == -1) return push.sum();
-    return push.sum() + leaveCoincident(particles, self, order.begin(block), order.end(block));
+        }
+    }
+};
+
+/// Pushes by the cells low … high of a column, which are one run wherever they are in one block.
+[[gnu::always_inline]] inline void addColumn(const LocalPositions& local, const Column& column, const Eigen::Vector3f& at, int low, int high,
+                                             Push& push)
+{
+    const float x = at.x() - column.offsetX, y = at.y() - column.offsetY;
+    while (low <= high) {
+        int last = low;
+        while (last < high && column.offsetZ[last + 1] == column.offsetZ[low]) ++last;
+        push.addRun(local, x, y, at.z() - column.offsetZ[low], column.begin[low], column.end[last], column.blockEnd[low]);
+        low = last + 1;
+    }
+}
+
+/// The displacements of the particles of one cell.
+/// @param scale  displacement per push [cm]
+void pushOnCell(const LiquidParticles& particles, const LocalPositions& local, const ParticleOrder& order, const BlockGrid& grid, int block,
+                const Vec3i& cell, double scale, float cellsPerReach, std::array<AlignedArray<double>, kAxes>& displacement)
+{
+    const int* start = order.cells(block) + cellRank(cell.x(), cell.y(), cell.z());
+    if (start[0] == start[1]) return;
+    const Neighbourhood around(order, grid, block, cell, kBlockEdge / cellsPerReach);
+    const Eigen::Vector3f lower = cell.cast<float>() / cellsPerReach, upper = (cell + Vec3i::Ones()).cast<float>() / cellsPerReach;
+    for (int s = start[0]; s < start[1]; ++s) {
+        const Eigen::Vector3f at(local.x[s], local.y[s], local.z[s]);
+        int low[3], high[3];  // of the three cells along each axis, those within reach
+        for (int a = 0; a < kAxes; ++a) {
+            low[a] = at[a] - lower[a] < 1.0f ? 0 : 1;
+            high[a] = upper[a] - at[a] < 1.0f ? 2 : 1;
+        }
+        Push push;
+        for (int j = low[1]; j <= high[1]; ++j)
+            for (int i = low[0]; i <= high[0]; ++i) addColumn(local, around.columns[3 * j + i], at, low[2], high[2], push);
+        Vec3 sum = push.sum();
+        if (sumFloatLanes(push.same) != -1) sum += leaveCoincident(particles, s, start[0], start[1]);
+        for (int a = 0; a < kAxes; ++a) displacement[a][s] = scale * sum[a];
+    }
 }
 
 }  // namespace
 
 void relaxationDisplacements(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, double rate, double reach,
-                             double dt, RelaxScratch& scratch, std::array<AlignedArray<double>, kAxes>& displacement)
+                             double interval, RelaxScratch& scratch, std::array<AlignedArray<double>, kAxes>& displacement)
 {
     for (int a = 0; a < kAxes; ++a) {
         displacement[a].resize(particles.mass.size());
@@ -106,13 +148,11 @@ void relaxationDisplacements(const LiquidParticles& particles, const ParticleOrd
                 scratch.local[a][s] = static_cast<float>((particles.x[a][s] - corner[a]) * (1.0 / reach));
     });
     const LocalPositions local{scratch.local[0].data(), scratch.local[1].data(), scratch.local[2].data()};
-    const double scale = std::min(1.0, rate * dt) * reach;
+    const double scale = std::min(1.0, rate * interval) * reach;
     parallelFor(order.occupied.size(), [&](std::size_t n) {
-        const int block = order.occupied[n];
-        for (int s = order.begin(block); s < order.end(block); ++s) {
-            const Vec3 d = scale * pushOn(particles, local, order, grid, block, s, static_cast<float>(reach / grid.dx));
-            for (int a = 0; a < kAxes; ++a) displacement[a][s] = d[a];
-        }
+        for (int c = 0; c < kBlockCells; ++c)
+            pushOnCell(particles, local, order, grid, order.occupied[n], {c >> 6, c >> 3 & 7, c & 7}, scale, static_cast<float>(reach / grid.dx),
+                       displacement);
     });
 }
 

@@ -283,7 +283,7 @@ template <int kAxis>
 constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
 template <class Set, int kModes, bool kFold>
-[[gnu::always_inline]] inline void gatherPack(const Context& ctx, int node, int s, int n, LaneSums& sums)
+[[gnu::flatten]] void gatherPack(const Context& ctx, int node, int s, int n, LaneSums& sums)
 {
     LiquidParticles& particles = ctx.particles;
     for (int a = 0; a < kAxes; ++a)

@@ -141,7 +141,7 @@ template <int kModes>
 /// @param start      cellStart of the column's cells
 /// @param low, high  the cells of the column to visit
 template <int kAxis, class Set, int kModes>
-inline void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
+[[gnu::flatten]] void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
                           const Prepared<Set::kFactors>* prepared, const double* const* mode, const int* source, double* mass,
                           double* momentum)
 {

@@ -21,7 +21,10 @@ inline Scene damBreakSmall(TransferMethod method = TransferMethod::PolyPic, int 
     source.fill.pattern = FillSettings::Pattern::Reference;
     source.emissions.push_back({});
     scene.sources.push_back(source);
-    scene.obstacles.push_back({"tank", tank.inverted(), {}});
+    ObstacleSettings obstacle;
+    obstacle.name = "tank";
+    obstacle.shape = tank.inverted();
+    scene.obstacles.push_back(obstacle);
     return scene;
 }
 
