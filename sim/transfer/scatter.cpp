@@ -51,6 +51,7 @@ struct PlaneTables {
 template <int kFactors>
 struct Prepared {
     double x[kLanes], y[kLanes];                ///< position in the cell, in cells
+    double middleX[kLanes], middleY[kLanes];    ///< offset from the cell's middle
     double faceX[kLanes], faceY[kLanes];        ///< offset from the nearer face
     double centerZ[3][kFactors][kLanes];        ///< mass × weight × z^d of the three cell middles around
     double faceZ[4][kFactors][kLanes];          ///< the same of the four faces around
@@ -79,6 +80,9 @@ inline void prepare(const LiquidParticles& particles, const Vec3& origin, double
         const Pack faceX = select(upperX, x - 1.0, x), faceY = select(upperY, y - 1.0, y);
         std::memcpy(out->x, &x, sizeof x);
         std::memcpy(out->y, &y, sizeof y);
+        const Pack middleX = x - 0.5, middleY = y - 0.5;
+        std::memcpy(out->middleX, &middleX, sizeof middleX);
+        std::memcpy(out->middleY, &middleY, sizeof middleY);
         std::memcpy(out->faceX, &faceX, sizeof faceX);
         std::memcpy(out->faceY, &faceY, sizeof faceY);
         for (int l = 0; l < kLanes; ++l) {
@@ -141,7 +145,7 @@ template <int kModes>
 /// @param start      cellStart of the column's cells
 /// @param low, high  the cells of the column to visit
 template <int kAxis, class Set, int kModes>
-[[gnu::flatten]] void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
+[[gnu::noinline, gnu::flatten]] void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
                           const Prepared<Set::kFactors>* prepared, const double* const* mode, const int* source, double* mass,
                           double* momentum)
 {
@@ -152,11 +156,11 @@ template <int kAxis, class Set, int kModes>
             const auto& q = prepared[(s - blockFirst) / kLanes];
             const int l = (s - blockFirst) % kLanes, row = source[s];
             prefetchModes<kModes>(mode, source + s);
-            const Pack x = tables.laneX - (kAxis == 0 ? q.x[l] : q.x[l] - 0.5);
-            const Pack wx = kAxis == 0 ? tables.x[q.typeX[l]](q.faceX[l]) : tables.x[0](q.x[l] - 0.5);
-            const double offsetY = kAxis == 1 ? q.y[l] : q.y[l] - 0.5;
+            const Pack x = tables.laneX - (kAxis == 0 ? q.x[l] : q.middleX[l]);
+            const Pack wx = kAxis == 0 ? tables.x[q.typeX[l]](q.faceX[l]) : tables.x[0](q.middleX[l]);
+            const double offsetY = kAxis == 1 ? q.y[l] : q.middleY[l];
             const SplineRow(&splineY)[2] = kAxis == 1 ? tables.y[q.typeY[l]] : tables.y[0];
-            const double ry = kAxis == 1 ? q.faceY[l] : q.y[l] - 0.5;
+            const double ry = kAxis == 1 ? q.faceY[l] : q.middleY[l];
             Pack y[2], w[2];
             unroll<2>([&](auto h) {
                 y[h] = tables.laneY[h] - offsetY;
