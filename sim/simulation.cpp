@@ -79,6 +79,7 @@ std::uint64_t stateHash(const State& state)
     const LiquidParticles& liquid = state.liquid;
     add(&state.time, sizeof state.time);
     add(&state.step, sizeof state.step);
+    add(&state.lastDt, sizeof state.lastDt);
     add(&liquid.count, sizeof liquid.count);
     add(liquid.mass.data(), liquid.count * sizeof(double));
     add(liquid.id.data(), liquid.count * sizeof(std::uint32_t));

@@ -8,6 +8,7 @@
 #include "sim/liquid/push_out.h"
 #include "sim/liquid/walls.h"
 #include "sim/particles/emit.h"
+#include "sim/transfer/scatter_affine.h"
 
 #include <cmath>
 
@@ -115,7 +116,9 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     }
 
     clock.start(Stage::ParticlesToGrid);
-    particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
+    if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
+        particlesToFacesAffine(particles, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
+    else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
     divideAndAddGravity(grid, settings.gravity, dt, flip, work.grid);
 
     clock.start(Stage::LevelSet);
@@ -141,6 +144,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     state.time += dt;
     ++state.step;
+    state.lastDt = dt;
 
     const WeightSums weights = weightSums(particles, settings.gravity);
     report.energies = {sums.kinetic, flip ? 0.0 : sums.modal, weights.potential};

@@ -51,6 +51,16 @@ void LiquidParticles::resize(std::size_t n)
     count = n;
 }
 
+void LiquidParticles::copy(std::size_t from, std::size_t to)
+{
+    mass[to] = mass[from];
+    id[to] = id[from];
+    for (int axis = 0; axis < kAxes; ++axis) {
+        x[axis][to] = x[axis][from];
+        for (int r = 0; r < modeCount; ++r) mode(axis, r)[to] = mode(axis, r)[from];
+    }
+}
+
 void LiquidParticles::add(const Vec3& position, double particleMass, std::uint32_t particleId, const Vec3& v)
 {
     const std::size_t p = count;

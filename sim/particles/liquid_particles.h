@@ -33,6 +33,9 @@ struct LiquidParticles {
     /// Change the number of particles; the first min(count, n) keep everything. New ones have no mass and zero modes.
     void resize(std::size_t n);
 
+    /// Make particle `to` what particle `from` is.
+    void copy(std::size_t from, std::size_t to);
+
     /// Append one particle that moves rigidly with velocity v.
     void add(const Vec3& position, double particleMass, std::uint32_t particleId, const Vec3& v);
 };

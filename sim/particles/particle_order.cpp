@@ -20,19 +20,24 @@ struct SortChunks {
     std::size_t total, size;
 };
 
-/// The cell a position lies in. Kernels compute it by the same expression.
-inline Vec3i cellOf(const Vec3& x, const Vec3& origin, double inverseDx)
+/// The cell a position lies in. Kernels compute it by the same expression. False if that is out of the range of block numbers.
+inline bool findCell(const Vec3& x, const Vec3& origin, double inverseDx, Vec3i& cell)
 {
-    Vec3i cell;
     for (int a = 0; a < kAxes; ++a) {
         const double c = std::floor((x[a] - origin[a]) * inverseDx);
         constexpr double kLimit = 8.0 * (BlockGrid::kMaxCoordinate - 2);
-        if (!(std::abs(c) < kLimit))
-            throw RunError(std::isfinite(c) ? "a particle has left the range of block numbers; a `domain` in the scene would delete it before"
-                                            : "the position of a particle is not finite");
+        if (!(std::abs(c) < kLimit)) return false;
         cell[a] = static_cast<int>(c);
     }
-    return cell;
+    return true;
+}
+
+/// A position without a cell is fine only where the domain deletes it.
+void checkIsDeleted(const Vec3& x, const Shape* domain)
+{
+    if (!x.allFinite()) throw RunError("the position of a particle is not finite");
+    if (domain == nullptr || !(domain->distance(x) > 0.0))
+        throw RunError("a particle has left the range of block numbers; a `domain` in the scene would delete it before");
 }
 
 inline Vec3i blockOf(const Vec3i& cell) { return {cell.x() >> 3, cell.y() >> 3, cell.z() >> 3}; }
@@ -59,7 +64,13 @@ void computeKeys(const LiquidParticles& particles, const BlockGrid& grid, const 
         bool deep = true;
         for (std::size_t p = chunks.begin(c); p < chunks.end(c); ++p) {
             const Vec3 x = particles.position(p);
-            const Vec3i cell = cellOf(x, grid.origin, inverseDx);
+            Vec3i cell;
+            if (!findCell(x, grid.origin, inverseDx, cell)) {
+                checkIsDeleted(x, domain);
+                order.key[p] = kDead;
+                order.dead[c].push_back(static_cast<int>(p));
+                continue;
+            }
             const Vec3i coords = blockOf(cell);
             if (coords != lastCoords) {
                 lastCoords = coords;

@@ -1,9 +1,8 @@
 #include "sim/transfer/scatter.h"
 
-#include "sim/core/parallel.h"
 #include "sim/core/simd.h"
 #include "sim/transfer/mode_set.h"
-#include "sim/transfer/tile.h"
+#include "sim/transfer/scatter_blocks.h"
 
 namespace sim {
 
@@ -199,10 +198,6 @@ template <int kAxis, class Set, int kModes>
     });
 }
 
-struct ScatterTile {
-    alignas(64) double v[6][kTileSize];  ///< kinds of FaceFields::sums
-};
-
 template <int kAxis, class Set, int kModes>
 inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& particles, const ParticleOrder& order, int block,
                         const OccupiedBox& box, const Prepared<Set::kFactors>* prepared, ScatterTile& tile)
@@ -219,32 +214,11 @@ inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& partic
         }
 }
 
-void clear(const OccupiedBox& box, ScatterTile& tile)
-{
-    for (auto& field : tile.v)
-        for (int z = box.low[2] - 1; z <= box.high[2] + 2; ++z)
-            for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y) std::fill_n(field + tileIndex(-1, y, z), kTileEdge, 0.0);
-}
-
-void addToGrid(const BlockGrid& grid, int block, const OccupiedBox& box, const ScatterTile& tile, FaceFields& faces)
-{
-    forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
-        for (int kind = 0; kind < 6; ++kind) {
-            double* to = faces.sums.block(piece, kind) + cell;
-            const double* from = tile.v[kind] + node;
-            for (int n = 0; n < length; ++n) to[n] += from[n];
-        }
-    });
-}
-
 }  // namespace
 
 void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, ScatterScratch& scratch,
                       FaceFields& faces)
 {
-    faces.sums.resize(grid.count());
-    parallelFor(grid.count(), 4, [&](std::size_t b) { std::fill_n(faces.sums.block(static_cast<int>(b)), faces.sums.kStride, 0.0); });
-
     withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
         using Set = ModeSet<kModes>;
         using Batch = Prepared<Set::kFactors>;
@@ -253,19 +227,13 @@ void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& ord
         scratch.perWorker.resize(workerCount());
         for (auto& s : scratch.perWorker) s.resize(batches * sizeof(Batch) / sizeof(double));
 
-        for (const std::vector<int>& color : order.byColor)
-            parallelForWorkers(color.size(), 1, [&](std::size_t n, int worker) {
-                const int block = color[n];
-                const OccupiedBox box(order.cells(block));
-                auto* prepared = reinterpret_cast<Batch*>(scratch.perWorker[worker].data());
-                prepare(particles, grid.origin, 1.0 / grid.dx, order.begin(block), order.end(block), prepared);
-                ScatterTile tile;
-                clear(box, tile);
-                scatterAxis<0, Set, kModes>(tables, particles, order, block, box, prepared, tile);
-                scatterAxis<1, Set, kModes>(tables, particles, order, block, box, prepared, tile);
-                scatterAxis<2, Set, kModes>(tables, particles, order, block, box, prepared, tile);
-                addToGrid(grid, block, box, tile, faces);
-            });
+        scatterBlocks(order, grid, faces, [&](int block, const OccupiedBox& box, int worker, ScatterTile& tile) {
+            auto* prepared = reinterpret_cast<Batch*>(scratch.perWorker[worker].data());
+            prepare(particles, grid.origin, 1.0 / grid.dx, order.begin(block), order.end(block), prepared);
+            scatterAxis<0, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+            scatterAxis<1, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+            scatterAxis<2, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+        });
     });
 }
 
