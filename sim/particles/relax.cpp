@@ -51,12 +51,12 @@ struct Push {
     Vec3 sum() const { return {sumFloatLanes(x), sumFloatLanes(y), sumFloatLanes(z)}; }
 };
 
-/// Directions away from particles that are at exactly the same place: they stand in the same block.
-Vec3 leaveCoincident(const LiquidParticles& particles, int self, int first, int last)
+/// Directions away from particles at the same place, as far as floats can tell: they stand in the same block.
+Vec3 leaveCoincident(const LiquidParticles& particles, const LocalPositions& local, int self, int first, int last)
 {
     Vec3 sum = Vec3::Zero();
     for (int s = first; s < last; ++s)
-        if (s != self && particles.position(s) == particles.position(self)) sum += directionOfPair(particles.id[self], particles.id[s]);
+        if (s != self && local.x[s] == local.x[self] && local.y[s] == local.y[self] && local.z[s] == local.z[self]) sum += directionOfPair(particles.id[self], particles.id[s]);
     return sum;
 }
 
@@ -86,7 +86,7 @@ Vec3 pushOn(const LiquidParticles& particles, const LocalPositions& local, const
                 k = last + 1;
             }
     if (sumFloatLanes(push.same) == -1) return push.sum();
-    return push.sum() + leaveCoincident(particles, self, order.begin(block), order.end(block));
+    return push.sum() + leaveCoincident(particles, local, self, order.begin(block), order.end(block));
 }
 
 }  // namespace
