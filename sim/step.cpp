@@ -40,12 +40,10 @@ GatherSettings gatherSettings(const Scene& scene, const Workspace& work, double 
 }
 
 /// Is it time to push crowded particles apart? Several short steps share one relaxation, as long as it stays gentle.
-bool isRelaxationDue(State& state, const RelaxSettings& relax, double reach, double dt)
+bool isRelaxationDue(const State& state, const RelaxSettings& relax, double reach, double dt)
 {
-    if (reach == 0.0) return false;
-    state.unrelaxed += dt;
     constexpr double kRoundOff = 1.0 + 1.0e-9;  // eight steps of 2e-4 s at the default rate make exactly the strength
-    return relax.rate * (state.unrelaxed + dt) > kRelaxStrength * kRoundOff;
+    return reach > 0.0 && relax.rate * (state.unrelaxed + dt) > kRelaxStrength * kRoundOff;
 }
 
 /// Pressure of the last step, in the blocks of this one.
@@ -107,6 +105,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
     work.obstacleField.update(grid, work.order.previous, work.obstacles);
 
+    state.unrelaxed += dt;
     work.displaces = isRelaxationDue(state, settings.liquid.relax, work.relaxReach, dt);
     if (work.displaces) {
         clock.start(Stage::Relax);

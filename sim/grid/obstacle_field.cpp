@@ -9,7 +9,7 @@ namespace sim {
 
 namespace {
 
-/// A wall in a plane of nodes must close the faces in it, whatever the last bit of the distance says.
+/// Nodes this near to a surface are on it, whatever the last bit of the distance says.
 constexpr double kOnSurface = 1.0e-6;   ///< [cells]
 constexpr double kAlmostClosed = 1.0e-3;  ///< open fractions below only hurt the conditioning (model-fluid 2.5)
 constexpr double kAlmostOpen = 1.0 - 1.0e-6;
@@ -21,10 +21,13 @@ double crossing(double inside, double outside) { return inside / (inside - outsi
 double ObstacleField::openFraction(double d00, double d10, double d11, double d01)
 {
     const double d[4] = {d00, d10, d11, d01};
-    int inside = 0;
-    for (double v : d) inside += v < 0.0;
+    int inside = 0, outside = 0;
+    for (double v : d) {
+        inside += v < 0.0;
+        outside += v > 0.0;
+    }
+    if (outside == 0) return 0.0;
     if (inside == 0) return 1.0;
-    if (inside == 4) return 0.0;
     const auto at = [&](int n) { return d[n & 3]; };
     if (inside == 1 || inside == 3) {
         int odd = 0;
@@ -78,8 +81,8 @@ int ObstacleField::takeSlot()
 
 bool ObstacleField::isNear(const BlockGrid& grid, double distance)
 {
-    // From its middle a block reaches half its diagonal; one cell more for the gradient at its nodes.
-    return distance < (0.5 * std::sqrt(3.0) * kBlockEdge + 1.0) * grid.dx;
+    // From its middle a block reaches half its diagonal.
+    return distance < (0.5 * std::sqrt(3.0) * kBlockEdge + kExactDistance) * grid.dx;
 }
 
 void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles)
@@ -130,7 +133,7 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
         for (int j = 0; j < kNodesEdge; ++j)
             for (int i = 0; i < kNodesEdge; ++i) {
                 const double d = obstacles.distance(corner + grid.dx * Vec3(i, j, k));
-                node[nodeIndex(i, j, k)] = std::abs(d) < kOnSurface * grid.dx ? -1.0e-3 * kOnSurface * grid.dx : d;
+                node[nodeIndex(i, j, k)] = std::abs(d) < kOnSurface * grid.dx ? 0.0 : d;
             }
     for (int a = 0; a < kAxes; ++a) std::fill_n(closed_.block(slot, a), BlockBits<3>::kWords, 0);
     const int step[3] = {nodeIndex(1, 0, 0), nodeIndex(0, 1, 0), nodeIndex(0, 0, 1)};
@@ -139,7 +142,7 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
             for (int i = 0; i < kBlockEdge; ++i) {
                 const int cell = cellInBlock(i, j, k);
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
-                centerDistance_.block(slot)[cell] = obstacles.distance(center);
+                centerDistance_.block(slot)[cell] = std::min(obstacles.distance(center), kExactDistance * grid.dx);
                 for (int a = 0; a < kAxes; ++a) {
                     const double* n = node + nodeIndex(i, j, k);
                     const int u = step[(a + 1) % 3], v = step[(a + 2) % 3];

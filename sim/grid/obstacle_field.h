@@ -12,6 +12,7 @@ namespace sim {
 /// solid share one set of numbers; those of a block near a resting solid are computed when the block appears, and kept.
 class ObstacleField {
  public:
+    static constexpr double kExactDistance = 1.5;  ///< all solids that come this near to a block are known in it [cells]
     static constexpr int kNodesEdge = kBlockEdge + 1;
     static constexpr int kNodes = kNodesEdge * kNodesEdge * kNodesEdge;
     static constexpr int nodeIndex(int i, int j, int k) { return (k * kNodesEdge + j) * kNodesEdge + i; }
@@ -28,12 +29,14 @@ class ObstacleField {
     const std::uint64_t* closed(int block, int axis) const { return closed_.block(slot_[block], axis); }
     /// Velocity of the obstacle at each lower face along `axis` [cm/s].
     const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(slot_[block], axis); }
-    /// Distance to the nearest solid on the 9³ nodes of a block near a solid [cm], at nodeIndex(i, j, k).
+    /// Distance to the nearest solid on the 9³ nodes of a block near a solid [cm], at nodeIndex(i, j, k). Beyond kExactDistance cells it may
+    /// not know of solids that move.
     const double* nodeDistance(int block) const { return nodeDistance_.data() + static_cast<std::size_t>(slot_[block]) * kNodes; }
-    /// Distance from the middle of each cell [cm].
+    /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
 
-    /// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5).
+    /// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5). Without
+    /// a corner outside it is closed: also a face in the plane of a wall, all of whose corners are 0.
     static double openFraction(double d00, double d10, double d11, double d01);
 
  private:

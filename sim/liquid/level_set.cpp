@@ -125,38 +125,44 @@ void levelSetFromParticles(const LiquidParticles& particles, const ParticleOrder
 
 namespace {
 
-/// Does any face of cell (i, j, k) let liquid through?
+/// Does any face of cell (i, j, k) let liquid through? Liquid is never at the rim of the blocks, so that faces beyond do not count.
 bool hasOpenFace(const BlockGrid& grid, const ObstacleField& obstacles, int b, int i, int j, int k)
 {
     for (int a = 0; a < kAxes; ++a) {
         if (obstacles.open(b, a)[cellInBlock(i, j, k)] > 0.0) return true;
         const CellRef up = cellNear(grid, b, i + (a == 0), j + (a == 1), k + (a == 2));
-        if (obstacles.open(up.block, a)[up.cell] > 0.0) return true;
+        if (up.block != grid.count() && obstacles.open(up.block, a)[up.cell] > 0.0) return true;
     }
     return false;
 }
 
-/// Does a cell in an obstacle share an open face that carries liquid with a cell where there is liquid?
-bool touchesLiquid(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, int b, int i, int j, int k)
+/// Level set of a cell whose middle is in an obstacle: that of its neighbour on the way out, if an open face that carries liquid lies between
+/// the cell and another liquid one; else `outside`.
+double levelSetFromOutside(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, int b, int i, int j, int k,
+                           double outside)
 {
     const int cell = cellInBlock(i, j, k);
-    for (int a = 0; a < kAxes; ++a) {
-        const int di = a == 0, dj = a == 1, dk = a == 2;
-        const CellRef below = cellNear(grid, b, i - di, j - dj, k - dk), above = cellNear(grid, b, i + di, j + dj, k + dk);
-        if (obstacles.open(b, a)[cell] > 0.0 && liquid.wet.test(b, cell, a) && liquid.levelSet.block(below.block)[below.cell] < 0.0)
-            return true;
-        if (obstacles.open(above.block, a)[above.cell] > 0.0 && liquid.wet.test(above.block, above.cell, a)
-            && liquid.levelSet.block(above.block)[above.cell] < 0.0)
-            return true;
-    }
-    return false;
+    double farthest = obstacles.centerDistance(b)[cell], result = outside;
+    bool touches = false;
+    for (int a = 0; a < kAxes; ++a)
+        for (int step : {-1, 1}) {
+            const CellRef other = cellNear(grid, b, i + step * (a == 0), j + step * (a == 1), k + step * (a == 2));
+            if (other.block == grid.count()) continue;
+            const CellRef face = step < 0 ? CellRef{b, cell} : other;
+            const double phi = liquid.levelSet.block(other.block)[other.cell], distance = obstacles.centerDistance(other.block)[other.cell];
+            touches = touches || (phi < 0.0 && obstacles.open(face.block, a)[face.cell] > 0.0 && liquid.wet.test(face.block, face.cell, a));
+            if (distance <= farthest) continue;
+            farthest = distance;
+            result = phi;
+        }
+    return touches ? result : outside;
 }
 
 }  // namespace
 
 void classifyCells(const BlockGrid& grid, const ObstacleField& obstacles, bool full, LiquidGrid& liquid)
 {
-    const double inside = -0.5 * grid.dx, outside = 0.5 * grid.dx;
+    const double outside = 0.5 * grid.dx;
     parallelFor(grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         double* result = liquid.scratch(b);
@@ -173,8 +179,9 @@ void classifyCells(const BlockGrid& grid, const ObstacleField& obstacles, bool f
                     if (full || phi[c] < 0.0) {
                         const bool open = hasOpenFace(grid, obstacles, b, i, j, k);
                         result[c] = !open ? outside : full ? -grid.dx : phi[c];
-                    } else if (obstacles.centerDistance(b)[c] < 0.0 && touchesLiquid(grid, obstacles, liquid, b, i, j, k)) {
-                        result[c] = inside;
+                    } else if (obstacles.centerDistance(b)[c] < 0.0) {
+                        const double phiOutside = levelSetFromOutside(grid, obstacles, liquid, b, i, j, k, outside);
+                        if (phiOutside < 0.0) result[c] = phiOutside;
                     }
                 }
     });

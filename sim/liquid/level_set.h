@@ -15,8 +15,9 @@ inline constexpr double kLiquidRadius = 0.8836;
 /// away it is positive and large.
 void levelSetFromParticles(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, LiquidGrid& liquid);
 
-/// Which cells have a pressure: those where the level set is negative and some face is open, and cells whose middle is in an obstacle if
-/// they share an open face that carries liquid with a liquid cell (Batty 2007). All others get a positive level set.
+/// Which cells have a pressure: those where the level set is negative and some face is open, and cells whose middle is in an obstacle, so
+/// that no particle may come near enough, if they touch liquid through an open face and their neighbour on the way out is liquid: they
+/// continue the liquid into the wall (Batty 2007), not up along it. All others get a positive level set.
 /// @param full  the liquid fills a closed box: every cell with an open face is liquid
 void classifyCells(const BlockGrid& grid, const ObstacleField& obstacles, bool full, LiquidGrid& liquid);
 

@@ -96,8 +96,8 @@ void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b,
         }
 }
 
-/// u −= (dt/ρ) grad p on the open faces between cells of which at least one is liquid; these become the valid ones.
-void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, double scale, const BlockArray<double>& pressure,
+/// u −= (dt/ρ) grad p on the faces of the system: those with a coefficient, beside at least one liquid cell. They become the valid ones.
+void subtractGradient(const BlockGrid& grid, const BlockArray<double, 3>& coefficient, double scale, const BlockArray<double>& pressure,
                       LiquidGrid& liquid)
 {
     parallelFor(grid.count(), 2, [&](std::size_t n) {
@@ -111,7 +111,7 @@ void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, dou
                     const Pack phi = rows.row(liquid.levelSet, 0, j, k), phiBelow = rows.below(liquid.levelSet, 0, a, j, k);
                     const PackMask inside = phi < 0.0, insideBelow = phiBelow < 0.0;
                     const int row = cellInBlock(0, j, k);
-                    const PackMask known = (inside | insideBelow) & (loadPack(obstacles.open(b, a) + row) > 0.0);
+                    const PackMask known = (inside | insideBelow) & (loadPack(coefficient.block(b, a) + row) > 0.0);
                     const unsigned bits = maskBits(known);
                     if (bits == 0) continue;
                     valid[row >> 6] |= static_cast<std::uint64_t>(bits) << (row & 63);
@@ -137,7 +137,7 @@ SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacle
     computeCoefficients(grid, obstacles, mobility / (grid.dx * grid.dx), settings.full, liquid, work);
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
     const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
-    subtractGradient(grid, obstacles, mobility / grid.dx, pressure, liquid);
+    subtractGradient(grid, work.coefficient, mobility / grid.dx, pressure, liquid);
     return report;
 }
 

@@ -29,7 +29,7 @@ void pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const
     const double safe = 0.5 * std::sqrt(3.0) * grid.dx + farthest;
     parallelFor(order.occupied.size(), [&](std::size_t n) {
         const int b = order.occupied[n];
-        if (!field.nearSolid(b) && farthest < grid.dx) return;
+        if (!field.nearSolid(b) && farthest < ObstacleField::kExactDistance * grid.dx) return;
         for (int c = 0; c < kBlockCells; ++c) {
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);

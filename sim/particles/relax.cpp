@@ -54,12 +54,13 @@ struct Push {
     Vec3 sum() const { return {sumFloatLanes(x), sumFloatLanes(y), sumFloatLanes(z)}; }
 };
 
-/// Directions away from particles that are at exactly the same place: they stand in the same cell.
-Vec3 leaveCoincident(const LiquidParticles& particles, int self, int first, int last)
+/// Directions away from particles of the same cell that are at the same place, as far as floats can tell.
+Vec3 leaveCoincident(const LiquidParticles& particles, const LocalPositions& local, int self, int first, int last)
 {
+    const auto samePlace = [&](int s) { return local.x[s] == local.x[self] && local.y[s] == local.y[self] && local.z[s] == local.z[self]; };
     Vec3 sum = Vec3::Zero();
     for (int s = first; s < last; ++s)
-        if (s != self && particles.position(s) == particles.position(self)) sum += directionOfPair(particles.id[self], particles.id[s]);
+        if (s != self && samePlace(s)) sum += directionOfPair(particles.id[self], particles.id[s]);
     return sum;
 }
 
@@ -126,7 +127,7 @@ void pushOnCell(const LiquidParticles& particles, const LocalPositions& local, c
         for (int j = low[1]; j <= high[1]; ++j)
             for (int i = low[0]; i <= high[0]; ++i) addColumn(local, around.columns[3 * j + i], at, low[2], high[2], push);
         Vec3 sum = push.sum();
-        if (sumFloatLanes(push.same) != -1) sum += leaveCoincident(particles, s, start[0], start[1]);
+        if (sumFloatLanes(push.same) != -1) sum += leaveCoincident(particles, local, s, start[0], start[1]);
         for (int a = 0; a < kAxes; ++a) displacement[a][s] = scale * sum[a];
     }
 }

@@ -168,7 +168,10 @@ void smooth(MultigridLevel& level, const Smoothing& smoothing)
     const std::vector<int>& list = level.colour[smoothing.colour];
     forEachBlockInTile<Tile>(static_cast<int>(list.size()), [&](int n, Tile& tile) {
         const int b = list[n];
-        if (level.rows[b] == 0) return;
+        if (level.rows[b] == 0) {
+            if (smoothing.dots) level.dot[b] = 0.0;
+            return;
+        }
         loadBlock(level, b, smoothing, tile);
         if (smoothing.alone)
             sumRhs(level, b, tile);

@@ -280,5 +280,21 @@ TEST(Poisson, FollowsASetOfBlocksThatChanges)
     }
 }
 
+TEST(Poisson, BlocksThatRunDryLeaveNothingBehind)
+{
+    const PoissonScene wet = boxWithSurface({24, 20, 24});
+    PoissonScene dry = wet;
+    for (int b = 0; b < dry.grid.count(); ++b)
+        if (dry.grid.coords(b).x() > 0) std::fill_n(dry.matrix.values.block(b), 4 * kBlockCells, 0.0);
+    PoissonSolver solver;
+    BlockArray<double> p = zeroPressure(wet), fresh;
+    EXPECT_EQ(solver.solve(wet.grid, wet.matrix, wet.rhs, 1.0e-6, 2, p).iterations, 2);
+    p = zeroPressure(dry);
+    const SolveReport report = solver.solve(dry.grid, dry.matrix, dry.rhs, 1.0e-8, 200, p);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, solveFromZero(dry, fresh, 1.0e-8).iterations);
+    EXPECT_TRUE(sameBits(p, fresh));
+}
+
 }  // namespace
 }  // namespace sim::test

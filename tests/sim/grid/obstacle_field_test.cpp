@@ -1,0 +1,177 @@
+#include "sim/grid/obstacle_field.h"
+
+#include "sim/core/units.h"
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+/// Part of the unit square where a + b x + c y > 0: strips along y, of which each is exact.
+double openAreaOfPlane(double a, double b, double c)
+{
+    constexpr int kStrips = 4000;
+    double area = 0.0;
+    for (int n = 0; n < kStrips; ++n) {
+        const double atBottom = a + b * (n + 0.5) / kStrips, atTop = atBottom + c;
+        if (atBottom >= 0.0 && atTop >= 0.0) area += 1.0;
+        else if (atBottom >= 0.0 || atTop >= 0.0) area += std::max(atBottom, atTop) / std::abs(c);
+    }
+    return area / kStrips;
+}
+
+TEST(OpenFraction, OfAPlaneIsItsArea)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int n = 0; n < 2000; ++n) {
+        const double b = unit(random), c = unit(random), a = 0.7 * unit(random) - 0.5 * (b + c);
+        EXPECT_NEAR(ObstacleField::openFraction(a, a + b, a + b + c, a + c), openAreaOfPlane(a, b, c), 2.0e-4) << a << ' ' << b << ' ' << c;
+    }
+}
+
+TEST(OpenFraction, OfTheComplementIsTheRest)
+{
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int n = 0; n < 2000; ++n) {
+        const double d[4] = {unit(random), unit(random), unit(random), unit(random)};
+        const double open = ObstacleField::openFraction(d[0], d[1], d[2], d[3]);
+        EXPECT_GE(open, 0.0);
+        EXPECT_LE(open, 1.0);
+        EXPECT_NEAR(open + ObstacleField::openFraction(-d[0], -d[1], -d[2], -d[3]), 1.0, 1.0e-14);
+        EXPECT_NEAR(open, ObstacleField::openFraction(d[1], d[2], d[3], d[0]), 1.0e-14) << "turned by a quarter";
+        EXPECT_NEAR(open, ObstacleField::openFraction(d[3], d[2], d[1], d[0]), 1.0e-14) << "gone round the other way";
+    }
+}
+
+TEST(OpenFraction, IsNothingInsideAndEverythingOutside)
+{
+    EXPECT_EQ(ObstacleField::openFraction(-1.0, -2.0, -0.1, -1.0e-12), 0.0);
+    EXPECT_EQ(ObstacleField::openFraction(1.0, 2.0, 0.1, 1.0e-12), 1.0);
+    // Corners on the surface: a face in a wall, one along a wall, one along the edge of a tank, one in the edge of a block.
+    EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, 0.0, 0.0), 0.0);
+    EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, 1.0, 1.0), 1.0);
+    EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, 1.0, 0.0), 1.0);
+    EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, -1.0, 0.0), 0.0);
+    EXPECT_EQ(ObstacleField::openFraction(0.0, 1.0, 0.0, -1.0), 0.5);
+    // Two opposite corners of ±1: a quarter of a cut corner each, open or solid in the middle by the mean.
+    EXPECT_DOUBLE_EQ(ObstacleField::openFraction(-1.0, 3.0, -1.0, 3.0), 1.0 - 2.0 * 0.5 * 0.25 * 0.25);
+    EXPECT_DOUBLE_EQ(ObstacleField::openFraction(-3.0, 1.0, -3.0, 1.0), 2.0 * 0.5 * 0.25 * 0.25);
+}
+
+TEST(ObstacleField, WallsInPlanesOfFacesCloseThemWhateverTheRounding)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int n = 0; n < 40; ++n) {
+        const double dx = 0.01 + unit(random);
+        GridScene scene({-3, -3, -3}, {9, 10, 11}, dx, 5.0 * Vec3(unit(random), unit(random), -unit(random)));
+        // Sums in another order than the grid's own.
+        Vec3 low, high;
+        for (int a = 0; a < kAxes; ++a) {
+            low[a] = scene.grid.origin[a] - dx + dx;
+            high[a] = low[a] + dx * (3 + a) + 3.0 * dx;
+        }
+        scene.add(Shape::box(0.5 * (low + high), 0.5 * (high - low)).inverted());
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            bool inside = c[a] > 0 && c[a] < 6 + a;
+            for (int b = 0; b < kAxes; ++b)
+                if (b != a) inside = inside && c[b] >= 0 && c[b] < 6 + b;
+            ASSERT_EQ(scene.open(a, c), inside ? 1.0 : 0.0) << a << ": " << c.transpose();
+            ASSERT_EQ((scene.field.closed(scene.at(c).block, a)[c.z() & 7] >> (8 * (c.y() & 7) + (c.x() & 7)) & 1) == 1, !inside);
+        });
+    }
+}
+
+TEST(ObstacleField, OpenFractionsOfABallCloseItsSurface)
+{
+    // Σ (1 − ω) h² over the faces of a plane is the area of the ball's section.
+    GridScene scene({-16, -16, -16}, {16, 16, 16}, 0.1, Vec3::Zero());
+    scene.add(Shape::ball({0.02, -0.03, 0.01}, 1.0));
+    for (int a = 0; a < kAxes; ++a)
+        for (int plane : {-6, 0, 3}) {
+            double area = 0.0;
+            scene.forEachCell([&](const Vec3i& c) {
+                if (c[a] == plane) area += (1.0 - scene.open(a, c)) * 0.01;
+            });
+            const double z = 0.1 * plane - Vec3(0.02, -0.03, 0.01)[a];
+            EXPECT_NEAR(area, kPi * (1.0 - z * z), 0.01);
+        }
+}
+
+/// Everything a field tells of a block.
+void expectSameBlock(const ObstacleField& a, int blockA, const ObstacleField& b, int blockB)
+{
+    for (int axis = 0; axis < kAxes; ++axis)
+        for (int c = 0; c < kBlockCells; ++c) {
+            ASSERT_EQ(a.open(blockA, axis)[c], b.open(blockB, axis)[c]);
+            ASSERT_EQ(a.wallVelocity(blockA, axis)[c], b.wallVelocity(blockB, axis)[c]);
+            ASSERT_EQ(a.closed(blockA, axis)[c / 64], b.closed(blockB, axis)[c / 64]);
+        }
+    if (!a.nearSolid(blockA) || !b.nearSolid(blockB)) return;
+    for (int c = 0; c < kBlockCells; ++c) ASSERT_EQ(a.centerDistance(blockA)[c], b.centerDistance(blockB)[c]);
+    for (int n = 0; n < ObstacleField::kNodes; ++n)
+        ASSERT_EQ(std::min(a.nodeDistance(blockA)[n], ObstacleField::kExactDistance), std::min(b.nodeDistance(blockB)[n], ObstacleField::kExactDistance));
+}
+
+TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
+{
+    Obstacles obstacles;
+    obstacles.add(Shape::ball({4.0, 4.0, 4.0}, 3.0), {});
+    Motion motion;
+    motion.addTranslation(0.25, 0.75, {30.0, 0.0, 0.0}, 0.0, 0.0);
+    motion.addRotation(0.25, 0.75, Vec3::UnitY(), 2.0, Vec3(-4.0, 0.0, 2.0), Motion::Frame::World, 0.0, 0.0);
+    obstacles.add(Shape::box({-8.0, 2.0, 4.0}, {2.0, 3.0, 4.0}), motion);
+
+    std::mt19937 random(4);
+    BlockGrid grid;
+    ObstacleField field;
+    for (int step = 0; step < 24; ++step) {
+        const double t = step / 20.0;
+        obstacles.moveTo(t, t + 0.05);
+        std::vector<Vec3i> blocks;
+        for (int x = -3; x < 5; ++x)
+            for (int y = -1; y < 2; ++y)
+                for (int z = -1; z < 2; ++z)
+                    if (random() % 4 != 0) blocks.emplace_back(x, y, z);
+        const std::vector<Vec3i> before = grid.coords();
+        grid.setBlocks(blocks);
+        std::vector<int> previous;
+        for (int b = 0; b < grid.count(); ++b) {
+            const auto old = std::find(before.begin(), before.end(), grid.coords(b));
+            previous.push_back(old == before.end() ? BlockGrid::kNone : static_cast<int>(old - before.begin()));
+        }
+        field.update(grid, previous, obstacles);
+        ObstacleField fresh;
+        fresh.update(grid, std::vector<int>(grid.count(), BlockGrid::kNone), obstacles);
+        for (int b = 0; b < grid.count(); ++b) ASSERT_NO_FATAL_FAILURE(expectSameBlock(field, b, fresh, b)) << "step " << step;
+        for (int a = 0; a < kAxes; ++a) EXPECT_EQ(field.open(grid.count(), a)[17], 1.0) << "the empty block";
+    }
+}
+
+TEST(ObstacleField, WallsMoveWithTheirBody)
+{
+    GridScene scene({-8, -8, -8}, {16, 16, 16}, 0.5, Vec3::Zero());
+    Motion motion;
+    motion.addRotation(0.0, 1.0, Vec3::UnitZ(), 3.0, Vec3(1.0, 0.0, 0.0), Motion::Frame::World, 0.0, 0.0);
+    motion.addTranslation(0.0, 1.0, {0.0, 0.0, 5.0}, 0.0, 0.0);
+    scene.obstacles.add(Shape::ball({1.0, 1.0, -1.0}, 1.0), motion);
+    const double dt = 1.0e-5;
+    scene.obstacles.moveTo(0.2, 0.2 + dt);
+    scene.updateObstacles();
+    scene.forEachFace([&](int a, const Vec3i& c) {
+        const CellRef ref = scene.at(c);
+        if (!scene.field.nearSolid(ref.block)) return;
+        // The mean velocity over the step is that of its middle, to second order.
+        const Vec3 x = scene.faceMiddle(a, c), v = motion.velocity(0.2 + dt, x);
+        ASSERT_NEAR(scene.field.wallVelocity(ref.block, a)[ref.cell], v[a], 1.0e-3);
+    });
+    scene.obstacles.moveTo(1.5, 1.6);
+    scene.updateObstacles();
+    scene.forEachFace([&](int a, const Vec3i& c) { ASSERT_EQ(scene.field.wallVelocity(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
+}
+
+}  // namespace
+}  // namespace sim::test
