@@ -104,6 +104,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     clock.start(Stage::ParticlesToGrid);
     particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
+    if (settings.liquid.wallFriction < 1.0) foldAtWalls(grid, work.obstacles, work.grid.faces);
     divideAndAddGravity(grid, settings.gravity, dt, flip, work.grid);
 
     clock.start(Stage::LevelSet);

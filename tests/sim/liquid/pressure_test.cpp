@@ -191,6 +191,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
         const Vec3i below = c - Vec3i::Unit(axis);
         if (below[axis] < scene.lower[axis]) return;
         const double phi = scene.levelSet(c), phiBelow = scene.levelSet(below);
+        if (!scene.liquid.wet.test(scene.at(c).block, scene.at(c).cell, axis)) return;
         const double k = scene.open(axis, c) * kDt / (scene.grid.dx * scene.grid.dx);
         if (phi < 0.0 && phiBelow < 0.0) {
             const int i = indexOf(c), j = indexOf(below);
