@@ -116,8 +116,8 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     clock.start(Stage::Extrapolate);
     if (flip) {
-        BlockBits<3> valid = work.grid.faces.valid;
-        fillFaces(grid, settings.liquid.wallFriction, work, valid, work.grid.flipVelocity);
+        work.grid.flipValid = work.grid.faces.valid;
+        fillFaces(grid, settings.liquid.wallFriction, work, work.grid.flipValid, work.grid.flipVelocity);
     }
     fillFaces(grid, settings.liquid.wallFriction, work, work.grid.faces.valid, work.grid.faces.velocity);
     findGaps(grid, work.order, work.grid);
