@@ -35,26 +35,34 @@ TEST(FreeFall, BlobFallsWithExactlyGravityAndKeepsItsShape)
     }
 }
 
-/// Energy above the liquid's rest on the floor, whose potential is 0.
+/// Largest gain within a tenth of a second, relative to the start.
+double largestGain(Simulation& simulation, double duration)
+{
+    std::vector<std::pair<double, double>> history = {{0.0, simulation.energies().total()}};
+    double gain = 0.0;
+    while (simulation.state().time < duration) {
+        const StepReport report = simulation.step(duration);
+        history.emplace_back(simulation.state().time, report.energies.total());
+        for (auto then = history.rbegin(); then != history.rend() && then->first > history.back().first - 0.1; ++then)
+            gain = std::max(gain, history.back().second - then->second);
+    }
+    return gain / history.front().second;
+}
+
+/// Energy above that of liquid resting on the floor, whose potential is 0.
 TEST(Energy, DoesNotGrowBetweenWallsAtRest)
 {
     for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
-        Scene scene = coarseDamBreak(transfer);
+        constexpr double kCell = 0.625;
+        Scene scene = tankScene(transfer, kCell, Vec3(24.0, 30.0, 5.0) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 5.0) / kCell);
+        scene.sources[0].fill.spacing = 0.5;
         scene.settings.time.cfl = 0.5;
         Simulation simulation(scene);
-        const double start = simulation.energies().total();
-        // Relaxation may add one thousandth in a tenth of a second.
-        const double allowed = 1.0e-3 * start / 0.1;
-        double least = start, largestGain = 0.0;
-        while (simulation.state().time < 0.4) {
-            const StepReport report = simulation.step(0.4);
-            const double energy = report.energies.total() - allowed * simulation.state().time;
-            largestGain = std::max(largestGain, energy - least);
-            least = std::min(least, energy);
-        }
-        std::printf("%s: energy left %.3f, largest gain beyond what is allowed %.2e\n", transfer.name.c_str(),
-                    (least + allowed * 0.4) / start, largestGain / start);
-        EXPECT_LT(largestGain, 1.0e-4 * start) << transfer.name;
+        const double start = simulation.energies().total(), gain = largestGain(simulation, 0.4);
+        std::printf("%s: largest gain in 0.1 s %.2e, energy left after 0.4 s %.3f\n", transfer.name.c_str(), gain,
+                    simulation.energies().total() / start);
+        // At this resolution the impact on the far wall gains about a thousandth, half as much with cells half as large.
+        EXPECT_LT(gain, 2.0e-3) << transfer.name;
     }
 }
 

@@ -67,35 +67,45 @@ Vec3 angularMomentum(const State& state)
     return sum;
 }
 
-TEST(RotatingBlob, KeepsItsAngularMomentum)
+/// Largest change of the angular momentum of a turning ball of radius 8 cm in one of 20 steps, relative to its start.
+double largestChange(const Transfer& transfer, double cell, double dt)
 {
+    const Vec3 middle(0.3, -0.2, 0.1), turn(0.3, -0.2, 1.0);
+    Scene scene;
+    scene.settings.cell = cell;
+    scene.settings.gravity = Vec3::Zero();
+    scene.settings.transfer.method = transfer.method;
+    scene.settings.transfer.modes = transfer.modes;
+    scene.settings.liquid.relax.rate = 0.0;
+    scene.settings.solver.pressureTolerance = 1.0e-12;
+    scene.settings.time.dt = dt;
+    SourceSettings source;
+    source.shape = Shape::ball(middle, 8.0);
+    source.emissions.push_back({});
+    scene.sources.push_back(source);
+    Simulation simulation = moving(scene, [&](const Vec3& x) { return Vec3(turn.cross(x - middle)); });
+    const Vec3 start = angularMomentum(simulation.state());
+    Vec3 last = start;
+    double worst = 0.0;
+    for (int step = 0; step < 20; ++step) {
+        simulation.step(1.0e9);
+        const Vec3 now = angularMomentum(simulation.state());
+        worst = std::max(worst, (now - last).norm() / start.norm());
+        last = now;
+    }
+    std::printf("%s, cell %.1f, dt %.3f: angular momentum changes by up to %.2e per step, by %.2e in 20\n", transfer.name.c_str(), cell, dt, worst,
+                (last - start).norm() / start.norm());
+    return worst;
+}
+
+TEST(RotatingBlob, LosesAngularMomentumAtItsSurfaceOnlyAndThatWithTheSquareOfTheCell)
+{
+    // The transfers keep it to the last digits. What is lost is at the surface, where extrapolation replaces the velocities of faces that
+    // carry liquid but touch no liquid cell: the same in every step, however short it is.
     for (const Transfer& transfer : {kApic, kPoly8}) {
-        Scene scene;
-        scene.settings.cell = 1.0;
-        scene.settings.gravity = Vec3::Zero();
-        scene.settings.transfer.method = transfer.method;
-        scene.settings.transfer.modes = transfer.modes;
-        scene.settings.liquid.relax.rate = 0.0;
-        scene.settings.solver.pressureTolerance = 1.0e-12;
-        scene.settings.time.dt = 0.02;
-        SourceSettings source;
-        source.shape = Shape::ball({0.3, -0.2, 0.1}, 8.0);
-        source.emissions.push_back({});
-        scene.sources.push_back(source);
-        const Vec3 turn(0.3, -0.2, 1.0);
-        Simulation simulation = moving(scene, [&](const Vec3& x) { return Vec3(turn.cross(x - Vec3(0.3, -0.2, 0.1))); });
-        const Vec3 start = angularMomentum(simulation.state());
-        Vec3 last = start;
-        double worst = 0.0;
-        for (int step = 0; step < 20; ++step) {
-            simulation.step(1.0e9);
-            const Vec3 now = angularMomentum(simulation.state());
-            worst = std::max(worst, (now - last).norm() / start.norm());
-            last = now;
-        }
-        std::printf("%s: angular momentum changes by up to %.2e per step, %.2e in all\n", transfer.name.c_str(), worst,
-                    (last - start).norm() / start.norm());
-        EXPECT_LT(worst, 1.0e-9) << transfer.name;
+        const double coarse = largestChange(transfer, 1.0, 0.02);
+        EXPECT_LT(coarse, 1.0e-3) << transfer.name;
+        EXPECT_LT(largestChange(transfer, 0.5, 0.02), 0.3 * coarse) << transfer.name;
     }
 }
 

@@ -119,6 +119,21 @@ TEST(WholeStep, OrderOfTheParticlesDoesNotMatter)
     }
 }
 
+TEST(WholeStep, ReportTellsTheEnergiesOfTheState)
+{
+    for (const Transfer& transfer : kTransfers) {
+        Simulation simulation(splash(transfer));
+        for (int step = 0; step < 5; ++step) {
+            const StepReport report = simulation.step(1.0e9);
+            const Energies now = simulation.energies();
+            // G2P sums where the particles were: only the potential is that of where they are now.
+            EXPECT_NEAR(report.energies.kinetic, now.kinetic, 1.0e-12 * now.kinetic) << transfer.name;
+            EXPECT_NEAR(report.energies.potential, now.potential, 1.0e-12 * now.potential) << transfer.name;
+            EXPECT_NEAR(report.energies.modal, now.modal, 0.02 * now.modal + 1.0e-6 * now.kinetic) << transfer.name;
+        }
+    }
+}
+
 TEST(WholeStep, StateAloneDecidesWhatFollows)
 {
     Simulation simulation(splash(kPoly8));
