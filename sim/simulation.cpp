@@ -26,6 +26,11 @@ double relaxReach(const Scene& scene)
     return std::min(relax.range * radius, scene.settings.cell);
 }
 
+double fastest(const LiquidParticles& particles)
+{
+    return parallelMax(particles.count, [&](std::size_t p) { return particles.velocity(p).norm(); });
+}
+
 }  // namespace
 
 Simulation::Simulation(Scene scene) : scene_(std::move(scene))
@@ -35,11 +40,24 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene))
     state_.grid.dx = settings.cell;
     state_.liquid.modeCount = storedModes(settings.transfer.modeCount());
     state_.emittedVolume.assign(scene_.sources.size(), 0.0);
+    prepareWorkspace();
+    emitLiquid(scene_, state_, state_.time, state_.time);
+    maxSpeed_ = fastest(state_.liquid);
+}
+
+Simulation::Simulation(Scene scene, State state) : scene_(std::move(scene)), state_(std::move(state))
+{
+    SIM_CHECK(state_.grid.dx == scene_.settings.cell && state_.emittedVolume.size() == scene_.sources.size());
+    SIM_CHECK(state_.liquid.modeCount == storedModes(scene_.settings.transfer.modeCount()));
+    prepareWorkspace();
+    maxSpeed_ = fastest(state_.liquid);
+}
+
+void Simulation::prepareWorkspace()
+{
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
-    emitLiquid(scene_, state_, state_.time, state_.time);
-    maxSpeed_ = parallelMax(state_.liquid.count, [&](std::size_t p) { return state_.liquid.velocity(p).norm(); });
 }
 
 Energies Simulation::energies() const { return liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity); }

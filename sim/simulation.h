@@ -11,6 +11,8 @@ class Simulation {
  public:
     /// Builds the initial state. Throws InputError when a source has no room for a single particle.
     explicit Simulation(Scene scene);
+    /// Goes on from a state of the same scene.
+    Simulation(Scene scene, State state);
 
     const State& state() const { return state_; }
     const Scene& scene() const { return scene_; }
@@ -24,6 +26,8 @@ class Simulation {
     StepReport step(double until);
 
  private:
+    void prepareWorkspace();
+
     Scene scene_;
     State state_;
     Workspace work_;

@@ -118,6 +118,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
         particlesToFacesAffine(particles, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
     else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
+    if (settings.liquid.wallFriction < 1.0) foldAtWalls(grid, work.obstacles, work.grid.faces);
     divideAndAddGravity(grid, settings.gravity, dt, flip, work.grid);
 
     clock.start(Stage::LevelSet);
@@ -129,8 +130,8 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     clock.start(Stage::Extrapolate);
     if (flip) {
-        BlockBits<3> valid = work.grid.faces.valid;
-        fillFaces(grid, settings.liquid.wallFriction, work, valid, work.grid.flipVelocity);
+        work.grid.flipValid = work.grid.faces.valid;
+        fillFaces(grid, settings.liquid.wallFriction, work, work.grid.flipValid, work.grid.flipVelocity);
     }
     fillFaces(grid, settings.liquid.wallFriction, work, work.grid.faces.valid, work.grid.faces.velocity);
     findGaps(grid, work.order, work.grid);

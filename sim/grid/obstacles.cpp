@@ -9,6 +9,12 @@ void Obstacles::add(const Shape& shape, const Motion& motion)
     body.before = body.now;
     body.toShape = body.now.inverse();
     bodies_.push_back(std::move(body));
+    const auto box = motion.isStatic() ? shape.axisBox() : std::nullopt;
+    if (!box || !box->inside) return;
+    for (int axis = 0; axis < kAxes; ++axis) {
+        walls_.push_back({axis, box->box.min()[axis], false});
+        walls_.push_back({axis, box->box.max()[axis], true});
+    }
 }
 
 void Obstacles::moveTo(double t0, double t1)
@@ -64,20 +70,6 @@ Vec3 Obstacles::velocity(const Vec3& x) const
     const Body* body = nearest(x);
     if (body == nullptr || !body->moving || interval_ <= 0.0) return Vec3::Zero();
     return (x - body->before * (body->toShape * x)) / interval_;
-}
-
-std::vector<Obstacles::Wall> Obstacles::planeWalls() const
-{
-    std::vector<Wall> walls;
-    for (const Body& body : bodies_) {
-        const auto box = body.motion.isStatic() ? body.shape.axisBox() : std::nullopt;
-        if (!box || !box->inside) continue;
-        for (int axis = 0; axis < kAxes; ++axis) {
-            walls.push_back({axis, box->box.min()[axis], false});
-            walls.push_back({axis, box->box.max()[axis], true});
-        }
-    }
-    return walls;
 }
 
 }  // namespace sim

@@ -29,7 +29,11 @@ class Obstacles {
         double at;    ///< [cm]
         bool above;   ///< the solid is on the upper side
     };
-    std::vector<Wall> planeWalls() const;
+    template <class F>
+    void forEachPlaneWall(F&& f) const
+    {
+        for (const Wall& wall : walls_) f(wall);
+    }
 
  private:
     struct Body {
@@ -41,6 +45,7 @@ class Obstacles {
     const Body* nearest(const Vec3& x) const;
 
     std::vector<Body> bodies_;
+    std::vector<Wall> walls_;
     double movedTo_ = 0.0;
     bool anyMoving_ = false;
     double interval_ = 0.0;

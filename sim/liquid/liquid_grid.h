@@ -9,7 +9,8 @@ namespace sim {
 struct LiquidGrid {
     FaceFields faces;
     BlockBits<3> wet;                    ///< faces that carry liquid mass
-    BlockArray<double, 3> flipVelocity;  ///< FLIP only: velocities straight after P2G [cm/s]
+    BlockArray<double, 3> flipVelocity;  ///< FLIP only: velocities straight after P2G [cm/s] …
+    BlockBits<3> flipValid;              ///< … and where they mean something
     BlockArray<double> levelSet;         ///< signed distance to the liquid's surface at cell middles [cm]; < 0 exactly where there is a pressure
     BlockBits<> gaps;                    ///< cells whose particles meet faces without a velocity
     bool hasGaps = false;

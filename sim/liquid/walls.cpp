@@ -82,18 +82,19 @@ void slip(const BlockGrid& grid, const ObstacleField& field, const Obstacles& ob
     });
 }
 
-/// Fill the faces of one block behind a wall at cell coordinate `plane` from their images in front of it.
-void mirrorInBlock(const BlockGrid& grid, int b, const Obstacles::Wall& wall, int plane, double friction, const BlockBits<3>& valid,
-                   BlockBits<3>& newlyValid, BlockArray<double, 3>& velocity)
+/// Call f(component, layer, face, image) for the faces of one block that a wall at cell coordinate `plane` mirrors: those behind it with
+/// their images in front, or the other way round. Normal faces of layer 0 stand in the plane and are their own image.
+template <class F>
+void forEachImage(const BlockGrid& grid, int b, const Obstacles::Wall& wall, int plane, bool behind, F&& f)
 {
     const int first = kBlockEdge * grid.coords(b)[wall.axis];
     for (int layer = 0; layer <= kMirrorDepth; ++layer)
         for (int c = 0; c < kAxes; ++c) {
             const bool normal = c == wall.axis;
             if (!normal && layer == kMirrorDepth) continue;
-            // Normal faces stand in the plane and behind it; tangential ones in the cells behind it.
-            const int at = (wall.above ? plane + layer : normal ? plane - layer : plane - 1 - layer) - first;
-            const int image = (wall.above ? plane - layer - (normal ? 0 : 1) : plane + layer) - first;
+            // Normal faces stand in the plane and `layer` cells away from it, tangential ones in the cells on either side.
+            const int upper = plane + layer, lower = plane - layer - (normal ? 0 : 1);
+            const int at = (behind == wall.above ? upper : lower) - first, image = upper + lower - 2 * first - at;
             if (at < 0 || at >= kBlockEdge) continue;
             for (int v = 0; v < kBlockEdge; ++v)
                 for (int u = 0; u < kBlockEdge; ++u) {
@@ -102,40 +103,48 @@ void mirrorInBlock(const BlockGrid& grid, int b, const Obstacles::Wall& wall, in
                     from[wall.axis] = image;
                     to[(wall.axis + 1) % 3] = from[(wall.axis + 1) % 3] = u;
                     to[(wall.axis + 2) % 3] = from[(wall.axis + 2) % 3] = v;
-                    const int face = cellInBlock(to.x(), to.y(), to.z());
-                    const CellRef source = cellNear(grid, b, from.x(), from.y(), from.z());
-                    const bool onWall = normal && layer == 0;
-                    if (!onWall && !valid.test(source.block, source.cell, c)) continue;
-                    const double value = velocity.block(source.block, c)[source.cell];
-                    velocity.block(b, c)[face] = onWall ? 0.0 : normal ? -value : (1.0 - friction) * value;
-                    newlyValid.set(b, face, c);
+                    f(c, layer, cellInBlock(to.x(), to.y(), to.z()), cellNear(grid, b, from.x(), from.y(), from.z()));
                 }
         }
 }
 
-/// One wall after another, so that edges and corners get the image of an image.
+/// Call f(wall, plane, forBlocksAtWall) for each wall in a plane of faces, one after another, so that edges and corners get the image of
+/// an image. forBlocksAtWall(g) calls g(block) for the blocks whose faces the wall mirrors.
+template <class F>
+void forEachPlaneWall(const BlockGrid& grid, const Obstacles& obstacles, F&& f)
+{
+    obstacles.forEachPlaneWall([&](const Obstacles::Wall& wall) {
+        const double inCells = (wall.at - grid.origin[wall.axis]) / grid.dx;
+        const int plane = static_cast<int>(std::lround(inCells));
+        if (std::abs(inCells - plane) > kInFacePlane) return;
+        f(wall, plane, [&](auto&& g) {
+            parallelFor(grid.count(), 4, [&](std::size_t n) {
+                const int first = kBlockEdge * grid.coords(static_cast<int>(n))[wall.axis];
+                if (first <= plane + kMirrorDepth && first + kBlockEdge > plane - kMirrorDepth - 1) g(static_cast<int>(n));
+            });
+        });
+    });
+}
+
 void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, BlockBits<3>& valid, BlockBits<3>& newlyValid,
             BlockArray<double, 3>& velocity)
 {
-    for (const Obstacles::Wall& wall : obstacles.planeWalls()) {
-        const double inCells = (wall.at - grid.origin[wall.axis]) / grid.dx;
-        const int plane = static_cast<int>(std::lround(inCells));
-        if (std::abs(inCells - plane) > kInFacePlane) continue;
-        const auto forBlocksAtWall = [&](auto&& f) {
-            parallelFor(grid.count(), 4, [&](std::size_t n) {
-                const int first = kBlockEdge * grid.coords(static_cast<int>(n))[wall.axis];
-                if (first <= plane + kMirrorDepth && first + kBlockEdge > plane - kMirrorDepth) f(static_cast<int>(n));
-            });
-        };
+    forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int plane, auto&& forBlocksAtWall) {
         forBlocksAtWall([&](int b) {
             for (int a = 0; a < kAxes; ++a) std::fill_n(newlyValid.block(b, a), BlockBits<3>::kWords, 0);
-            mirrorInBlock(grid, b, wall, plane, friction, valid, newlyValid, velocity);
+            forEachImage(grid, b, wall, plane, true, [&](int c, int layer, int face, CellRef image) {
+                const bool normal = c == wall.axis, inWall = normal && layer == 0;
+                if (!inWall && !valid.test(image.block, image.cell, c)) return;
+                const double value = velocity.block(image.block, c)[image.cell];
+                velocity.block(b, c)[face] = inWall ? 0.0 : normal ? -value : (1.0 - friction) * value;
+                newlyValid.set(b, face, c);
+            });
         });
         forBlocksAtWall([&](int b) {
             for (int a = 0; a < kAxes; ++a)
                 for (int k = 0; k < kBlockEdge; ++k) valid.block(b, a)[k] |= newlyValid.block(b, a)[k];
         });
-    }
+    });
 }
 
 }  // namespace
@@ -150,6 +159,22 @@ void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacl
     slip(grid, field, obstacles, friction, valid, velocity, liquid);
     scratch.newlyValid.resize(grid.count());
     mirror(grid, obstacles, friction, valid, scratch.newlyValid, velocity);
+}
+
+void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces)
+{
+    forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int plane, auto&& forBlocksAtWall) {
+        forBlocksAtWall([&](int b) {
+            forEachImage(grid, b, wall, plane, false, [&](int c, int layer, int face, CellRef image) {
+                const bool normal = c == wall.axis;
+                if (normal && layer == 0) return;
+                const double mass = faces.sums.block(image.block, FaceFields::kMass + c)[image.cell],
+                             momentum = faces.sums.block(image.block, FaceFields::kMomentum + c)[image.cell];
+                faces.sums.block(b, FaceFields::kMass + c)[face] += mass;
+                faces.sums.block(b, FaceFields::kMomentum + c)[face] += normal ? -momentum : momentum;
+            });
+        });
+    });
 }
 
 }  // namespace sim

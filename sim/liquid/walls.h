@@ -12,4 +12,8 @@ namespace sim {
 void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
                 BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
 
+/// After P2G: what particles gave to faces behind plane walls in planes of faces goes to the images of these faces in front, as if every
+/// particle had its mirror image behind the wall. Without it the faces next to a wall know only half of the liquid around them.
+void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces);
+
 }  // namespace sim

@@ -120,8 +120,16 @@ void PoissonSolver::start(const Problem& problem)
 
     const bool isGuessZero = measure(problem) == 0.0;
     scale_ = largestRhs_ > 0.0 && std::isfinite(largestRhs_) ? std::exp2(-std::ilogb(largestRhs_)) : 1.0;
-    forEachBlockInTile<FramedTile<double>>(
-        n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, isGuessZero, tile); });
+    const auto findResidual = [&](bool fromZero) {
+        forEachBlockInTile<FramedTile<double>>(
+            n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, fromZero, tile); });
+    };
+    findResidual(isGuessZero);
+    if (!isGuessZero && !(largestOf(largest_) <= largestRhs_)) {
+        // Worse than none: of a pressure far above the solution, rounding alone may be larger than what there is to solve.
+        forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
+        findResidual(true);
+    }
     if (components_.count() == 0) return;
 
     components_.removeMeans(residual_);

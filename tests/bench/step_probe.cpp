@@ -10,12 +10,13 @@ int main(int argc, char** argv)
     const double dt = argc > 4 ? atof(argv[4]) : 2e-4; const int every = argc > 5 ? atoi(argv[5]) : steps;
     onThreads(threads, [&] {
         Scene scene = damBreakSmall(modes == 0 ? TransferMethod::Flip : modes == 1 ? TransferMethod::Pic : modes == 4 ? TransferMethod::Apic : TransferMethod::PolyPic, modes);
-        scene.settings.time.dt = dt; 
+        scene.settings.time.dt = dt; if (argc > 6) { scene.settings.time.dt = 4e-3; scene.settings.time.mode = TimeMode::Cfl; }
         Simulation s(scene);
         std::printf("particles %zu E0 %.6g\n", s.state().liquid.count, s.energies().total());
+        if (argc > 6) { while (s.state().time < atof(argv[6])) { auto r = s.step(std::min(atof(argv[6]), s.state().time + 4e-3)); if (s.state().step % 100 == 0) std::printf("t %.3f dt %.2e cfl %.2f it %d cells %zu blocks %zu tot %.5g part %zu gaps %d\n", s.state().time, r.dt, r.cfl, r.pressure.iterations, r.liquidCells, r.blocks, r.energies.total(), r.particles, (int)s.workspace().grid.hasGaps); } }
         std::vector<StepReport> reports;
         for (int n = 0; n < steps; ++n) {
-            reports.push_back(s.step(s.state().time + dt));
+            for (double until = s.state().time + dt; s.state().time < until;) reports.push_back(s.step(until));
             if ((n + 1) % every == 0) {
                 const auto& r = reports.back();
                 std::vector<double> total;

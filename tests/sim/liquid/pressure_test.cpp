@@ -191,6 +191,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
         const Vec3i below = c - Vec3i::Unit(axis);
         if (below[axis] < scene.lower[axis]) return;
         const double phi = scene.levelSet(c), phiBelow = scene.levelSet(below);
+        if (!scene.liquid.wet.test(scene.at(c).block, scene.at(c).cell, axis)) return;
         const double k = scene.open(axis, c) * kDt / (scene.grid.dx * scene.grid.dx);
         if (phi < 0.0 && phiBelow < 0.0) {
             const int i = indexOf(c), j = indexOf(below);
@@ -284,7 +285,7 @@ TEST(Pressure, DryFacesOfCellsInObstaclesGetNoVelocity)
 {
     // A cell whose middle is in a ball is liquid through its wet lower face; its upper face is open to the air but carries no liquid.
     GridScene scene({0, 0, 0}, {8, 8, 8});
-    scene.add(Shape::ball(scene.middle({4, 4, 4}) + scene.grid.dx * Vec3(0.0, -0.1, 0.0), 0.45 * scene.grid.dx));
+    scene.add(Shape::ball(scene.middle({4, 4, 4}) + scene.grid.dx * Vec3(0.0, 0.1, 0.0), 0.45 * scene.grid.dx));
     scene.levelSet({4, 3, 4}) = -0.3 * scene.grid.dx;
     scene.wetFacesOfLiquid();
     scene.classify();

@@ -1,6 +1,8 @@
 #include "sim/liquid/walls.h"
 
 #include "sim/core/units.h"
+#include "sim/transfer/scatter.h"
+#include "tests/sim/fixtures.h"
 #include "tests/sim/liquid/grid_scene.h"
 
 #include <gtest/gtest.h>
@@ -117,6 +119,61 @@ TEST(Walls, FrictionOfAPlaneWallSlowsTheTangentialPartBehindIt)
     EXPECT_NEAR(scene.velocity(2, {4, -2, 4}), 0.7 * 4.0, 1.0e-12);
     EXPECT_EQ(scene.velocity(1, {4, 0, 4}), 0.0);
     EXPECT_NEAR(scene.velocity(2, {8, 4, 4}), 0.7 * 4.0, 1.0e-12);
+}
+
+TEST(Walls, FoldingIsLikeMirroredParticles)
+{
+    // Particles in the corners of a small tank, with and without their images behind every wall.
+    constexpr double kDx = 0.5;
+    const Vec3i size(6, 5, 4);
+    const Vec3 far = kDx * size.cast<double>();
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    SortedLiquid inside, all;
+    inside.grid.dx = all.grid.dx = kDx;
+    inside.particles.modeCount = all.particles.modeCount = 4;
+    const auto add = [](SortedLiquid& liquid, const Vec3& x, const Vec3& v, const Mat3& slope) {
+        const std::size_t p = liquid.particles.count;
+        liquid.particles.add(x, 1.0, static_cast<std::uint32_t>(p), v);
+        for (int a = 0; a < kAxes; ++a)
+            for (int b = 0; b < kAxes; ++b) liquid.particles.mode(a, 1 + b)[p] = slope(a, b);
+    };
+    for (int n = 0; n < 300; ++n) {
+        const Vec3 x = Vec3(unit(random), unit(random), unit(random)).cwiseProduct(far), v = Vec3(unit(random), unit(random), unit(random));
+        Mat3 slope;
+        for (int e = 0; e < 9; ++e) slope(e / 3, e % 3) = unit(random) - 0.5;
+        add(inside, x, v, slope);
+        for (int image = 0; image < 27; ++image) {
+            const Vec3i wall(image % 3, image / 3 % 3, image / 9);  // 0 none, 1 the lower, 2 the upper one
+            Vec3 at = x, sign = Vec3::Ones();
+            for (int a = 0; a < kAxes; ++a) {
+                if (wall[a] == 0) continue;
+                at[a] = (wall[a] == 1 ? 0.0 : 2.0 * far[a]) - x[a];
+                sign[a] = -1.0;
+            }
+            const Mat3 mirrored = sign.asDiagonal() * slope * sign.asDiagonal();
+            add(all, at, sign.cwiseProduct(v), mirrored);
+        }
+    }
+    Obstacles obstacles;
+    obstacles.add(Shape::box(0.5 * far, 0.5 * far).inverted(), {});
+    FaceFields folded, expected;
+    ScatterScratch scratch;
+    inside.sort();
+    all.sort();
+    particlesToFaces(inside.particles, inside.order, inside.grid, scratch, folded);
+    foldAtWalls(inside.grid, obstacles, folded);
+    particlesToFaces(all.particles, all.order, all.grid, scratch, expected);
+    for (int a = 0; a < kAxes; ++a)
+        for (int z = a == 2; z < size.z(); ++z)
+            for (int y = a == 1; y < size.y(); ++y)
+                for (int x = a == 0; x < size.x(); ++x)
+                    for (int kind : {FaceFields::kMass + a, FaceFields::kMomentum + a}) {
+                        const int cell = cellInBlock(x, y, z);
+                        ASSERT_NEAR(folded.sums.block(inside.grid.find({0, 0, 0}), kind)[cell],
+                                    expected.sums.block(all.grid.find({0, 0, 0}), kind)[cell], 1.0e-12)
+                            << a << ": " << x << ' ' << y << ' ' << z;
+                    }
 }
 
 }  // namespace

@@ -280,6 +280,21 @@ TEST(Poisson, FollowsASetOfBlocksThatChanges)
     }
 }
 
+TEST(Poisson, GuessFarAboveTheSolutionIsDropped)
+{
+    const PoissonScene scene = boxWithSurface({20, 16, 20});
+    PoissonScene faint = scene;
+    for (int b = 0; b < faint.grid.count(); ++b)
+        for (int c = 0; c < kBlockCells; ++c) faint.rhs.block(b)[c] *= 1.0e-14;
+    PoissonSolver solver;
+    BlockArray<double> p = zeroPressure(scene), fresh;
+    ASSERT_TRUE(solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p).converged);
+    const SolveReport report = solver.solve(faint.grid, faint.matrix, faint.rhs, 1.0e-6, 200, p);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, solveFromZero(faint, fresh, 1.0e-6).iterations);
+    EXPECT_TRUE(sameBits(p, fresh));
+}
+
 TEST(Poisson, BlocksThatRunDryLeaveNothingBehind)
 {
     const PoissonScene wet = boxWithSurface({24, 20, 24});

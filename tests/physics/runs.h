@@ -1,0 +1,87 @@
+#pragma once
+
+#include "sim/core/units.h"
+#include "sim/simulation.h"
+#include "sim/transfer/modes.h"
+
+#include <cmath>
+#include <string>
+
+// Whole runs of the liquid for the tests of physics.
+
+namespace sim::test {
+
+struct Transfer {
+    std::string name;
+    TransferMethod method;
+    int modes;
+};
+inline const Transfer kPic{"PIC", TransferMethod::Pic, 1}, kFlip{"FLIP", TransferMethod::Flip, 1}, kApic{"APIC", TransferMethod::Apic, 4},
+    kPoly8{"PolyPIC-8", TransferMethod::PolyPic, 8}, kPoly11{"PolyPIC-11", TransferMethod::PolyPic, 11},
+    kPoly27{"PolyPIC-27", TransferMethod::PolyPic, 27};
+inline const std::array<Transfer, 6> kTransfers = {kPic, kFlip, kApic, kPoly8, kPoly11, kPoly27};
+
+/// A tank of `size` cells from the origin on, with free-slip walls in planes of faces, and a box of liquid from `low` to `high` (cells).
+inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, const Vec3& low, const Vec3& high)
+{
+    Scene scene;
+    scene.name = "tank";
+    scene.settings.cell = cell;
+    scene.settings.transfer.method = transfer.method;
+    scene.settings.transfer.modes = transfer.modes;
+    scene.settings.time.mode = TimeMode::Cfl;
+    scene.settings.time.dt = 1.0;
+    scene.obstacles.push_back({"tank", Shape::box(0.5 * cell * size, 0.5 * cell * size).inverted(), {}, false, {}, {}, {}});
+    SourceSettings source;
+    source.name = "liquid";
+    source.shape = Shape::box(0.5 * cell * (low + high), 0.5 * cell * (high - low));
+    source.emissions.push_back({});
+    scene.sources.push_back(source);
+    return scene;
+}
+
+/// A column at one end of a short tank: 10 × 12 × 4 cells of 1 cm in 24.
+inline Scene coarseDamBreak(const Transfer& transfer)
+{
+    Scene scene = tankScene(transfer, 1.0, {24.0, 30.0, 4.0}, {0.0, 0.0, 0.0}, {10.0, 12.0, 4.0});
+    scene.name = "coarse dam break";
+    scene.sources[0].fill.spacing = 0.5;
+    return scene;
+}
+
+/// Give every particle the velocity u(x) and its gradient.
+template <class U>
+void setVelocities(State& state, U&& u)
+{
+    LiquidParticles& liquid = state.liquid;
+    const double dx = state.grid.dx, h = 1.0e-4 * dx;
+    for (std::size_t p = 0; p < liquid.count; ++p) {
+        const Vec3 x = liquid.position(p), v = u(x);
+        for (int a = 0; a < kAxes; ++a) {
+            for (int r = 0; r < liquid.modeCount; ++r) liquid.mode(a, r)[p] = 0.0;
+            liquid.mode(a, 0)[p] = v[a];
+        }
+        if (liquid.modeCount < 4) continue;
+        for (int b = 0; b < kAxes; ++b) {
+            const Vec3 gradient = (u(x + h * Vec3::Unit(b)) - u(x - h * Vec3::Unit(b))) * (dx / (2.0 * h));
+            for (int a = 0; a < kAxes; ++a) liquid.mode(a, 1 + b)[p] = gradient[a];
+        }
+    }
+}
+
+/// The scene's initial state with velocities u(x).
+template <class U>
+Simulation moving(const Scene& scene, U&& u)
+{
+    State state = Simulation(scene).state();
+    setVelocities(state, u);
+    return Simulation(scene, std::move(state));
+}
+
+inline bool isLiquid(const Simulation& simulation, const Vec3i& c)
+{
+    const int b = simulation.state().grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3});
+    return b != BlockGrid::kNone && simulation.workspace().grid.levelSet.block(b)[cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)] < 0.0;
+}
+
+}  // namespace sim::test

@@ -1,0 +1,84 @@
+#include "tests/physics/runs.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+struct Sloshing {
+    double periodError;  ///< relative to the linear wave's
+    double kept;         ///< amplitude per period
+};
+
+/// A standing wave of half a wavelength in a tank, started by its velocity. Its amplitude is read from Σ m cos(k x).
+Sloshing slosh(const Transfer& transfer, int cellsPerWave, double cfl, int periods)
+{
+    const double length = 0.5 * cellsPerWave, depth = 0.5 * cellsPerWave;
+    Scene scene = tankScene(transfer, 1.0, {length, 2.0 * depth, 4.0}, {0.0, 0.0, 0.0}, {length, depth, 4.0});
+    scene.settings.time.cfl = cfl;
+    const double k = kPi / length, omega = std::sqrt(kEarthGravity * k * std::tanh(k * depth)), period = 2.0 * kPi / omega;
+    const double amplitude = 0.04 * length, speed = amplitude * omega / std::sinh(k * depth);
+    Simulation simulation = moving(scene, [&](const Vec3& x) {
+        return Vec3(-speed * std::sin(k * x.x()) * std::cosh(k * x.y()), speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0);
+    });
+    const auto reading = [&] {
+        const LiquidParticles& liquid = simulation.state().liquid;
+        double sum = 0.0;
+        for (std::size_t p = 0; p < liquid.count; ++p) sum += liquid.mass[p] * std::cos(k * liquid.x[0][p]);
+        return sum;
+    };
+    const double zero = reading();
+    double last = 0.0, lastTime = 0.0, peak = 0.0;
+    std::vector<double> crossings, peaks;
+    while (simulation.state().time < periods * period * 1.02) {
+        simulation.step(periods * period * 1.05);
+        const double now = reading() - zero, time = simulation.state().time;
+        if (last * now < 0.0) {
+            crossings.push_back(lastTime + (time - lastTime) * last / (last - now));
+            peaks.push_back(peak);
+            peak = 0.0;
+        }
+        peak = std::max(peak, std::abs(now));
+        last = now, lastTime = time;
+    }
+    if (crossings.size() < 3) return {1.0, 0.0};
+    // Crossing n comes after (n + 1)/2 periods.
+    const double measured = 2.0 * (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+    const double kept = std::pow(peaks.back() / peaks.front(), 2.0 / static_cast<double>(peaks.size() - 1));
+    return {measured / period - 1.0, kept};
+}
+
+/// The union of balls lies this far above the uppermost particles [cells]: 0.8836, less what the places beside the balls' tops take away.
+constexpr double kStandOff = 0.85;
+
+TEST(Sloshing, PeriodIsThatOfALinearWaveBelowTheStandOff)
+{
+    // The pressure vanishes where the balls end, but the surface that moves is that of the particles below, where the velocity is smaller
+    // by exp(−k stand-off). The restoring force falls by as much, and so does the period's error with the size of the cells.
+    double coarse = 0.0;
+    for (const Transfer& transfer : {kFlip, kPoly27, kPoly8, kApic}) {
+        const Sloshing result = slosh(transfer, 16, 0.5, 3);
+        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * result.periodError, result.kept);
+        const double expected = std::exp(0.5 * (2.0 * kPi / 16) * kStandOff);
+        EXPECT_NEAR((1.0 + result.periodError) / expected, 1.0, 0.03) << transfer.name;
+        coarse = result.periodError;
+    }
+    const Sloshing fine = slosh(kApic, 32, 0.5, 2);
+    std::printf("%s, 32 cells per wave: period %+.2f %%, amplitude kept per period %.3f\n", kApic.name.c_str(), 100.0 * fine.periodError, fine.kept);
+    EXPECT_LT(fine.periodError, 0.6 * coarse);
+}
+
+TEST(Sloshing, RicherModesDecayMoreSlowly)
+{
+    double kept = 0.0;
+    for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
+        const Sloshing result = slosh(transfer, 16, 0.125, 3);
+        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * result.periodError, result.kept);
+        EXPECT_GT(result.kept, kept) << transfer.name;
+        kept = result.kept;
+    }
+    EXPECT_LT(kept, 1.01);
+}
+
+}  // namespace
+}  // namespace sim::test
