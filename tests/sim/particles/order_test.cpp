@@ -166,6 +166,18 @@ TEST(ParticleOrder, BlocksThatAreNoLongerNeededGo)
     for (int b = 0; b < count; ++b) EXPECT_EQ(liquid.order.previous[b], b);
 }
 
+TEST(ParticleOrder, BlocksOfDeletedParticlesGo)
+{
+    SortedLiquid liquid = unsortedLiquid(500, {{0.0, 0.0, 0.0}, {50.0, 0.0, 0.0}}, 1.0);
+    liquid.sort();
+    liquid.moveModesHome();
+    const Shape domain = Shape::ball(Vec3::Zero(), 20.0);
+    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
+    EXPECT_TRUE(liquid.order.blocksChanged);
+    EXPECT_GT(liquid.grid.count(), 0);
+    for (const Vec3i& c : liquid.grid.coords()) EXPECT_LT(c.x(), 12);
+}
+
 // A sparse grid: what lies between two drops costs nothing.
 TEST(ParticleOrder, TwoDropsFarApartNeedNoMoreBlocksThanTwoSideBySide)
 {
