@@ -83,9 +83,11 @@ Mat3 inverseMotion(const Mat3& gradient, double dtPerCell)
 }
 
 /// Give the values of one component the weighted mean and gradient that they had when they were gathered, at position `before`.
+template <class Set>
 void restoreMeanAndGradient(const BlockGrid& grid, int axis, const Vec3& before, const Modes& modes, const StencilPacks& nodes, Pack (&u)[kPacks])
 {
-    const Modes gathered = toOrthogonal(Stencil(grid, axis, before).basis, modes);
+    // Without squares the orthogonal coefficients are the monomial ones.
+    const Modes gathered = Set::kDegree < 2 ? modes : toOrthogonal(Stencil(grid, axis, before).basis, modes);
     Pack sum = broadcast(0.0), moment[kAxes] = {sum, sum, sum};
     for (int n = 0; n < kPacks; ++n) {
         const Pack share = nodes.weight[n] * u[n];
@@ -132,7 +134,7 @@ void scatterParticle(const LiquidParticles& particles, int s, int row, const Blo
                 z[a] = toOld(a, 0) * nodes.z[0][n] + toOld(a, 1) * nodes.z[1][n] + toOld(a, 2) * nodes.z[2][n];
             u[n] = evaluatePolynomial<Set>(modes.c[axis], z[0], z[1], z[2]);
         }
-        if (map == XiMap::AffineConservative) restoreMeanAndGradient(grid, axis, x - dt * modes.mean(), modes.c[axis], nodes, u);
+        if (map == XiMap::AffineConservative) restoreMeanAndGradient<Set>(grid, axis, x - dt * modes.mean(), modes.c[axis], nodes, u);
         const Vec3i first = stencil.first - kBlockEdge * grid.coords(block);
         addToTile(particles.mass[s], nodes, u, tile.v[FaceFields::kMass + axis], tile.v[FaceFields::kMomentum + axis],
                   tileIndex(first.x(), first.y(), first.z()));
