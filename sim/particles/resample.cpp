@@ -50,7 +50,8 @@ std::vector<std::size_t> inOrderOfIds(const LiquidParticles& particles, IsMeant&
     std::vector<std::size_t> found;
     for (std::size_t p = 0; p < particles.count; ++p)
         if (isMeant(p)) found.push_back(p);
-    std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
+    std::sort(found.begin(), found.end(),
+              [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
     return found;
 }
 
@@ -70,14 +71,16 @@ std::array<Vec3, kMostChildren> spreadPoints(int n)
 /// A rotation, all being equally likely: a unit quaternion from three numbers (Shoemake 1992).
 Mat3 randomRotation(const CounterRandom& random, std::uint64_t id)
 {
-    const double u = random.uniform(id, kRotation), a = 2.0 * kPi * random.uniform(id, kRotation + 1), b = 2.0 * kPi * random.uniform(id, kRotation + 2);
+    const double u = random.uniform(id, kRotation), a = 2.0 * kPi * random.uniform(id, kRotation + 1),
+                 b = 2.0 * kPi * random.uniform(id, kRotation + 2);
     const double s = std::sqrt(1.0 - u), t = std::sqrt(u);
     return Eigen::Quaterniond(t * std::cos(b), s * std::sin(a), s * std::cos(a), t * std::sin(b)).toRotationMatrix();
 }
 
-/// The first child takes the parent's place in the arrays. Each carries the parent's polynomial, seen from where it is, less a
-/// constant so that their mean velocity is the parent's.
-void split(const ResampleSettings& settings, const CounterRandom& random, std::size_t parent, LiquidParticles& particles, std::uint32_t& nextId)
+/// The first child takes the parent's place in the arrays. Each carries the parent's polynomial, seen from where it is,
+/// less a constant so that their mean velocity is the parent's.
+void split(const ResampleSettings& settings, const CounterRandom& random, std::size_t parent,
+           LiquidParticles& particles, std::uint32_t& nextId)
 {
     const double relative = particles.mass[parent] / settings.nominalMass;
     const int n = static_cast<int>(std::min<double>(std::ceil(relative), kMostChildren));
@@ -111,8 +114,9 @@ void split(const ResampleSettings& settings, const CounterRandom& random, std::s
         for (int a = 0; a < kAxes; ++a) particles.mode(a, 0)[child[k]] += v[a] - mean[a];
 }
 
-/// Give some of one particle's mass to another, which moves to the centroid of both and takes the mass-weighted average of both
-/// polynomials, as seen from there, with the mean velocity that the momentum asks for. The giver keeps velocity and place.
+/// Give some of one particle's mass to another, which moves to the centroid of both and takes the mass-weighted average
+/// of both polynomials, as seen from there, with the mean velocity that the momentum asks for. The giver keeps velocity
+/// and place.
 void give(double dx, double given, std::size_t from, std::size_t to, LiquidParticles& particles)
 {
     const double kept = particles.mass[to], share = given / (kept + given);
@@ -120,7 +124,8 @@ void give(double dx, double given, std::size_t from, std::size_t to, LiquidParti
     const Velocity giver = velocityOf(particles, from), taker = velocityOf(particles, to);
     Velocity merged;
     for (int a = 0; a < kAxes; ++a) {
-        const Modes ofGiver = shifted((x - particles.position(from)) / dx, giver[a]), ofTaker = shifted((x - particles.position(to)) / dx, taker[a]);
+        const Modes ofGiver = shifted((x - particles.position(from)) / dx, giver[a]),
+                    ofTaker = shifted((x - particles.position(to)) / dx, taker[a]);
         for (int r = 0; r < kMaxModes; ++r) merged[a][r] = (1.0 - share) * ofTaker[r] + share * ofGiver[r];
         merged[a][0] += (1.0 - share) * meanOf(taker[a]) + share * meanOf(giver[a]) - meanOf(merged[a]);
     }
@@ -131,24 +136,27 @@ void give(double dx, double given, std::size_t from, std::size_t to, LiquidParti
 }
 
 /// Neighbours that may take from a particle, in the order of their ids.
-std::vector<std::size_t> takers(const ResampleSettings& settings, const PointBins& bins, const std::vector<Vec3>& places, std::size_t giver,
-                                const LiquidParticles& particles)
+std::vector<std::size_t> takers(const ResampleSettings& settings, const PointBins& bins,
+                                const std::vector<Vec3>& places, std::size_t giver, const LiquidParticles& particles)
 {
     const bool tiny = particles.mass[giver] < kTiny * settings.nominalMass;
     const double reach = 2.0 * settings.nominalRadius;
     std::vector<std::size_t> found;
     bins.anyNear(places[giver], [&](std::size_t p) {
         const double relative = particles.mass[p] / settings.nominalMass;
-        const bool takes = p != giver && relative > 0.0 && (tiny ? relative <= 1.0 : relative >= kTiny && relative < kLight);
+        const bool takes =
+            p != giver && relative > 0.0 && (tiny ? relative <= 1.0 : relative >= kTiny && relative < kLight);
         if (takes && (places[p] - places[giver]).squaredNorm() < reach * reach) found.push_back(p);
         return false;
     });
-    std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
+    std::sort(found.begin(), found.end(),
+              [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
     return found;
 }
 
 /// Particles that are below half of the nominal mass or well above it, and whose turn it is.
-std::vector<std::size_t> givers(const ResampleSettings& settings, const CounterRandom& random, const LiquidParticles& particles)
+std::vector<std::size_t> givers(const ResampleSettings& settings, const CounterRandom& random,
+                                const LiquidParticles& particles)
 {
     return inOrderOfIds(particles, [&](std::size_t p) {
         const double relative = particles.mass[p] / settings.nominalMass;
@@ -193,14 +201,17 @@ bool needsResampling(const LiquidParticles& particles, double nominalMass)
 {
     return parallelReduce(
         particles.count, false,
-        [&](std::size_t p) { return particles.mass[p] < kLight * nominalMass || particles.mass[p] > kHeavy * nominalMass; },
+        [&](std::size_t p) {
+            return particles.mass[p] < kLight * nominalMass || particles.mass[p] > kHeavy * nominalMass;
+        },
         [](bool a, bool b) { return a || b; });
 }
 
 void resample(const ResampleSettings& settings, std::int64_t step, LiquidParticles& particles, std::uint32_t& nextId)
 {
     const CounterRandom random(settings.seed, 0, static_cast<std::uint64_t>(step));
-    for (std::size_t p : inOrderOfIds(particles, [&](std::size_t q) { return particles.mass[q] > kHuge * settings.nominalMass; }))
+    for (std::size_t p :
+         inOrderOfIds(particles, [&](std::size_t q) { return particles.mass[q] > kHuge * settings.nominalMass; }))
         split(settings, random, p, particles, nextId);
     merge(settings, random, particles);
     removeMassless(particles);

@@ -1,5 +1,6 @@
 #include "sim/transfer/gather.h"
 #include "sim/transfer/scatter.h"
+#include "sim/transfer/scatter_affine.h"
 #include "tests/sim/fixtures.h"
 
 #include <benchmark/benchmark.h>
@@ -28,6 +29,14 @@ void scatter(benchmark::State& state)
     FaceFields faces;
     ScatterScratch scratch;
     for (auto _ : state) particlesToFaces(liquid.particles, liquid.order, liquid.grid, scratch, faces);
+    state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void scatterAffine(benchmark::State& state)
+{
+    const SortedLiquid liquid = column(static_cast<int>(state.range(0)));
+    FaceFields faces;
+    for (auto _ : state) particlesToFacesAffine(liquid.particles, liquid.order, liquid.grid, XiMap::AffineConservative, 0.01, faces);
     state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);
 }
 
@@ -64,6 +73,7 @@ void transferBoth(benchmark::State& state)
 
 BENCHMARK(sort)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(scatter)->Arg(1)->Arg(4)->Arg(8)->Arg(11)->Arg(27)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(scatterAffine)->Arg(4)->Arg(8)->Arg(27)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(gather)->Arg(1)->Arg(4)->Arg(8)->Arg(11)->Arg(27)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(transferBoth)->Arg(4)->Arg(8)->Arg(27)->Unit(benchmark::kMillisecond)->UseRealTime();
 

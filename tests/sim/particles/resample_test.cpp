@@ -55,7 +55,8 @@ LiquidParticles inField(std::size_t count, double quadratic, double lightest, do
     return particles;
 }
 
-/// Largest difference of what a particle carries around it from the field; where that is quadratic, but for a constant per particle.
+/// Largest difference of what a particle carries around it from the field; where that is quadratic, but for a constant
+/// per particle.
 double largestError(const LiquidParticles& particles, double quadratic)
 {
     double worst = 0.0;
@@ -66,12 +67,16 @@ double largestError(const LiquidParticles& particles, double quadratic)
             const Vec3 z = particles.position(p) / kDx;
             const double offset = c[0] - field(a, z, quadratic);
             for (const Vec3& d : {Vec3(1.0, 0.5, -0.7), Vec3(-0.3, 0.9, 0.8), Vec3(0.1, -1.0, 0.4)})
-                worst = std::max(worst, std::abs(evaluateModes(d, c) - field(a, z + d, quadratic) - (quadratic == 0.0 ? 0.0 : offset)));
+                worst = std::max(worst, std::abs(evaluateModes(d, c) - field(a, z + d, quadratic) -
+                                                 (quadratic == 0.0 ? 0.0 : offset)));
         }
     return worst;
 }
 
-double totalMass(const LiquidParticles& particles) { return std::accumulate(particles.mass.data(), particles.mass.data() + particles.count, 0.0); }
+double totalMass(const LiquidParticles& particles)
+{
+    return std::accumulate(particles.mass.data(), particles.mass.data() + particles.count, 0.0);
+}
 
 using Summary = std::map<std::uint32_t, std::array<double, 5>>;
 
@@ -80,7 +85,8 @@ Summary byId(const LiquidParticles& particles)
 {
     Summary all;
     for (std::size_t p = 0; p < particles.count; ++p)
-        all[particles.id[p]] = {particles.mass[p], particles.x[0][p], particles.x[1][p], particles.x[2][p], particles.velocity(p).y()};
+        all[particles.id[p]] = {particles.mass[p], particles.x[0][p], particles.x[1][p], particles.x[2][p],
+                                particles.velocity(p).y()};
     return all;
 }
 
@@ -102,7 +108,8 @@ TEST(Resample, NominalParticlesAreLeftAlone)
 
 TEST(Resample, SplitsIntoAsManyAsTheMassAsksFor)
 {
-    for (const auto& [mass, children] : {std::pair{2.5, 3}, {4.0, 4}, {4.5, 5}, {5.5, 6}, {7.0, 7}, {7.5, 8}, {20.0, 8}}) {
+    for (const auto& [mass, children] :
+         {std::pair{2.5, 3}, {4.0, 4}, {4.5, 5}, {5.5, 6}, {7.0, 7}, {7.5, 8}, {20.0, 8}}) {
         LiquidParticles particles = inField(1, 0.0, mass, mass);
         const Vec3 parent = particles.position(0);
         std::uint32_t nextId = 10;
@@ -114,7 +121,8 @@ TEST(Resample, SplitsIntoAsManyAsTheMassAsksFor)
         const double radius = every(1.0).nominalRadius * std::cbrt(mass), newRadius = radius / std::cbrt(children);
         for (std::size_t p = 0; p < particles.count; ++p) {
             EXPECT_NEAR((particles.position(p) - parent).norm(), 0.75 * std::max(newRadius, radius - newRadius), 1e-14);
-            for (std::size_t q = 0; q < p; ++q) EXPECT_GT((particles.position(p) - particles.position(q)).norm(), 0.74 * newRadius);
+            for (std::size_t q = 0; q < p; ++q)
+                EXPECT_GT((particles.position(p) - particles.position(q)).norm(), 0.74 * newRadius);
         }
     }
 }
@@ -150,7 +158,7 @@ TEST(Resample, TinyParticlesGoOverToNeighboursInReachOnly)
         particles.add(Vec3::Zero(), 0.4, 0, {1.0, 0.0, 0.0});
         particles.add({0.0, distance, 0.0}, 0.8, 1, {0.0, 0.0, 2.0});
         particles.add({0.0, 0.0, -distance}, 0.6, 2, Vec3::Zero());
-        particles.add({0.5 * distance, 0.0, 0.0}, 1.5, 3, Vec3::Zero());  // heavy already: takes nothing …
+        particles.add({0.5 * distance, 0.0, 0.0}, 1.5, 3, Vec3::Zero());   // heavy already: takes nothing …
         particles.add({0.5 * distance, 0.0, 10.0}, 1.5, 4, Vec3::Zero());  // … and finds nobody to give to
         std::uint32_t nextId = 5;
         resample(every(1.0), 1, particles, nextId);

@@ -52,7 +52,8 @@ TEST(Flip, AddsTheChangeOfTheFaces)
     GatherSettings settings = flip(t, 1.0);
     settings.flipVelocity = &old;
     t.toParticles(settings);
-    for (std::size_t s = 0; s < before.size(); ++s) EXPECT_LT((t.liquid.particles.velocity(s) - before[s] - kick).norm(), 1e-14);
+    for (std::size_t s = 0; s < before.size(); ++s)
+        EXPECT_LT((t.liquid.particles.velocity(s) - before[s] - kick).norm(), 1e-14);
 }
 
 TEST(Flip, IsPicWithRatioZeroAndMovesAsPicWithAny)
@@ -99,8 +100,14 @@ TEST(Damping, ScalesAllModesButTheMean)
 namespace {
 
 /// A linear field, by component.
-double linearField(int axis, const Vec3& x) { return 1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z(); }
-Vec3 linearSlope(int axis) { return {2.0 - axis, -3.0, 0.5 + axis}; }
+double linearField(int axis, const Vec3& x)
+{
+    return 1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z();
+}
+Vec3 linearSlope(int axis)
+{
+    return {2.0 - axis, -3.0, 0.5 + axis};
+}
 
 /// A few particles in a linear field, some of whose faces will be declared invalid.
 struct Gaps {
@@ -109,7 +116,8 @@ struct Gaps {
         t.setVelocities([&](int axis, int b, int c) { return linearField(axis, faceMiddle(t.grid(), axis, b, c)); });
     }
 
-    /// Invalidate the faces of the stencils of one particle for which missing(node) holds; those keep a velocity that must not be read.
+    /// Invalidate the faces of the stencils of one particle for which missing(node) holds; those keep a velocity that
+    /// must not be read.
     template <class F>
     std::array<std::array<double, 4>, kAxes> gatherWithout(std::size_t s, int modes, F&& missing)
     {
@@ -164,7 +172,9 @@ TEST(GatherWithGaps, GivesALinearFieldWhateverFacesAreMissing)
         std::shuffle(gone.begin(), gone.end(), random);
         gaps.expectLinear(gaps.gatherWithout(s, 8, [&](int n) { return gone[n]; }), s);
         const int plane = tested % 9;  // a whole plane of the stencil, as at a surface
-        gaps.expectLinear(gaps.gatherWithout(s, 27, [&](int n) { return Vec3i(n % 3, n / 3 % 3, n / 9)[plane % 3] == plane / 3; }), s);
+        gaps.expectLinear(
+            gaps.gatherWithout(s, 27, [&](int n) { return Vec3i(n % 3, n / 3 % 3, n / 9)[plane % 3] == plane / 3; }),
+            s);
     }
     EXPECT_GT(tested, 10);
 }
@@ -201,14 +211,16 @@ TEST(GatherWithGaps, GivesRestWithoutAnyFace)
         for (double c : component) EXPECT_EQ(c, 0.0);
 }
 
-// The same through facesToParticles, with every cell marked: nothing above the gradient, all else as in the ordinary gather.
+// The same through facesToParticles, with every cell marked: nothing above the gradient, all else as in the ordinary
+// gather.
 TEST(GatherWithGaps, AgreesWithTheOrdinaryGatherOnLinearFields)
 {
     for (int modes : {1, 4, 8, 11, 27}) {
         SCOPED_TRACE(modes);
         Transfers ordinary(randomLiquid(500, modes)), gappy(randomLiquid(500, modes));
         for (Transfers* t : {&ordinary, &gappy})
-            t->setVelocities([&](int axis, int b, int c) { return linearField(axis, faceMiddle(t->grid(), axis, b, c)); });
+            t->setVelocities(
+                [&](int axis, int b, int c) { return linearField(axis, faceMiddle(t->grid(), axis, b, c)); });
         BlockBits<> gaps;
         gaps.resize(gappy.grid().count());
         for (int b = 0; b < gappy.grid().count(); ++b)
