@@ -51,11 +51,11 @@ class Shape {
     /// the empty shape an empty box.
     Eigen::AlignedBox3d bounds() const;
 
-    /// The box, if this is an axis-aligned box with sharp edges, or the inside of one (then `inside` is set):
-    /// its walls are planes, which the solver can mirror exactly.
+    /// The box, if this is an axis-aligned box, or the inside of one (then `inside` is set).
     struct AxisBox {
         Eigen::AlignedBox3d box;
         bool inside = false;
+        double round = 0.0;  ///< radius of its edges [cm]
     };
     std::optional<AxisBox> axisBox() const;
 

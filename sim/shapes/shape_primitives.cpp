@@ -67,8 +67,8 @@ struct Box final : Shape::Body {
     }
     std::optional<Shape::AxisBox> axisBox() const override
     {
-        if (round > 0.0) return std::nullopt;
-        return Shape::AxisBox{{center - half, center + half}, false};
+        const Vec3 outer = half + Vec3::Constant(round);
+        return Shape::AxisBox{{center - outer, center + outer}, false, round};
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
+#include "sim/core/units.h"
 
 #include <array>
 #include <cmath>
@@ -23,6 +24,46 @@ TriangleMesh boxMesh(const Eigen::AlignedBox3d& box)
         mesh.triangles.emplace_back(w, w + u, w + u + v);
         mesh.triangles.emplace_back(w, w + u + v, w + v);
     }
+    return mesh;
+}
+
+/// A box with round edges: the nodes of a cubical lattice's surface, taken as directions, each put on the eighth of a ball in its corner.
+/// The two middle nodes of each edge stand almost together in direction, but as far apart as the flat sides are long.
+TriangleMesh roundedBoxMesh(const Shape::AxisBox& shape)
+{
+    constexpr int kNodes = 10;
+    constexpr double kHalfGap = 1.0e-3, kQuarter = 0.25 * kPi;
+    const auto tangent = [](int n) {
+        const int fromMiddle = n >= kNodes / 2 ? n - kNodes / 2 : kNodes / 2 - 1 - n;
+        const double angle = kHalfGap + (kQuarter - kHalfGap) * fromMiddle / (kNodes / 2 - 1);
+        return n >= kNodes / 2 ? std::tan(angle) : -std::tan(angle);
+    };
+    const Vec3 center = shape.box.center(), core = 0.5 * shape.box.sizes() - Vec3::Constant(shape.round);
+    TriangleMesh mesh;
+    std::array<int, kNodes * kNodes * kNodes> number;
+    number.fill(-1);
+    const auto vertex = [&](const Vec3i& node) {
+        int& n = number[(node.z() * kNodes + node.y()) * kNodes + node.x()];
+        if (n >= 0) return n;
+        const Vec3 direction = Vec3(tangent(node.x()), tangent(node.y()), tangent(node.z())).normalized();
+        mesh.vertices.push_back(center + core.cwiseProduct(direction.cwiseSign()) + shape.round * direction);
+        return n = static_cast<int>(mesh.vertices.size()) - 1;
+    };
+    for (int axis = 0; axis < kAxes; ++axis)
+        for (int side = 0; side < 2; ++side)
+            for (int v = 0; v + 1 < kNodes; ++v)
+                for (int u = 0; u + 1 < kNodes; ++u) {
+                    const auto corner = [&](int du, int dv) {
+                        Vec3i node;
+                        node[axis] = side * (kNodes - 1);
+                        node[(axis + 1) % 3] = u + du;
+                        node[(axis + 2) % 3] = v + dv;
+                        return vertex(node);
+                    };
+                    const int a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+                    mesh.triangles.push_back(side ? Vec3i(a, b, c) : Vec3i(a, c, b));
+                    mesh.triangles.push_back(side ? Vec3i(a, c, d) : Vec3i(a, d, c));
+                }
     return mesh;
 }
 
@@ -155,7 +196,7 @@ TriangleMesh tessellate(const Shape& shape, double cell)
     if (!(cell > 0.0)) throw InputError("cells to draw a shape with must be larger than 0");
     if (shape.bounds().isEmpty()) return {};
     if (shape.isInverted()) throw InputError("an unbounded shape cannot be drawn");
-    if (const auto box = shape.axisBox()) return boxMesh(box->box);
+    if (const auto box = shape.axisBox()) return box->round > 0.0 ? roundedBoxMesh(*box) : boxMesh(box->box);
     return Marcher(shape, cell).march();
 }
 

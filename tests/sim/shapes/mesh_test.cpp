@@ -85,6 +85,19 @@ TEST(Tessellate, WhateverIsBoundedIsClosed)
     }
 }
 
+TEST(Tessellate, ARoundedBoxIsClosedOnItsSurfaceAndFacesOutward)
+{
+    const double round = 0.3;
+    const Shape shape = Shape::roundedBox({1.0, -2.0, 0.5}, {2.0, 1.0, 0.5}, round);
+    const TriangleMesh mesh = tessellate(shape, 0.05);
+    EXPECT_TRUE(isClosed(mesh));
+    for (const Vec3& v : mesh.vertices) EXPECT_LT(std::abs(shape.distance(v)), 1.0e-12);
+    // Box, three pairs of slabs on its sides, twelve quarters of cylinders and eight eighths of a ball; chords lose a little.
+    const double slabs = 2.0 * round * (4.0 * 2.0 + 2.0 * 1.0 + 4.0 * 1.0), rods = kPi * round * round * (4.0 + 2.0 + 1.0);
+    const double exact = 4.0 * 2.0 * 1.0 + slabs + rods + 4.0 / 3.0 * kPi * round * round * round;
+    EXPECT_NEAR(signedVolume(mesh), exact, 5.0e-3 * exact);
+}
+
 TEST(Tessellate, RefusesTheUnbounded)
 {
     EXPECT_THROW(tessellate(Shape::ball(Vec3::Zero(), 1.0).inverted(), 0.1), InputError);

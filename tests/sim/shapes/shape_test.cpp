@@ -208,19 +208,23 @@ TEST(Shape, InvertedShapesAreUnboundedAndTurnBack)
     EXPECT_TRUE(Shape::intersect({ball, Shape::ball({5.0, 0.0, 0.0}, 1.0)}).bounds().isEmpty());
 }
 
-TEST(Shape, SharpBoxesAlongTheAxesAreKnownAsSuch)
+TEST(Shape, BoxesAlongTheAxesAreKnownAsSuch)
 {
     const Shape box = Shape::box({1.0, 2.0, 3.0}, {0.5, 0.6, 0.7});
     ASSERT_TRUE(box.axisBox());
     EXPECT_FALSE(box.axisBox()->inside);
     EXPECT_TRUE(box.axisBox()->box.isApprox(box.bounds()));
+    EXPECT_EQ(box.axisBox()->round, 0.0);
     ASSERT_TRUE(box.inverted().axisBox());
     EXPECT_TRUE(box.inverted().axisBox()->inside);
     const Eigen::Isometry3d shift(Eigen::Translation3d(1.0, 0.0, 0.0));
     ASSERT_TRUE(box.inverted().moved(shift).axisBox());
     EXPECT_DOUBLE_EQ(box.inverted().moved(shift).axisBox()->box.min()[0], 1.5);
     EXPECT_FALSE(box.moved(someMotion()).axisBox());
-    EXPECT_FALSE(Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.1).axisBox());
+    const Shape rounded = Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.1);
+    ASSERT_TRUE(rounded.axisBox());
+    EXPECT_EQ(rounded.axisBox()->round, 0.1);
+    EXPECT_TRUE(rounded.axisBox()->box.isApprox(rounded.bounds()));
     EXPECT_FALSE(Shape::ball(Vec3::Zero(), 1.0).axisBox());
     EXPECT_FALSE(Shape().axisBox());
 }
