@@ -27,7 +27,8 @@ TEST(FreeFall, BlobFallsWithExactlyGravityAndKeepsItsShape)
         const State& state = simulation.state();
         const Vec3 expected(0.0, -kEarthGravity * time, 0.0);
         double worst = 0.0, pressure = 0.0;
-        for (std::size_t p = 0; p < state.liquid.count; ++p) worst = std::max(worst, (state.liquid.velocity(p) - expected).norm());
+        for (std::size_t p = 0; p < state.liquid.count; ++p)
+            worst = std::max(worst, (state.liquid.velocity(p) - expected).norm());
         for (int b = 0; b < state.grid.count(); ++b)
             for (int c = 0; c < kBlockCells; ++c) pressure = std::max(pressure, std::abs(state.pressure.block(b)[c]));
         EXPECT_LT(worst, 1.0e-9) << transfer.name;
@@ -54,14 +55,16 @@ TEST(Energy, DoesNotGrowBetweenWallsAtRest)
 {
     for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
         constexpr double kCell = 0.625;
-        Scene scene = tankScene(transfer, kCell, Vec3(24.0, 30.0, 5.0) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 5.0) / kCell);
+        Scene scene =
+            tankScene(transfer, kCell, Vec3(24.0, 30.0, 5.0) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 5.0) / kCell);
         scene.sources[0].fill.spacing = 0.5;
         scene.settings.time.cfl = 0.5;
         Simulation simulation(scene);
         const double start = simulation.energies().total(), gain = largestGain(simulation, 0.4);
         std::printf("%s: largest gain in 0.1 s %.2e, energy left after 0.4 s %.3f\n", transfer.name.c_str(), gain,
                     simulation.energies().total() / start);
-        // At this resolution the impact on the far wall gains about a thousandth, half as much with cells half as large.
+        // At this resolution the impact on the far wall gains about a thousandth, half as much with cells half as
+        // large.
         EXPECT_LT(gain, 2.0e-3) << transfer.name;
     }
 }
@@ -118,8 +121,8 @@ TEST(Stability, CoarseDamBreakSurvivesEveryTransferAndStepSize)
                 EXPECT_TRUE(report.pressure.converged) << transfer.name << " at CFL " << cfl << ", step " << step;
                 largest = std::max(largest, report.energies.total());
             }
-            std::printf("  CFL %.3f: largest %.3f, last %.3f at %.2f s", cfl, largest / start, report.energies.total() / start,
-                        simulation.state().time);
+            std::printf("  CFL %.3f: largest %.3f, last %.3f at %.2f s", cfl, largest / start,
+                        report.energies.total() / start, simulation.state().time);
             EXPECT_LT(largest, 1.02 * start) << transfer.name << " at CFL " << cfl;
         }
         std::printf("\n");

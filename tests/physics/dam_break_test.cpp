@@ -6,8 +6,21 @@ namespace sim::test {
 namespace {
 
 /// Martin & Moyce 1952, Table 2, n² = 2: time T = t √(2g/a), front Z = x/a.
-constexpr std::array<std::array<double, 2>, 15> kMartinMoyce = {{{0.41, 1.11}, {0.84, 1.22}, {1.19, 1.44}, {1.43, 1.67}, {1.63, 1.89},
-    {1.83, 2.11}, {1.98, 2.33}, {2.20, 2.56}, {2.32, 2.78}, {2.51, 3.00}, {2.65, 3.22}, {2.83, 3.44}, {2.98, 3.67}, {3.11, 3.89}, {3.33, 4.11}}};
+constexpr std::array<std::array<double, 2>, 15> kMartinMoyce = {{{0.41, 1.11},
+                                                                 {0.84, 1.22},
+                                                                 {1.19, 1.44},
+                                                                 {1.43, 1.67},
+                                                                 {1.63, 1.89},
+                                                                 {1.83, 2.11},
+                                                                 {1.98, 2.33},
+                                                                 {2.20, 2.56},
+                                                                 {2.32, 2.78},
+                                                                 {2.51, 3.00},
+                                                                 {2.65, 3.22},
+                                                                 {2.83, 3.44},
+                                                                 {2.98, 3.67},
+                                                                 {3.11, 3.89},
+                                                                 {3.33, 4.11}}};
 constexpr double kGateRelease = 0.175;
 
 double experiment(double time)
@@ -35,7 +48,8 @@ void followTheExperiment(const Transfer& transfer)
 {
     constexpr int kCells = 32, kDepth = 4;
     constexpr double kWidth = 5.715;  // 2.25 inches [cm]
-    Scene scene = tankScene(transfer, kWidth / kCells, {150.0, 80.0, kDepth}, {0.0, 0.0, 0.0}, {kCells, 2 * kCells, kDepth});
+    Scene scene =
+        tankScene(transfer, kWidth / kCells, {150.0, 80.0, kDepth}, {0.0, 0.0, 0.0}, {kCells, 2 * kCells, kDepth});
     scene.sources[0].fill.spacing = 0.5;
     scene.settings.time.cfl = 0.75;
     Simulation simulation(scene);
@@ -54,12 +68,18 @@ void followTheExperiment(const Transfer& transfer)
         ++samples;
     }
     ASSERT_GT(samples, 10);
-    std::printf("%s: front error mean %.1f %%, largest %.1f %%, %ld steps\n", transfer.name.c_str(), 100.0 * sum / samples, 100.0 * worst,
-                static_cast<long>(simulation.state().step));
+    std::printf("%s: front error mean %.1f %%, largest %.1f %%, %ld steps\n", transfer.name.c_str(),
+                100.0 * sum / samples, 100.0 * worst, static_cast<long>(simulation.state().step));
 }
 
-TEST(DamBreak, FrontFollowsMartinAndMoyceWithPolyPic) { followTheExperiment(kPoly8); }
-TEST(DamBreak, FrontFollowsMartinAndMoyceWithApic) { followTheExperiment(kApic); }
+TEST(DamBreak, FrontFollowsMartinAndMoyceWithPolyPic)
+{
+    followTheExperiment(kPoly8);
+}
+TEST(DamBreak, FrontFollowsMartinAndMoyceWithApic)
+{
+    followTheExperiment(kApic);
+}
 
 }  // namespace
 }  // namespace sim::test

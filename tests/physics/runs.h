@@ -16,12 +16,13 @@ struct Transfer {
     TransferMethod method;
     int modes;
 };
-inline const Transfer kPic{"PIC", TransferMethod::Pic, 1}, kFlip{"FLIP", TransferMethod::Flip, 1}, kApic{"APIC", TransferMethod::Apic, 4},
-    kPoly8{"PolyPIC-8", TransferMethod::PolyPic, 8}, kPoly11{"PolyPIC-11", TransferMethod::PolyPic, 11},
-    kPoly27{"PolyPIC-27", TransferMethod::PolyPic, 27};
+inline const Transfer kPic{"PIC", TransferMethod::Pic, 1}, kFlip{"FLIP", TransferMethod::Flip, 1},
+    kApic{"APIC", TransferMethod::Apic, 4}, kPoly8{"PolyPIC-8", TransferMethod::PolyPic, 8},
+    kPoly11{"PolyPIC-11", TransferMethod::PolyPic, 11}, kPoly27{"PolyPIC-27", TransferMethod::PolyPic, 27};
 inline const std::array<Transfer, 6> kTransfers = {kPic, kFlip, kApic, kPoly8, kPoly11, kPoly27};
 
-/// A tank of `size` cells from the origin on, with free-slip walls in planes of faces, and a box of liquid from `low` to `high` (cells).
+/// A tank of `size` cells from the origin on, with free-slip walls in planes of faces, and a box of liquid from `low`
+/// to `high` (cells).
 inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, const Vec3& low, const Vec3& high)
 {
     Scene scene;
@@ -31,7 +32,8 @@ inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, 
     scene.settings.transfer.modes = transfer.modes;
     scene.settings.time.mode = TimeMode::Cfl;
     scene.settings.time.dt = 1.0;
-    scene.obstacles.push_back({"tank", Shape::box(0.5 * cell * size, 0.5 * cell * size).inverted(), {}, false, {}, {}, {}});
+    scene.obstacles.push_back(
+        {"tank", Shape::box(0.5 * cell * size, 0.5 * cell * size).inverted(), {}, false, {}, {}, {}});
     SourceSettings source;
     source.name = "liquid";
     source.shape = Shape::box(0.5 * cell * (low + high), 0.5 * cell * (high - low));
@@ -81,7 +83,8 @@ Simulation moving(const Scene& scene, U&& u)
 inline bool isLiquid(const Simulation& simulation, const Vec3i& c)
 {
     const int b = simulation.state().grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3});
-    return b != BlockGrid::kNone && simulation.workspace().grid.levelSet.block(b)[cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)] < 0.0;
+    return b != BlockGrid::kNone &&
+           simulation.workspace().grid.levelSet.block(b)[cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)] < 0.0;
 }
 
 }  // namespace sim::test

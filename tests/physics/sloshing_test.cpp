@@ -16,10 +16,12 @@ Sloshing slosh(const Transfer& transfer, int cellsPerWave, double cfl, int perio
     const double length = 0.5 * cellsPerWave, depth = 0.5 * cellsPerWave;
     Scene scene = tankScene(transfer, 1.0, {length, 2.0 * depth, 4.0}, {0.0, 0.0, 0.0}, {length, depth, 4.0});
     scene.settings.time.cfl = cfl;
-    const double k = kPi / length, omega = std::sqrt(kEarthGravity * k * std::tanh(k * depth)), period = 2.0 * kPi / omega;
+    const double k = kPi / length, omega = std::sqrt(kEarthGravity * k * std::tanh(k * depth)),
+                 period = 2.0 * kPi / omega;
     const double amplitude = 0.04 * length, speed = amplitude * omega / std::sinh(k * depth);
     Simulation simulation = moving(scene, [&](const Vec3& x) {
-        return Vec3(-speed * std::sin(k * x.x()) * std::cosh(k * x.y()), speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0);
+        return Vec3(-speed * std::sin(k * x.x()) * std::cosh(k * x.y()),
+                    speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0);
     });
     const auto reading = [&] {
         const LiquidParticles& liquid = simulation.state().liquid;
@@ -48,23 +50,27 @@ Sloshing slosh(const Transfer& transfer, int cellsPerWave, double cfl, int perio
     return {measured / period - 1.0, kept};
 }
 
-/// The union of balls lies this far above the uppermost particles [cells]: 0.8836, less what the places beside the balls' tops take away.
+/// The union of balls lies this far above the uppermost particles [cells]: 0.8836, less what the places beside the
+/// balls' tops take away.
 constexpr double kStandOff = 0.85;
 
 TEST(Sloshing, PeriodIsThatOfALinearWaveBelowTheStandOff)
 {
-    // The pressure vanishes where the balls end, but the surface that moves is that of the particles below, where the velocity is smaller
-    // by exp(−k stand-off). The restoring force falls by as much, and so does the period's error with the size of the cells.
+    // The pressure vanishes where the balls end, but the surface that moves is that of the particles below, where the
+    // velocity is smaller by exp(−k stand-off). The restoring force falls by as much, and so does the period's error
+    // with the size of the cells.
     double coarse = 0.0;
     for (const Transfer& transfer : {kFlip, kPoly27, kPoly8, kApic}) {
         const Sloshing result = slosh(transfer, 16, 0.5, 3);
-        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * result.periodError, result.kept);
+        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(),
+                    100.0 * result.periodError, result.kept);
         const double expected = std::exp(0.5 * (2.0 * kPi / 16) * kStandOff);
         EXPECT_NEAR((1.0 + result.periodError) / expected, 1.0, 0.03) << transfer.name;
         coarse = result.periodError;
     }
     const Sloshing fine = slosh(kApic, 32, 0.5, 2);
-    std::printf("%s, 32 cells per wave: period %+.2f %%, amplitude kept per period %.3f\n", kApic.name.c_str(), 100.0 * fine.periodError, fine.kept);
+    std::printf("%s, 32 cells per wave: period %+.2f %%, amplitude kept per period %.3f\n", kApic.name.c_str(),
+                100.0 * fine.periodError, fine.kept);
     EXPECT_LT(fine.periodError, 0.6 * coarse);
 }
 
@@ -73,7 +79,8 @@ TEST(Sloshing, RicherModesDecayMoreSlowly)
     double kept = 0.0;
     for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
         const Sloshing result = slosh(transfer, 16, 0.125, 3);
-        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * result.periodError, result.kept);
+        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(),
+                    100.0 * result.periodError, result.kept);
         EXPECT_GT(result.kept, kept) << transfer.name;
         kept = result.kept;
     }

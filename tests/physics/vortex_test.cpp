@@ -17,7 +17,10 @@ Scene vortexScene(const Transfer& transfer)
     scene.settings.time.dt = 0.1 * kCell;
     return scene;
 }
-Vec3 vortex(const Vec3& x) { return {std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0}; }
+Vec3 vortex(const Vec3& x)
+{
+    return {std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0};
+}
 
 /// Part of the vortex's energy that is left after one turnover, 2π s.
 double energyKept(const Transfer& transfer)
@@ -38,7 +41,8 @@ double energyKept(const Transfer& transfer)
 /// What is left in the periodic flow of which the box is a part, by the two-dimensional study of the time splitting.
 TEST(TaylorGreen, KeepsTheEnergyOfThePeriodicVortex)
 {
-    const double pic = energyKept(kPic), apic = energyKept(kApic), poly8 = energyKept(kPoly8), poly27 = energyKept(kPoly27);
+    const double pic = energyKept(kPic), apic = energyKept(kApic), poly8 = energyKept(kPoly8),
+                 poly27 = energyKept(kPoly27);
     EXPECT_LT(pic, 0.01);
     EXPECT_NEAR(apic, 0.867, 0.015);
     EXPECT_NEAR(poly8, 0.940, 0.015);
@@ -93,15 +97,15 @@ double largestChange(const Transfer& transfer, double cell, double dt)
         worst = std::max(worst, (now - last).norm() / start.norm());
         last = now;
     }
-    std::printf("%s, cell %.1f, dt %.3f: angular momentum changes by up to %.2e per step, by %.2e in 20\n", transfer.name.c_str(), cell, dt, worst,
-                (last - start).norm() / start.norm());
+    std::printf("%s, cell %.1f, dt %.3f: angular momentum changes by up to %.2e per step, by %.2e in 20\n",
+                transfer.name.c_str(), cell, dt, worst, (last - start).norm() / start.norm());
     return worst;
 }
 
 TEST(RotatingBlob, LosesAngularMomentumAtItsSurfaceOnlyAndThatWithTheSquareOfTheCell)
 {
-    // The transfers keep it to the last digits. What is lost is at the surface, where extrapolation replaces the velocities of faces that
-    // carry liquid but touch no liquid cell: the same in every step, however short it is.
+    // The transfers keep it to the last digits. What is lost is at the surface, where extrapolation replaces the
+    // velocities of faces that carry liquid but touch no liquid cell: the same in every step, however short it is.
     for (const Transfer& transfer : {kApic, kPoly8}) {
         const double coarse = largestChange(transfer, 1.0, 0.02);
         EXPECT_LT(coarse, 1.0e-3) << transfer.name;

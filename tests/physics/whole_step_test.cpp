@@ -47,8 +47,10 @@ TEST(WholeStep, RunsOnlyTheStagesItNeeds)
     source.emissions.push_back({});
     scene.sources.push_back(source);
     const StepReport report = Simulation(scene).step(1.0e9);
-    for (Stage stage : {Stage::Emit, Stage::Obstacles, Stage::Relax}) EXPECT_FALSE(report.stageRan[static_cast<int>(stage)]);
-    for (Stage stage : {Stage::Sort, Stage::ParticlesToGrid, Stage::LevelSet, Stage::Pressure, Stage::Extrapolate, Stage::GridToParticles})
+    for (Stage stage : {Stage::Emit, Stage::Obstacles, Stage::Relax})
+        EXPECT_FALSE(report.stageRan[static_cast<int>(stage)]);
+    for (Stage stage : {Stage::Sort, Stage::ParticlesToGrid, Stage::LevelSet, Stage::Pressure, Stage::Extrapolate,
+                        Stage::GridToParticles})
         EXPECT_TRUE(report.stageRan[static_cast<int>(stage)]) << kStageNames[static_cast<int>(stage)];
 
     Simulation all(splash(kPoly8));
@@ -81,7 +83,8 @@ State permuted(const State& state, unsigned seed)
         result.liquid.id[p] = state.liquid.id[from[p]];
         for (int a = 0; a < kAxes; ++a) {
             result.liquid.x[a][p] = state.liquid.x[a][from[p]];
-            for (int r = 0; r < state.liquid.modeCount; ++r) result.liquid.mode(a, r)[p] = state.liquid.mode(a, r)[from[p]];
+            for (int r = 0; r < state.liquid.modeCount; ++r)
+                result.liquid.mode(a, r)[p] = state.liquid.mode(a, r)[from[p]];
         }
     }
     return result;

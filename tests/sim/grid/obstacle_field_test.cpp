@@ -15,8 +15,10 @@ double openAreaOfPlane(double a, double b, double c)
     double area = 0.0;
     for (int n = 0; n < kStrips; ++n) {
         const double atBottom = a + b * (n + 0.5) / kStrips, atTop = atBottom + c;
-        if (atBottom >= 0.0 && atTop >= 0.0) area += 1.0;
-        else if (atBottom >= 0.0 || atTop >= 0.0) area += std::max(atBottom, atTop) / std::abs(c);
+        if (atBottom >= 0.0 && atTop >= 0.0)
+            area += 1.0;
+        else if (atBottom >= 0.0 || atTop >= 0.0)
+            area += std::max(atBottom, atTop) / std::abs(c);
     }
     return area / kStrips;
 }
@@ -27,7 +29,8 @@ TEST(OpenFraction, OfAPlaneIsItsArea)
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int n = 0; n < 2000; ++n) {
         const double b = unit(random), c = unit(random), a = 0.7 * unit(random) - 0.5 * (b + c);
-        EXPECT_NEAR(ObstacleField::openFraction(a, a + b, a + b + c, a + c), openAreaOfPlane(a, b, c), 2.0e-4) << a << ' ' << b << ' ' << c;
+        EXPECT_NEAR(ObstacleField::openFraction(a, a + b, a + b + c, a + c), openAreaOfPlane(a, b, c), 2.0e-4)
+            << a << ' ' << b << ' ' << c;
     }
 }
 
@@ -50,7 +53,8 @@ TEST(OpenFraction, IsNothingInsideAndEverythingOutside)
 {
     EXPECT_EQ(ObstacleField::openFraction(-1.0, -2.0, -0.1, -1.0e-12), 0.0);
     EXPECT_EQ(ObstacleField::openFraction(1.0, 2.0, 0.1, 1.0e-12), 1.0);
-    // Corners on the surface: a face in a wall, one along a wall, one along the edge of a tank, one in the edge of a block.
+    // Corners on the surface: a face in a wall, one along a wall, one along the edge of a tank, one in the edge of a
+    // block.
     EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, 0.0, 0.0), 0.0);
     EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, 1.0, 1.0), 1.0);
     EXPECT_EQ(ObstacleField::openFraction(0.0, 0.0, 1.0, 0.0), 1.0);
@@ -80,7 +84,8 @@ TEST(ObstacleField, WallsInPlanesOfFacesCloseThemWhateverTheRounding)
             for (int b = 0; b < kAxes; ++b)
                 if (b != a) inside = inside && c[b] >= 0 && c[b] < 6 + b;
             ASSERT_EQ(scene.open(a, c), inside ? 1.0 : 0.0) << a << ": " << c.transpose();
-            ASSERT_EQ((scene.field.closed(scene.at(c).block, a)[c.z() & 7] >> (8 * (c.y() & 7) + (c.x() & 7)) & 1) == 1, !inside);
+            ASSERT_EQ((scene.field.closed(scene.at(c).block, a)[c.z() & 7] >> (8 * (c.y() & 7) + (c.x() & 7)) & 1) == 1,
+                      !inside);
         });
     }
 }
@@ -113,7 +118,8 @@ void expectSameBlock(const ObstacleField& a, int blockA, const ObstacleField& b,
     if (!a.nearSolid(blockA) || !b.nearSolid(blockB)) return;
     for (int c = 0; c < kBlockCells; ++c) ASSERT_EQ(a.centerDistance(blockA)[c], b.centerDistance(blockB)[c]);
     for (int n = 0; n < ObstacleField::kNodes; ++n)
-        ASSERT_EQ(std::min(a.nodeDistance(blockA)[n], ObstacleField::kExactDistance), std::min(b.nodeDistance(blockB)[n], ObstacleField::kExactDistance));
+        ASSERT_EQ(std::min(a.nodeDistance(blockA)[n], ObstacleField::kExactDistance),
+                  std::min(b.nodeDistance(blockB)[n], ObstacleField::kExactDistance));
 }
 
 TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
@@ -146,7 +152,8 @@ TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
         field.update(grid, previous, obstacles);
         ObstacleField fresh;
         fresh.update(grid, std::vector<int>(grid.count(), BlockGrid::kNone), obstacles);
-        for (int b = 0; b < grid.count(); ++b) ASSERT_NO_FATAL_FAILURE(expectSameBlock(field, b, fresh, b)) << "step " << step;
+        for (int b = 0; b < grid.count(); ++b)
+            ASSERT_NO_FATAL_FAILURE(expectSameBlock(field, b, fresh, b)) << "step " << step;
         for (int a = 0; a < kAxes; ++a) EXPECT_EQ(field.open(grid.count(), a)[17], 1.0) << "the empty block";
     }
 }
@@ -170,7 +177,9 @@ TEST(ObstacleField, WallsMoveWithTheirBody)
     });
     scene.obstacles.moveTo(1.5, 1.6);
     scene.updateObstacles();
-    scene.forEachFace([&](int a, const Vec3i& c) { ASSERT_EQ(scene.field.wallVelocity(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
+    scene.forEachFace([&](int a, const Vec3i& c) {
+        ASSERT_EQ(scene.field.wallVelocity(scene.at(c).block, a)[scene.at(c).cell], 0.0);
+    });
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ TEST(Extrapolation, IsTheSameWhereverTheBlocksBegin)
         std::mt19937 random(7);
         for (int a = 0; a < kAxes; ++a)
             for (int n = 0; n < 60; ++n) {
-                const Vec3i c(static_cast<int>(random() % 12), static_cast<int>(random() % 10), static_cast<int>(random() % 9));
+                const Vec3i c(static_cast<int>(random() % 12), static_cast<int>(random() % 10),
+                              static_cast<int>(random() % 9));
                 scene.velocity(a, c + shift) = 1.0 + 0.01 * static_cast<double>(random() % 100);
                 scene.setValid(a, c + shift);
             }
@@ -75,7 +76,8 @@ TEST(Extrapolation, IsTheSameWhereverTheBlocksBegin)
                     for (int y = -4; y < 14; ++y)
                         for (int x = -4; x < 16; ++x) {
                             const Vec3i c(x, y, z), to = c + shift;
-                            ASSERT_EQ(scene.isValid(a, c), other.isValid(a, to)) << c.transpose() << " by " << shift.transpose();
+                            ASSERT_EQ(scene.isValid(a, c), other.isValid(a, to))
+                                << c.transpose() << " by " << shift.transpose();
                             if (!scene.isValid(a, c)) continue;
                             ASSERT_NEAR(scene.velocity(a, c), other.velocity(a, to), 1.0e-14);
                         }

@@ -25,7 +25,8 @@ struct GridScene {
         grid.dx = dx;
         grid.origin = origin;
         std::vector<Vec3i> blocks;
-        const Vec3i from = first.unaryExpr([](int v) { return v >> 3; }), to = end.unaryExpr([](int v) { return (v - 1) >> 3; });
+        const Vec3i from = first.unaryExpr([](int v) { return v >> 3; }),
+                    to = end.unaryExpr([](int v) { return (v - 1) >> 3; });
         for (int z = from.z(); z <= to.z(); ++z)
             for (int y = from.y(); y <= to.y(); ++y)
                 for (int x = from.x(); x <= to.x(); ++x) blocks.emplace_back(x, y, z);
@@ -57,7 +58,10 @@ struct GridScene {
         updateObstacles();
     }
 
-    CellRef at(const Vec3i& c) const { return {grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3}), cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)}; }
+    CellRef at(const Vec3i& c) const
+    {
+        return {grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3}), cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)};
+    }
     double& velocity(int axis, const Vec3i& c) { return liquid.faces.velocity.block(at(c).block, axis)[at(c).cell]; }
     double& levelSet(const Vec3i& c) { return liquid.levelSet.block(at(c).block)[at(c).cell]; }
     double open(int axis, const Vec3i& c) const { return field.open(at(c).block, axis)[at(c).cell]; }
@@ -113,7 +117,10 @@ struct GridScene {
         forEachFace([&](int a, const Vec3i& c) { velocity(a, c) = unit(random); });
     }
 
-    SolveReport project(double dt) { return projectPressure(grid, field, settings, solver, dt, work, liquid, pressure); }
+    SolveReport project(double dt)
+    {
+        return projectPressure(grid, field, settings, solver, dt, work, liquid, pressure);
+    }
     double divergence() const { return largestDivergence(grid, field, liquid); }
 
     /// max |u − expected| over the valid faces with open fraction > 0.
@@ -122,7 +129,8 @@ struct GridScene {
     {
         double largest = 0.0;
         forEachFace([&](int a, const Vec3i& c) {
-            if (isValid(a, c) && open(a, c) > 0.0) largest = std::max(largest, std::abs(velocity(a, c) - expected(faceMiddle(a, c))[a]));
+            if (isValid(a, c) && open(a, c) > 0.0)
+                largest = std::max(largest, std::abs(velocity(a, c) - expected(faceMiddle(a, c))[a]));
         });
         return largest;
     }

@@ -1,8 +1,8 @@
 #include "tests/sim/liquid/grid_scene.h"
 
+#include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 namespace sim::test {
 namespace {
@@ -36,7 +36,8 @@ TEST(Hydrostatics, ColumnRestsAndItsPressureIsItsDepth)
             if (scene.levelSet(c) >= 0.0) return;
             ++cells;
             const double depth = surface - scene.middle(c).y();
-            EXPECT_NEAR(scene.pressureAt(c), kGravity * depth, 1.0e-10 * kGravity * depth) << level << " at " << c.transpose();
+            EXPECT_NEAR(scene.pressureAt(c), kGravity * depth, 1.0e-10 * kGravity * depth)
+                << level << " at " << c.transpose();
         });
         EXPECT_EQ(cells, 30u * static_cast<std::size_t>(std::ceil(level - 0.5)));
     }
@@ -45,7 +46,8 @@ TEST(Hydrostatics, ColumnRestsAndItsPressureIsItsDepth)
 TEST(Hydrostatics, VerticalWallsMayStandAnywhere)
 {
     GridScene scene({-3, -3, -3}, {12, 15, 10});
-    const Vec3 low = scene.corner({0, 0, 0}) + scene.grid.dx * Vec3(0.37, 0.0, 0.81), high = scene.corner({7, 12, 5}) + scene.grid.dx * Vec3(0.6, 0.0, 0.13);
+    const Vec3 low = scene.corner({0, 0, 0}) + scene.grid.dx * Vec3(0.37, 0.0, 0.81),
+               high = scene.corner({7, 12, 5}) + scene.grid.dx * Vec3(0.6, 0.0, 0.13);
     scene.add(Shape::box(0.5 * (low + high), 0.5 * (high - low)).inverted());
     const double surface = low.y() + 5.3 * scene.grid.dx;
     scene.fill([&](const Vec3& x) { return x.y() - surface; });
@@ -57,7 +59,8 @@ TEST(Hydrostatics, VerticalWallsMayStandAnywhere)
 
 TEST(Pressure, ThinnestSurfaceFractionIsOneHundredth)
 {
-    // The surface 0.001 cells above a middle: its pressure is that of 0.01 cells, and the column below is exact on top of that.
+    // The surface 0.001 cells above a middle: its pressure is that of 0.01 cells, and the column below is exact on top
+    // of that.
     GridScene scene = column(3.501);
     EXPECT_TRUE(scene.project(kDt).converged);
     const double perCell = kGravity * scene.grid.dx;
@@ -72,7 +75,8 @@ GridScene fullBoxWithBall(const Vec3i& shift = Vec3i::Zero())
     GridScene scene(Vec3i(-3, -3, -3) + shift, Vec3i(13, 12, 11) + shift);
     scene.settings.full = true;
     scene.add(tankOfCells(scene, shift, Vec3i(10, 9, 8) + shift));
-    scene.add(Shape::ball(scene.corner(Vec3i(4, 5, 4) + shift) + scene.grid.dx * Vec3(0.3, 0.2, 0.6), 2.3 * scene.grid.dx));
+    scene.add(
+        Shape::ball(scene.corner(Vec3i(4, 5, 4) + shift) + scene.grid.dx * Vec3(0.3, 0.2, 0.6), 2.3 * scene.grid.dx));
     scene.classify();
     scene.wetFacesOfLiquid();
     return scene;
@@ -127,7 +131,9 @@ TEST(Pressure, FlowAlongATurnedWallStays)
     GridScene scene({-4, -4, 4}, {26, 26, 14});
     const double angle = 0.4;
     scene.add(turnedTank(scene, angle, {40.0, 4.3, 40.0}));
-    scene.fill([&](const Vec3& x) { return (x - scene.corner({10, 10, 10})).cwiseAbs().maxCoeff() - 4.2 * scene.grid.dx; });
+    scene.fill([&](const Vec3& x) {
+        return (x - scene.corner({10, 10, 10})).cwiseAbs().maxCoeff() - 4.2 * scene.grid.dx;
+    });
     scene.classify();
     const Vec3 flow(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0.0);
     scene.setVelocities([&](const Vec3&) { return flow; });
@@ -149,8 +155,10 @@ TEST(Hydrostatics, LiquidInATurnedTankRests)
         ASSERT_GT(scene.countLiquid(), 300u);
         EXPECT_LT(scene.largestError(kAtRest), 1.0e-8) << angle;
         scene.forEachCell([&](const Vec3i& c) {
-            if (scene.levelSet(c) >= 0.0 || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0) return;
-            EXPECT_NEAR(scene.pressureAt(c), kGravity * (surface - scene.middle(c).y()), 1.0e-8 * kGravity) << c.transpose();
+            if (scene.levelSet(c) >= 0.0 || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0)
+                return;
+            EXPECT_NEAR(scene.pressureAt(c), kGravity * (surface - scene.middle(c).y()), 1.0e-8 * kGravity)
+                << c.transpose();
         });
     }
 }
@@ -185,7 +193,9 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
     });
     ASSERT_GT(cells.size(), 200u);
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<int>(cells.size()), static_cast<int>(cells.size()));
-    const auto indexOf = [&](const Vec3i& c) { return static_cast<int>(std::find(cells.begin(), cells.end(), c) - cells.begin()); };
+    const auto indexOf = [&](const Vec3i& c) {
+        return static_cast<int>(std::find(cells.begin(), cells.end(), c) - cells.begin());
+    };
     // From the definition (model-fluid 6.4), not from the way the matrix is stored.
     scene.forEachFace([&](int axis, const Vec3i& c) {
         const Vec3i below = c - Vec3i::Unit(axis);
@@ -208,7 +218,8 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
         for (int axis = 0; axis < kAxes; ++axis) {
             const Vec3i below = cells[n] - Vec3i::Unit(axis);
             const double stored = scene.work.matrix.coupling(axis, ref.block)[ref.cell];
-            const double expected = below[axis] >= scene.lower[axis] && scene.levelSet(below) < 0.0 ? -a(n, indexOf(below)) : 0.0;
+            const double expected =
+                below[axis] >= scene.lower[axis] && scene.levelSet(below) < 0.0 ? -a(n, indexOf(below)) : 0.0;
             EXPECT_NEAR(stored, expected, 1.0e-13);
         }
     }
@@ -218,7 +229,8 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
 TEST(Pressure, MovingTheSceneByWholeCellsChangesNothing)
 {
     GridScene scene = fullBoxWithBall();
-    scene.setVelocities([](const Vec3& x) { return Vec3(std::sin(3.0 * x.y()), x.x() * x.z(), std::cos(2.0 * x.x() + x.z())) * 40.0; });
+    scene.setVelocities(
+        [](const Vec3& x) { return Vec3(std::sin(3.0 * x.y()), x.x() * x.z(), std::cos(2.0 * x.x() + x.z())) * 40.0; });
     const BlockArray<double, 3> start = scene.liquid.faces.velocity;
     scene.project(kDt);
     for (const Vec3i& shift : {Vec3i(8, -16, 8), Vec3i(3, 1, -2), Vec3i(-7, 5, 4)}) {
@@ -283,7 +295,8 @@ TEST(Pressure, MovingWallPushesTheLiquid)
 
 TEST(Pressure, DryFacesOfCellsInObstaclesGetNoVelocity)
 {
-    // A cell whose middle is in a ball is liquid through its wet lower face; its upper face is open to the air but carries no liquid.
+    // A cell whose middle is in a ball is liquid through its wet lower face; its upper face is open to the air but
+    // carries no liquid.
     GridScene scene({0, 0, 0}, {8, 8, 8});
     scene.add(Shape::ball(scene.middle({4, 4, 4}) + scene.grid.dx * Vec3(0.0, 0.1, 0.0), 0.45 * scene.grid.dx));
     scene.levelSet({4, 3, 4}) = -0.3 * scene.grid.dx;
