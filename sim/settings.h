@@ -58,7 +58,7 @@ struct FabricTransferSettings {
 
 struct RelaxSettings {
     double rate = 125.0;  ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
-    double range = 1.8;   ///< Reach of the push in nominal particle radii; larger ones inflate the liquid as it settles [-]
+    double range = 2.0;   ///< Reach of the push in nominal particle radii [-]
 };
 
 struct LiquidSettings {

@@ -33,17 +33,15 @@ struct Push {
     FloatPack x{}, y{}, z{};
     FloatMask same{};  ///< counts those that are at (almost) the same place, itself included
 
-    /// Add those by the particles first … last − 1, which stand in neighbouring cells of one block along z. What follows them in the block
-    /// is further away than the reach; the next block's particles, from blockEnd on, would be misplaced.
+    /// Add those by the particles first … last − 1, which stand in neighbouring cells of one block along z.
     /// @param at  the particle, relative to the corner of that block
-    [[gnu::always_inline]] void addRun(const LocalPositions& positions, float atX, float atY, float atZ, int first, int last, int blockEnd)
+    [[gnu::always_inline]] void addRun(const LocalPositions& positions, float atX, float atY, float atZ, int first, int last)
     {
         for (int s = first; s < last; s += kFloatLanes) {
             const FloatPack dx = atX - loadFloats(positions.x + s), dy = atY - loadFloats(positions.y + s), dz = atZ - loadFloats(positions.z + s);
             const FloatPack q = dx * dx + dy * dy + dz * dz;
             FloatPack rest = 1.0f - q;
-            rest = rest > 0.0f ? rest : FloatPack{};
-            if (s + kFloatLanes > blockEnd) rest = firstFloatLanes(blockEnd - s) ? rest : FloatPack{};
+            rest = (rest > 0.0f) & firstFloatLanes(last - s) ? rest : FloatPack{};
             const FloatPack strength = rest * rest * rest * roughInverseSqrt(q + kTiny);
             x += strength * dx;
             y += strength * dy;
@@ -66,7 +64,7 @@ Vec3 leaveCoincident(const LiquidParticles& particles, const LocalPositions& loc
 
 /// The three cells of one column around a cell, below to above.
 struct Column {
-    int begin[3], end[3], blockEnd[3];
+    int begin[3], end[3];
     float offsetX, offsetY, offsetZ[3];  ///< of their blocks' corners from that of the cell's block, in units of the reach
 };
 
@@ -87,7 +85,6 @@ struct Neighbourhood {
                 const int* start = exists ? order.cells(b) + cellRank(ci & 7, cj & 7, ck & 7) : nullptr;
                 column.begin[n] = exists ? start[0] : 0;
                 column.end[n] = exists ? start[1] : 0;
-                column.blockEnd[n] = exists ? order.end(b) : 0;
                 column.offsetZ[n] = blockEdge * static_cast<float>(ck >> 3);
             }
         }
@@ -102,7 +99,7 @@ struct Neighbourhood {
     while (low <= high) {
         int last = low;
         while (last < high && column.offsetZ[last + 1] == column.offsetZ[low]) ++last;
-        push.addRun(local, x, y, at.z() - column.offsetZ[low], column.begin[low], column.end[last], column.blockEnd[low]);
+        push.addRun(local, x, y, at.z() - column.offsetZ[low], column.begin[low], column.end[last]);
         low = last + 1;
     }
 }
