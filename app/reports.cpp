@@ -52,12 +52,13 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
     return line.dump();
 }
 
-constexpr std::string_view kEnergyHeader = "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g";
+constexpr std::string_view kEnergyHeader = "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg";
 
 std::string energyRow(double time, const sim::Energies& e, std::size_t particles, double liquidMass)
 {
-    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g}", time, e.kinetic, e.modal, e.potential, e.total(),
-                       particles, liquidMass);
+    const double perParticle = particles > 0 ? e.total() / static_cast<double>(particles) : 0.0;
+    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g}", time, e.kinetic, e.modal, e.potential, e.total(),
+                       particles, liquidMass, perParticle);
 }
 
 double since(std::chrono::steady_clock::time_point begin)
