@@ -229,8 +229,9 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
 TEST(Pressure, MovingTheSceneByWholeCellsChangesNothing)
 {
     GridScene scene = fullBoxWithBall();
-    scene.setVelocities(
-        [](const Vec3& x) { return Vec3(std::sin(3.0 * x.y()), x.x() * x.z(), std::cos(2.0 * x.x() + x.z())) * 40.0; });
+    scene.setVelocities([](const Vec3& x) {
+        return Vec3(40.0 * std::sin(3.0 * x.y()), 40.0 * x.x() * x.z(), 40.0 * std::cos(2.0 * x.x() + x.z()));
+    });
     const BlockArray<double, 3> start = scene.liquid.faces.velocity;
     scene.project(kDt);
     for (const Vec3i& shift : {Vec3i(8, -16, 8), Vec3i(3, 1, -2), Vec3i(-7, 5, 4)}) {
