@@ -57,8 +57,12 @@ struct FabricTransferSettings {
 };
 
 struct RelaxSettings {
-    double rate = 125.0;  ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
+    double rate = 0.0;    ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
     double range = 2.0;   ///< Reach of the push in nominal particle radii [-]
+};
+
+struct VolumeSettings {
+    double rate = 125.0;  ///< Rate at which cells that hold too much expand and holes close; 0 = off [1/s]
 };
 
 struct LiquidSettings {
@@ -69,6 +73,7 @@ struct LiquidSettings {
     bool full = false;             ///< The liquid fills a closed box: there is no air
     double particleSpacing = 0.0;  ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]
     double wallFriction = 0.0;     ///< 0 = free slip … 1 = the liquid sticks to walls [-]
+    VolumeSettings volume;
     RelaxSettings relax;
 };
 

@@ -111,6 +111,7 @@ std::uint64_t stateHash(const State& state)
     }
     add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
     add(&state.unrelaxed, sizeof state.unrelaxed);
+    add(&state.uncorrected, sizeof state.uncorrected);
     add(&state.ledger.emittedMass, sizeof(double));
     add(&state.ledger.leftMass, sizeof(double));
     add(state.ledger.leftMomentum.data(), 3 * sizeof(double));

@@ -17,6 +17,7 @@ struct State {
     BlockArray<double> pressure;   ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
     std::vector<double> emittedVolume;  ///< by each source so far [cm^3]
     double unrelaxed = 0.0;        ///< time since the particles were last relaxed [s]
+    double uncorrected = 0.0;      ///< time since the liquid's volume was last corrected [s]
     Ledger ledger;
 };
 

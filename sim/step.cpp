@@ -2,9 +2,9 @@
 
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
+#include "sim/liquid/cells.h"
 #include "sim/liquid/energy.h"
 #include "sim/liquid/face_velocity.h"
-#include "sim/liquid/level_set.h"
 #include "sim/liquid/push_out.h"
 #include "sim/liquid/walls.h"
 #include "sim/particles/emit.h"
@@ -34,16 +34,20 @@ GatherSettings gatherSettings(const Scene& scene, const Workspace& work, double 
         settings.flipRatio = keptOver(transfer.flipRatio, transfer, dt);
         settings.flipVelocity = &work.grid.flipVelocity;
     }
-    if (work.displaces) settings.displacement = work.displacement.data();
-    if (work.grid.hasGaps) settings.gaps = &work.grid.gaps;
+    if (settings.modes > kModesAtSurface) settings.manyModes = &work.grid.deep;
     return settings;
 }
 
-/// Is it time to push crowded particles apart? Several short steps share one relaxation, as long as it stays gentle.
-bool isRelaxationDue(const State& state, const RelaxSettings& relax, double reach, double dt)
+/// Largest share of an error of the particles' places that is mended at once. A correction waits while several short steps together would do less.
+constexpr double kGentleCorrection = 0.2;
+/// Largest share of an error of volume that a long step mends; to mend all of it at once would overshoot.
+constexpr double kLargestShare = 0.5;
+
+/// Is it time for a correction that acts at `rate` [1/s] and was last made `interval` [s] before the end of this step?
+bool isDue(double rate, double interval, double dt)
 {
-    constexpr double kRoundOff = 1.0 + 1.0e-9;  // eight steps of 2e-4 s at the default rate make exactly the strength
-    return reach > 0.0 && relax.rate * (state.unrelaxed + dt) > kRelaxStrength * kRoundOff;
+    constexpr double kRoundOff = 1.0 + 1.0e-9;  // eight steps of 2e-4 s at the default rates make exactly the gentle share
+    return rate > 0.0 && rate * (interval + dt) > kGentleCorrection * kRoundOff;
 }
 
 /// Pressure of the last step, in the blocks of this one.
@@ -57,25 +61,6 @@ void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockA
         if (from == BlockGrid::kNone) std::fill_n(pressure.block(b), kBlockCells, 0.0);
         else std::copy_n(old.block(from), kBlockCells, pressure.block(b));
     });
-}
-
-std::size_t countLiquidCells(const BlockGrid& grid, const LiquidGrid& liquid)
-{
-    return parallelReduce(
-        grid.count(), std::size_t{0},
-        [&](std::size_t b) {
-            const double* phi = liquid.levelSet.block(static_cast<int>(b));
-            return static_cast<std::size_t>(std::count_if(phi, phi + kBlockCells, [](double v) { return v < 0.0; }));
-        },
-        std::plus<>());
-}
-
-/// Fill the faces around the liquid that its particles will read.
-void fillFaces(const BlockGrid& grid, double friction, Workspace& work, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
-{
-    extrapolate(grid, work.extrapolation, valid, velocity);
-    if (!work.obstacles.empty())
-        applyWalls(grid, work.obstacleField, work.obstacles, friction, work.extrapolation, valid, velocity, work.grid);
 }
 
 }  // namespace
@@ -103,11 +88,12 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     work.grid.resize(grid.count(), flip);
 
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
-    work.obstacleField.update(grid, work.order.previous, work.obstacles);
+    work.obstacleField.update(grid, work.order.previous, work.obstacles, wallsMirror(settings.liquid.wallFriction));
 
     state.unrelaxed += dt;
-    work.displaces = isRelaxationDue(state, settings.liquid.relax, work.relaxReach, dt);
-    if (work.displaces) {
+    state.uncorrected += dt;
+    const bool relaxes = isDue(settings.liquid.relax.rate, state.unrelaxed, dt), corrects = isDue(settings.liquid.volume.rate, state.uncorrected, dt);
+    if (relaxes) {
         clock.start(Stage::Relax);
         relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, state.unrelaxed, work.relax,
                                 work.displacement);
@@ -118,29 +104,44 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
         particlesToFacesAffine(particles, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
     else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
-    if (settings.liquid.wallFriction < 1.0) foldAtWalls(grid, work.obstacles, work.grid.faces);
+    if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
     divideAndAddGravity(grid, settings.gravity, dt, flip, work.grid);
 
-    clock.start(Stage::LevelSet);
-    levelSetFromParticles(particles, work.order, grid, work.grid);
-    classifyCells(grid, work.obstacleField, settings.liquid.full, work.grid);
+    clock.start(Stage::Cells);
+    findLiquidCells(grid, work.obstacleField, settings.liquid, work.grid);
+    findSurface(grid, work.obstacleField, work.grid);
 
     clock.start(Stage::Pressure);
     report.pressure = projectPressure(grid, work.obstacleField, settings.liquid, settings.solver, dt, work.pressure, work.grid, state.pressure);
 
-    clock.start(Stage::Extrapolate);
-    if (flip) {
-        work.grid.flipValid = work.grid.faces.valid;
-        fillFaces(grid, settings.liquid.wallFriction, work, work.grid.flipValid, work.grid.flipVelocity);
+    if (corrects) {
+        clock.start(Stage::Volume);
+        const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
+        report.volume = correctVolume(grid, work.obstacleField, work.pressure, work.grid, strength, settings.solver.maxIterations, work.volume);
+        state.uncorrected = 0.0;
     }
-    fillFaces(grid, settings.liquid.wallFriction, work, work.grid.faces.valid, work.grid.faces.velocity);
-    findGaps(grid, work.order, work.grid);
+
+    if (!work.obstacles.empty()) {
+        clock.start(Stage::Walls);
+        if (flip) {
+            work.grid.flipValid = work.grid.faces.valid;
+            applyWalls(grid, work.obstacleField, work.obstacles, settings.liquid.wallFriction, work.extrapolation, work.grid.flipValid,
+                       work.grid.flipVelocity, work.grid);
+        }
+        applyWalls(grid, work.obstacleField, work.obstacles, settings.liquid.wallFriction, work.extrapolation, work.grid.faces.valid,
+                   work.grid.faces.velocity, work.grid);
+    }
 
     clock.start(Stage::GridToParticles);
-    const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gatherSettings(scene, work, dt), work.gather, particles);
+    GatherSettings gather = gatherSettings(scene, work, dt);
+    if (relaxes) gather.displacement = work.displacement.data();
+    if (corrects) gather.faceDisplacement = &work.volume.displacement;
+    const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
-    if (!work.obstacles.empty())
-        pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, report.maxSpeed * dt + work.relaxReach, particles);
+    if (!work.obstacles.empty()) {
+        const double farthest = report.maxSpeed * dt + (relaxes ? work.relaxReach : 0.0) + (corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
+        pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
+    }
 
     state.time += dt;
     ++state.step;

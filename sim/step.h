@@ -3,6 +3,7 @@
 #include "sim/liquid/extrapolate.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
+#include "sim/liquid/volume.h"
 #include "sim/particles/relax.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
@@ -21,8 +22,8 @@ struct Workspace {
     GatherScratch gather;
     PressureWorkspace pressure;
     ExtrapolationScratch extrapolation;
-    std::array<AlignedArray<double>, kAxes> displacement;  ///< by relaxation [cm] …
-    bool displaces = false;                                ///< … in this step
+    VolumeWorkspace volume;
+    std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off

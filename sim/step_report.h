@@ -9,10 +9,10 @@
 namespace sim {
 
 /// The stages of a step, in the order in which they run.
-enum class Stage { Emit, Sort, Obstacles, Relax, ParticlesToGrid, LevelSet, Pressure, Extrapolate, GridToParticles, Count };
+enum class Stage { Emit, Sort, Obstacles, Relax, ParticlesToGrid, Cells, Pressure, Volume, Walls, GridToParticles, Count };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "relax", "particles_to_grid", "level_set", "pressure", "extrapolate", "grid_to_particles"};
+    "emit", "sort", "obstacles", "relax", "particles_to_grid", "cells", "pressure", "volume", "walls", "grid_to_particles"};
 
 /// What an iterative solve did.
 struct SolveReport {
@@ -44,6 +44,7 @@ struct StepReport {
     double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
     double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
     SolveReport pressure;
+    SolveReport volume;                          ///< of the correction of the volume, if it ran
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     Energies energies;                           ///< at the end of the step
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]

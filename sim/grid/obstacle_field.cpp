@@ -1,6 +1,7 @@
 #include "sim/grid/obstacle_field.h"
 
 #include "sim/core/parallel.h"
+#include "sim/grid/room.h"
 
 #include <cmath>
 #include <limits>
@@ -51,15 +52,18 @@ void ObstacleField::resizeSlots(int count)
 {
     open_.resize(count);
     wallVelocity_.resize(count);
+    room_.resize(count);
     closed_.resize(count);
+    blocked_.resize(count);
     centerDistance_.resize(count);
     nodeDistance_.resize(static_cast<std::size_t>(count) * kNodes);
     touchedByMoving_.resize(count);
     if (slotCount_ == 0 && count > 0)
         for (int c = 0; c < kBlockCells; ++c) {
             centerDistance_.block(kOpenSlot)[c] = std::numeric_limits<double>::infinity();
+            blocked_.block(kOpenSlot)[c / 64] = 0;
             for (int a = 0; a < kAxes; ++a) {
-                open_.block(kOpenSlot, a)[c] = 1.0;
+                open_.block(kOpenSlot, a)[c] = room_.block(kOpenSlot, a)[c] = 1.0;
                 wallVelocity_.block(kOpenSlot, a)[c] = 0.0;
                 closed_.block(kOpenSlot, a)[c / 64] = 0;
             }
@@ -85,11 +89,12 @@ bool ObstacleField::isNear(const BlockGrid& grid, double distance)
     return distance < (0.5 * std::sqrt(3.0) * kBlockEdge + kExactDistance) * grid.dx;
 }
 
-void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles)
+void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors)
 {
     if (slotCount_ == 0) resizeSlots(1);
     oldSlot_.swap(slot_);
     slot_.assign(grid.count() + 1, kOpenSlot);
+    nearSolid_.clear();
     if (obstacles.empty()) return;
 
     toCompute_.clear();
@@ -121,11 +126,21 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     toCompute_.erase(std::unique(toCompute_.begin(), toCompute_.end()), toCompute_.end());
     parallelFor(toCompute_.size(), [&](std::size_t n) {
         const int b = toCompute_[n];
-        if (slot_[b] != kOpenSlot) computeSlot(grid, b, slot_[b], obstacles);
+        if (slot_[b] != kOpenSlot) computeSlot(grid, b, slot_[b], obstacles, mirrors);
     });
+    for (int b = 0; b < grid.count(); ++b)
+        if (nearSolid(b)) nearSolid_.push_back(b);
 }
 
-void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
+void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors)
+{
+    computeNodes(grid, block, slot, obstacles);
+    computeFaces(grid, block, slot, obstacles);
+    findBlocked(slot);
+    roomOfFaces(grid, block, obstacles, mirrors, room_.block(slot));
+}
+
+void ObstacleField::computeNodes(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
 {
     const Vec3 corner = grid.lowerCorner(block);
     double* node = nodeDistance_.data() + static_cast<std::size_t>(slot) * kNodes;
@@ -135,8 +150,22 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
                 const double d = obstacles.distance(corner + grid.dx * Vec3(i, j, k));
                 node[nodeIndex(i, j, k)] = std::abs(d) < kOnSurface * grid.dx ? 0.0 : d;
             }
+}
+
+/// Open fraction of the face normal to `axis` at the lower side of cell (i, j, k); each may be 8 along its axis.
+double ObstacleField::openAt(int slot, int axis, int i, int j, int k) const
+{
+    constexpr int kStep[3] = {nodeIndex(1, 0, 0), nodeIndex(0, 1, 0), nodeIndex(0, 0, 1)};
+    const double* n = nodeDistance_.data() + static_cast<std::size_t>(slot) * kNodes + nodeIndex(i, j, k);
+    const int u = kStep[(axis + 1) % 3], v = kStep[(axis + 2) % 3];
+    const double open = openFraction(n[0], n[u], n[u + v], n[v]);
+    return open < kAlmostClosed ? 0.0 : open > kAlmostOpen ? 1.0 : open;
+}
+
+void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
+{
+    const Vec3 corner = grid.lowerCorner(block);
     for (int a = 0; a < kAxes; ++a) std::fill_n(closed_.block(slot, a), BlockBits<3>::kWords, 0);
-    const int step[3] = {nodeIndex(1, 0, 0), nodeIndex(0, 1, 0), nodeIndex(0, 0, 1)};
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j)
             for (int i = 0; i < kBlockEdge; ++i) {
@@ -144,15 +173,25 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
                 centerDistance_.block(slot)[cell] = std::min(obstacles.distance(center), kExactDistance * grid.dx);
                 for (int a = 0; a < kAxes; ++a) {
-                    const double* n = node + nodeIndex(i, j, k);
-                    const int u = step[(a + 1) % 3], v = step[(a + 2) % 3];
-                    double open = openFraction(n[0], n[u], n[u + v], n[v]);
-                    open = open < kAlmostClosed ? 0.0 : open > kAlmostOpen ? 1.0 : open;
+                    const double open = openAt(slot, a, i, j, k);
                     open_.block(slot, a)[cell] = open;
                     if (open == 0.0) closed_.set(slot, cell, a);
                     wallVelocity_.block(slot, a)[cell] =
                         touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
                 }
+            }
+}
+
+void ObstacleField::findBlocked(int slot)
+{
+    std::fill_n(blocked_.block(slot), BlockBits<>::kWords, 0);
+    for (int k = 0; k < kBlockEdge; ++k)
+        for (int j = 0; j < kBlockEdge; ++j)
+            for (int i = 0; i < kBlockEdge; ++i) {
+                bool blocked = true;
+                for (int a = 0; a < kAxes && blocked; ++a)
+                    blocked = openAt(slot, a, i, j, k) == 0.0 && openAt(slot, a, i + (a == 0), j + (a == 1), k + (a == 2)) == 0.0;
+                if (blocked) blocked_.set(slot, cellInBlock(i, j, k));
             }
 }
 

@@ -8,7 +8,7 @@
 
 namespace sim {
 
-/// Obstacles on the grid (model-fluid 2.4, 2.5): distance on nodes, open fraction and velocity of faces. Blocks far from every
+/// Obstacles on the grid (model-fluid 2.4, 2.5): distance on nodes; open fraction, room and velocity of faces. Blocks far from every
 /// solid share one set of numbers; those of a block near a resting solid are computed when the block appears, and kept.
 class ObstacleField {
  public:
@@ -19,14 +19,21 @@ class ObstacleField {
 
     /// Follow the blocks of the grid and the motion of the obstacles.
     /// @param previous  number each block had at the last update, or BlockGrid::kNone
-    void update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles);
+    /// @param mirrors   plane walls in planes of faces mirror the liquid (foldAtWalls): what is behind them counts as room
+    void update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors);
 
     bool nearSolid(int block) const { return slot_[block] != kOpenSlot; }
+    /// The blocks for which nearSolid is true.
+    const std::vector<int>& blocksNearSolid() const { return nearSolid_; }
 
     /// Open fraction of each lower face normal to `axis`, 0 … 1. Also for the empty block.
     const double* open(int block, int axis) const { return open_.block(slot_[block], axis); }
     /// Faces of open fraction 0.
     const std::uint64_t* closed(int block, int axis) const { return closed_.block(slot_[block], axis); }
+    /// Share of each lower face's B-spline that is outside the solids, 0 … 1: a face amid liquid carries that much of ρ dx³.
+    const double* room(int block, int axis) const { return room_.block(slot_[block], axis); }
+    /// Cells all of whose faces are closed.
+    const std::uint64_t* blocked(int block) const { return blocked_.block(slot_[block]); }
     /// Velocity of the obstacle at each lower face along `axis` [cm/s].
     const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(slot_[block], axis); }
     /// Distance to the nearest solid on the 9³ nodes of a block near a solid [cm], at nodeIndex(i, j, k). Beyond kExactDistance cells it may
@@ -45,15 +52,21 @@ class ObstacleField {
     int takeSlot();
     void resizeSlots(int count);
     static bool isNear(const BlockGrid& grid, double distance);
-    void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
+    void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors);
+    void computeNodes(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
+    void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
+    void findBlocked(int slot);
+    double openAt(int slot, int axis, int i, int j, int k) const;
 
     std::vector<int> slot_, oldSlot_;       ///< per block, the empty block included
+    std::vector<int> nearSolid_;
     std::vector<int> freeSlots_;
     std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
     std::vector<int> toCompute_;            ///< blocks
     int slotCount_ = 0;
-    BlockArray<double, 3> open_, wallVelocity_;
+    BlockArray<double, 3> open_, room_, wallVelocity_;
     BlockBits<3> closed_;
+    BlockBits<> blocked_;
     BlockArray<double> centerDistance_;
     AlignedArray<double> nodeDistance_;
 };

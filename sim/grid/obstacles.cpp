@@ -72,4 +72,13 @@ Vec3 Obstacles::velocity(const Vec3& x) const
     return (x - body->before * (body->toShape * x)) / interval_;
 }
 
+std::optional<int> planeOfFaces(const BlockGrid& grid, const Obstacles::Wall& wall)
+{
+    constexpr double kInPlane = 1.0e-6;  // [cells]
+    const double inCells = (wall.at - grid.origin[wall.axis]) / grid.dx;
+    const double plane = std::round(inCells);
+    if (std::abs(inCells - plane) > kInPlane) return std::nullopt;
+    return static_cast<int>(plane);
+}
+
 }  // namespace sim

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "sim/grid/block_grid.h"
 #include "sim/scene/motion.h"
 #include "sim/shapes/shape.h"
 
+#include <optional>
 #include <vector>
 
 namespace sim {
@@ -29,11 +31,7 @@ class Obstacles {
         double at;    ///< [cm]
         bool above;   ///< the solid is on the upper side
     };
-    template <class F>
-    void forEachPlaneWall(F&& f) const
-    {
-        for (const Wall& wall : walls_) f(wall);
-    }
+    const std::vector<Wall>& planeWalls() const { return walls_; }
 
  private:
     struct Body {
@@ -50,5 +48,8 @@ class Obstacles {
     bool anyMoving_ = false;
     double interval_ = 0.0;
 };
+
+/// Number of the plane of faces that a wall stands in, counted from cell 0; nothing if it stands between two.
+std::optional<int> planeOfFaces(const BlockGrid& grid, const Obstacles::Wall& wall);
 
 }  // namespace sim

@@ -11,9 +11,10 @@ struct LiquidGrid {
     BlockBits<3> wet;                    ///< faces that carry liquid mass
     BlockArray<double, 3> flipVelocity;  ///< FLIP only: velocities straight after P2G [cm/s] …
     BlockBits<3> flipValid;              ///< … and where they mean something
-    BlockArray<double> levelSet;         ///< signed distance to the liquid's surface at cell middles [cm]; < 0 exactly where there is a pressure
-    BlockBits<> gaps;                    ///< cells whose particles meet faces without a velocity
-    bool hasGaps = false;
+    BlockArray<double> fill;             ///< liquid in and around each cell relative to a cell amid liquid [-]
+    BlockBits<> inside;                  ///< cells with a pressure
+    BlockBits<> surface;                 ///< those of them beside air
+    BlockBits<> deep;                    ///< those that are neither at the surface nor beside it
 
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.
     double* scratch(int block, int kind = 0) { return faces.sums.block(block, FaceFields::kMomentum + kind); }
@@ -23,8 +24,10 @@ struct LiquidGrid {
         faces.velocity.resize(blocks);
         faces.valid.resize(blocks);
         wet.resize(blocks);
-        levelSet.resize(blocks);
-        gaps.resize(blocks);
+        fill.resize(blocks);
+        inside.resize(blocks);
+        surface.resize(blocks);
+        deep.resize(blocks);
         if (flip) flipVelocity.resize(blocks);
     }
 };

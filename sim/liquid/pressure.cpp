@@ -7,29 +7,45 @@ namespace sim {
 
 namespace {
 
-/// Distance to the surface as a fraction of the distance between the cells: from a liquid cell (phi < 0) to an air cell.
-[[gnu::always_inline]] inline Pack surfaceFraction(Pack phiLiquid, Pack phiAir)
-{
-    return maxPack(phiLiquid / (phiLiquid - phiAir), broadcast(kThinnest));
-}
+/// The bits of row (j, k) of a block.
+[[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
 
-/// k_f of every lower face: zero where it is closed or carries no liquid.
-void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, double scale, bool full, const LiquidGrid& liquid,
+/// Bits of the cells of a block, and of their neighbours below along each axis.
+struct NeighbourBits {
+    std::uint64_t own[kBlockEdge], below[kAxes][kBlockEdge];
+    NeighbourBits(const BlockGrid& grid, const BlockBits<>& bits, int block)
+    {
+        const BitAccess access(grid, block);
+        for (int k = 0; k < kBlockEdge; ++k) {
+            own[k] = bits.block(block)[k];
+            for (int a = 0; a < kAxes; ++a) below[a][k] = access.below(bits, 0, a, k);
+        }
+    }
+};
+
+/// k_f of every lower face beside a liquid cell: zero where it is closed or carries no liquid. Faces between deep cells are full: what P2G
+/// found there differs from that by the noise of the particles' places only.
+/// @param full  so are faces without particles
+void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, double scale, double fullMass, bool full, const LiquidGrid& liquid,
                          PressureWorkspace& work)
 {
     work.coefficient.resize(grid.count());
     parallelFor(grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        for (int a = 0; a < kAxes; ++a) {
-            const double* open = obstacles.open(b, a);
-            const std::uint64_t* wet = liquid.wet.block(b, a);
-            double* k = work.coefficient.block(b, a);
-            for (int row = 0; row < kBlockCells; row += kLanes) {
-                const PackMask carries = full ? maskOfBits(0xff) : maskOfBits(wet[row >> 6] >> (row & 63));
-                const Pack value = select(carries, scale * loadPack(open + row), broadcast(0.0));
-                std::memcpy(k + row, &value, sizeof value);
-            }
-        }
+        const NeighbourBits inside(grid, liquid.inside, b), deep(grid, liquid.deep, b);
+        for (int a = 0; a < kAxes; ++a)
+            for (int k = 0; k < kBlockEdge; ++k)
+                for (int j = 0; j < kBlockEdge; ++j) {
+                    const int row = cellInBlock(0, j, k);
+                    const Pack open = loadPack(obstacles.open(b, a) + row), room = fullMass * loadPack(obstacles.room(b, a) + row);
+                    const PackMask wet = rowOf(liquid.wet.block(b, a), j, k);
+                    const PackMask isFull = (rowOf(deep.own, j, k) & rowOf(deep.below[a], j, k)) | (full ? ~wet : PackMask{});
+                    const Pack mass = select(isFull, room, loadPack(liquid.faces.sums.block(b, FaceFields::kMass + a) + row));
+                    const PackMask counts = (rowOf(inside.own, j, k) | rowOf(inside.below[a], j, k)) & (wet | isFull);
+                    const PackMask known = counts & (open > 0.0) & (room > 0.0);
+                    const Pack value = select(known, scale * open * room / maxPack(mass, kLeastFill * room), broadcast(0.0));
+                    std::memcpy(work.coefficient.block(b, a) + row, &value, sizeof value);
+                }
     });
 }
 
@@ -70,25 +86,21 @@ struct RowFlux {
 void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b, const LiquidGrid& liquid, PressureWorkspace& work)
 {
     const RowAccess rows(grid, b);
+    const NeighbourBits inside(grid, liquid.inside, b);
     const Pack zero = broadcast(0.0);
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j) {
             const int row = cellInBlock(0, j, k);
-            const Pack phi = rows.row(liquid.levelSet, 0, j, k);
-            const PackMask inside = phi < 0.0;
+            const PackMask own = rowOf(inside.own, j, k);
             Pack diagonal = zero, rhs = zero, coupling[3] = {zero, zero, zero};
-            if (maskBits(inside) != 0) {
-                const auto add = [&](Pack coefficient, Pack phiOther) {
-                    const PackMask both = phiOther < 0.0;
-                    diagonal += select(both, coefficient, coefficient / surfaceFraction(phi, phiOther));
-                    return select(both & inside, coefficient, zero);
-                };
+            if (maskBits(own) != 0) {
                 unroll<3>([&](auto a) {
-                    coupling[a] = add(rows.row(work.coefficient, a, j, k), rows.below(liquid.levelSet, 0, a, j, k));
-                    add(rows.above(work.coefficient, a, a, j, k), rows.above(liquid.levelSet, 0, a, j, k));
+                    const Pack below = rows.row(work.coefficient, a, j, k);
+                    diagonal += below + rows.above(work.coefficient, a, a, j, k);
+                    coupling[a] = select(own & rowOf(inside.below[a], j, k), below, zero);
                 });
-                diagonal = select(inside, diagonal, zero);
-                rhs = select(inside, rowOutflow(obstacles, liquid, rows, j, k) * (-1.0 / grid.dx), zero);
+                diagonal = select(own, diagonal, zero);
+                rhs = select(own, rowOutflow(obstacles, liquid, rows, j, k) * (-1.0 / grid.dx), zero);
             }
             std::memcpy(work.matrix.diagonal(b) + row, &diagonal, sizeof diagonal);
             std::memcpy(work.rhs.block(b) + row, &rhs, sizeof rhs);
@@ -96,32 +108,21 @@ void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b,
         }
 }
 
-/// u −= (dt/ρ) grad p on the faces of the system: those with a coefficient, beside at least one liquid cell. They become the valid ones.
-void subtractGradient(const BlockGrid& grid, const BlockArray<double, 3>& coefficient, double scale, const BlockArray<double>& pressure,
+/// u −= dt grad p / (ρ fill) on the faces of the system; they and all others that are open and wet become valid.
+void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& work, const BlockArray<double>& pressure,
                       LiquidGrid& liquid)
 {
     parallelFor(grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const RowAccess rows(grid, b);
         for (int a = 0; a < kAxes; ++a) {
             std::uint64_t* valid = liquid.faces.valid.block(b, a);
-            std::fill_n(valid, BlockBits<3>::kWords, 0);
-            for (int k = 0; k < kBlockEdge; ++k)
-                for (int j = 0; j < kBlockEdge; ++j) {
-                    const Pack phi = rows.row(liquid.levelSet, 0, j, k), phiBelow = rows.below(liquid.levelSet, 0, a, j, k);
-                    const PackMask inside = phi < 0.0, insideBelow = phiBelow < 0.0;
-                    const int row = cellInBlock(0, j, k);
-                    const PackMask known = (inside | insideBelow) & (loadPack(coefficient.block(b, a) + row) > 0.0);
-                    const unsigned bits = maskBits(known);
-                    if (bits == 0) continue;
-                    valid[row >> 6] |= static_cast<std::uint64_t>(bits) << (row & 63);
-                    const Pack p = rows.row(pressure, 0, j, k), pBelow = rows.below(pressure, 0, a, j, k);
-                    const Pack fraction = select(inside & insideBelow, broadcast(1.0),
-                                                 select(inside, surfaceFraction(phi, phiBelow), surfaceFraction(phiBelow, phi)));
-                    double* velocity = liquid.faces.velocity.block(b, a) + row;
-                    const Pack u = loadPack(velocity), moved = select(known, u - scale * (p - pBelow) / fraction, u);
-                    std::memcpy(velocity, &moved, sizeof moved);
-                }
+            for (int k = 0; k < kBlockEdge; ++k) valid[k] = liquid.wet.block(b, a)[k] & ~obstacles.closed(b, a)[k];
+            forEachPressureFace(grid, obstacles, work, pressure, b, a, [&](int row, PackMask known, Pack change) {
+                valid[row >> 6] |= static_cast<std::uint64_t>(maskBits(known)) << (row & 63);
+                double* velocity = liquid.faces.velocity.block(b, a) + row;
+                const Pack moved = loadPack(velocity) + change;
+                std::memcpy(velocity, &moved, sizeof moved);
+            });
         }
     });
 }
@@ -131,13 +132,13 @@ void subtractGradient(const BlockGrid& grid, const BlockArray<double, 3>& coeffi
 SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
                             double dt, PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
 {
-    const double mobility = dt / settings.density;
+    const double cell = grid.dx * grid.dx * grid.dx;
     work.matrix.resize(grid.count());
     work.rhs.resize(grid.count());
-    computeCoefficients(grid, obstacles, mobility / (grid.dx * grid.dx), settings.full, liquid, work);
+    computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.density * cell, settings.full, liquid, work);
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
     const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
-    subtractGradient(grid, work.coefficient, mobility / grid.dx, pressure, liquid);
+    subtractGradient(grid, obstacles, work, pressure, liquid);
     return report;
 }
 
@@ -148,7 +149,7 @@ double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, 
         double largest = 0.0;
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
-                const PackMask inside = rows.row(liquid.levelSet, 0, j, k) < 0.0;
+                const PackMask inside = rowOf(liquid.inside.block(static_cast<int>(n)), j, k);
                 const Pack out = absPack(select(inside, rowOutflow(obstacles, liquid, rows, j, k), broadcast(0.0)));
                 for (int l = 0; l < kLanes; ++l) largest = std::max(largest, out[l] / grid.dx);
             }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/grid/rows.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/settings.h"
 #include "sim/solvers/poisson.h"
@@ -10,19 +11,42 @@ namespace sim {
 struct PressureWorkspace {
     PoissonMatrix matrix;
     BlockArray<double> rhs;
-    BlockArray<double, 3> coefficient;  ///< k_f = ω dt / (ρ dx²) of each lower face [cm s/g]
+    BlockArray<double, 3> coefficient;  ///< ω dt / (ρ dx² fill) of each lower face beside a liquid cell [cm s/g]
     PoissonSolver solver;
 };
 
-/// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells with a negative level set, with
-/// p = 0 on the surface (ghost fluid) and subtract its gradient (model-fluid 6.4, 6.5 without fabric). Faces that got a velocity that
-/// way are valid, all others not.
+/// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the
+/// others, and subtract dt grad p / (ρ fill) (model-fluid 6.4, 6.5 without fabric).
+///
+/// The fill of a face is the mass that P2G put there relative to a face amid liquid. At the surface it takes the place of the ghost fluid's
+/// fraction: both are the share of liquid between two cell middles. Only the mass makes this the projection that is orthogonal
+/// in the kinetic energy of the particles, so that it gains no energy and conserves momentum and angular momentum. Needs findSurface.
+/// All faces with liquid that are not closed are valid afterwards.
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
 SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
                             double dt, PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure);
 
-/// Fraction of the way from a liquid cell to an air cell at which the surface lies, at least kThinnest.
-inline constexpr double kThinnest = 0.01;
+/// Faces are taken to be at least this full, for the sake of the conditioning.
+inline constexpr double kLeastFill = 0.01;
+
+/// For the faces of the pressure system normal to one axis in one block: call f(row, known, change) with the change of velocity [cm/s]
+/// that the potential p, in dyn/cm², makes: −dt grad p / (ρ fill), 0 where `known` is false.
+template <class F>
+void forEachPressureFace(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& work, const BlockArray<double>& p, int block,
+                         int axis, F&& f)
+{
+    const RowAccess rows(grid, block);
+    for (int k = 0; k < kBlockEdge; ++k)
+        for (int j = 0; j < kBlockEdge; ++j) {
+            const int row = cellInBlock(0, j, k);
+            const Pack coefficient = loadPack(work.coefficient.block(block, axis) + row);
+            const PackMask known = coefficient > 0.0;
+            if (maskBits(known) == 0) continue;
+            const Pack step = rows.row(p, 0, j, k) - rows.below(p, 0, axis, j, k);
+            const Pack change = -grid.dx * coefficient / loadPack(obstacles.open(block, axis) + row) * step;
+            f(row, known, select(known, change, broadcast(0.0)));
+        }
+}
 
 /// Largest |div(ω u + (1 − ω) v_S)| over the cells with a pressure [1/s].
 double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid);

@@ -10,7 +10,6 @@ namespace sim {
 namespace {
 
 constexpr int kMirrorDepth = 2;        ///< layers behind a wall that stencils in front of it touch
-constexpr double kInFacePlane = 1.0e-6;  ///< [cells]
 
 /// Call f(cell) for each closed face of a block normal to `axis`.
 template <class F>
@@ -21,15 +20,12 @@ void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
         for (std::uint64_t bits = closed[k]; bits != 0; bits &= bits - 1) f(k * 64 + std::countr_zero(bits));
 }
 
-void stick(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+void stick(const ObstacleField& field, BlockArray<double, 3>& velocity)
 {
-    parallelFor(grid.count(), 4, [&](std::size_t n) {
-        const int b = static_cast<int>(n);
-        if (!field.nearSolid(b)) return;
-        for (int a = 0; a < kAxes; ++a) {
+    parallelFor(field.blocksNearSolid().size(), 4, [&](std::size_t n) {
+        const int b = field.blocksNearSolid()[n];
+        for (int a = 0; a < kAxes; ++a)
             forEachClosedFace(field, b, a, [&](int face) { velocity.block(b, a)[face] = field.wallVelocity(b, a)[face]; });
-            for (int k = 0; k < kBlockEdge; ++k) valid.block(b, a)[k] |= field.closed(b, a)[k];
-        }
     });
 }
 
@@ -54,13 +50,13 @@ Vec3 velocityAtFace(const BlockGrid& grid, const BlockBits<3>& valid, const Bloc
     return u;
 }
 
-/// The tangential part of the relative velocity stays, less the friction; its normal part goes.
+/// The tangential part of the relative velocity stays, less the friction; its normal part goes. Where no liquid reaches, the wall's own remains.
 void slip(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const BlockBits<3>& valid,
           BlockArray<double, 3>& velocity, LiquidGrid& liquid)
 {
-    parallelFor(grid.count(), [&](std::size_t n) {
-        const int b = static_cast<int>(n);
-        if (!field.nearSolid(b)) return;
+    const std::vector<int>& blocks = field.blocksNearSolid();
+    parallelFor(blocks.size(), [&](std::size_t n) {
+        const int b = blocks[n];
         for (int a = 0; a < kAxes; ++a)
             forEachClosedFace(field, b, a, [&](int face) {
                 if (!valid.test(b, face, a)) return;
@@ -72,12 +68,11 @@ void slip(const BlockGrid& grid, const ObstacleField& field, const Obstacles& ob
                 liquid.scratch(b, a)[face] = wall[a] + (1.0 - friction) * (relative[a] - normal[a] * normal.dot(relative));
             });
     });
-    parallelFor(grid.count(), 4, [&](std::size_t n) {
-        const int b = static_cast<int>(n);
-        if (!field.nearSolid(b)) return;
+    parallelFor(blocks.size(), 4, [&](std::size_t n) {
+        const int b = blocks[n];
         for (int a = 0; a < kAxes; ++a)
             forEachClosedFace(field, b, a, [&](int face) {
-                if (valid.test(b, face, a)) velocity.block(b, a)[face] = liquid.scratch(b, a)[face];
+                velocity.block(b, a)[face] = valid.test(b, face, a) ? liquid.scratch(b, a)[face] : field.wallVelocity(b, a)[face];
             });
     });
 }
@@ -113,17 +108,17 @@ void forEachImage(const BlockGrid& grid, int b, const Obstacles::Wall& wall, int
 template <class F>
 void forEachPlaneWall(const BlockGrid& grid, const Obstacles& obstacles, F&& f)
 {
-    obstacles.forEachPlaneWall([&](const Obstacles::Wall& wall) {
-        const double inCells = (wall.at - grid.origin[wall.axis]) / grid.dx;
-        const int plane = static_cast<int>(std::lround(inCells));
-        if (std::abs(inCells - plane) > kInFacePlane) return;
+    for (const Obstacles::Wall& wall : obstacles.planeWalls()) {
+        const std::optional<int> found = planeOfFaces(grid, wall);
+        if (!found) continue;
+        const int plane = *found;
         f(wall, plane, [&](auto&& g) {
             parallelFor(grid.count(), 4, [&](std::size_t n) {
                 const int first = kBlockEdge * grid.coords(static_cast<int>(n))[wall.axis];
                 if (first <= plane + kMirrorDepth && first + kBlockEdge > plane - kMirrorDepth - 1) g(static_cast<int>(n));
             });
         });
-    });
+    }
 }
 
 void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, BlockBits<3>& valid, BlockBits<3>& newlyValid,
@@ -152,12 +147,12 @@ void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, 
 void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
                 BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid)
 {
-    if (friction == 1.0) {
-        stick(grid, field, valid, velocity);
+    if (!wallsMirror(friction)) {
+        stick(field, velocity);
         return;
     }
+    extrapolate(grid, field.blocksNearSolid(), scratch, valid, velocity);
     slip(grid, field, obstacles, friction, valid, velocity, liquid);
-    scratch.newlyValid.resize(grid.count());
     mirror(grid, obstacles, friction, valid, scratch.newlyValid, velocity);
 }
 

@@ -6,11 +6,14 @@
 namespace sim {
 
 /// Give the closed faces what the walls demand (model-fluid 6.6): with friction c, the obstacle's velocity plus (1 − c) of the
-/// liquid's relative velocity along the wall. Behind plane walls that lie in planes of faces it is the mirror image of the liquid in
-/// front instead: the normal component odd about the wall, the tangential ones even. Closed faces become valid everywhere where
-/// c = 1, else where extrapolation or the mirror reached them.
+/// liquid's relative velocity along the wall, as far as the liquid in front reaches. Behind plane walls that lie in planes of faces it is the
+/// mirror image of the liquid in front instead: the normal component odd about the wall, the tangential ones even.
+/// @param valid  in: the faces in front with a velocity; out: those behind that got one, too
 void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
                 BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
+
+/// Do plane walls in planes of faces mirror the liquid? Only where it slips along them.
+inline bool wallsMirror(double friction) { return friction < 1.0; }
 
 /// After P2G: what particles gave to faces behind plane walls in planes of faces goes to the images of these faces in front, as if every
 /// particle had its mirror image behind the wall. Without it the faces next to a wall know only half of the liquid around them.

@@ -5,8 +5,6 @@
 
 namespace sim {
 
-/// Largest rate × interval of one application: the published strength. Where rate × dt is far below it, several steps share one.
-inline constexpr double kRelaxStrength = 0.2;
 
 struct RelaxScratch {
     std::array<AlignedArray<float>, kAxes> local;

@@ -101,6 +101,13 @@ void describe(V& v, RelaxSettings& r)
              "Reach of the push in nominal particle radii");
 }
 
+template <class V>
+void describe(V& v, VolumeSettings& s)
+{
+    v.number("rate", s.rate, Quantity::Frequency, Range::atLeast(0.0),
+             "Rate at which cells that hold too much liquid expand and holes in it close; 0 = off");
+}
+
 class SectionReader;
 
 /// Sets the material constants that `preset` names, if the section has it; "none" changes nothing.
@@ -122,6 +129,7 @@ void describe(V& v, LiquidSettings& l)
     v.flag("full", l.full, "The liquid fills a closed box: there is no air");
     v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0),
              "0 = free slip, 1 = the liquid sticks to walls");
+    v.section("volume", l.volume, "Keeping the liquid's volume");
     v.section("relax", l.relax, "Pushing crowded particles apart");
     v.onlyRuns("solve_viscosity", "false", {"true"}, "Viscosity inside the liquid");
     v.onlyRuns("surface_tension_force", "false", {"true"}, "Surface tension moves the liquid");

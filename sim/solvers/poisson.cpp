@@ -110,8 +110,6 @@ void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, 
 void PoissonSolver::start(const Problem& problem)
 {
     const int n = problem.grid.count();
-    multigrid_.build(problem.grid, problem.matrix);
-    components_.find(problem.grid, problem.matrix);
     const bool isNew = problem.p.size() != (n + std::size_t{1}) * kBlockCells;
     for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_, &applied_, &problem.p}) v->resize(n);
     if (isNew) forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
@@ -217,21 +215,34 @@ void PoissonSolver::conjugateGradients(const Problem& problem, double target, in
     report.residual = residual / largestRhs_;
 }
 
+SolveReport PoissonSolver::solvePrepared(const Problem& problem, double tolerance, int maxIterations)
+{
+    SIM_CHECK(problem.rhs.size() == (problem.grid.count() + std::size_t{1}) * kBlockCells);
+    start(problem);
+    SolveReport report;
+    if (largestRhs_ == 0.0) {
+        forEachBlock(problem.grid.count(), [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
+        return report;
+    }
+    conjugateGradients(problem, tolerance * largestRhs_, maxIterations, report);
+    components_.removeMeans(problem.p);
+    return report;
+}
+
 SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
                                  double tolerance, int maxIterations, BlockArray<double>& p)
 {
     SIM_CHECK(matrix.values.size() == (grid.count() + std::size_t{1}) * 4 * kBlockCells);
-    SIM_CHECK(rhs.size() == (grid.count() + std::size_t{1}) * kBlockCells);
-    const Problem problem{grid, matrix, rhs, p};
-    start(problem);
-    SolveReport report;
-    if (largestRhs_ == 0.0) {
-        forEachBlock(grid.count(), [&](int b) { std::fill_n(p.block(b), kBlockCells, 0.0); });
-        return report;
-    }
-    conjugateGradients(problem, tolerance * largestRhs_, maxIterations, report);
-    components_.removeMeans(p);
-    return report;
+    multigrid_.build(grid, matrix);
+    components_.find(grid, matrix);
+    return solvePrepared({grid, matrix, rhs, p}, tolerance, maxIterations);
+}
+
+SolveReport PoissonSolver::solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
+                                      double tolerance, int maxIterations, BlockArray<double>& p)
+{
+    SIM_CHECK(multigrid_.finest().blocks() == grid.count());
+    return solvePrepared({grid, matrix, rhs, p}, tolerance, maxIterations);
 }
 
 }  // namespace sim

@@ -26,6 +26,10 @@ class PoissonSolver {
     SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
                       double tolerance, int maxIterations, BlockArray<double>& p);
 
+    /// The same for another right-hand side and the matrix of the last solve.
+    SolveReport solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance, int maxIterations,
+                           BlockArray<double>& p);
+
     /// The preconditioner, as the last solve left it.
     Multigrid& multigrid() { return multigrid_; }
     /// Components without a Dirichlet part in the last solve.
@@ -39,6 +43,7 @@ class PoissonSolver {
         BlockArray<double>& p;
     };
 
+    SolveReport solvePrepared(const Problem& problem, double tolerance, int maxIterations);
     void start(const Problem& problem);
     double measure(const Problem& problem);
     void startBlock(const Problem& problem, int block, bool isGuessZero, FramedTile<double>& tile);

@@ -32,6 +32,8 @@ struct Context {
     double dx;
     const GatherTile& tile;
     const GatherTile* flipTile;  ///< of the old velocities, or null
+    const GatherTile* displacementTile;  ///< or null
+    int modes;                   ///< N_r
 };
 
 struct LaneSums {
@@ -44,7 +46,7 @@ template <int kAxis, class Set, int kModes, bool kFold>
                                               Coefficients<Set::kFactors>& c)
 {
     contract<kAxis, Set>(ctx.tile.v[kAxis] + node, op, c);
-    if (ctx.settings.modes < kModes) truncate<kModes, Set::kFactors>(ctx.settings.modes, c);
+    if (ctx.modes < kModes) truncate<kModes, Set::kFactors>(ctx.modes, c);
     if constexpr (kModes == 1) {
         if (ctx.flipTile != nullptr) {
             Coefficients<1> old;
@@ -78,6 +80,21 @@ template <int kAxis>
     return a == kAxis ? select(in >= 0.5, in - 1.0, in) : in - 0.5;
 }
 
+/// x += the displacements on the faces, interpolated at x.
+[[gnu::noinline]] void displace(const Context& ctx, int node, Pack (&x)[3])
+{
+    Operators<1> op[3];
+    for (int a = 0; a < kAxes; ++a) {
+        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        setOperators<1, false>(inCells - floorPack(inCells), op[a]);
+    }
+    unroll<3>([&](auto a) {
+        Coefficients<1> c;
+        contract<a, ModeSet<1>>(ctx.displacementTile->v[a] + node, op, c);
+        x[a] += c[0][0][0];
+    });
+}
+
 constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
 template <class Set, int kModes, bool kFold>
@@ -101,6 +118,7 @@ template <class Set, int kModes, bool kFold>
 
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
+    if (ctx.displacementTile != nullptr) displace(ctx, node, x);
     Pack speedSquared = zero, xi[3];
     for (int a = 0; a < kAxes; ++a) {
         const Pack v = meanVelocity<Set>(c[a]);
@@ -133,48 +151,25 @@ template <class Set, int kModes, bool kFold>
     }
 }
 
-/// The slow path for the particles of a cell with gaps.
-void gatherCellWithGaps(const FaceFields& faces, const BlockGrid& grid, const Context& ctx, int first, int last, GatherSums& sums)
-{
-    LiquidParticles& particles = ctx.particles;
-    for (int s = first; s < last; ++s) {
-        const Vec3 x = particles.position(s);
-        const auto c = gatherWithGaps(faces, faces.velocity, grid, x, ctx.settings.modes);
-        double modal = 0.0, speedSquared = 0.0;
-        for (int a = 0; a < kAxes; ++a) {
-            double carried = c[a][0];
-            if (ctx.flipTile != nullptr) {
-                const double old = gatherWithGaps(faces, *ctx.settings.flipVelocity, grid, x, 1)[a][0];
-                carried += ctx.settings.flipRatio * (ctx.scratch.oldVelocity[a][s] - old);
-            }
-            for (int r = 0; r < particles.modeCount; ++r) particles.mode(a, r)[s] = r == 0 ? carried : r < 4 ? ctx.settings.keep * c[a][r] : 0.0;
-            for (int r = 1; r < std::min(4, particles.modeCount); ++r) modal += 0.25 * ctx.settings.keep * c[a][r] * ctx.settings.keep * c[a][r];
-            speedSquared += carried * carried;
-            particles.x[a][s] += ctx.settings.dt * c[a][0];
-            if (ctx.settings.displacement != nullptr) particles.x[a][s] += ctx.settings.displacement[a][s];
-        }
-        sums.kinetic += 0.5 * particles.mass[s] * speedSquared;
-        sums.modal += 0.5 * particles.mass[s] * modal;
-        sums.maxSpeedSquared = speedSquared < sums.maxSpeedSquared ? sums.maxSpeedSquared : speedSquared;
-    }
-}
-
 template <class Set, int kModes, bool kFold>
-GatherSums gatherBlock(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, int block, const OccupiedBox& box,
-                       const Context& ctx)
+GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox& box, const Context& ctx)
 {
     LaneSums lanes;
     GatherSums sums;
+    Context atSurface = ctx;
+    atSurface.modes = std::min(ctx.modes, kModesAtSurface);
     for (int i = box.low[0]; i <= box.high[0]; ++i)
         for (int j = box.low[1]; j <= box.high[1]; ++j)
             for (int k = box.low[2]; k <= box.high[2]; ++k) {
                 const int* start = order.cells(block) + cellRank(i, j, k);
                 if (start[0] == start[1]) continue;
-                if (ctx.settings.gaps != nullptr && ctx.settings.gaps->test(block, cellInBlock(i, j, k))) {
-                    gatherCellWithGaps(faces, grid, ctx, start[0], start[1], sums);
-                    continue;
-                }
                 const int node = tileIndex(i - 1, j - 1, k - 1);
+                if constexpr (kModes > kModesAtSurface)
+                    if (ctx.settings.manyModes != nullptr && !ctx.settings.manyModes->test(block, cellInBlock(i, j, k))) {
+                        for (int s = start[0]; s < start[1]; s += kLanes)
+                            gatherPack<Set, kModes, false>(atSurface, node, s, std::min(kLanes, start[1] - s), lanes);
+                        continue;
+                    }
                 for (int s = start[0]; s < start[1]; s += kLanes)
                     gatherPack<Set, kModes, kFold>(ctx, node, s, std::min(kLanes, start[1] - s), lanes);
             }
@@ -205,14 +200,16 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
         parallelFor(order.occupied.size(), [&](std::size_t n) {
             const int block = order.occupied[n];
             const OccupiedBox box(order.cells(block));
-            GatherTile tile, flipTile;
+            GatherTile tile, flipTile, displacementTile;
             loadTile(faces.velocity, grid, block, box, tile);
             if (settings.flipVelocity != nullptr) loadTile(*settings.flipVelocity, grid, block, box, flipTile);
-            const Context ctx{settings, particles, scratch, grid.origin, grid.dx, tile, settings.flipVelocity ? &flipTile : nullptr};
+            if (settings.faceDisplacement != nullptr) loadTile(*settings.faceDisplacement, grid, block, box, displacementTile);
+            const Context ctx{settings, particles, scratch, grid.origin, grid.dx, tile, settings.flipVelocity ? &flipTile : nullptr,
+                              settings.faceDisplacement ? &displacementTile : nullptr, settings.modes};
             if (kModes == 27 && settings.modes == 27)
-                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(faces, order, grid, block, box, ctx);
+                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(order, block, box, ctx);
             else
-                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, false>(faces, order, grid, block, box, ctx);
+                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, false>(order, block, box, ctx);
         });
     });
     GatherSums total;

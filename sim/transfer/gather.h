@@ -18,11 +18,18 @@ struct GatherSettings {
 
     /// FLIP: the face velocities straight after P2G, before any force; else null.
     const BlockArray<double, 3>* flipVelocity = nullptr;
-    /// Displacements to add to the positions [cm], one array per axis; null where there are none (relaxation is off).
+    /// Displacements of the particles to add to the positions [cm], one array per axis; null where there are none.
     const AlignedArray<double>* displacement = nullptr;
-    /// Cells whose particles meet faces without a velocity (extrapolate.h); null where all faces are valid.
-    const BlockBits<>* gaps = nullptr;
+    /// Displacements on the faces [cm], interpolated at the old positions and added to the new ones; null where there are none.
+    const BlockArray<double, 3>* faceDisplacement = nullptr;
+    /// Cells whose particles gather all N_r modes, those of others no more than kModesAtSurface; null if all do.
+    const BlockBits<>* manyModes = nullptr;
 };
+
+/// N_r of particles at the surface. Quadratic modes are fitted to second differences that don't see the weights: where a stencil
+/// reaches out of the liquid, faces that carry next to nothing would set them. With them there, the energy of the modes grows without end in
+/// liquid at rest, at CFL 1 to twice that of the dam break within 10 s.
+inline constexpr int kModesAtSurface = 8;
 
 /// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speed [cm²/s²].
 struct GatherSums {
@@ -39,10 +46,5 @@ struct GatherScratch {
 /// @return the sums over all particles, in the order of the blocks
 GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
                             GatherScratch& scratch, LiquidParticles& particles);
-
-/// G2P of one particle where some faces of its stencils have no velocity: per component a least-squares fit of mean and gradient
-/// over the faces that have, or their mean if they are too few (model-fluid 4.8). Returns monomial modes.
-std::array<std::array<double, 4>, kAxes> gatherWithGaps(const FaceFields& faces, const BlockArray<double, 3>& velocity, const BlockGrid& grid,
-                                                        const Vec3& x, int modes);
 
 }  // namespace sim

@@ -149,9 +149,9 @@ TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
             const auto old = std::find(before.begin(), before.end(), grid.coords(b));
             previous.push_back(old == before.end() ? BlockGrid::kNone : static_cast<int>(old - before.begin()));
         }
-        field.update(grid, previous, obstacles);
+        field.update(grid, previous, obstacles, false);
         ObstacleField fresh;
-        fresh.update(grid, std::vector<int>(grid.count(), BlockGrid::kNone), obstacles);
+        fresh.update(grid, std::vector<int>(grid.count(), BlockGrid::kNone), obstacles, false);
         for (int b = 0; b < grid.count(); ++b)
             ASSERT_NO_FATAL_FAILURE(expectSameBlock(field, b, fresh, b)) << "step " << step;
         for (int a = 0; a < kAxes; ++a) EXPECT_EQ(field.open(grid.count(), a)[17], 1.0) << "the empty block";

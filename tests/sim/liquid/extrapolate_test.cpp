@@ -1,11 +1,10 @@
 #include "sim/liquid/extrapolate.h"
 
-#include "sim/liquid/face_velocity.h"
-#include "sim/transfer/scatter.h"
-#include "tests/sim/fixtures.h"
 #include "tests/sim/liquid/grid_scene.h"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace sim::test {
 namespace {
@@ -13,7 +12,9 @@ namespace {
 void extrapolateAll(GridScene& scene)
 {
     ExtrapolationScratch scratch;
-    extrapolate(scene.grid, scratch, scene.liquid.faces.valid, scene.liquid.faces.velocity);
+    std::vector<int> blocks(scene.grid.count());
+    std::iota(blocks.begin(), blocks.end(), 0);
+    extrapolate(scene.grid, blocks, scratch, scene.liquid.faces.valid, scene.liquid.faces.velocity);
 }
 
 TEST(Extrapolation, CarriesAConstantAsItIs)
@@ -82,36 +83,6 @@ TEST(Extrapolation, IsTheSameWhereverTheBlocksBegin)
                             ASSERT_NEAR(scene.velocity(a, c), other.velocity(a, to), 1.0e-14);
                         }
         }
-}
-
-TEST(Extrapolation, StencilsOfALoneParticleHaveNoGaps)
-{
-    std::mt19937 random(9);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int n = 0; n < 200; ++n) {
-        SortedLiquid one;
-        one.grid.dx = 0.3;
-        one.particles.modeCount = 4;
-        // Also exactly on edges of cells and of blocks.
-        const auto place = [&] { return 0.3 * (n % 3 == 0 ? std::floor(16.0 * unit(random)) : 16.0 * unit(random)); };
-        one.particles.add({place(), place(), place()}, 1.0, 0, {10.0, -20.0, 30.0});
-        one.sort();
-        GridScene scene({0, 0, 0}, {8, 8, 8});
-        scene.grid = one.grid;
-        LiquidGrid& liquid = scene.liquid;
-        ScatterScratch scatter;
-        liquid.resize(one.grid.count(), false);
-        scene.updateObstacles();
-        particlesToFaces(one.particles, one.order, one.grid, scatter, liquid.faces);
-        divideAndAddGravity(one.grid, Vec3::Zero(), 1.0e-3, false, liquid);
-        levelSetFromParticles(one.particles, one.order, one.grid, liquid);
-        classifyCells(one.grid, scene.field, false, liquid);
-        scene.pressure.resize(one.grid.count());
-        scene.project(1.0e-3);
-        extrapolateAll(scene);
-        findGaps(one.grid, one.order, liquid);
-        ASSERT_FALSE(liquid.hasGaps) << "at " << one.particles.position(0).transpose() / 0.3;
-    }
 }
 
 }  // namespace

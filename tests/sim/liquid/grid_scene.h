@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/liquid/level_set.h"
+#include "sim/liquid/cells.h"
 #include "sim/liquid/pressure.h"
 
 #include <random>
@@ -17,6 +17,7 @@ struct GridScene {
     LiquidSettings settings;
     SolverSettings solver{1.0e-14, 200};
     BlockArray<double> pressure;
+    BlockArray<double> levelSet;  ///< distance to the surface at the cell middles [cm], negative in the liquid
     Vec3i lower, upper;  ///< the cells that exist: lower … upper − 1, whole blocks
 
     /// Blocks that hold the cells lower … upper − 1.
@@ -36,8 +37,11 @@ struct GridScene {
         liquid.faces.sums.resize(grid.count());
         liquid.resize(grid.count(), false);
         pressure.resize(grid.count());
+        levelSet.resize(grid.count());
         for (int b = 0; b < grid.count(); ++b) {
-            std::fill_n(liquid.levelSet.block(b), kBlockCells, dx);
+            std::fill_n(levelSet.block(b), kBlockCells, dx);
+            for (BlockBits<>* bits : {&liquid.inside, &liquid.surface, &liquid.deep}) std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
+            std::fill_n(liquid.faces.sums.block(b), 6 * kBlockCells, 0.0);
             std::fill_n(pressure.block(b), kBlockCells, 0.0);
             std::fill_n(liquid.faces.velocity.block(b), 3 * kBlockCells, 0.0);
             std::fill_n(liquid.wet.block(b), 3 * BlockBits<3>::kWords, 0);
@@ -49,7 +53,7 @@ struct GridScene {
     void updateObstacles()
     {
         const std::vector<int> unknown(grid.count(), BlockGrid::kNone);
-        field.update(grid, unknown, obstacles);
+        field.update(grid, unknown, obstacles, false);
     }
     void add(const Shape& shape, const Motion& motion = {})
     {
@@ -63,7 +67,8 @@ struct GridScene {
         return {grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3}), cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)};
     }
     double& velocity(int axis, const Vec3i& c) { return liquid.faces.velocity.block(at(c).block, axis)[at(c).cell]; }
-    double& levelSet(const Vec3i& c) { return liquid.levelSet.block(at(c).block)[at(c).cell]; }
+    double& phi(const Vec3i& c) { return levelSet.block(at(c).block)[at(c).cell]; }
+    bool isInside(const Vec3i& c) const { return liquid.inside.test(at(c).block, at(c).cell); }
     double open(int axis, const Vec3i& c) const { return field.open(at(c).block, axis)[at(c).cell]; }
     bool isValid(int axis, const Vec3i& c) const { return liquid.faces.valid.test(at(c).block, at(c).cell, axis); }
     void setValid(int axis, const Vec3i& c) { liquid.faces.valid.set(at(c).block, at(c).cell, axis); }
@@ -86,23 +91,43 @@ struct GridScene {
         for (int a = 0; a < kAxes; ++a) forEachCell([&](const Vec3i& c) { f(a, c); });
     }
 
-    /// Liquid where phi(x) < 0 [cm]; the faces of liquid cells are wet.
-    template <class Phi>
-    void fill(Phi&& phi)
+    /// Liquid where distance(x) < 0 [cm].
+    template <class Distance>
+    void fill(Distance&& distance)
     {
-        forEachCell([&](const Vec3i& c) { levelSet(c) = phi(middle(c)); });
-        wetFacesOfLiquid();
+        forEachCell([&](const Vec3i& c) { phi(c) = distance(middle(c)); });
+        findInside();
+        setMasses();
     }
-    void wetFacesOfLiquid()
+    /// Liquid cells are those with a negative level set that are not blocked; all of these where there is no air.
+    void findInside()
+    {
+        forEachCell([&](const Vec3i& c) {
+            const CellRef ref = at(c);
+            const bool blocked = field.blocked(ref.block)[ref.cell >> 6] >> (ref.cell & 63) & 1;
+            if ((settings.full || phi(c) < 0.0) && !blocked) liquid.inside.set(ref.block, ref.cell);
+        });
+        findSurface(grid, field, liquid);
+    }
+    /// Faces of liquid cells are wet. Between two such cells they are full, else they carry the ghost fluid's fraction: that of the way
+    /// from the liquid cell's middle to the other one's on which there is liquid.
+    void setMasses()
     {
         forEachFace([&](int a, const Vec3i& c) {
             const Vec3i below = c - Vec3i::Unit(a);
-            const bool liquidBelow = below[a] >= lower[a] && levelSet(below) < 0.0;
-            if (liquidBelow || levelSet(c) < 0.0) liquid.wet.set(at(c).block, at(c).cell, a);
+            const bool above = isInside(c), under = below[a] >= lower[a] && isInside(below);
+            if (!above && !under) return;
+            const CellRef ref = at(c);
+            liquid.wet.set(ref.block, ref.cell, a);
+            const double full = settings.density * std::pow(grid.dx, 3) * field.room(ref.block, a)[ref.cell];
+            liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] = full * (above && under ? 1.0 : ghostFraction(c, below));
         });
     }
-    /// Which cells have a pressure, by the obstacles.
-    void classify() { classifyCells(grid, field, settings.full, liquid); }
+    double ghostFraction(const Vec3i& one, const Vec3i& other)
+    {
+        const double a = phi(one), b = phi(other);
+        return a * b < 0.0 ? std::min(a, b) / (std::min(a, b) - std::max(a, b)) : 1.0;
+    }
 
     /// velocity(face) = u(x)[axis] everywhere.
     template <class U>
@@ -134,10 +159,10 @@ struct GridScene {
         });
         return largest;
     }
-    std::size_t countLiquid()
+    std::size_t countLiquid() const
     {
         std::size_t count = 0;
-        forEachCell([&](const Vec3i& c) { count += levelSet(c) < 0.0; });
+        forEachCell([&](const Vec3i& c) { count += isInside(c); });
         return count;
     }
 };

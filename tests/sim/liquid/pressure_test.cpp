@@ -18,7 +18,6 @@ GridScene column(double level, const Vec3i& shift = Vec3i::Zero())
     scene.add(tankOfCells(scene, shift, Vec3i(6, 12, 5) + shift));
     const double surface = scene.corner(shift).y() + level * scene.grid.dx;
     scene.fill([&](const Vec3& x) { return x.y() - surface; });
-    scene.classify();
     scene.setVelocities(kFalling);
     return scene;
 }
@@ -33,7 +32,7 @@ TEST(Hydrostatics, ColumnRestsAndItsPressureIsItsDepth)
         const double surface = scene.corner(Vec3i::Zero()).y() + level * scene.grid.dx;
         std::size_t cells = 0;
         scene.forEachCell([&](const Vec3i& c) {
-            if (scene.levelSet(c) >= 0.0) return;
+            if (!scene.isInside(c)) return;
             ++cells;
             const double depth = surface - scene.middle(c).y();
             EXPECT_NEAR(scene.pressureAt(c), kGravity * depth, 1.0e-10 * kGravity * depth)
@@ -51,7 +50,6 @@ TEST(Hydrostatics, VerticalWallsMayStandAnywhere)
     scene.add(Shape::box(0.5 * (low + high), 0.5 * (high - low)).inverted());
     const double surface = low.y() + 5.3 * scene.grid.dx;
     scene.fill([&](const Vec3& x) { return x.y() - surface; });
-    scene.classify();
     scene.setVelocities(kFalling);
     EXPECT_TRUE(scene.project(kDt).converged);
     EXPECT_LT(scene.largestError(kAtRest), 1.0e-10);
@@ -77,8 +75,8 @@ GridScene fullBoxWithBall(const Vec3i& shift = Vec3i::Zero())
     scene.add(tankOfCells(scene, shift, Vec3i(10, 9, 8) + shift));
     scene.add(
         Shape::ball(scene.corner(Vec3i(4, 5, 4) + shift) + scene.grid.dx * Vec3(0.3, 0.2, 0.6), 2.3 * scene.grid.dx));
-    scene.classify();
-    scene.wetFacesOfLiquid();
+    scene.findInside();
+    scene.setMasses();
     return scene;
 }
 
@@ -134,7 +132,6 @@ TEST(Pressure, FlowAlongATurnedWallStays)
     scene.fill([&](const Vec3& x) {
         return (x - scene.corner({10, 10, 10})).cwiseAbs().maxCoeff() - 4.2 * scene.grid.dx;
     });
-    scene.classify();
     const Vec3 flow(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0.0);
     scene.setVelocities([&](const Vec3&) { return flow; });
     EXPECT_LT(scene.divergence(), 1.0e-10 / scene.grid.dx) << "the open fractions of a plane wall close";
@@ -149,13 +146,12 @@ TEST(Hydrostatics, LiquidInATurnedTankRests)
         scene.add(turnedTank(scene, angle, {7.1, 6.4, 3.7}));
         const double surface = scene.corner({10, 10, 10}).y() + 0.8 * scene.grid.dx;
         scene.fill([&](const Vec3& x) { return x.y() - surface; });
-        scene.classify();
         scene.setVelocities(kFalling);
         EXPECT_TRUE(scene.project(kDt).converged);
         ASSERT_GT(scene.countLiquid(), 300u);
         EXPECT_LT(scene.largestError(kAtRest), 1.0e-8) << angle;
         scene.forEachCell([&](const Vec3i& c) {
-            if (scene.levelSet(c) >= 0.0 || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0)
+            if (!scene.isInside(c) || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0)
                 return;
             EXPECT_NEAR(scene.pressureAt(c), kGravity * (surface - scene.middle(c).y()), 1.0e-8 * kGravity)
                 << c.transpose();
@@ -167,7 +163,6 @@ TEST(Pressure, BlobInFreeFallHasNone)
 {
     GridScene scene({-8, -8, -8}, {8, 8, 8});
     scene.fill([&](const Vec3& x) { return (x - scene.corner({0, 0, 0})).norm() - 4.7 * scene.grid.dx; });
-    scene.classify();
     scene.setVelocities(kFalling);
     scene.project(kDt);
     EXPECT_EQ(scene.largestError(kFalling), 0.0);
@@ -182,14 +177,14 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
     scene.add(Shape::ball(scene.corner({1, 4, 4}), 2.6 * scene.grid.dx));
     scene.forEachCell([&](const Vec3i& c) {
         const bool rim = c.x() == -8 || c.x() == 7 || c.y() % 7 == 0 || c.z() % 7 == 0;
-        scene.levelSet(c) = rim ? scene.grid.dx : (unit(random) - 0.3) * scene.grid.dx;
+        scene.phi(c) = rim ? scene.grid.dx : (unit(random) - 0.3) * scene.grid.dx;
     });
-    scene.wetFacesOfLiquid();
-    scene.classify();
+    scene.findInside();
+    scene.setMasses();
     scene.project(kDt);
     std::vector<Vec3i> cells;
     scene.forEachCell([&](const Vec3i& c) {
-        if (scene.levelSet(c) < 0.0) cells.push_back(c);
+        if (scene.isInside(c)) cells.push_back(c);
     });
     ASSERT_GT(cells.size(), 200u);
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<int>(cells.size()), static_cast<int>(cells.size()));
@@ -200,16 +195,15 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
     scene.forEachFace([&](int axis, const Vec3i& c) {
         const Vec3i below = c - Vec3i::Unit(axis);
         if (below[axis] < scene.lower[axis]) return;
-        const double phi = scene.levelSet(c), phiBelow = scene.levelSet(below);
+        const bool above = scene.isInside(c), under = scene.isInside(below);
+        const double fraction = std::max(scene.ghostFraction(c, below), 0.01);
         if (!scene.liquid.wet.test(scene.at(c).block, scene.at(c).cell, axis)) return;
         const double k = scene.open(axis, c) * kDt / (scene.grid.dx * scene.grid.dx);
-        if (phi < 0.0 && phiBelow < 0.0) {
+        if (above && under) {
             const int i = indexOf(c), j = indexOf(below);
             a(i, i) += k, a(j, j) += k, a(i, j) -= k, a(j, i) -= k;
-        } else if (phi < 0.0) {
-            a(indexOf(c), indexOf(c)) += k / std::max(phi / (phi - phiBelow), 0.01);
-        } else if (phiBelow < 0.0) {
-            a(indexOf(below), indexOf(below)) += k / std::max(phiBelow / (phiBelow - phi), 0.01);
+        } else if (above || under) {
+            a(indexOf(above ? c : below), indexOf(above ? c : below)) += k / fraction;
         }
     });
     for (std::size_t n = 0; n < cells.size(); ++n) {
@@ -219,7 +213,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
             const Vec3i below = cells[n] - Vec3i::Unit(axis);
             const double stored = scene.work.matrix.coupling(axis, ref.block)[ref.cell];
             const double expected =
-                below[axis] >= scene.lower[axis] && scene.levelSet(below) < 0.0 ? -a(n, indexOf(below)) : 0.0;
+                below[axis] >= scene.lower[axis] && scene.isInside(below) ? -a(n, indexOf(below)) : 0.0;
             EXPECT_NEAR(stored, expected, 1.0e-13);
         }
     }
@@ -258,7 +252,6 @@ TEST(Pressure, MirroredSceneGivesTheMirrorImage)
         scene.add(tankOfCells(scene, {-6, -6, -6}, {6, 6, 6}));
         scene.add(Shape::ball({sign * 0.4, 0.2, -0.3}, 0.5));
         scene.fill([&](const Vec3& x) { return x.y() - 0.3 - 0.2 * sign * x.x(); });
-        scene.classify();
         scene.setVelocities([&](const Vec3& x) {
             const Vec3 y(sign * x.x(), x.y(), x.z());
             return Vec3(sign * 50.0 * std::sin(2.0 * y.x() + y.y()), -30.0 + 20.0 * y.x(), 10.0 * y.z() * y.x());
@@ -288,7 +281,6 @@ TEST(Pressure, MovingWallPushesTheLiquid)
     scene.updateObstacles();
     const double end = scene.corner({9, 0, 0}).x() + 0.2 * scene.grid.dx;
     scene.fill([&](const Vec3& x) { return x.x() - end; });
-    scene.classify();
     scene.project(kDt);
     EXPECT_LT(scene.largestError([](const Vec3&) { return Vec3(10.0, 0.0, 0.0); }), 1.0e-6);
     EXPECT_GT(scene.countLiquid(), 12u * 16u - 1u);
@@ -296,14 +288,15 @@ TEST(Pressure, MovingWallPushesTheLiquid)
 
 TEST(Pressure, DryFacesOfCellsInObstaclesGetNoVelocity)
 {
-    // A cell whose middle is in a ball is liquid through its wet lower face; its upper face is open to the air but
-    // carries no liquid.
+    // A cell cut by a ball is liquid through its wet lower face; its upper face is open to the air but carries no liquid.
     GridScene scene({0, 0, 0}, {8, 8, 8});
     scene.add(Shape::ball(scene.middle({4, 4, 4}) + scene.grid.dx * Vec3(0.0, 0.1, 0.0), 0.45 * scene.grid.dx));
-    scene.levelSet({4, 3, 4}) = -0.3 * scene.grid.dx;
-    scene.wetFacesOfLiquid();
-    scene.classify();
-    ASSERT_LT(scene.levelSet({4, 4, 4}), 0.0);
+    scene.phi({4, 3, 4}) = -0.3 * scene.grid.dx;
+    scene.findInside();
+    scene.setMasses();
+    scene.phi({4, 4, 4}) = -0.1 * scene.grid.dx;
+    scene.findInside();
+    ASSERT_TRUE(scene.isInside({4, 4, 4}));
     ASSERT_GT(scene.open(1, {4, 5, 4}), 0.0);
     scene.setRandomVelocities(10.0);
     scene.project(kDt);

@@ -15,7 +15,7 @@ struct PushedOut {
     {
         SortedLiquid liquid = randomLiquid(6000, 1, {30, 30, 30}, {-15, -15, -15}, 0.25);
         ObstacleField field;
-        field.update(liquid.grid, std::vector<int>(liquid.grid.count(), BlockGrid::kNone), obstacles);
+        field.update(liquid.grid, std::vector<int>(liquid.grid.count(), BlockGrid::kNone), obstacles, false);
         std::mt19937 random(8);
         std::uniform_real_distribution<double> unit(-1.0, 1.0);
         for (std::size_t p = 0; p < liquid.particles.count; ++p) {

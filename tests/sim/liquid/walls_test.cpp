@@ -21,7 +21,6 @@ void fillAndApply(GridScene& scene, double friction, U&& u)
         scene.setValid(a, c);
     });
     ExtrapolationScratch scratch;
-    extrapolate(scene.grid, scratch, scene.liquid.faces.valid, scene.liquid.faces.velocity);
     applyWalls(scene.grid, scene.field, scene.obstacles, friction, scratch, scene.liquid.faces.valid,
                scene.liquid.faces.velocity, scene.liquid);
 }
@@ -89,7 +88,6 @@ TEST(Walls, LiquidSticksToWallsOfFrictionOne)
     fillAndApply(scene, 1.0, [](const Vec3&) { return Vec3(3.0, -2.0, 5.0); });
     scene.forEachFace([&](int a, const Vec3i& c) {
         if (scene.open(a, c) > 0.0) return;
-        ASSERT_TRUE(scene.isValid(a, c));
         ASSERT_EQ(scene.velocity(a, c), 0.0);
     });
 }

@@ -1,4 +1,4 @@
-// What G2P does beside gathering: FLIP, damping, faces without a velocity (model-fluid 4.1, 4.8, 11).
+// What G2P does beside gathering: FLIP, damping, fewer modes at the surface, displacements (model-fluid 4.1, 11).
 #include "tests/sim/transfer/transfers.h"
 
 #include <gtest/gtest.h>
@@ -97,149 +97,60 @@ TEST(Damping, ScalesAllModesButTheMean)
     }
 }
 
-namespace {
-
-/// A linear field, by component.
-double linearField(int axis, const Vec3& x)
+TEST(Gather, CellsWithoutManyModesGetEight)
 {
-    return 1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z();
-}
-Vec3 linearSlope(int axis)
-{
-    return {2.0 - axis, -3.0, 0.5 + axis};
-}
-
-/// A few particles in a linear field, some of whose faces will be declared invalid.
-struct Gaps {
-    Gaps() : t(randomLiquid(200, 4, {3, 3, 3}, {6, 6, 6}))
-    {
-        t.setVelocities([&](int axis, int b, int c) { return linearField(axis, faceMiddle(t.grid(), axis, b, c)); });
-    }
-
-    /// Invalidate the faces of the stencils of one particle for which missing(node) holds; those keep a velocity that
-    /// must not be read.
-    template <class F>
-    std::array<std::array<double, 4>, kAxes> gatherWithout(std::size_t s, int modes, F&& missing)
-    {
-        FaceFields faces = t.faces;
-        for (int a = 0; a < kAxes; ++a) {
-            const Stencil stencil(t.grid(), a, t.liquid.particles.position(s));
-            for (int n = 0; n < 27; ++n) {
-                const CellRef face = faceOfCell(t.grid(), stencil.first + Vec3i(n % 3, n / 3 % 3, n / 9));
-                if (!missing(n)) continue;
-                faces.valid.block(face.block, a)[face.cell >> 6] &= ~(std::uint64_t{1} << (face.cell & 63));
-                faces.velocity.block(face.block, a)[face.cell] = 1.0e6;
-            }
-        }
-        return gatherWithGaps(faces, faces.velocity, t.grid(), t.liquid.particles.position(s), modes);
-    }
-
-    void expectLinear(const std::array<std::array<double, 4>, kAxes>& c, std::size_t s) const
-    {
-        for (int a = 0; a < kAxes; ++a) {
-            EXPECT_NEAR(c[a][0], linearField(a, t.liquid.particles.position(s)), 1e-10);
-            for (int b = 0; b < kAxes; ++b) EXPECT_NEAR(c[a][1 + b], t.grid().dx * linearSlope(a)[b], 1e-10);
-        }
-    }
-
-    /// Is no node's weight tiny? Then the fit is well conditioned whatever is missing.
-    bool isCentral(std::size_t s) const
-    {
-        for (int a = 0; a < kAxes; ++a) {
-            const Stencil stencil(t.grid(), a, t.liquid.particles.position(s));
-            for (const Basis1D& basis : stencil.basis)
-                if (std::min(basis.weight[0], basis.weight[2]) < 0.01) return false;
-        }
-        return true;
-    }
-
-    Transfers t;
-};
-
-}  // namespace
-
-TEST(GatherWithGaps, GivesALinearFieldWhateverFacesAreMissing)
-{
-    Gaps gaps;
-    std::mt19937 random(7);
-    int tested = 0;
-    for (std::size_t s = 0; s < gaps.t.liquid.particles.count; ++s) {
-        if (!gaps.isCentral(s)) continue;
-        ++tested;
-        gaps.expectLinear(gaps.gatherWithout(s, 4, [](int) { return false; }), s);
-        std::array<bool, 27> gone{};
-        std::fill_n(gone.begin(), 13, true);
-        std::shuffle(gone.begin(), gone.end(), random);
-        gaps.expectLinear(gaps.gatherWithout(s, 8, [&](int n) { return gone[n]; }), s);
-        const int plane = tested % 9;  // a whole plane of the stencil, as at a surface
-        gaps.expectLinear(
-            gaps.gatherWithout(s, 27, [&](int n) { return Vec3i(n % 3, n / 3 % 3, n / 9)[plane % 3] == plane / 3; }),
-            s);
-    }
-    EXPECT_GT(tested, 10);
-}
-
-TEST(GatherWithGaps, GivesTheMeanOfTheRestWithFewFaces)
-{
-    Gaps gaps;
-    std::mt19937 random(8);
-    for (std::size_t s = 0; s < gaps.t.liquid.particles.count; ++s) {
-        std::array<bool, 27> gone{};
-        std::fill_n(gone.begin(), 14 + static_cast<int>(s % 12), true);
-        std::shuffle(gone.begin(), gone.end(), random);
-        const auto c = gaps.gatherWithout(s, 8, [&](int n) { return gone[n]; });
-        for (int a = 0; a < kAxes; ++a) {
-            const Stencil stencil(gaps.t.grid(), a, gaps.t.liquid.particles.position(s));
-            double sum = 0.0, weights = 0.0;
-            for (int n = 0; n < 27; ++n) {
-                if (gone[n]) continue;
-                const CellRef face = faceOfCell(gaps.t.grid(), stencil.first + Vec3i(n % 3, n / 3 % 3, n / 9));
-                const double w = stencil.weight(n % 3, n / 3 % 3, n / 9);
-                sum += w * gaps.t.velocity(a, face.block, face.cell);
-                weights += w;
-            }
-            EXPECT_NEAR(c[a][0], sum / weights, 1e-11);
-            for (int r = 1; r < 4; ++r) EXPECT_EQ(c[a][r], 0.0);
-        }
-    }
-}
-
-TEST(GatherWithGaps, GivesRestWithoutAnyFace)
-{
-    Gaps gaps;
-    for (const auto& component : gaps.gatherWithout(0, 8, [](int) { return true; }))
-        for (double c : component) EXPECT_EQ(c, 0.0);
-}
-
-// The same through facesToParticles, with every cell marked: nothing above the gradient, all else as in the ordinary
-// gather.
-TEST(GatherWithGaps, AgreesWithTheOrdinaryGatherOnLinearFields)
-{
-    for (int modes : {1, 4, 8, 11, 27}) {
+    for (int modes : {11, 20, 27}) {
         SCOPED_TRACE(modes);
-        Transfers ordinary(randomLiquid(500, modes)), gappy(randomLiquid(500, modes));
-        for (Transfers* t : {&ordinary, &gappy})
-            t->setVelocities(
-                [&](int axis, int b, int c) { return linearField(axis, faceMiddle(t->grid(), axis, b, c)); });
-        BlockBits<> gaps;
-        gaps.resize(gappy.grid().count());
-        for (int b = 0; b < gappy.grid().count(); ++b)
-            for (int c = 0; c < kBlockCells; ++c) gaps.set(b, c);
+        const auto gather = [&](int gathered, const BlockBits<>* manyModes) {
+            Transfers t(randomLiquid(500, modes));
+            fillRandomVelocities(t.grid(), t.faces);
+            GatherSettings settings;
+            settings.modes = gathered;
+            settings.dt = 0.01;
+            settings.manyModes = manyModes;
+            t.toParticles(settings);
+            return t.liquid.particles;
+        };
+        Transfers like(randomLiquid(500, modes));
+        BlockBits<> none;
+        none.resize(like.grid().count());
+        for (int b = 0; b < like.grid().count(); ++b) std::fill_n(none.block(b), BlockBits<>::kWords, 0);
+        const LiquidParticles limited = gather(modes, &none), eight = gather(kModesAtSurface, nullptr), many = gather(modes, nullptr);
+        double difference = 0.0;
+        for (std::size_t s = 0; s < eight.count; ++s)
+            for (int a = 0; a < kAxes; ++a)
+                for (int r = 0; r < eight.modeCount; ++r) {
+                    EXPECT_EQ(limited.mode(a, r)[s], eight.mode(a, r)[s]);
+                    difference = std::max(difference, std::abs(limited.mode(a, r)[s] - many.mode(a, r)[s]));
+                }
+        EXPECT_GT(difference, 0.1) << "the limit matters";
+    }
+}
+
+TEST(Gather, FaceDisplacementsMoveParticlesBesideTheirVelocity)
+{
+    const auto displaced = [](int axis, const Vec3& x) { return 0.01 * (1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z()); };
+    for (int modes : {1, 8, 27}) {
+        SCOPED_TRACE(modes);
+        Transfers still(randomLiquid(500, modes)), moved(randomLiquid(500, modes));
+        for (Transfers* t : {&still, &moved}) t->setVelocities([](int axis, int, int) { return 3.0 - axis; });
+        BlockArray<double, 3> field;
+        field.resize(moved.grid().count());
+        for (int b = 0; b < moved.grid().count(); ++b)
+            for (int a = 0; a < kAxes; ++a)
+                for (int c = 0; c < kBlockCells; ++c) field.block(b, a)[c] = displaced(a, faceMiddle(moved.grid(), a, b, c));
+        const LiquidParticles before = moved.liquid.particles;
         GatherSettings settings;
         settings.modes = modes;
         settings.dt = 0.01;
-        settings.keep = 0.9;
-        const GatherSums a = ordinary.toParticles(settings);
-        settings.gaps = &gaps;
-        const GatherSums b = gappy.toParticles(settings);
-        EXPECT_NEAR(a.kinetic, b.kinetic, 1e-11 * a.kinetic);
-        EXPECT_NEAR(a.modal, b.modal, 1e-11 * a.kinetic);
-        EXPECT_NEAR(a.maxSpeedSquared, b.maxSpeedSquared, 1e-11 * a.maxSpeedSquared);
-        const LiquidParticles &p = ordinary.liquid.particles, &q = gappy.liquid.particles;
-        for (std::size_t s = 0; s < p.count; ++s) {
-            EXPECT_LT((p.position(s) - q.position(s)).norm(), 1e-12);
-            for (int axis = 0; axis < kAxes; ++axis)
-                for (int r = 0; r < p.modeCount; ++r) EXPECT_NEAR(p.mode(axis, r)[s], q.mode(axis, r)[s], 1e-11);
-        }
+        still.toParticles(settings);
+        settings.faceDisplacement = &field;
+        moved.toParticles(settings);
+        const LiquidParticles &p = still.liquid.particles, &q = moved.liquid.particles;
+        for (std::size_t s = 0; s < p.count; ++s)
+            for (int a = 0; a < kAxes; ++a) {
+                EXPECT_NEAR(q.x[a][s] - p.x[a][s], displaced(a, before.position(s)), 1.0e-13);
+                for (int r = 0; r < q.modeCount; ++r) EXPECT_NEAR(q.mode(a, r)[s], p.mode(a, r)[s], 1.0e-12);
+            }
     }
 }

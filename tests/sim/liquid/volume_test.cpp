@@ -1,0 +1,78 @@
+#include "sim/liquid/volume.h"
+
+#include "sim/liquid/cells.h"
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+constexpr double kStrength = 0.2;
+
+/// A tank of 10 × 12 × 9 cells, filled to 8 cells above its floor, just projected.
+GridScene tank()
+{
+    GridScene scene({-3, -3, -3}, {13, 15, 12});
+    scene.add(tankOfCells(scene, {0, 0, 0}, {10, 12, 9}));
+    const double surface = scene.corner({0, 8, 0}).y() - 1.0e-6 * scene.grid.dx;
+    scene.fill([&](const Vec3& x) { return x.y() - surface; });
+    scene.forEachCell([&](const Vec3i& c) { scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell] = scene.isInside(c) ? 1.0 : 0.0; });
+    scene.project(1.0e-3);
+    return scene;
+}
+
+/// Net displacement out of a cell, relative to its volume.
+double expansion(const GridScene& scene, const VolumeWorkspace& work, const Vec3i& c)
+{
+    double sum = 0.0;
+    for (int a = 0; a < kAxes; ++a) {
+        const CellRef low = scene.at(c), high = scene.at(c + Vec3i::Unit(a));
+        sum += scene.open(a, c + Vec3i::Unit(a)) * work.displacement.block(high.block, a)[high.cell] -
+               scene.open(a, c) * work.displacement.block(low.block, a)[low.cell];
+    }
+    return sum / scene.grid.dx;
+}
+
+TEST(Volume, CellsExpandByWhatTheyHoldTooMuchAndHolesClose)
+{
+    for (const auto& [cell, fill] : {std::pair(Vec3i(4, 3, 4), 1.3), {Vec3i(0, 0, 0), 1.2}, {Vec3i(5, 2, 8), 0.6}, {Vec3i(5, 7, 4), 1.1}}) {
+        GridScene scene = tank();
+        scene.liquid.fill.block(scene.at(cell).block)[scene.at(cell).cell] = fill;
+        VolumeWorkspace work;
+        EXPECT_TRUE(correctVolume(scene.grid, scene.field, scene.work, scene.liquid, kStrength, 100, work).converged);
+        const double expected = kStrength * (fill - 1.0);
+        scene.forEachCell([&](const Vec3i& c) {
+            if (!scene.isInside(c)) return;
+            // To the tolerance of the solve, 1 % of the largest source.
+            EXPECT_NEAR(expansion(scene, work, c), c == cell ? expected : 0.0, 0.0101 * std::abs(expected)) << c.transpose();
+        });
+    }
+}
+
+TEST(Volume, OfThinPlacesAtTheSurfaceIsLeftAlone)
+{
+    GridScene scene = tank();
+    for (int j = 6; j < 8; ++j) scene.liquid.fill.block(scene.at({4, j, 4}).block)[scene.at({4, j, 4}).cell] = j == 7 ? 0.3 : 0.85;
+    VolumeWorkspace work;
+    correctVolume(scene.grid, scene.field, scene.work, scene.liquid, kStrength, 100, work);
+    scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
+}
+
+TEST(Volume, NothingMovesFartherThanTheLargestCorrection)
+{
+    GridScene scene = tank();
+    scene.forEachCell([&](const Vec3i& c) {
+        if (scene.isInside(c)) scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell] = 50.0;
+    });
+    VolumeWorkspace work;
+    correctVolume(scene.grid, scene.field, scene.work, scene.liquid, 1.0, 100, work);
+    double largest = 0.0;
+    scene.forEachFace([&](int a, const Vec3i& c) {
+        largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell]));
+    });
+    EXPECT_EQ(largest, kLargestCorrection * scene.grid.dx);
+}
+
+}  // namespace
+}  // namespace sim::test
