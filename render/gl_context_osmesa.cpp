@@ -1,11 +1,13 @@
 #include "render/gl_context.h"
 
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 
 #include <array>
 #include <cstdint>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 
 namespace render {
 
@@ -18,6 +20,43 @@ std::mutex& osMesaLock()
     return lock;
 }
 
+/// OSMesa, loaded when the first picture is drawn: it brings a compiler of some 50 MB, which runs without pictures do without.
+class OsMesa {
+ public:
+    OsMesa()
+    {
+        load(create, "OSMesaCreateContextAttribs");
+        load(destroy, "OSMesaDestroyContext");
+        load(makeCurrent, "OSMesaMakeCurrent");
+        load(current, "OSMesaGetCurrentContext");
+        load(procedure, "OSMesaGetProcAddress");
+    }
+
+    decltype(&OSMesaCreateContextAttribs) create;
+    decltype(&OSMesaDestroyContext) destroy;
+    decltype(&OSMesaMakeCurrent) makeCurrent;
+    decltype(&OSMesaGetCurrentContext) current;
+    decltype(&OSMesaGetProcAddress) procedure;
+
+ private:
+    template <class F>
+    void load(F& function, const char* name)
+    {
+        if (library_ == nullptr) library_ = dlopen(RENDER_OSMESA_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+        void* const symbol = library_ != nullptr ? dlsym(library_, name) : nullptr;
+        if (symbol == nullptr) throw std::runtime_error(std::string("OSMesa cannot be loaded (is libosmesa6 installed?): ") + dlerror());
+        function = reinterpret_cast<F>(symbol);
+    }
+
+    void* library_ = nullptr;  ///< stays loaded to the end of the program
+};
+
+const OsMesa& osMesa()
+{
+    static const OsMesa library;
+    return library;
+}
+
 class OsMesaContext final : public GlContext {
  public:
     OsMesaContext()
@@ -27,13 +66,13 @@ class OsMesaContext final : public GlContext {
             const std::array attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0,
                                            OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
                                            OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
-            context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+            context_ = osMesa().create(attributes.data(), nullptr);
         }
         if (context_ == nullptr)
-            throw std::runtime_error("OSMesa cannot make an OpenGL 3.3 core context (is libosmesa6 installed?)");
+            throw std::runtime_error("OSMesa cannot make an OpenGL 3.3 core context");
         try {
             OsMesaContext::makeCurrent();
-            gl_ = loadGl([](const char* name) { return reinterpret_cast<void*>(OSMesaGetProcAddress(name)); });
+            gl_ = loadGl([](const char* name) { return reinterpret_cast<void*>(osMesa().procedure(name)); });
         } catch (...) {
             destroy();
             throw;
@@ -45,8 +84,8 @@ class OsMesaContext final : public GlContext {
     void makeCurrent() override
     {
         const std::lock_guard guard(osMesaLock());
-        if (OSMesaGetCurrentContext() == context_) return;
-        if (!OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, kWindowSize, kWindowSize))
+        if (osMesa().current() == context_) return;
+        if (!osMesa().makeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, kWindowSize, kWindowSize))
             throw std::runtime_error("OSMesa cannot make its context current");
     }
 
@@ -54,7 +93,7 @@ class OsMesaContext final : public GlContext {
     void destroy()
     {
         const std::lock_guard guard(osMesaLock());
-        OSMesaDestroyContext(context_);
+        osMesa().destroy(context_);
     }
 
     // Pictures are drawn into framebuffer objects; the window OSMesa insists on stays unused.

@@ -26,6 +26,14 @@ double relaxReach(const Scene& scene)
     return std::min(relax.range * radius, scene.settings.cell);
 }
 
+/// Of the source that is packed most tightly: sources of one scene should all be filled alike.
+double packingOfSources(const Scene& scene)
+{
+    double packing = 0.0;
+    for (const SourceSettings& source : scene.sources) packing = std::max(packing, packingOf(source.fill.pattern));
+    return packing > 0.0 ? packing : 1.0;
+}
+
 double fastest(const LiquidParticles& particles)
 {
     return parallelMax(particles.count, [&](std::size_t p) { return particles.velocity(p).norm(); });
@@ -58,6 +66,7 @@ void Simulation::prepareWorkspace()
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
+    work_.packing = packingOfSources(scene_);
 }
 
 Energies Simulation::energies() const { return liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity); }

@@ -86,6 +86,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
     carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
     work.grid.resize(grid.count(), flip);
+    work.grid.fullMass = work.packing * settings.liquid.density * grid.dx * grid.dx * grid.dx;
 
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
     work.obstacleField.update(grid, work.order.previous, work.obstacles, wallsMirror(settings.liquid.wallFriction));
@@ -108,7 +109,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     divideAndAddGravity(grid, settings.gravity, dt, flip, work.grid);
 
     clock.start(Stage::Cells);
-    findLiquidCells(grid, work.obstacleField, settings.liquid, work.grid);
+    findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
     findSurface(grid, work.obstacleField, work.grid);
 
     clock.start(Stage::Pressure);

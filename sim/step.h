@@ -26,6 +26,7 @@ struct Workspace {
     std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;
+    double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -13,7 +14,8 @@
 
 namespace sim {
 
-/// A growable array of plain numbers, aligned for SIMD, in huge pages when large. It never shrinks
+/// A growable array of plain numbers, aligned for SIMD. Large ones are mapped from the system, very large ones in huge pages, so that what
+/// they leave when they grow goes back to it at once and room to grow costs nothing until it is used. It never shrinks
 /// its storage, so that a buffer that lives in the struct that uses it allocates only while it grows.
 /// Elements gained by resize are zero the first time their storage is used, then whatever was there.
 template <class T>
@@ -64,21 +66,50 @@ class AlignedArray {
     const T* end() const { return data() + size_; }
 
  private:
+    static constexpr std::size_t kLine = 64, kPage = 4096, kHugePage = std::size_t{1} << 21;
+    static constexpr std::size_t kLarge = 64 * kPage, kVeryLarge = 2 * kHugePage;
+
     struct Free {
-        void operator()(T* p) const { std::free(p); }
+        std::size_t mapped = 0;  ///< bytes, if they were mapped
+        void operator()(T* p) const
+        {
+            if (mapped > 0) munmap(p, mapped);
+            else std::free(p);
+        }
     };
+
+    static std::size_t roundUp(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
+
+    /// Zeros, at an address that is a multiple of the size of the pages.
+    static std::unique_ptr<T, Free> map(std::size_t bytes, std::size_t page)
+    {
+        const std::size_t spare = page - kPage;
+        void* whole = mmap(nullptr, bytes + spare, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (whole == MAP_FAILED) throw std::bad_alloc();
+        char* const begin = static_cast<char*>(whole);
+        char* const aligned = begin + (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page;
+        if (aligned > begin) munmap(begin, static_cast<std::size_t>(aligned - begin));
+        char* const end = begin + bytes + spare;
+        if (end > aligned + bytes) munmap(aligned + bytes, static_cast<std::size_t>(end - aligned) - bytes);
+        if (page == kHugePage) madvise(aligned, bytes, MADV_HUGEPAGE);
+        return {reinterpret_cast<T*>(aligned), Free{bytes}};
+    }
+
+    static std::unique_ptr<T, Free> allocate(std::size_t bytes)
+    {
+        T* p = static_cast<T*>(std::aligned_alloc(kLine, bytes));
+        if (p == nullptr) throw std::bad_alloc();
+        std::memset(static_cast<void*>(p), 0, bytes);
+        return {p, Free{}};
+    }
 
     void grow(std::size_t n)
     {
-        constexpr std::size_t kLine = 64, kHugePage = std::size_t{1} << 21;
-        const std::size_t unit = n * sizeof(T) >= 2 * kHugePage ? kHugePage : kLine;
-        const std::size_t bytes = (n * sizeof(T) + unit - 1) / unit * unit;
-        T* p = static_cast<T*>(std::aligned_alloc(unit, bytes));
-        if (p == nullptr) throw std::bad_alloc();
-        if (unit == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);
-        if (size_ > 0) std::memcpy(p, data_.get(), size_ * sizeof(T));
-        std::memset(static_cast<void*>(p + size_), 0, bytes - size_ * sizeof(T));
-        data_.reset(p);
+        const std::size_t needed = n * sizeof(T), unit = needed < kLarge ? kLine : needed < kVeryLarge ? kPage : kHugePage;
+        const std::size_t bytes = roundUp(needed, unit);
+        std::unique_ptr<T, Free> fresh = unit == kLine ? allocate(bytes) : map(bytes, unit);
+        if (size_ > 0) std::memcpy(fresh.get(), data_.get(), size_ * sizeof(T));
+        data_ = std::move(fresh);
         capacity_ = bytes / sizeof(T);
     }
 

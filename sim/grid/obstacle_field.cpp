@@ -48,15 +48,41 @@ double ObstacleField::openFraction(double d00, double d10, double d11, double d0
     return solidMiddle ? cut : 1.0 - cut;
 }
 
+/// Distance to the nearest solid on the 9³ nodes of a block [cm].
+struct ObstacleField::Nodes {
+    static constexpr int kEdge = kBlockEdge + 1;
+    static constexpr int index(int i, int j, int k) { return (k * kEdge + j) * kEdge + i; }
+    std::array<double, kEdge * kEdge * kEdge> distance;
+
+    Nodes(const BlockGrid& grid, int block, const Obstacles& obstacles)
+    {
+        const Vec3 corner = grid.lowerCorner(block);
+        for (int k = 0; k < kEdge; ++k)
+            for (int j = 0; j < kEdge; ++j)
+                for (int i = 0; i < kEdge; ++i) {
+                    const double d = obstacles.distance(corner + grid.dx * Vec3(i, j, k));
+                    distance[index(i, j, k)] = std::abs(d) < kOnSurface * grid.dx ? 0.0 : d;
+                }
+    }
+    /// Open fraction of the face normal to `axis` at the lower side of cell (i, j, k), one of which may be 8.
+    double open(int axis, int i, int j, int k) const
+    {
+        constexpr int kStep[3] = {index(1, 0, 0), index(0, 1, 0), index(0, 0, 1)};
+        const double* n = distance.data() + index(i, j, k);
+        const int u = kStep[(axis + 1) % 3], v = kStep[(axis + 2) % 3];
+        const double fraction = openFraction(n[0], n[u], n[u + v], n[v]);
+        return fraction < kAlmostClosed ? 0.0 : fraction > kAlmostOpen ? 1.0 : fraction;
+    }
+};
+
 void ObstacleField::resizeSlots(int count)
 {
     open_.resize(count);
-    wallVelocity_.resize(count);
+    if (anyMoved_ || count == 1) wallVelocity_.resize(count);
     room_.resize(count);
     closed_.resize(count);
     blocked_.resize(count);
     centerDistance_.resize(count);
-    nodeDistance_.resize(static_cast<std::size_t>(count) * kNodes);
     touchedByMoving_.resize(count);
     if (slotCount_ == 0 && count > 0)
         for (int c = 0; c < kBlockCells; ++c) {
@@ -96,6 +122,10 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     slot_.assign(grid.count() + 1, kOpenSlot);
     nearSolid_.clear();
     if (obstacles.empty()) return;
+    if (obstacles.anyMoving() && !anyMoved_) {
+        anyMoved_ = true;
+        wallVelocity_.resize(slotCount_);
+    }
 
     toCompute_.clear();
     const int oldBlocks = static_cast<int>(oldSlot_.size()) - 1;
@@ -134,35 +164,13 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
 
 void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors)
 {
-    computeNodes(grid, block, slot, obstacles);
-    computeFaces(grid, block, slot, obstacles);
-    findBlocked(slot);
+    const Nodes nodes(grid, block, obstacles);
+    computeFaces(grid, block, slot, obstacles, nodes);
+    findBlocked(slot, nodes);
     roomOfFaces(grid, block, obstacles, mirrors, room_.block(slot));
 }
 
-void ObstacleField::computeNodes(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
-{
-    const Vec3 corner = grid.lowerCorner(block);
-    double* node = nodeDistance_.data() + static_cast<std::size_t>(slot) * kNodes;
-    for (int k = 0; k < kNodesEdge; ++k)
-        for (int j = 0; j < kNodesEdge; ++j)
-            for (int i = 0; i < kNodesEdge; ++i) {
-                const double d = obstacles.distance(corner + grid.dx * Vec3(i, j, k));
-                node[nodeIndex(i, j, k)] = std::abs(d) < kOnSurface * grid.dx ? 0.0 : d;
-            }
-}
-
-/// Open fraction of the face normal to `axis` at the lower side of cell (i, j, k); each may be 8 along its axis.
-double ObstacleField::openAt(int slot, int axis, int i, int j, int k) const
-{
-    constexpr int kStep[3] = {nodeIndex(1, 0, 0), nodeIndex(0, 1, 0), nodeIndex(0, 0, 1)};
-    const double* n = nodeDistance_.data() + static_cast<std::size_t>(slot) * kNodes + nodeIndex(i, j, k);
-    const int u = kStep[(axis + 1) % 3], v = kStep[(axis + 2) % 3];
-    const double open = openFraction(n[0], n[u], n[u + v], n[v]);
-    return open < kAlmostClosed ? 0.0 : open > kAlmostOpen ? 1.0 : open;
-}
-
-void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
+void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes)
 {
     const Vec3 corner = grid.lowerCorner(block);
     for (int a = 0; a < kAxes; ++a) std::fill_n(closed_.block(slot, a), BlockBits<3>::kWords, 0);
@@ -173,16 +181,17 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
                 centerDistance_.block(slot)[cell] = std::min(obstacles.distance(center), kExactDistance * grid.dx);
                 for (int a = 0; a < kAxes; ++a) {
-                    const double open = openAt(slot, a, i, j, k);
+                    const double open = nodes.open(a, i, j, k);
                     open_.block(slot, a)[cell] = open;
                     if (open == 0.0) closed_.set(slot, cell, a);
-                    wallVelocity_.block(slot, a)[cell] =
-                        touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
+                    if (anyMoved_)
+                        wallVelocity_.block(slot, a)[cell] =
+                            touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
                 }
             }
 }
 
-void ObstacleField::findBlocked(int slot)
+void ObstacleField::findBlocked(int slot, const Nodes& nodes)
 {
     std::fill_n(blocked_.block(slot), BlockBits<>::kWords, 0);
     for (int k = 0; k < kBlockEdge; ++k)
@@ -190,7 +199,7 @@ void ObstacleField::findBlocked(int slot)
             for (int i = 0; i < kBlockEdge; ++i) {
                 bool blocked = true;
                 for (int a = 0; a < kAxes && blocked; ++a)
-                    blocked = openAt(slot, a, i, j, k) == 0.0 && openAt(slot, a, i + (a == 0), j + (a == 1), k + (a == 2)) == 0.0;
+                    blocked = nodes.open(a, i, j, k) == 0.0 && nodes.open(a, i + (a == 0), j + (a == 1), k + (a == 2)) == 0.0;
                 if (blocked) blocked_.set(slot, cellInBlock(i, j, k));
             }
 }

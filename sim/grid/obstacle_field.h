@@ -8,14 +8,11 @@
 
 namespace sim {
 
-/// Obstacles on the grid (model-fluid 2.4, 2.5): distance on nodes; open fraction, room and velocity of faces. Blocks far from every
+/// Obstacles on the grid (model-fluid 2.4, 2.5): open fraction, room and velocity of faces, distance of cells. Blocks far from every
 /// solid share one set of numbers; those of a block near a resting solid are computed when the block appears, and kept.
 class ObstacleField {
  public:
     static constexpr double kExactDistance = 1.5;  ///< all solids that come this near to a block are known in it [cells]
-    static constexpr int kNodesEdge = kBlockEdge + 1;
-    static constexpr int kNodes = kNodesEdge * kNodesEdge * kNodesEdge;
-    static constexpr int nodeIndex(int i, int j, int k) { return (k * kNodesEdge + j) * kNodesEdge + i; }
 
     /// Follow the blocks of the grid and the motion of the obstacles.
     /// @param previous  number each block had at the last update, or BlockGrid::kNone
@@ -35,10 +32,7 @@ class ObstacleField {
     /// Cells all of whose faces are closed.
     const std::uint64_t* blocked(int block) const { return blocked_.block(slot_[block]); }
     /// Velocity of the obstacle at each lower face along `axis` [cm/s].
-    const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(slot_[block], axis); }
-    /// Distance to the nearest solid on the 9³ nodes of a block near a solid [cm], at nodeIndex(i, j, k). Beyond kExactDistance cells it may
-    /// not know of solids that move.
-    const double* nodeDistance(int block) const { return nodeDistance_.data() + static_cast<std::size_t>(slot_[block]) * kNodes; }
+    const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(anyMoved_ ? slot_[block] : kOpenSlot, axis); }
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
 
@@ -53,13 +47,13 @@ class ObstacleField {
     void resizeSlots(int count);
     static bool isNear(const BlockGrid& grid, double distance);
     void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors);
-    void computeNodes(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
-    void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
-    void findBlocked(int slot);
-    double openAt(int slot, int axis, int i, int j, int k) const;
+    struct Nodes;
+    void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes);
+    void findBlocked(int slot, const Nodes& nodes);
 
     std::vector<int> slot_, oldSlot_;       ///< per block, the empty block included
     std::vector<int> nearSolid_;
+    bool anyMoved_ = false;                 ///< until then wallVelocity_ holds the open slot only
     std::vector<int> freeSlots_;
     std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
     std::vector<int> toCompute_;            ///< blocks
@@ -68,7 +62,6 @@ class ObstacleField {
     BlockBits<3> closed_;
     BlockBits<> blocked_;
     BlockArray<double> centerDistance_;
-    AlignedArray<double> nodeDistance_;
 };
 
 }  // namespace sim

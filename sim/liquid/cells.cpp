@@ -72,9 +72,9 @@ std::uint64_t besideAny(const BitAccess& access, const BlockBits<>& bits, int k)
 
 }  // namespace
 
-void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, LiquidGrid& liquid)
+void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, bool noAir, LiquidGrid& liquid)
 {
-    const double perCell = 1.0 / (settings.density * grid.dx * grid.dx * grid.dx);
+    const double perCell = 1.0 / liquid.fullMass;
     parallelFor(grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         const FaceSums faces(grid, obstacles, liquid, b);
@@ -85,7 +85,7 @@ void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, cons
                 std::memcpy(liquid.fill.block(b) + cellInBlock(0, j, k), &fill, sizeof fill);
                 inside |= static_cast<std::uint64_t>(maskBits(fill >= kLiquidFill)) << (j * kBlockEdge);
             }
-            liquid.inside.block(b)[k] = (settings.full ? ~std::uint64_t{0} : inside) & ~obstacles.blocked(b)[k];
+            liquid.inside.block(b)[k] = (noAir ? ~std::uint64_t{0} : inside) & ~obstacles.blocked(b)[k];
         }
     });
 }

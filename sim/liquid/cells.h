@@ -1,7 +1,6 @@
 #pragma once
 
 #include "sim/liquid/liquid_grid.h"
-#include "sim/settings.h"
 
 namespace sim {
 
@@ -10,8 +9,8 @@ namespace sim {
 inline constexpr double kLiquidFill = 0.2;
 
 /// Fill of every cell, from the masses on its open faces and their room; cells that are full enough get a pressure.
-/// @param settings  with `full`, every cell with an open face has a pressure
-void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, LiquidGrid& liquid);
+/// @param noAir  every cell with an open face has a pressure
+void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, bool noAir, LiquidGrid& liquid);
 
 /// Which liquid cells are beside air, and which are deep: neither that nor beside such a cell. Walls are no air.
 void findSurface(const BlockGrid& grid, const ObstacleField& obstacles, LiquidGrid& liquid);

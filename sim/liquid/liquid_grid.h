@@ -11,6 +11,7 @@ struct LiquidGrid {
     BlockBits<3> wet;                    ///< faces that carry liquid mass
     BlockArray<double, 3> flipVelocity;  ///< FLIP only: velocities straight after P2G [cm/s] …
     BlockBits<3> flipValid;              ///< … and where they mean something
+    double fullMass = 1.0;               ///< of a face with all its room, amid liquid [g]
     BlockArray<double> fill;             ///< liquid in and around each cell relative to a cell amid liquid [-]
     BlockBits<> inside;                  ///< cells with a pressure
     BlockBits<> surface;                 ///< those of them beside air

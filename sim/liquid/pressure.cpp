@@ -26,7 +26,7 @@ struct NeighbourBits {
 /// k_f of every lower face beside a liquid cell: zero where it is closed or carries no liquid. Faces between deep cells are full: what P2G
 /// found there differs from that by the noise of the particles' places only.
 /// @param full  so are faces without particles
-void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, double scale, double fullMass, bool full, const LiquidGrid& liquid,
+void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, double scale, bool full, const LiquidGrid& liquid,
                          PressureWorkspace& work)
 {
     work.coefficient.resize(grid.count());
@@ -37,7 +37,7 @@ void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, 
             for (int k = 0; k < kBlockEdge; ++k)
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
-                    const Pack open = loadPack(obstacles.open(b, a) + row), room = fullMass * loadPack(obstacles.room(b, a) + row);
+                    const Pack open = loadPack(obstacles.open(b, a) + row), room = liquid.fullMass * loadPack(obstacles.room(b, a) + row);
                     const PackMask wet = rowOf(liquid.wet.block(b, a), j, k);
                     const PackMask isFull = (rowOf(deep.own, j, k) & rowOf(deep.below[a], j, k)) | (full ? ~wet : PackMask{});
                     const Pack mass = select(isFull, room, loadPack(liquid.faces.sums.block(b, FaceFields::kMass + a) + row));
@@ -132,10 +132,9 @@ void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, con
 SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
                             double dt, PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
 {
-    const double cell = grid.dx * grid.dx * grid.dx;
     work.matrix.resize(grid.count());
     work.rhs.resize(grid.count());
-    computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.density * cell, settings.full, liquid, work);
+    computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.full, liquid, work);
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
     const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
     subtractGradient(grid, obstacles, work, pressure, liquid);

@@ -20,16 +20,15 @@ double volumeError(double fill, bool atSurface, bool deep)
     return fill > 1.0 ? std::min(fill - 1.0, kLargestError) : std::min(fill - least, 0.0);
 }
 
-void findSources(const BlockGrid& grid, const LiquidGrid& liquid, double strength, VolumeWorkspace& work)
+void findSources(const BlockGrid& grid, const LiquidGrid& liquid, double strength, BlockArray<double>& source)
 {
     parallelFor(grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int c = 0; c < kBlockCells; ++c) {
             const bool inside = liquid.inside.test(b, c);
-            work.source.block(b)[c] =
+            source.block(b)[c] =
                 inside ? strength * volumeError(liquid.fill.block(b)[c], liquid.surface.test(b, c), liquid.deep.test(b, c)) : 0.0;
         }
-        std::fill_n(work.potential.block(b), kBlockCells, 0.0);
     });
 }
 
@@ -54,11 +53,11 @@ void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const 
 SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const LiquidGrid& liquid,
                           double strength, int maxIterations, VolumeWorkspace& work)
 {
-    work.source.resize(grid.count());
     work.potential.resize(grid.count());
     work.displacement.resize(grid.count());
-    findSources(grid, liquid, strength, work);
-    const SolveReport report = pressure.solver.solveAgain(grid, pressure.matrix, work.source, kTolerance, maxIterations, work.potential);
+    parallelFor(grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
+    findSources(grid, liquid, strength, pressure.rhs);
+    const SolveReport report = pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kTolerance, maxIterations, work.potential);
     displaceFaces(grid, obstacles, pressure, work);
     return report;
 }

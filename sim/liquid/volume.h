@@ -5,7 +5,7 @@
 namespace sim {
 
 struct VolumeWorkspace {
-    BlockArray<double> source, potential;
+    BlockArray<double> potential;
     BlockArray<double, 3> displacement;  ///< of the lower faces [cm]
 };
 

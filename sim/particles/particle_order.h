@@ -52,8 +52,8 @@ struct ParticleOrder {
 };
 
 /// Half sizes of the neighbourhood of a particle's cell in which blocks must exist [cells]: what its stencils, the cells that can be
-/// liquid because of it, their faces and three sweeps of extrapolation reach (model-fluid 2.1).
-inline constexpr int kReachBelow = 3, kReachAbove = 4;
+/// liquid because of it (its own and those around) and their faces reach.
+inline constexpr int kReachBelow = 1, kReachAbove = 2;
 
 /// Sort the particles by cell, drop those outside the domain (their mass and momentum go to the ledger), and make the grid's
 /// blocks those that the particles need. x, mass and id are moved; the modes stay where they are (see source).

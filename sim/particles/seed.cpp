@@ -45,6 +45,12 @@ Seeds seedReference(const SeedPlan& plan, const LiquidNearby& nearby)
 
 }  // namespace
 
+double packingOf(FillSettings::Pattern pattern)
+{
+    constexpr double kReference = 0.567;  // measured amid a body of 145 000 cells
+    return pattern == Pattern::Reference ? kReference : 1.0;
+}
+
 double particleSpacing(const FillSettings& fill, double dx)
 {
     return dx * (fill.spacing > 0.0 ? fill.spacing : ownSpacing(fill.pattern));

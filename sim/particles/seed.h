@@ -35,11 +35,14 @@ struct Seeds {
 
 /// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source
 /// outside of solids, so that all of them together are as large as that region; of a moving pattern, on average over
-/// time. `reference` keeps its published volume, which is 0.56 of that. Where there is liquid already, places that have
+/// time. `reference` keeps its published volume, which is packingOf(Pattern::Reference) of that. Where there is liquid already, places that have
 /// a particle stay as they are, and the rest is filled no further than to the region's volume. The same bits for any
 /// number of threads. Throws InputError when the source is unbounded or has more than 4e8 places; the message ("is
 /// unbounded …") lacks the name of the source.
 Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby = {});
+
+/// Volume of the particles of a pattern relative to that of the region they fill [-].
+double packingOf(FillSettings::Pattern pattern);
 
 /// Pitch of the pattern [cm].
 double particleSpacing(const FillSettings& fill, double dx);

@@ -117,9 +117,8 @@ void expectSameBlock(const ObstacleField& a, int blockA, const ObstacleField& b,
         }
     if (!a.nearSolid(blockA) || !b.nearSolid(blockB)) return;
     for (int c = 0; c < kBlockCells; ++c) ASSERT_EQ(a.centerDistance(blockA)[c], b.centerDistance(blockB)[c]);
-    for (int n = 0; n < ObstacleField::kNodes; ++n)
-        ASSERT_EQ(std::min(a.nodeDistance(blockA)[n], ObstacleField::kExactDistance),
-                  std::min(b.nodeDistance(blockB)[n], ObstacleField::kExactDistance));
+    for (int axis = 0; axis < kAxes; ++axis)
+        for (int c = 0; c < kBlockCells; ++c) ASSERT_EQ(a.room(blockA, axis)[c], b.room(blockB, axis)[c]);
 }
 
 TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)

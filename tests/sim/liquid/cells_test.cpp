@@ -19,14 +19,13 @@ double splineUpTo(double x)
 /// The masses that P2G gives of liquid below the plane y = level [cells from the scene's origin], all over where there is room.
 void fillBelow(GridScene& scene, double level)
 {
-    const double full = scene.settings.density * std::pow(scene.grid.dx, 3);
     scene.forEachFace([&](int a, const Vec3i& c) {
         const CellRef ref = scene.at(c);
         const double height = c.y() + (a == 1 ? 0.0 : 0.5);
         scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] =
-            full * scene.field.room(ref.block, a)[ref.cell] * splineUpTo(level - height);
+            scene.liquid.fullMass * scene.field.room(ref.block, a)[ref.cell] * splineUpTo(level - height);
     });
-    findLiquidCells(scene.grid, scene.field, scene.settings, scene.liquid);
+    findLiquidCells(scene.grid, scene.field, scene.settings.full, scene.liquid);
 }
 
 double fillAt(const GridScene& scene, const Vec3i& c) { return scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell]; }
@@ -34,7 +33,7 @@ double fillAt(const GridScene& scene, const Vec3i& c) { return scene.liquid.fill
 TEST(Cells, AmidLiquidAreFullAlsoBesideWalls)
 {
     GridScene scene({-3, -3, -3}, {13, 16, 13});
-    scene.settings.density = 0.9;
+    scene.liquid.fullMass = 0.9;
     scene.add(tankOfCells(scene, {0, 0, 0}, {10, 14, 9}));
     scene.add(Shape::ball(scene.corner({4, 3, 5}) + scene.grid.dx * Vec3(0.3, 0.2, 0.6), 2.3 * scene.grid.dx));
     fillBelow(scene, 12.0);
@@ -70,7 +69,7 @@ TEST(Cells, OfAFullBoxAreAllThatAreNotBlocked)
     GridScene scene({0, 0, 0}, {16, 16, 16});
     scene.settings.full = true;
     scene.add(tankOfCells(scene, {2, 3, 4}, {14, 12, 11}));
-    findLiquidCells(scene.grid, scene.field, scene.settings, scene.liquid);
+    findLiquidCells(scene.grid, scene.field, scene.settings.full, scene.liquid);
     EXPECT_EQ(scene.countLiquid(), 12u * 9u * 7u);
     EXPECT_EQ(countLiquidCells(scene.grid, scene.liquid), 12u * 9u * 7u);
 }

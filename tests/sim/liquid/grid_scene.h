@@ -36,6 +36,7 @@ struct GridScene {
         upper = 8 * (to + Vec3i::Ones());
         liquid.faces.sums.resize(grid.count());
         liquid.resize(grid.count(), false);
+        liquid.fullMass = settings.density * std::pow(dx, 3);
         pressure.resize(grid.count());
         levelSet.resize(grid.count());
         for (int b = 0; b < grid.count(); ++b) {
@@ -119,7 +120,7 @@ struct GridScene {
             if (!above && !under) return;
             const CellRef ref = at(c);
             liquid.wet.set(ref.block, ref.cell, a);
-            const double full = settings.density * std::pow(grid.dx, 3) * field.room(ref.block, a)[ref.cell];
+            const double full = liquid.fullMass * field.room(ref.block, a)[ref.cell];
             liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] = full * (above && under ? 1.0 : ghostFraction(c, below));
         });
     }
