@@ -23,16 +23,32 @@ std::uint64_t programHash()
     return XXH64(program.data(), program.size(), 0);
 }
 
-std::filesystem::path defaultFolder(const SceneSetup& setup)
+namespace {
+
+std::filesystem::path filledIn(const SceneSetup& setup, const std::string& name, const std::string& variant)
 {
     std::string folder = setup.pictures.output.dir.empty() ? "out/{name}/{variant}" : setup.pictures.output.dir;
     const auto fillIn = [&](const std::string& word, const std::string& value) {
         for (std::size_t at = 0; (at = folder.find(word, at)) != std::string::npos; at += value.size())
             folder.replace(at, word.size(), value);
     };
-    fillIn("{name}", setup.scene.name);
-    fillIn("{variant}", setup.variant);
+    fillIn("{name}", name);
+    fillIn("{variant}", variant);
     return folder;
+}
+
+}  // namespace
+
+std::filesystem::path defaultFolder(const SceneSetup& setup)
+{
+    return filledIn(setup, setup.scene.name, setup.variant);
+}
+
+std::filesystem::path defaultComparisonFolder(const SceneSetup& setup)
+{
+    const std::string& own = setup.pictures.compare.name;
+    const auto folder = filledIn(setup, own.empty() ? setup.scene.name : own, "").lexically_normal();
+    return folder.has_filename() ? folder : folder.parent_path();
 }
 
 std::int64_t frameCount(const SceneSetup& setup)

@@ -40,6 +40,10 @@ std::string hexDigits(std::uint64_t value);
 /// out/<name>/<variant>.
 std::filesystem::path defaultFolder(const SceneSetup& setup);
 
+/// Where the products of a comparison go unless --out says so, with a folder per variant below: the same without {variant}, and under the
+/// comparison's own name if it has one.
+std::filesystem::path defaultComparisonFolder(const SceneSetup& setup);
+
 /// Frames after the initial one that the scene asks for.
 std::int64_t frameCount(const SceneSetup& setup);
 

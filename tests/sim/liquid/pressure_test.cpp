@@ -304,5 +304,34 @@ TEST(Pressure, DryFacesOfCellsInObstaclesGetNoVelocity)
     EXPECT_FALSE(scene.isValid(1, {4, 5, 4})) << "the solution knows nothing of this face";
 }
 
+/// Largest error of the pressure of a ball of radius 1 cm in which p = sin(r²) − sin(1), relative to its largest value.
+double errorInBall(int cellsPerRadius)
+{
+    const double dx = 1.0 / cellsPerRadius;
+    const int n = cellsPerRadius + 3;
+    GridScene scene(Vec3i::Constant(-n), Vec3i::Constant(n), dx, Vec3::Zero());
+    const Vec3 middle = dx * Vec3(0.31, -0.22, 0.13);
+    const auto exact = [&](const Vec3& x) { return std::sin((x - middle).squaredNorm()) - std::sin(1.0); };
+    scene.fill([&](const Vec3& x) { return (x - middle).norm() - 1.0; });
+    // What the gradient takes away again.
+    scene.setVelocities([&](const Vec3& x) {
+        return Vec3((kDt / scene.settings.density) * 2.0 * std::cos((x - middle).squaredNorm()) * (x - middle));
+    });
+    EXPECT_TRUE(scene.project(kDt).converged);
+    double largest = 0.0;
+    scene.forEachCell([&](const Vec3i& c) {
+        if (scene.isInside(c)) largest = std::max(largest, std::abs(scene.pressureAt(c) - exact(scene.middle(c))));
+    });
+    return largest / std::sin(1.0);
+}
+
+TEST(Pressure, WithGhostFluidFractionsIsOfSecondOrderAtACurvedSurface)
+{
+    const double coarse = errorInBall(8), fine = errorInBall(16), finest = errorInBall(32);
+    std::printf("error of the pressure in a ball: %.2e, %.2e, %.2e at 8, 16, 32 cells per radius\n", coarse, fine, finest);
+    EXPECT_LT(coarse, 0.02);
+    EXPECT_LT(finest, coarse / 12.0) << "second order: a sixteenth";
+}
+
 }  // namespace
 }  // namespace sim::test
