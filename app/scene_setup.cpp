@@ -9,11 +9,15 @@
 
 namespace app {
 
-std::string hexDigits(std::uint64_t value) { return fmt::format("{:016x}", value); }
+std::string hexDigits(std::uint64_t value)
+{
+    return fmt::format("{:016x}", value);
+}
 
 std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash)
 {
-    const std::string all = fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
+    const std::string all =
+        fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
     return hexDigits(XXH64(all.data(), all.size(), programHash));
 }
 

@@ -13,8 +13,8 @@ namespace app {
 /// Which scene the user asked for.
 struct SceneRequest {
     std::string file;
-    std::string variant;             ///< one of the scene's; empty: the file as written
-    std::vector<std::string> sets;   ///< "dotted.key=value", applied last
+    std::string variant;            ///< one of the scene's; empty: the file as written
+    std::vector<std::string> sets;  ///< "dotted.key=value", applied last
 };
 
 /// One scene file, read and resolved, with what it says about pictures and files.
@@ -40,8 +40,8 @@ std::string hexDigits(std::uint64_t value);
 /// out/<name>/<variant>.
 std::filesystem::path defaultFolder(const SceneSetup& setup);
 
-/// Where the products of a comparison go unless --out says so, with a folder per variant below: the same without {variant}, and under the
-/// comparison's own name if it has one.
+/// Where the products of a comparison go unless --out says so, with a folder per variant below: the same without
+/// {variant}, and under the comparison's own name if it has one.
 std::filesystem::path defaultComparisonFolder(const SceneSetup& setup);
 
 /// Frames after the initial one that the scene asks for.

@@ -20,7 +20,8 @@ std::mutex& osMesaLock()
     return lock;
 }
 
-/// OSMesa, loaded when the first picture is drawn: it brings a compiler of some 50 MB, which runs without pictures do without.
+/// OSMesa, loaded when the first picture is drawn: it brings a compiler of some 50 MB, which runs without pictures do
+/// without.
 class OsMesa {
  public:
     OsMesa()
@@ -44,7 +45,8 @@ class OsMesa {
     {
         if (library_ == nullptr) library_ = dlopen(RENDER_OSMESA_LIBRARY, RTLD_NOW | RTLD_LOCAL);
         void* const symbol = library_ != nullptr ? dlsym(library_, name) : nullptr;
-        if (symbol == nullptr) throw std::runtime_error(std::string("OSMesa cannot be loaded (is libosmesa6 installed?): ") + dlerror());
+        if (symbol == nullptr)
+            throw std::runtime_error(std::string("OSMesa cannot be loaded (is libosmesa6 installed?): ") + dlerror());
         function = reinterpret_cast<F>(symbol);
     }
 
@@ -63,13 +65,22 @@ class OsMesaContext final : public GlContext {
     {
         {
             const std::lock_guard guard(osMesaLock());
-            const std::array attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0,
-                                           OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3,
-                                           OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+            const std::array attributes = {OSMESA_FORMAT,
+                                           OSMESA_RGBA,
+                                           OSMESA_DEPTH_BITS,
+                                           0,
+                                           OSMESA_STENCIL_BITS,
+                                           0,
+                                           OSMESA_PROFILE,
+                                           OSMESA_CORE_PROFILE,
+                                           OSMESA_CONTEXT_MAJOR_VERSION,
+                                           3,
+                                           OSMESA_CONTEXT_MINOR_VERSION,
+                                           3,
+                                           0};
             context_ = osMesa().create(attributes.data(), nullptr);
         }
-        if (context_ == nullptr)
-            throw std::runtime_error("OSMesa cannot make an OpenGL 3.3 core context");
+        if (context_ == nullptr) throw std::runtime_error("OSMesa cannot make an OpenGL 3.3 core context");
         try {
             OsMesaContext::makeCurrent();
             gl_ = loadGl([](const char* name) { return reinterpret_cast<void*>(osMesa().procedure(name)); });

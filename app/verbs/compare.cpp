@@ -14,9 +14,13 @@ namespace app {
 
 namespace {
 
-bool stopWanted() { return interruptsSeen() > 0; }
+bool stopWanted()
+{
+    return interruptsSeen() > 0;
+}
 
-/// Run one variant as a process of its own, so that its peak memory and its crash are its own. True if it got to its end.
+/// Run one variant as a process of its own, so that its peak memory and its crash are its own. True if it got to its
+/// end.
 bool runVariant(const ComparedRun& run, const Options& options, std::size_t number, std::size_t count)
 {
     fmt::print("[{}/{}] {}\n", number, count, run.setup.label);
@@ -30,7 +34,8 @@ bool runVariant(const ComparedRun& run, const Options& options, std::size_t numb
 int runVerbCompare(const Options& options, const Parts& parts)
 {
     const SceneSetup asWritten = parts.loadScene({options.scene, "", options.sets});
-    if (options.orRun && (asWritten.pictures.compare.variants.empty() || options.variants.size() == 1)) return runVerbRun(options, parts);
+    if (options.orRun && (asWritten.pictures.compare.variants.empty() || options.variants.size() == 1))
+        return runVerbRun(options, parts);
     const auto folder = options.out.empty() ? defaultComparisonFolder(asWritten) : options.out;
     const auto runs = comparedRuns(options, parts, folder);
     const bool withFrames = options.frames && asWritten.pictures.output.frames;
@@ -39,7 +44,8 @@ int runVerbCompare(const Options& options, const Parts& parts)
     std::vector<ComparedRun> done;
     for (const auto& run : runs) {
         if (!options.force && isDone(run, withFrames))
-            fmt::print("[{}/{}] {}: already there, in {}\n", done.size() + 1, runs.size(), run.setup.label, run.folder.string());
+            fmt::print("[{}/{}] {}: already there, in {}\n", done.size() + 1, runs.size(), run.setup.label,
+                       run.folder.string());
         else if (!runVariant(run, options, done.size() + 1, runs.size())) {
             if (stopWanted()) return 1;
             continue;

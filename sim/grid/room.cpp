@@ -24,7 +24,8 @@ void openVolumes(const BlockGrid& grid, int block, const Obstacles& obstacles, R
     for (int k = 0; k < kEdge; ++k)
         for (int j = 0; j < kEdge; ++j)
             for (int i = 0; i < kEdge; ++i)
-                volume.at({i, j, k}) = std::clamp(0.5 + obstacles.distance(corner + grid.dx * Vec3(i, j, k)) / grid.dx, 0.0, 1.0);
+                volume.at({i, j, k}) =
+                    std::clamp(0.5 + obstacles.distance(corner + grid.dx * Vec3(i, j, k)) / grid.dx, 0.0, 1.0);
 }
 
 /// The cells behind the wall get the values of their mirror images in front.
@@ -45,8 +46,8 @@ void mirrorAt(const Obstacles::Wall& wall, int plane, RimmedBlock& volume)
     }
 }
 
-/// Mean over the B-spline around the lower faces along an axis, or around the middles. What lies beyond the rim counts as nothing; the
-/// block itself does not reach it.
+/// Mean over the B-spline around the lower faces along an axis, or around the middles. What lies beyond the rim counts
+/// as nothing; the block itself does not reach it.
 void smooth(int axis, bool aroundFaces, RimmedBlock& volume)
 {
     constexpr int kStep[3] = {1, kEdge, kEdge * kEdge};
@@ -58,7 +59,8 @@ void smooth(int axis, bool aroundFaces, RimmedBlock& volume)
             return cell < 0 || cell >= count ? 0.0 : from.v[cell];
         };
         // Integrals of the B-spline over the cells that it overlaps.
-        volume.v[c] = aroundFaces ? (v(-2) + v(1)) / 48.0 + (v(-1) + v(0)) * (23.0 / 48.0) : (v(-1) + v(1)) / 6.0 + v(0) * (2.0 / 3.0);
+        volume.v[c] = aroundFaces ? (v(-2) + v(1)) / 48.0 + (v(-1) + v(0)) * (23.0 / 48.0)
+                                  : (v(-1) + v(1)) / 6.0 + v(0) * (2.0 / 3.0);
     }
 }
 

@@ -4,8 +4,8 @@
 
 namespace sim {
 
-/// A cell whose fill is at least this has a pressure. At a plane surface that is a cell whose middle is up to half a cell above the liquid,
-/// so that no face beyond carries more than 2 % of a full one's mass; those move freely.
+/// A cell whose fill is at least this has a pressure. At a plane surface that is a cell whose middle is up to half a
+/// cell above the liquid, so that no face beyond carries more than 2 % of a full one's mass; those move freely.
 inline constexpr double kLiquidFill = 0.2;
 
 /// Fill of every cell, from the masses on its open faces and their room; cells that are full enough get a pressure.

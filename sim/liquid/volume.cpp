@@ -9,11 +9,14 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-2;          ///< of the solve: what is left is corrected next time
-constexpr double kFillBelowSurface = 0.8;      ///< of cells beside surface cells, at least, while the liquid is in one piece
-constexpr double kLargestError = 1.0;          ///< a cell that holds more than twice its volume expands like one that holds twice
+constexpr double kTolerance = 1.0e-2;  ///< of the solve: what is left is corrected next time
+constexpr double kFillBelowSurface =
+    0.8;  ///< of cells beside surface cells, at least, while the liquid is in one piece
+constexpr double kLargestError =
+    1.0;  ///< a cell that holds more than twice its volume expands like one that holds twice
 
-/// Volume that a cell lacks (negative) or has too much, relative to its own. Cells at the surface may hold as little as they like.
+/// Volume that a cell lacks (negative) or has too much, relative to its own. Cells at the surface may hold as little as
+/// they like.
 double volumeError(double fill, bool atSurface, bool deep)
 {
     const double least = atSurface ? 0.0 : deep ? 1.0 : kFillBelowSurface;
@@ -26,13 +29,15 @@ void findSources(const BlockGrid& grid, const LiquidGrid& liquid, double strengt
         const int b = static_cast<int>(n);
         for (int c = 0; c < kBlockCells; ++c) {
             const bool inside = liquid.inside.test(b, c);
-            source.block(b)[c] =
-                inside ? strength * volumeError(liquid.fill.block(b)[c], liquid.surface.test(b, c), liquid.deep.test(b, c)) : 0.0;
+            source.block(b)[c] = inside ? strength * volumeError(liquid.fill.block(b)[c], liquid.surface.test(b, c),
+                                                                 liquid.deep.test(b, c))
+                                        : 0.0;
         }
     });
 }
 
-void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, VolumeWorkspace& work)
+void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure,
+                   VolumeWorkspace& work)
 {
     const Pack largest = broadcast(kLargestCorrection * grid.dx);
     parallelFor(grid.count(), 2, [&](std::size_t n) {
@@ -50,14 +55,16 @@ void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const 
 
 }  // namespace
 
-SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const LiquidGrid& liquid,
-                          double strength, int maxIterations, VolumeWorkspace& work)
+SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure,
+                          const LiquidGrid& liquid, double strength, int maxIterations, VolumeWorkspace& work)
 {
     work.potential.resize(grid.count());
     work.displacement.resize(grid.count());
-    parallelFor(grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
+    parallelFor(grid.count(), 8,
+                [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     findSources(grid, liquid, strength, pressure.rhs);
-    const SolveReport report = pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kTolerance, maxIterations, work.potential);
+    const SolveReport report =
+        pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kTolerance, maxIterations, work.potential);
     displaceFaces(grid, obstacles, pressure, work);
     return report;
 }

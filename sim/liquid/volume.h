@@ -12,12 +12,12 @@ struct VolumeWorkspace {
 /// Farthest that one correction moves anything [cells].
 inline constexpr double kLargestCorrection = 0.2;
 
-/// Displacements that bring the liquid back to its volume: cells that hold too much expand, holes amid the liquid close (implicit density
-/// projection after Kugelstadt et al. 2019, for the errors that advection leaves behind). They are the gradient of a potential in the
-/// matrix of the pressure just solved, left in work.displacement; velocities, and so all momenta and the kinetic energy, stay as they
-/// are. Needs findSurface.
+/// Displacements that bring the liquid back to its volume: cells that hold too much expand, holes amid the liquid close
+/// (implicit density projection after Kugelstadt et al. 2019, for the errors that advection leaves behind). They are
+/// the gradient of a potential in the matrix of the pressure just solved, left in work.displacement; velocities, and so
+/// all momenta and the kinetic energy, stay as they are. Needs findSurface.
 /// @param strength  share of the error that is corrected at once [0..1]
-SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const LiquidGrid& liquid,
-                          double strength, int maxIterations, VolumeWorkspace& work);
+SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure,
+                          const LiquidGrid& liquid, double strength, int maxIterations, VolumeWorkspace& work);
 
 }  // namespace sim

@@ -130,8 +130,8 @@ TEST(Volume, LiquidThatFellOverFillsItsCellsWhateverTheStep)
             Simulation simulation(scene);
             while (simulation.state().time < 2.0) simulation.step(2.0);
             const auto [mean, largest] = errorOfVolume(simulation);
-            std::printf("%s, dt at most %g s: volume of cells off by %.1f %%, at most %.0f %%\n", transfer.name.c_str(), dt, 100.0 * mean,
-                        100.0 * largest);
+            std::printf("%s, dt at most %g s: volume of cells off by %.1f %%, at most %.0f %%\n", transfer.name.c_str(),
+                        dt, 100.0 * mean, 100.0 * largest);
             EXPECT_LT(mean, 0.03) << transfer.name << " at " << dt;
         }
 }

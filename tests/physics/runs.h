@@ -83,7 +83,8 @@ Simulation moving(const Scene& scene, U&& u)
 inline bool isLiquid(const Simulation& simulation, const Vec3i& c)
 {
     const int b = simulation.state().grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3});
-    return b != BlockGrid::kNone && simulation.workspace().grid.inside.test(b, cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7));
+    return b != BlockGrid::kNone &&
+           simulation.workspace().grid.inside.test(b, cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7));
 }
 
 }  // namespace sim::test

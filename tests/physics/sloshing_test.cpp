@@ -50,8 +50,9 @@ Sloshing slosh(const Transfer& transfer, int cellsPerWave, double cfl, int perio
     return {measured / period - 1.0, kept};
 }
 
-/// The grid carries the mass of the liquid spread by the B-spline, of variance dx²/4, over a surface above which the wave's velocity grows
-/// like exp(k y). That makes its inertia exp(k² dx²/2) times larger: second order, and the same for every transfer.
+/// The grid carries the mass of the liquid spread by the B-spline, of variance dx²/4, over a surface above which the
+/// wave's velocity grows like exp(k y). That makes its inertia exp(k² dx²/2) times larger: second order, and the same
+/// for every transfer.
 double expectedPeriodError(int cellsPerWave)
 {
     const double kDx = 2.0 * kPi / cellsPerWave;

@@ -16,7 +16,8 @@ double splineUpTo(double x)
     return x < 1.5 ? 1.0 - std::pow(1.5 - x, 3) / 6.0 : 1.0;
 }
 
-/// The masses that P2G gives of liquid below the plane y = level [cells from the scene's origin], all over where there is room.
+/// The masses that P2G gives of liquid below the plane y = level [cells from the scene's origin], all over where there
+/// is room.
 void fillBelow(GridScene& scene, double level)
 {
     scene.forEachFace([&](int a, const Vec3i& c) {
@@ -28,7 +29,10 @@ void fillBelow(GridScene& scene, double level)
     findLiquidCells(scene.grid, scene.field, scene.settings.full, scene.liquid);
 }
 
-double fillAt(const GridScene& scene, const Vec3i& c) { return scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell]; }
+double fillAt(const GridScene& scene, const Vec3i& c)
+{
+    return scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell];
+}
 
 TEST(Cells, AmidLiquidAreFullAlsoBesideWalls)
 {
@@ -55,7 +59,9 @@ TEST(Cells, ReachUpToHalfACellAboveTheSurface)
         fillBelow(scene, level);
         for (int j = 0; j < 7; ++j) {
             EXPECT_EQ(scene.isInside({3, j, 4}), j + 0.5 < level + 0.49) << level << ", row " << j;
-            EXPECT_NEAR(fillAt(scene, {3, j, 4}), (4.0 * splineUpTo(level - j - 0.5) + splineUpTo(level - j) + splineUpTo(level - j - 1)) / 6.0, 1.0e-12);
+            EXPECT_NEAR(fillAt(scene, {3, j, 4}),
+                        (4.0 * splineUpTo(level - j - 0.5) + splineUpTo(level - j) + splineUpTo(level - j - 1)) / 6.0,
+                        1.0e-12);
         }
         // What the faces carry that are beside no liquid cell.
         int top = 0;

@@ -18,7 +18,7 @@ struct GridScene {
     SolverSettings solver{1.0e-14, 200};
     BlockArray<double> pressure;
     BlockArray<double> levelSet;  ///< distance to the surface at the cell middles [cm], negative in the liquid
-    Vec3i lower, upper;  ///< the cells that exist: lower … upper − 1, whole blocks
+    Vec3i lower, upper;           ///< the cells that exist: lower … upper − 1, whole blocks
 
     /// Blocks that hold the cells lower … upper − 1.
     GridScene(const Vec3i& first, const Vec3i& end, double dx = 0.288, const Vec3& origin = Vec3(0.1, -0.2, 0.3))
@@ -41,7 +41,8 @@ struct GridScene {
         levelSet.resize(grid.count());
         for (int b = 0; b < grid.count(); ++b) {
             std::fill_n(levelSet.block(b), kBlockCells, dx);
-            for (BlockBits<>* bits : {&liquid.inside, &liquid.surface, &liquid.deep}) std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
+            for (BlockBits<>* bits : {&liquid.inside, &liquid.surface, &liquid.deep})
+                std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
             std::fill_n(liquid.faces.sums.block(b), 6 * kBlockCells, 0.0);
             std::fill_n(pressure.block(b), kBlockCells, 0.0);
             std::fill_n(liquid.faces.velocity.block(b), 3 * kBlockCells, 0.0);
@@ -110,8 +111,8 @@ struct GridScene {
         });
         findSurface(grid, field, liquid);
     }
-    /// Faces of liquid cells are wet. Between two such cells they are full, else they carry the ghost fluid's fraction: that of the way
-    /// from the liquid cell's middle to the other one's on which there is liquid.
+    /// Faces of liquid cells are wet. Between two such cells they are full, else they carry the ghost fluid's fraction:
+    /// that of the way from the liquid cell's middle to the other one's on which there is liquid.
     void setMasses()
     {
         forEachFace([&](int a, const Vec3i& c) {
@@ -121,7 +122,8 @@ struct GridScene {
             const CellRef ref = at(c);
             liquid.wet.set(ref.block, ref.cell, a);
             const double full = liquid.fullMass * field.room(ref.block, a)[ref.cell];
-            liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] = full * (above && under ? 1.0 : ghostFraction(c, below));
+            liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] =
+                full * (above && under ? 1.0 : ghostFraction(c, below));
         });
     }
     double ghostFraction(const Vec3i& one, const Vec3i& other)

@@ -151,8 +151,7 @@ TEST(Hydrostatics, LiquidInATurnedTankRests)
         ASSERT_GT(scene.countLiquid(), 300u);
         EXPECT_LT(scene.largestError(kAtRest), 1.0e-8) << angle;
         scene.forEachCell([&](const Vec3i& c) {
-            if (!scene.isInside(c) || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0)
-                return;
+            if (!scene.isInside(c) || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0) return;
             EXPECT_NEAR(scene.pressureAt(c), kGravity * (surface - scene.middle(c).y()), 1.0e-8 * kGravity)
                 << c.transpose();
         });
@@ -288,7 +287,8 @@ TEST(Pressure, MovingWallPushesTheLiquid)
 
 TEST(Pressure, DryFacesOfCellsInObstaclesGetNoVelocity)
 {
-    // A cell cut by a ball is liquid through its wet lower face; its upper face is open to the air but carries no liquid.
+    // A cell cut by a ball is liquid through its wet lower face; its upper face is open to the air but carries no
+    // liquid.
     GridScene scene({0, 0, 0}, {8, 8, 8});
     scene.add(Shape::ball(scene.middle({4, 4, 4}) + scene.grid.dx * Vec3(0.0, 0.1, 0.0), 0.45 * scene.grid.dx));
     scene.phi({4, 3, 4}) = -0.3 * scene.grid.dx;
@@ -328,7 +328,8 @@ double errorInBall(int cellsPerRadius)
 TEST(Pressure, WithGhostFluidFractionsIsOfSecondOrderAtACurvedSurface)
 {
     const double coarse = errorInBall(8), fine = errorInBall(16), finest = errorInBall(32);
-    std::printf("error of the pressure in a ball: %.2e, %.2e, %.2e at 8, 16, 32 cells per radius\n", coarse, fine, finest);
+    std::printf("error of the pressure in a ball: %.2e, %.2e, %.2e at 8, 16, 32 cells per radius\n", coarse, fine,
+                finest);
     EXPECT_LT(coarse, 0.02);
     EXPECT_LT(finest, coarse / 12.0) << "second order: a sixteenth";
 }

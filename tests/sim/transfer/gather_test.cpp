@@ -115,7 +115,8 @@ TEST(Gather, CellsWithoutManyModesGetEight)
         BlockBits<> none;
         none.resize(like.grid().count());
         for (int b = 0; b < like.grid().count(); ++b) std::fill_n(none.block(b), BlockBits<>::kWords, 0);
-        const LiquidParticles limited = gather(modes, &none), eight = gather(kModesAtSurface, nullptr), many = gather(modes, nullptr);
+        const LiquidParticles limited = gather(modes, &none), eight = gather(kModesAtSurface, nullptr),
+                              many = gather(modes, nullptr);
         double difference = 0.0;
         for (std::size_t s = 0; s < eight.count; ++s)
             for (int a = 0; a < kAxes; ++a)
@@ -129,7 +130,9 @@ TEST(Gather, CellsWithoutManyModesGetEight)
 
 TEST(Gather, FaceDisplacementsMoveParticlesBesideTheirVelocity)
 {
-    const auto displaced = [](int axis, const Vec3& x) { return 0.01 * (1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z()); };
+    const auto displaced = [](int axis, const Vec3& x) {
+        return 0.01 * (1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z());
+    };
     for (int modes : {1, 8, 27}) {
         SCOPED_TRACE(modes);
         Transfers still(randomLiquid(500, modes)), moved(randomLiquid(500, modes));
@@ -138,7 +141,8 @@ TEST(Gather, FaceDisplacementsMoveParticlesBesideTheirVelocity)
         field.resize(moved.grid().count());
         for (int b = 0; b < moved.grid().count(); ++b)
             for (int a = 0; a < kAxes; ++a)
-                for (int c = 0; c < kBlockCells; ++c) field.block(b, a)[c] = displaced(a, faceMiddle(moved.grid(), a, b, c));
+                for (int c = 0; c < kBlockCells; ++c)
+                    field.block(b, a)[c] = displaced(a, faceMiddle(moved.grid(), a, b, c));
         const LiquidParticles before = moved.liquid.particles;
         GatherSettings settings;
         settings.modes = modes;
