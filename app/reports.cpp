@@ -43,6 +43,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"iterations", report.pressure.iterations},
         {"residual", report.pressure.residual},
         {"converged", report.pressure.converged},
+        {"volume_iterations", report.volume.iterations},
         {"particles", report.particles},
         {"blocks", report.blocks},
         {"cells", report.liquidCells},

@@ -63,6 +63,20 @@ void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockA
     });
 }
 
+/// Give the faces behind walls the velocities that the particles in front of them read.
+void finishAtWalls(const BlockGrid& grid, double friction, bool flip, Workspace& work)
+{
+    LiquidGrid& liquid = work.grid;
+    const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
+        applyWalls(grid, work.obstacleField, work.obstacles, friction, work.extrapolation, valid, velocity, liquid);
+    };
+    if (flip) {
+        liquid.flipValid = liquid.faces.valid;
+        apply(liquid.flipValid, liquid.flipVelocity);
+    }
+    apply(liquid.faces.valid, liquid.faces.velocity);
+}
+
 }  // namespace
 
 StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
@@ -93,7 +107,8 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     state.unrelaxed += dt;
     state.uncorrected += dt;
-    const bool relaxes = isDue(settings.liquid.relax.rate, state.unrelaxed, dt), corrects = isDue(settings.liquid.volume.rate, state.uncorrected, dt);
+    const bool relaxes = work.relaxReach > 0.0 && isDue(settings.liquid.relax.rate, state.unrelaxed, dt);
+    const bool corrects = isDue(settings.liquid.volume.rate, state.uncorrected, dt);
     if (relaxes) {
         clock.start(Stage::Relax);
         relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, state.unrelaxed, work.relax,
@@ -124,13 +139,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
-        if (flip) {
-            work.grid.flipValid = work.grid.faces.valid;
-            applyWalls(grid, work.obstacleField, work.obstacles, settings.liquid.wallFriction, work.extrapolation, work.grid.flipValid,
-                       work.grid.flipVelocity, work.grid);
-        }
-        applyWalls(grid, work.obstacleField, work.obstacles, settings.liquid.wallFriction, work.extrapolation, work.grid.faces.valid,
-                   work.grid.faces.velocity, work.grid);
+        finishAtWalls(grid, settings.liquid.wallFriction, flip, work);
     }
 
     clock.start(Stage::GridToParticles);
@@ -140,7 +149,8 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
     if (!work.obstacles.empty()) {
-        const double farthest = report.maxSpeed * dt + (relaxes ? work.relaxReach : 0.0) + (corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
+        const double farthest =
+            report.maxSpeed * dt + (relaxes ? work.relaxReach : 0.0) + (corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
     }
 
