@@ -98,7 +98,7 @@ template <int kAxis>
 constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
 template <class Set, int kModes, bool kFold>
-[[gnu::flatten]] void gatherPack(const Context& ctx, int node, int s, int n, LaneSums& sums)
+[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, int s, int n, LaneSums& sums)
 {
     LiquidParticles& particles = ctx.particles;
     for (int a = 0; a < kAxes; ++a)
@@ -156,8 +156,6 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
 {
     LaneSums lanes;
     GatherSums sums;
-    Context atSurface = ctx;
-    atSurface.modes = std::min(ctx.modes, kModesAtSurface);
     for (int i = box.low[0]; i <= box.high[0]; ++i)
         for (int j = box.low[1]; j <= box.high[1]; ++j)
             for (int k = box.low[2]; k <= box.high[2]; ++k) {
@@ -166,8 +164,12 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
                 const int node = tileIndex(i - 1, j - 1, k - 1);
                 if constexpr (kModes > kModesAtSurface)
                     if (ctx.settings.manyModes != nullptr && !ctx.settings.manyModes->test(block, cellInBlock(i, j, k))) {
-                        for (int s = start[0]; s < start[1]; s += kLanes)
-                            gatherPack<Set, kModes, false>(atSurface, node, s, std::min(kLanes, start[1] - s), lanes);
+                        for (int s = start[0]; s < start[1]; s += kLanes) {
+                            const int n = std::min(kLanes, start[1] - s);
+                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, node, s, n, lanes);
+                            for (int a = 0; a < kAxes; ++a)
+                                for (int r = kModesAtSurface; r < kModes; ++r) std::fill_n(ctx.particles.mode(a, r) + s, n, 0.0);
+                        }
                         continue;
                     }
                 for (int s = start[0]; s < start[1]; s += kLanes)
