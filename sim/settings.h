@@ -77,6 +77,27 @@ struct LiquidSettings {
     RelaxSettings relax;
 };
 
+enum class FabricSolver { Vertex, Grid, Off };
+enum class MembraneModel { StVk, NeoHookean };
+enum class BendingModel { ShapeOperator, Hinge };
+enum class HingeMeasure { Angle, Sin, Tan };
+enum class TorsionModel { Ellipse, Polar };
+
+/// How fabric is solved for (model-fabric, contact-design); what it is made of stands in FabricMaterial (fabric/piece.h).
+struct FabricSettings {
+    FabricSolver solver = FabricSolver::Vertex;  ///< Off: the fabric stands still
+    MembraneModel membrane = MembraneModel::StVk;
+    BendingModel bending = BendingModel::ShapeOperator;
+    double hingeConstant = 1.0;       ///< c of model-fabric 2.3, bending hinge only; the published code has 3 [-]
+    HingeMeasure hingeMeasure = HingeMeasure::Angle;
+    TorsionModel torsion = TorsionModel::Ellipse;  ///< Ellipse: St-Venant; Polar: G times the polar moment, as published
+    bool twist = true;                ///< yarns resist twisting
+    int newton = 2;                   ///< Newton iterations per step, vertex only
+    double tolerance = 0.0;           ///< vertex: of the linear solve, relative [-]; grid: speed error [cm/s]; 0 = 2e-2, 1e-3
+    bool contact = true;              ///< fabric touches itself and obstacles
+    int maxHalvings = 4;              ///< of a step that could not be taken, vertex only
+};
+
 struct SolverSettings {
     double pressureTolerance = 1.0e-6;  ///< Largest residual relative to the largest right-hand side [-]
     int maxIterations = 200;
@@ -89,6 +110,7 @@ struct Settings {
     TransferSettings transfer;                  ///< of the liquid
     FabricTransferSettings fabricTransfer;
     LiquidSettings liquid;
+    FabricSettings fabric;
     SolverSettings solver;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/fabric.h"
 #include "sim/grid/block_grid.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/step_report.h"
@@ -15,6 +16,7 @@ struct State {
     std::uint32_t nextId = 0;      ///< id of the next particle to be born
     BlockGrid grid;                ///< the blocks of the last step …
     BlockArray<double> pressure;   ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
+    FabricState fabric;
     std::vector<double> emittedVolume;  ///< by each source so far [cm^3]
     double unrelaxed = 0.0;        ///< time since the particles were last relaxed [s]
     double uncorrected = 0.0;      ///< time since the liquid's volume was last corrected [s]

@@ -9,10 +9,27 @@
 namespace sim {
 
 /// The stages of a step, in the order in which they run.
-enum class Stage { Emit, Sort, Obstacles, Relax, ParticlesToGrid, Cells, Pressure, Volume, Walls, GridToParticles, Count };
+enum class Stage {
+    Emit,
+    Sort,
+    Obstacles,
+    Relax,
+    ParticlesToGrid,
+    Cells,
+    Pressure,
+    Volume,
+    Walls,
+    GridToParticles,
+    FabricCandidates,  ///< which parts of the fabric may touch within the step
+    FabricContact,     ///< contact forces, and making moves safe
+    FabricElastic,     ///< elastic forces, their derivatives, factors of the preconditioner
+    FabricSolve,       ///< the linear solves
+    Count
+};
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "relax", "particles_to_grid", "cells", "pressure", "volume", "walls", "grid_to_particles"};
+    "emit", "sort", "obstacles", "relax", "particles_to_grid", "cells", "pressure", "volume", "walls", "grid_to_particles",
+    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve"};
 
 /// What an iterative solve did.
 struct SolveReport {

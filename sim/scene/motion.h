@@ -8,7 +8,7 @@
 
 namespace sim {
 
-/// Keyed motion of an obstacle (later of pins): where it is and how fast at a time. Pieces act one after another, in
+/// Keyed motion of an obstacle or of pins: where it is and how fast at a time. Pieces act one after another, in
 /// the order in which they begin: each moves what the earlier ones have moved. Before its span a piece has not begun,
 /// after it the body stays where the piece has left it. A span that is not longer than 0, an ease that does not fit
 /// into it, an axis that is not a unit vector or a number that is not finite throws InputError.

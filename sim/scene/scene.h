@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/piece.h"
 #include "sim/scene/motion.h"
 #include "sim/settings.h"
 #include "sim/shapes/shape.h"
@@ -41,6 +42,8 @@ struct ObstacleSettings {
     Shape shape;      ///< the solid itself: already inverted where the scene says `inside: true`
     Motion motion;
     bool inside = false;     ///< the scene said `inside: true`
+    bool collide = true;     ///< fabric feels it
+    std::optional<double> frictionAngle;  ///< of fabric on it; without: the fabric's own [rad]
     std::string where;       ///< "drop.yaml:14", for messages
     std::string shapeText;   ///< the shape (before inverting) as a scene says it, in cgs, on one line
     std::string motionText;  ///< the motion likewise; empty if static
@@ -53,6 +56,7 @@ struct Scene {
     std::string file;                 ///< the file it came from, for messages
     Settings settings;
     std::vector<SourceSettings> sources;
+    std::vector<FabricPiece> fabrics;
     std::vector<ObstacleSettings> obstacles;
     std::optional<Shape> domain;      ///< liquid outside of it is deleted
     std::string domainText;           ///< the same as a scene says it, in cgs, on one line

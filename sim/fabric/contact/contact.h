@@ -1,0 +1,62 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+#include "sim/settings.h"
+#include "sim/step_report.h"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Pairs of fabric primitives (edge-edge, vertex-face) close enough to push on each other; sorted, one array per quantity.
+/// With c the weights and x the positions of its four vertices, a pair's separation is Σ c x.
+struct ActiveContacts {
+    std::vector<std::array<int, 4>> vertices;
+    std::vector<std::array<double, 4>> weights;    ///< of both sides, those of the second negative: they sum to zero [-]
+    std::vector<Vec3> normal;                      ///< unit, from the second side to the first
+    std::vector<Vec3> force;                       ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]
+    std::vector<double> stiffness;                 ///< along the normal, k_n [dyn/cm]
+    std::vector<double> frictionStiffness;         ///< across it, k_t: the block of vertices a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
+
+    std::size_t size() const { return vertices.size(); }
+    bool empty() const { return vertices.empty(); }
+};
+
+/// What limiting the moves of one step took.
+struct LimitReport {
+    int listBuilds = 0;      ///< full and partial ones of the candidate list
+    int blends = 0;          ///< pairs whose motion was blended towards their mean
+    int scalings = 0;        ///< moves that had to be scaled as a whole: the last resort
+};
+
+/// Fabric against fabric with true thickness, after contact-design 3.1-3.5: every pair has an offset of its own, taken from the rest
+/// shape where that is nearer than the radii; moves are limited pair by pair, so that no committed move ever crosses.
+/// Costs nothing per step but the check of the candidate list where no pair is near.
+class FabricContact {
+ public:
+    explicit FabricContact(const Fabric& fabric);
+    ~FabricContact();
+
+    /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and h, friction acts against the
+    /// motion since these positions.
+    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h);
+    /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
+    /// unless everything has to be scaled.
+    void limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
+    /// To be called once the fabric has been moved from x by the u of the last limit().
+    void moved();
+    /// Pairs that act at x, with force and stiffness.
+    const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock);
+
+    std::size_t candidates() const;                ///< pairs in the list
+    double leastDistance() const;                  ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]
+
+ private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace sim

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "sim/fabric/piece.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sim {
+
+using Vec2i = Eigen::Vector2i;
+
+/// All fabric of a scene: its topology, rest shape and material. Does not change in a run.
+/// Vertices, strands and faces of all pieces stand one behind the other.
+struct Fabric {
+    /// Yarn edges of strand s are edgeBegin(s) … edgeBegin(s + 1) − 1, in order; each strand has one vertex more than edges.
+    struct Strands {
+        std::vector<int> begin = {0};          ///< of each strand in `vertices`, and the end of the last
+        std::vector<int> vertices;             ///< of all strands, in order
+        std::vector<int> material;             ///< of each strand
+        std::vector<std::array<double, 2>> radius;  ///< half axes a, b of the section of each strand [cm]
+
+        int count() const { return static_cast<int>(begin.size()) - 1; }
+        int size(int s) const { return begin[s + 1] - begin[s]; }                     ///< vertices of a strand
+        int vertex(int s, int j) const { return vertices[begin[s] + j]; }
+        int edgeBegin(int s) const { return begin[s] - s; }
+    };
+    /// One per yarn edge.
+    struct YarnEdges {
+        std::vector<Vec2i> vertices;
+        std::vector<int> strand;
+        std::vector<double> restLength;        ///< [cm]
+        std::vector<double> twistInertia;      ///< J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<char> twistHeld;           ///< its angle follows a pin
+        std::size_t size() const { return vertices.size(); }
+    };
+    struct Faces {
+        std::vector<Vec3i> vertices;
+        std::vector<int> material;
+        std::vector<double> thickness;         ///< [cm]
+        std::size_t size() const { return vertices.size(); }
+    };
+    /// Held vertices (Dirichlet).
+    struct Pins {
+        std::vector<int> vertex;               ///< ascending
+        std::vector<int> motion;               ///< of each, in `motions`
+        std::vector<Motion> motions;
+    };
+
+    std::vector<FabricMaterial> materials;
+    std::vector<Vec3> rest;                    ///< of each vertex: position at the start, free of stress [cm]
+    std::vector<double> mass;                  ///< of each vertex, dry [g]
+    std::vector<double> volume;                ///< of each vertex, envelope with pores [cm^3]
+    std::vector<double> radius;                ///< of each vertex in contact: √(ab) of a yarn, half the thickness of cloth, the larger of both [cm]
+    std::vector<int> vertexMaterial;           ///< of each vertex; where pieces' elements meet, that of the last
+    std::vector<char> pinned;                  ///< of each vertex
+    Strands strands;
+    YarnEdges edges;
+    Faces faces;
+    Pins pins;
+
+    bool empty() const { return rest.empty(); }
+    std::size_t vertexCount() const { return rest.size(); }
+};
+
+/// What evolves of the fabric.
+struct FabricState {
+    std::vector<Vec3> x;                  ///< of each vertex [cm]
+    std::vector<Vec3> v;                  ///< [cm/s]
+    std::vector<double> theta;            ///< of each yarn edge: angle of the material frame against the reference frame [rad]
+    std::vector<double> omega;            ///< its rate [1/s]
+    std::vector<Vec3> tangent;            ///< of each yarn edge, when its reference frame was last transported [-]
+    std::vector<Vec3> reference;          ///< first axis u of the reference frame, across the tangent [-]
+    std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
+};
+
+/// Puts the pieces together. Throws InputError for a strand of one vertex, edges or faces without extent, indices out of range.
+Fabric assembleFabric(std::span<const FabricPiece> pieces);
+
+/// The fabric at rest where it starts, at the pieces' velocities, its frames parallel along each strand, without twist.
+FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces);
+
+}  // namespace sim
