@@ -1,0 +1,97 @@
+#pragma once
+
+#include "sim/fabric/triple.h"
+
+#include <array>
+
+// Discrete elastic rods (Bergou et al. 2008, 2010; model-fabric 1): one edge, and one interior vertex with its two edges, for one rod
+// or for a pack of rods. e is the edge before the vertex, f the edge after it.
+
+namespace sim {
+
+/// P(from → to) v: the least rotation that takes one unit vector to the other. Singular only where `to` = −`from`.
+template <class T>
+Triple<T> transported(const Triple<T>& v, const Triple<T>& from, const Triple<T>& to)
+{
+    const T c = dot(from, to);
+    const T least = constant<T>(1.0e-12);
+    const Triple<T> b = cross(from, to);
+    return c * v + cross(b, v) + (dot(b, v) / largerOf(constant<T>(1.0) + c, least)) * b;
+}
+
+/// The part of v across the unit vector t, at length 1.
+template <class T>
+Triple<T> unitAcross(const Triple<T>& v, const Triple<T>& t)
+{
+    const Triple<T> across = v - dot(v, t) * t;
+    return (constant<T>(1.0) / norm(across)) * across;
+}
+
+/// One edge of a rod in its present place.
+template <class T>
+struct RodEdge {
+    T length;                ///< [cm]
+    Triple<T> tangent;       ///< [-]
+    Triple<T> reference;     ///< first axis of the reference frame [-]
+    Triple<T> m1, m2;        ///< axes of the material frame: along the half axes a and b of the section [-]
+};
+
+/// Derivatives of a quantity by the 11 unknowns of an interior vertex: x before, θ_e, x, θ_f, x after.
+template <class T>
+using RodGradient = std::array<T, 11>;
+
+inline constexpr int kRodUnknowns = 11;
+
+/// How a rod is bent and twisted at an interior vertex.
+template <class T>
+struct RodStrain {
+    std::array<T, 4> curvature;                    ///< κ0 = κb·m2_e, κ1 = −κb·m1_e, and the same with the edge after [-]
+    std::array<RodGradient<T>, 4> curvatureGradient;
+    RodGradient<T> twistGradient;                  ///< of m = reference twist + θ_f − θ_e
+};
+
+/// Source: model-fabric 1.1 and 1.3. The gradients are those of frames that follow by parallel transport from where they are now.
+template <class T>
+RodStrain<T> rodStrain(const RodEdge<T>& e, const RodEdge<T>& f)
+{
+    const T one = constant<T>(1.0), zero = constant<T>(0.0), least = constant<T>(1.0e-12);
+    const T inverse = one / largerOf(one + dot(e.tangent, f.tangent), least);
+    const Triple<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
+    const Triple<T> middle = inverse * (e.tangent + f.tangent);
+    const T perE = one / e.length, perF = one / f.length;
+    const std::array<Triple<T>, 4> axis = {e.m2, e.m1, f.m2, f.m1};
+    constexpr std::array<double, 4> kSign = {1.0, -1.0, 1.0, -1.0};
+
+    RodStrain<T> s;
+    for (int k = 0; k < 4; ++k) {
+        const T sign = constant<T>(kSign[k]);
+        s.curvature[k] = sign * dot(binormal, axis[k]);
+        const Triple<T> d = (sign * constant<T>(2.0) * inverse) * axis[k];
+        const Triple<T> byE = perE * (cross(f.tangent, d) - s.curvature[k] * middle);
+        const Triple<T> byF = perF * (-cross(e.tangent, d) - s.curvature[k] * middle);
+        for (int a = 0; a < 3; ++a) {
+            s.curvatureGradient[k][a] = -byE[a];
+            s.curvatureGradient[k][4 + a] = byE[a] - byF[a];
+            s.curvatureGradient[k][8 + a] = byF[a];
+        }
+        s.curvatureGradient[k][3] = zero;
+        s.curvatureGradient[k][7] = zero;
+    }
+    s.curvatureGradient[0][3] = s.curvature[1];
+    s.curvatureGradient[1][3] = -s.curvature[0];
+    s.curvatureGradient[2][7] = s.curvature[3];
+    s.curvatureGradient[3][7] = -s.curvature[2];
+
+    const T half = constant<T>(0.5);
+    for (int a = 0; a < 3; ++a) {
+        const T before = half * perE * binormal[a], after = half * perF * binormal[a];
+        s.twistGradient[a] = -before;
+        s.twistGradient[4 + a] = before - after;
+        s.twistGradient[8 + a] = after;
+    }
+    s.twistGradient[3] = -one;
+    s.twistGradient[7] = one;
+    return s;
+}
+
+}  // namespace sim

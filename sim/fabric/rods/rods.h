@@ -1,0 +1,70 @@
+#pragma once
+
+#include "sim/core/aligned_array.h"
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/rods/strand_matrix.h"
+#include "sim/fabric/triple.h"
+#include "sim/settings.h"
+
+#include <array>
+#include <vector>
+
+namespace sim {
+
+/// All yarns as discrete elastic rods, side by side in packs. What is constant in a run is built once; the strains at the start of a
+/// step, against which the damping acts, are noted by startStep.
+class Rods {
+ public:
+    Rods() = default;
+    /// The rest shape, also of the frames, is that of `rest` (restState of the fabric).
+    Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& settings);
+
+    const StrandLayout& layout() const { return layout_; }
+    bool empty() const { return layout_.groups.empty(); }
+
+    /// Carries tangents, reference frames and reference twists along to the present positions (model-fabric 1.1).
+    void transportFrames(FabricState& state) const;
+    /// Notes lengths, curvatures and twists. To be called before the first move of a step if anything is damped.
+    void startStep(const FabricState& state);
+    bool isDamped() const { return damped_; }
+
+    /// Gradient of the elastic and viscous energy at the present positions, whose frames are up to date, added to `gradient` (laid out
+    /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian with the tensile part of the stretching's
+    /// geometric stiffness replaces what the matrix held. h: length of the step [s], read by the damping only.
+    void forces(const FabricState& state, double h, Pack* gradient, StrandMatrix* matrix) const;
+    /// Elastic energy [erg]: stretching, bending, twisting.
+    std::array<double, 3> energies(const FabricState& state) const;
+
+    /// Inertia of the twist angles as the layout has them, one pack per packed edge; 1 in unused lanes [g cm^2].
+    const std::vector<Pack>& twistInertia() const { return twistInertia_; }
+
+ private:
+    struct Walk;
+    void forcesOfGroup(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
+    template <class Visit>
+    void walkGroup(int g, const FabricState& state, Visit&& visit) const;
+
+    /// One per group: of each of its strands, with the packing factor.
+    struct Stiffness {
+        Pack stretch;                        ///< χ k_s [dyn]
+        Pack bend00, bend01, bend11;         ///< χ B [dyn cm^2]
+        Pack twist;                          ///< χ k_t [dyn cm^2]
+        Pack stretchDamping, bendDamping, twistDamping;  ///< time by which the rate of strain counts: 3η/E, η/G [s]
+    };
+    /// One per packed vertex that has an edge on either side.
+    struct Bend {
+        Pack perLength;                      ///< 1 / Voronoi length; 0 in unused lanes [1/cm]
+        std::array<Pack, 4> curvature;       ///< at rest [-]
+    };
+
+    StrandLayout layout_;
+    std::vector<Stiffness> stiffness_;
+    std::vector<Pack> perRestLength_;        ///< of each packed edge; 0 in unused lanes [1/cm]
+    std::vector<Pack> twistInertia_;
+    std::vector<Bend> bends_;
+    bool damped_ = false;
+    std::vector<Pack> startStretch_;         ///< l / l̄ of each packed edge
+    std::vector<std::array<Pack, 5>> startBend_;  ///< curvatures and twist of each packed vertex
+};
+
+}  // namespace sim

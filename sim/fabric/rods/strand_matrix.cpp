@@ -1,0 +1,98 @@
+#include "sim/fabric/rods/strand_matrix.h"
+
+#include "sim/core/parallel.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sim {
+
+StrandLayout::StrandLayout(const Fabric::Strands& strands)
+{
+    std::vector<int> byLength(strands.count());
+    std::iota(byLength.begin(), byLength.end(), 0);
+    std::ranges::stable_sort(byLength, std::ranges::greater{}, [&](int s) { return strands.size(s); });
+    for (std::size_t begin = 0; begin < byLength.size(); begin += kLanes) {
+        Group group{strands.size(byLength[begin]), static_cast<int>(vertex.size()), static_cast<int>(edge.size()), rows};
+        Lanes lanes;
+        lanes.fill(-1);
+        for (int l = 0; l < kLanes && begin + l < byLength.size(); ++l) lanes[l] = byLength[begin + l];
+        const auto pack = [&](int count, auto&& of) {
+            Lanes all;
+            for (int l = 0; l < kLanes; ++l) all[l] = lanes[l] >= 0 && count < strands.size(lanes[l]) ? of(lanes[l]) : -1;
+            return all;
+        };
+        for (int j = 0; j < group.vertices; ++j) vertex.push_back(pack(j, [&](int s) { return strands.vertex(s, j); }));
+        for (int j = 0; j < group.edges(); ++j) edge.push_back(pack(j + 1, [&](int s) { return strands.edgeBegin(s) + j; }));
+        groups.push_back(group);
+        strand.push_back(lanes);
+        rows += group.rows();
+    }
+}
+
+void StrandMatrix::resize(const StrandLayout& layout)
+{
+    const std::size_t entries = static_cast<std::size_t>(layout.rows) * kBand * kLanes;
+    band_.resize(entries);
+    lower_.resize(entries);
+    inverse_.resize(static_cast<std::size_t>(layout.rows) * kLanes);
+}
+
+void StrandMatrix::factor(const StrandLayout& layout)
+{
+    parallelFor(layout.groups.size(), [&](std::size_t g) {
+        const StrandLayout::Group& group = layout.groups[g];
+        const Pack* band = packs(band_, group.firstRow * kBand);
+        Pack* lower = packs(lower_, group.firstRow * kBand);
+        Pack* inverse = packs(inverse_, group.firstRow);
+        for (int r = 0; r < group.rows(); ++r) {
+            const Pack* row = band + r * kBand;
+            const int reach = std::min(r, kBand - 1);
+            Pack scaled[kBand];  // L D of this row
+            Pack* own = lower + r * kBand;
+            Pack diagonal = row[0];
+            for (int k = reach; k >= 1; --k) {
+                const Pack* other = lower + (r - k) * kBand;
+                Pack v = row[k];
+                for (int m = reach; m > k; --m) v -= scaled[m] * other[m - k];
+                scaled[k] = v;
+            }
+            for (int k = 1; k <= reach; ++k) {
+                own[k] = scaled[k] * inverse[r - k];
+                diagonal -= own[k] * scaled[k];
+            }
+            inverse[r] = broadcast(1.0) / diagonal;
+        }
+    });
+}
+
+void StrandMatrix::solve(const StrandLayout::Group& group, const Pack* b, Pack* z) const
+{
+    const Pack* lower = packs(lower_, group.firstRow * kBand);
+    const Pack* inverse = packs(inverse_, group.firstRow);
+    const int n = group.rows();
+    for (int r = 0; r < n; ++r) {
+        Pack v = b[r];
+        for (int k = std::min(r, kBand - 1); k >= 1; --k) v -= lower[r * kBand + k] * z[r - k];
+        z[r] = v;
+    }
+    for (int r = 0; r < n; ++r) z[r] *= inverse[r];
+    for (int r = n - 1; r >= 0; --r) {
+        const Pack v = z[r];
+        for (int k = 1; k <= std::min(r, kBand - 1); ++k) z[r - k] -= lower[r * kBand + k] * v;
+    }
+}
+
+void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pack* y) const
+{
+    const Pack* band = packs(band_, group.firstRow * kBand);
+    const int n = group.rows();
+    for (int r = 0; r < n; ++r) y[r] = band[r * kBand] * x[r];
+    for (int r = 0; r < n; ++r)
+        for (int k = 1; k <= std::min(r, kBand - 1); ++k) {
+            y[r] += band[r * kBand + k] * x[r - k];
+            y[r - k] += band[r * kBand + k] * x[r];
+        }
+}
+
+}  // namespace sim

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "sim/core/aligned_array.h"
+#include "sim/core/simd.h"
+#include "sim/fabric/fabric.h"
+
+#include <array>
+#include <vector>
+
+namespace sim {
+
+/// Where strands stand in packs. Strands of similar length form groups of kLanes; the unknowns of a strand of n vertices are
+/// x0 y0 z0 θ0 x1 … z(n−1), 4n − 1 rows of one lane. Unused lanes have vertex and edge −1.
+struct StrandLayout {
+    using Lanes = std::array<int, kLanes>;
+    struct Group {
+        int vertices = 0;        ///< of its longest strand
+        int firstVertex = 0;     ///< in `vertex`
+        int firstEdge = 0;       ///< in `edge`
+        int firstRow = 0;        ///< of all groups' rows
+        int edges() const { return vertices - 1; }
+        int rows() const { return 4 * vertices - 1; }
+    };
+    std::vector<Group> groups;
+    std::vector<Lanes> strand;   ///< of each group
+    std::vector<Lanes> vertex;   ///< of each packed vertex: the fabric's vertex
+    std::vector<Lanes> edge;     ///< of each packed edge: the fabric's yarn edge
+    int rows = 0;                ///< of all groups
+
+    StrandLayout() = default;
+    explicit StrandLayout(const Fabric::Strands& strands);
+};
+
+/// Symmetric band matrices of all strands, 10 off-diagonals, and their factors L D Lᵀ. Positive definite as soon as masses are on the
+/// diagonal; no pivoting.
+class StrandMatrix {
+ public:
+    static constexpr int kBand = 11;   ///< entries stored per row: column r − k at k
+
+    void resize(const StrandLayout& layout);
+    void clear() { band_.fill(0.0); }
+    /// Entry (row, row − k) of one lane; `row` counts through all groups.
+    double& at(int row, int k, int lane) { return band_[(static_cast<std::size_t>(row) * kBand + k) * kLanes + lane]; }
+    double at(int row, int k, int lane) const { return band_[(static_cast<std::size_t>(row) * kBand + k) * kLanes + lane]; }
+    /// The rows of a group, kBand packs each.
+    Pack* rows(int firstRow) { return packs(band_, firstRow * kBand); }
+
+    void factor(const StrandLayout& layout);
+    /// z = (L D Lᵀ)⁻¹ b for one group, of which b and z are the rows.
+    void solve(const StrandLayout::Group& group, const Pack* b, Pack* z) const;
+    /// y = A x for one group, of which x and y are the rows.
+    void multiply(const StrandLayout::Group& group, const Pack* x, Pack* y) const;
+
+ private:
+    static Pack* packs(AlignedArray<double>& a, std::size_t n) { return reinterpret_cast<Pack*>(a.data()) + n; }
+    static const Pack* packs(const AlignedArray<double>& a, std::size_t n) { return reinterpret_cast<const Pack*>(a.data()) + n; }
+
+    AlignedArray<double> band_;
+    AlignedArray<double> lower_;       ///< L, laid out like the band, without its unit diagonal
+    AlignedArray<double> inverse_;     ///< D⁻¹
+};
+
+}  // namespace sim

@@ -1,0 +1,114 @@
+#include "sim/fabric/shells/shell_rest.h"
+
+#include "sim/core/check.h"
+#include "sim/fabric/shells/shells.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace sim {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double dihedralAngle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3)
+{
+    const Dihedral<double> d = dihedral(toTriple(x0), toTriple(x1), toTriple(x2), toTriple(x3));
+    return angleOf(d.sine, d.cosine);
+}
+
+double areaOf(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
+
+/// Q of the triangle-averaged shape operator (model-fabric 2.4, 13.3), without χ.
+std::array<double, 6> shapeOperator(const std::array<Vec2, 3>& corner, double area, double plate, double poisson)
+{
+    std::array<Eigen::Matrix2d, 3> q;
+    for (int k = 0; k < 3; ++k) {
+        const Vec2 along = corner[(k + 2) % 3] - corner[(k + 1) % 3], out(along.y(), -along.x());
+        q[k] = out * out.transpose() / (2.0 * area * along.norm());
+    }
+    const auto entry = [&](int i, int j) {
+        return area * plate * ((1.0 - poisson) * q[i].cwiseProduct(q[j]).sum() + poisson * q[i].trace() * q[j].trace());
+    };
+    return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
+}
+
+}  // namespace
+
+ShellRest<double> shellRest(const Fabric& fabric, int face, const std::array<int, 3>& across, const FabricSettings& settings)
+{
+    const FabricMaterial& material = fabric.materials[fabric.faces.material[face]];
+    const Vec3i& corners = fabric.faces.vertices[face];
+    const double thickness = fabric.faces.thickness[face], nu = material.poisson;
+    std::array<Vec3, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = fabric.rest[corners[k]];
+
+    // The triangle laid into the plane: corner 0 at the origin, corner 1 on the first axis.
+    const Vec3 first = (x[1] - x[0]).normalized();
+    const double along = first.dot(x[2] - x[0]);
+    const std::array<Vec2, 3> flat = {Vec2(0.0, 0.0), Vec2((x[1] - x[0]).norm(), 0.0), Vec2(along, (x[2] - x[0] - along * first).norm())};
+    const double area = 0.5 * flat[1].x() * flat[2].y();
+
+    ShellRest<double> rest{};
+    for (int k = 0; k < 3; ++k) {
+        const Vec2 &p = flat[(k + 1) % 3], &q = flat[(k + 2) % 3];
+        rest.ru[k] = (p.y() - q.y()) / (2.0 * area);
+        rest.rw[k] = (q.x() - p.x()) / (2.0 * area);
+    }
+    rest.area = material.packing() * area;
+    rest.young = material.young * thickness;
+    rest.poisson = nu;
+    const double plate = material.packing() * material.young * thickness * thickness * thickness / (12.0 * (1.0 - nu * nu));
+    for (int k = 0; k < 3; ++k) {
+        if (across[k] < 0) continue;
+        const Vec3 &x1 = x[(k + 1) % 3], &x2 = x[(k + 2) % 3], &x3 = fabric.rest[across[k]];
+        rest.hasNeighbor[k] = 1.0;
+        rest.angle[k] = dihedralAngle(x[k], x1, x2, x3);
+        if (settings.bending == BendingModel::Hinge) {
+            // k (Φ − Φ̄)² of the edge, half of it from either side (model-fabric 2.3).
+            rest.bending[k] = 0.5 * plate * settings.hingeConstant * (x2 - x1).squaredNorm() / (area + areaOf(x1, x2, x3));
+        }
+    }
+    if (settings.bending == BendingModel::ShapeOperator) rest.bending = shapeOperator(flat, area, plate, nu);
+    return rest;
+}
+
+void setLane(ShellRest<Pack>& rest, int lane, const ShellRest<double>& one)
+{
+    for (int k = 0; k < 3; ++k) {
+        rest.ru[k][lane] = one.ru[k];
+        rest.rw[k][lane] = one.rw[k];
+        rest.hasNeighbor[k][lane] = one.hasNeighbor[k];
+        rest.angle[k][lane] = one.angle[k];
+    }
+    rest.area[lane] = one.area;
+    rest.young[lane] = one.young;
+    rest.poisson[lane] = one.poisson;
+    for (int k = 0; k < 6; ++k) rest.bending[k][lane] = one.bending[k];
+}
+
+std::vector<std::array<int, 3>> verticesAcross(std::span<const Vec3i> faces)
+{
+    struct Side {
+        int face, corner;
+    };
+    std::map<std::pair<int, int>, Side> sides;  // by the directed edge
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const std::pair edge(faces[f][(k + 1) % 3], faces[f][(k + 2) % 3]);
+            if (!sides.emplace(edge, Side{f, k}).second)
+                throw InputError(fmt::format("cloth: the edge between vertices {} and {} has two faces of one orientation, or more than "
+                                             "two; orient all faces alike",
+                                             edge.first, edge.second));
+        }
+    std::vector<std::array<int, 3>> across(faces.size(), {-1, -1, -1});
+    for (const auto& [edge, side] : sides) {
+        const auto other = sides.find({edge.second, edge.first});
+        if (other != sides.end()) across[side.face][side.corner] = faces[other->second.face][other->second.corner];
+    }
+    return across;
+}
+
+}  // namespace sim

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "sim/fabric/block_matrix.h"
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/shells/shell_kernel.h"
+#include "sim/settings.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// All cloth as thin shells (model-fabric 2): triangles in packs, in colours of which no two triangles touch the same vertex, so that
+/// each may add to all its vertices at once.
+class Shells {
+ public:
+    Shells() = default;
+    Shells(const Fabric& fabric, const FabricSettings& settings);
+
+    bool empty() const { return vertices_.empty(); }
+    /// Vertices of cloth, ascending; their number in this list is their row in matrices.
+    const std::vector<int>& vertices() const { return vertices_; }
+    /// A matrix with the pattern of the Hessian, all zero.
+    BlockMatrix matrix() const { return BlockMatrix(pattern_); }
+
+    /// Notes strains and angles. To be called before the first move of a step if anything is damped.
+    void startStep(std::span<const Vec3> x);
+    bool isDamped() const { return damped_; }
+
+    /// Gradient of the elastic and viscous energy added to `gradient`, where vertex v has its x at slot[v], y and z kLanes further each
+    /// [dyn]; if a matrix is given, its Gauss-Newton Hessian with the tensile part of the membrane's geometric stiffness is added to it.
+    /// h: length of the step [s], read by the damping only.
+    void forces(std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const;
+    /// Elastic energy [erg]: membrane, bending.
+    std::array<double, 2> energies(std::span<const Vec3> x) const;
+
+    /// Hessian blocks of a triangle's six vertices as a pack has them: upper half, row by row.
+    static constexpr int kBlocks = kShellVertices * (kShellVertices + 1) / 2;
+
+ private:
+    using Lanes = std::array<int, kLanes>;
+    /// kLanes triangles of one colour.
+    struct Batch {
+        std::array<Lanes, kShellVertices> vertex;   ///< −1 where there is none
+        ShellRest<Pack> rest{};
+        Pack damping{};                             ///< 3η/E if the membrane is damped [s] …
+        Pack bendDamping{};                         ///< … and bending
+        std::array<Lanes, kBlocks> entry, mirrored; ///< where a block goes in the matrix, and its transpose; −1 for no block
+        std::array<Pack, 3> startGreen{}, startAngle{}; ///< at the start of the step
+    };
+    void fill(const Fabric& fabric, const FabricSettings& settings, std::span<const int> faces, const BlockMatrix& pattern,
+              Batch& batch) const;
+    void addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const;
+    MembraneStress<Pack> stressOf(const Batch& batch, const MembraneStrain<Pack>& strain) const;
+    /// Φ(θ) − Φ(θ̄), Φ' and the factor of the Gauss-Newton matrix by the chosen measure, for each edge.
+    struct BendMeasure {
+        std::array<Pack, 3> change, slope, curvature;
+    };
+    BendMeasure measured(const Batch& batch, const ShellBend<Pack>& bend) const;
+
+    FabricSettings settings_;
+    std::vector<int> vertices_, row_;               ///< row of each vertex of the fabric; −1 for those without cloth
+    std::vector<std::array<int, 3>> across_;        ///< of each face: vertices across its edges; −1 on the boundary
+    std::vector<std::vector<int>> pattern_;
+    std::vector<Batch> batches_;
+    std::vector<int> colorBegin_;                   ///< in `batches_`
+    bool damped_ = false;
+};
+
+/// Vertices across the edges of each face, −1 on the boundary. Throws InputError where more than two faces meet at an edge, or two with
+/// opposite orientation.
+std::vector<std::array<int, 3>> verticesAcross(std::span<const Vec3i> faces);
+
+}  // namespace sim
