@@ -32,17 +32,21 @@ struct FabricMaterial {
 
 /// Vertices that are held: they follow `motion` from where the scene puts them.
 struct PinGroup {
-    std::string name;
+    std::string name;            ///< by which motions call it; may be empty
     std::vector<int> vertices;   ///< of the piece, ascending
     bool twist = false;          ///< the twist of yarn edges that begin or end at these vertices is held too
     Motion motion;
+    std::string text;            ///< which vertices, as a scene says it, in cgs: "corners: all, patch: 2"
     std::string motionText;      ///< the motion as a scene says it, in cgs, on one line; empty if they stand still
+    std::string where;           ///< "flag.yaml:14", for messages
 };
 
 /// One piece of fabric as a scene describes it: at rest and free of stress where it starts. A vertex may lie on several strands,
 /// and on strands and faces.
 struct FabricPiece {
     std::string name;
+    std::string group;                      ///< another name for motions, which several pieces may share; may be empty
+    std::string materialName;
     FabricMaterial material;
     std::array<double, 2> radius{};         ///< half axes of a yarn's section, along m1 and m2; cloth is as thick as their sum [cm]
     std::vector<Vec3> points;               ///< [cm]
@@ -50,6 +54,8 @@ struct FabricPiece {
     std::vector<Vec3i> faces;               ///< consistently oriented
     Vec3 velocity = Vec3::Zero();           ///< [cm/s]
     std::vector<PinGroup> pins;
+    std::string where;                      ///< "flag.yaml:14", for messages
+    std::string text;                       ///< its shape as a scene says it, in cgs: "cloth_grid: {…}, transform: {…}"
 };
 
 }  // namespace sim
