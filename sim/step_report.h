@@ -38,6 +38,21 @@ struct SolveReport {
     bool converged = true;
 };
 
+/// What solving for the fabric took in one step.
+struct FabricReport {
+    int newton = 0;              ///< iterations, of all parts of the step
+    int iterations = 0;          ///< of the linear solves
+    double speedError = 0.0;     ///< rms, left by the linear solves, the largest [cm/s]
+    double takenFraction = 1.0;  ///< of the moves that Newton asked for, mass-weighted, the smallest that was accepted [-]
+    int halvings = 0;            ///< parts that were cut in two
+    int shortened = 0;           ///< parts accepted although less than the whole move could be taken
+    int listBuilds = 0;          ///< of the list of candidates, full and partial
+    int scalings = 0;            ///< moves that had to be scaled as a whole
+    std::size_t candidates = 0;  ///< pairs that may touch, at the end
+    std::size_t contacts = 0;    ///< pairs that do, at the last look
+    std::size_t obstacleContacts = 0;  ///< vertices that touch obstacles, at the last look
+};
+
 /// Liquid that has entered and left so far; the particles hold the rest.
 struct Ledger {
     double emittedMass = 0.0;                   ///< [g]
@@ -62,6 +77,7 @@ struct StepReport {
     double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
     SolveReport pressure;
     SolveReport volume;                          ///< of the correction of the volume, if it ran
+    FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     Energies energies;                           ///< at the end of the step
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]

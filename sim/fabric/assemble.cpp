@@ -187,12 +187,11 @@ Fabric assembleFabric(std::span<const FabricPiece> pieces)
     return fabric;
 }
 
-FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces)
+FabricState restState(const Fabric& fabric)
 {
     FabricState state;
     state.x = fabric.rest;
-    for (const FabricPiece& piece : pieces) state.v.insert(state.v.end(), piece.points.size(), piece.velocity);
-    for (const int vertex : fabric.pins.vertex) state.v[vertex].setZero();
+    state.v.assign(fabric.vertexCount(), Vec3::Zero());
     const std::size_t edges = fabric.edges.size();
     state.theta.assign(edges, 0.0);
     state.omega.assign(edges, 0.0);
@@ -206,6 +205,15 @@ FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> piec
         state.reference[e] = isFirst ? anyAcross(state.tangent[e])
                                      : transported(state.reference[e - 1], state.tangent[e - 1], state.tangent[e]);
     }
+    return state;
+}
+
+FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces)
+{
+    FabricState state = restState(fabric);
+    auto v = state.v.begin();
+    for (const FabricPiece& piece : pieces) v = std::fill_n(v, piece.points.size(), piece.velocity);
+    for (const int vertex : fabric.pins.vertex) state.v[vertex].setZero();
     return state;
 }
 

@@ -79,7 +79,10 @@ struct FabricState {
 /// Puts the pieces together. Throws InputError for a strand of one vertex, edges or faces without extent, indices out of range.
 Fabric assembleFabric(std::span<const FabricPiece> pieces);
 
-/// The fabric at rest where it starts, at the pieces' velocities, its frames parallel along each strand, without twist.
+/// The fabric at rest where it starts, standing still, its frames parallel along each strand, without twist.
+FabricState restState(const Fabric& fabric);
+
+/// The same at the pieces' velocities; what is pinned stands still.
 FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces);
 
 }  // namespace sim

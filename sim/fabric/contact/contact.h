@@ -12,9 +12,11 @@
 namespace sim {
 
 /// Pairs of fabric primitives (edge-edge, vertex-face) close enough to push on each other; sorted, one array per quantity.
-/// With c the weights and x the positions of its four vertices, a pair's separation is Σ c x.
+/// With c the weights and x the positions of its four vertices, a pair's separation is Σ c x. Its first side are the first two
+/// vertices, or the first alone where a vertex meets a face.
 struct ActiveContacts {
     std::vector<std::array<int, 4>> vertices;
+    std::vector<std::uint8_t> firstSide;           ///< vertices of the first side: 2 or 1
     std::vector<std::array<double, 4>> weights;    ///< of both sides, those of the second negative: they sum to zero [-]
     std::vector<Vec3> normal;                      ///< unit, from the second side to the first
     std::vector<Vec3> force;                       ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]

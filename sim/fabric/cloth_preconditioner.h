@@ -1,0 +1,35 @@
+#pragma once
+
+#include "sim/core/aligned_array.h"
+#include "sim/core/types.h"
+#include "sim/fabric/block_matrix.h"
+
+#include <vector>
+
+namespace sim {
+
+/// Incomplete block Cholesky factors without fill, of each of a fixed number of ranges of rows by itself, so that they can be worked on
+/// side by side: the result does not depend on the number of threads.
+class ClothPreconditioner {
+ public:
+    ClothPreconditioner() = default;
+    /// `isSkipped` rows are left out.
+    ClothPreconditioner(const BlockMatrix& pattern, const std::vector<char>& isSkipped);
+
+    /// Factors `matrix` with `extra` (one symmetric block per row) added to its diagonal. A row whose pivot is not positive definite is
+    /// scaled by its own diagonal block alone.
+    void factor(const BlockMatrix& matrix, const std::vector<Mat3>& extra);
+    int parts() const { return static_cast<int>(partBegin_.size()) - 1; }
+    int partBegin(int part) const { return partBegin_[part]; }
+    /// z = (L D Lᵀ)⁻¹ r for the rows of a part; one 3-vector per row.
+    void solve(int part, const double* r, double* z) const;
+
+ private:
+    std::vector<int> partBegin_;
+    std::vector<char> skipped_;
+    std::vector<int> begin_, column_, source_;   ///< strictly lower blocks by row: column, and where the block stands in the matrix
+    AlignedArray<double> lower_;                 ///< L, 9 per block
+    AlignedArray<double> inverse_;               ///< D⁻¹, 9 per row
+};
+
+}  // namespace sim

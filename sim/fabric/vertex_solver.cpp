@@ -1,0 +1,181 @@
+#include "sim/fabric/vertex_solver.h"
+
+#include "sim/core/parallel.h"
+
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr double kTolerance = 2.0e-2;         ///< of the linear solves, relative (contact-design 3.3) [-]
+constexpr double kSpeedTolerance = 1.0e-2;    ///< rms error of the speed at which a linear solve is good enough [cm/s]
+constexpr double kQuietMove = 3.0;            ///< largest move per time after which no further Newton iteration is made [cm/s]
+constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
+constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
+constexpr int kMaxListBuilds = 6;             ///< per attempt; more ask for halves
+constexpr int kMaxLinearIterations = 300;
+
+}  // namespace
+
+VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles)
+    : fabric_(fabric), settings_(settings), system_(fabric, settings), restReference_(restState(fabric).reference)
+{
+    if (settings.contact) {
+        contact_.emplace(fabric);
+        obstacles_ = FabricObstacles(fabric, obstacles);
+    }
+    free_.resize(fabric.vertexCount());
+    move_.resize(fabric.vertexCount());
+    freeAngle_.resize(fabric.edges.size());
+}
+
+FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
+{
+    FabricReport report;
+    advance(t, h, 0, gravity, state, report, clock);
+    report.candidates = contact_ ? contact_->candidates() : 0;
+    return report;
+}
+
+void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+{
+    if (attempt(t, h, gravity, level >= settings_.maxHalvings, state, report, clock)) return;
+    ++report.halvings;
+    state = start_;
+    advance(t, 0.5 * h, level + 1, gravity, state, report, clock);
+    advance(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
+}
+
+/// Where vertices and angles go without forces: pins to where their motion has them.
+void VertexSolver::predict(double t, double h, const Vec3& gravity, const FabricState& state)
+{
+    const Vec3 fall = h * h * gravity;
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        move_[v] = h * state.v[v] + fall;
+        free_[v] = state.x[v] + move_[v];
+    });
+    std::vector<Eigen::Isometry3d> pose;
+    for (const Motion& motion : fabric_.pins.motions) pose.push_back(motion.transform(t + h));
+    for (std::size_t i = 0; i < fabric_.pins.vertex.size(); ++i) {
+        const int v = fabric_.pins.vertex[i];
+        free_[v] = pose[fabric_.pins.motion[i]] * fabric_.rest[v];
+        move_[v] = free_[v] - state.x[v];
+    }
+    for (std::size_t e = 0; e < freeAngle_.size(); ++e) freeAngle_[e] = state.theta[e] + h * state.omega[e];
+}
+
+/// Makes move_ safe.
+void VertexSolver::limit(const FabricState& state, FabricReport& report, StageClock& clock)
+{
+    if (!contact_) return;
+    const LimitReport before = limits_;
+    contact_->limit(state.x, move_, limits_, clock);
+    report.listBuilds += limits_.listBuilds - before.listBuilds;
+    report.scalings += limits_.scalings - before.scalings;
+}
+
+/// Moves the fabric by move_.
+void VertexSolver::commit(FabricState& state, StageClock& clock)
+{
+    clock.start(Stage::FabricElastic);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
+    if (contact_) contact_->moved();
+    system_.rods().transportFrames(state);
+}
+
+/// Material frames of held edges follow their pins' rotation.
+void VertexSolver::turnHeldEdges(double t, FabricState& state) const
+{
+    for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
+        if (!fabric_.edges.twistHeld[e]) continue;
+        for (int v : fabric_.edges.vertices[e]) {
+            const auto pin = std::ranges::lower_bound(fabric_.pins.vertex, v);
+            if (pin == fabric_.pins.vertex.end() || *pin != v) continue;
+            const Motion& motion = fabric_.pins.motions[fabric_.pins.motion[pin - fabric_.pins.vertex.begin()]];
+            const Vec3 target = motion.transform(t).linear() * restReference_[e], &u = state.reference[e], &tangent = state.tangent[e];
+            const double angle = std::atan2(tangent.dot(u.cross(target)), u.dot(target));
+            state.theta[e] += std::remainder(angle - state.theta[e], 2.0 * kPi);
+            break;
+        }
+    }
+}
+
+bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
+{
+    start_ = state;
+    limits_ = {};
+    clock.start(Stage::FabricElastic);
+    system_.rods().startStep(state);
+    system_.shells().startStep(state.x);
+    predict(t, h, gravity, state);
+    obstacles_.moveTo(t, t + h);
+    if (contact_) contact_->beginStep(state.x, fabric_.mass, h);
+
+    limit(state, report, clock);
+    commit(state, clock);
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });
+    turnHeldEdges(t + h, state);
+
+    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
+    const double speedTolerance = kSpeedTolerance * tolerance / kTolerance;
+    double firstEnergy = 0.0, wanted = 0.0, taken = 0.0;
+    for (int k = 0; k < settings_.newton; ++k) {
+        const ActiveContacts* contacts = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
+        std::span<const ObstacleContact> touching;
+        if (!obstacles_.empty()) {
+            clock.start(Stage::FabricContact);
+            touching = obstacles_.at(fabric_, state.x, start_.x, fabric_.mass, h);
+        }
+        clock.start(Stage::FabricElastic);
+        system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);
+        system_.factor();
+        clock.start(Stage::FabricSolve);
+        const LinearReport linear = system_.solve(tolerance, speedTolerance, firstEnergy, kMaxLinearIterations);
+        if (k == 0) firstEnergy = linear.firstEnergy;
+        ++report.newton;
+        report.iterations += linear.iterations;
+        report.speedError = std::max(report.speedError, linear.speedError);
+        report.contacts = contacts ? contacts->size() : 0;
+        report.obstacleContacts = touching.size();
+
+        parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
+        const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
+        limit(state, report, clock);
+        wanted += parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * system_.move(static_cast<int>(v)).squaredNorm(); });
+        taken += parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * system_.move(static_cast<int>(v)).dot(move_[v]); });
+        commit(state, clock);
+        parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
+        turnHeldEdges(t + h, state);
+        if (largest < kQuietMove * h) break;
+    }
+
+    const double fraction = wanted > 0.0 ? taken / wanted : 1.0;
+    const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && lastFraction_ < kFractionTwice) ||
+                         limits_.listBuilds > kMaxListBuilds;
+    lastFraction_ = fraction;
+    if (isShort && !isLast) return false;
+    if (isShort) ++report.shortened;
+    report.takenFraction = std::min(report.takenFraction, fraction);
+
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.v[v] = (state.x[v] - start_.x[v]) / h; });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
+    return true;
+}
+
+FabricEnergies VertexSolver::energies(const FabricState& state, const Vec3& gravity) const
+{
+    FabricEnergies e;
+    e.kinetic = parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return 0.5 * fabric_.mass[v] * state.v[v].squaredNorm(); });
+    e.kinetic += parallelSum(fabric_.edges.size(), [&](std::size_t n) { return 0.5 * fabric_.edges.twistInertia[n] * state.omega[n] * state.omega[n]; });
+    e.potential = -parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * gravity.dot(state.x[v]); });
+    const auto [stretching, bending, twisting] = system_.rods().energies(state);
+    const auto [membrane, shellBending] = system_.shells().energies(state.x);
+    e.stretching = stretching, e.bending = bending, e.twisting = twisting;
+    e.membrane = membrane, e.shellBending = shellBending;
+    return e;
+}
+
+double VertexSolver::leastDistance() const { return contact_ ? contact_->leastDistance() : std::numeric_limits<double>::infinity(); }
+
+}  // namespace sim

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "sim/fabric/contact/contact.h"
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/obstacle_contact.h"
+#include "sim/fabric/vertex_system.h"
+#include "sim/scene/scene.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Energies of the fabric [erg].
+struct FabricEnergies {
+    double kinetic = 0.0, potential = 0.0;
+    double stretching = 0.0, bending = 0.0, twisting = 0.0;   ///< of yarns
+    double membrane = 0.0, shellBending = 0.0;                ///< of cloth
+    double elastic() const { return stretching + bending + twisting + membrane + shellBending; }
+    double total() const { return kinetic + potential + elastic(); }
+};
+
+/// `fabric.solver: vertex`: backward Euler in vertex space with the pairwise-limited Newton step of contact-design 3.3. Nothing ever
+/// crosses: every move that is made was checked pair by pair along its straight path.
+class VertexSolver {
+ public:
+    VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles);
+
+    /// From t to t + h [s]. A step that could not be taken is redone as two halves, and so on.
+    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock);
+    FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
+    /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
+    double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
+    double leastDistance() const;
+
+ private:
+    /// One attempt at a step; false if it should be redone in halves.
+    bool attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
+    void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    void predict(double t, double h, const Vec3& gravity, const FabricState& state);
+    void commit(FabricState& state, StageClock& clock);
+    void limit(const FabricState& state, FabricReport& report, StageClock& clock);
+    void turnHeldEdges(double t, FabricState& state) const;
+
+    const Fabric& fabric_;
+    FabricSettings settings_;
+    VertexSystem system_;
+    std::optional<FabricContact> contact_;
+    FabricObstacles obstacles_;
+    std::vector<Vec3> restReference_;            ///< of each yarn edge
+
+    double lastFraction_ = 1.0;                  ///< of the moves of the attempt before
+    LimitReport limits_;                         ///< of the attempt under way
+    FabricState start_;                          ///< of the attempt under way, to go back to
+    std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
+    std::vector<double> freeAngle_;              ///< of each yarn edge [rad]
+};
+
+}  // namespace sim

@@ -1,0 +1,300 @@
+#include "sim/fabric/vertex_system.h"
+
+#include "sim/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr std::size_t kPacksPerTask = 64;
+
+/// Places of a side of a pair among its four vertices.
+struct Side {
+    int begin, end;
+};
+Side sideOf(int firstSide, int which) { return which == 0 ? Side{0, firstSide} : Side{firstSide, 4}; }
+
+Mat3 contactBlock(const ActiveContacts& contacts, int pair)
+{
+    const Vec3& n = contacts.normal[pair];
+    const double across = contacts.frictionStiffness[pair];
+    return (contacts.stiffness[pair] - across) * n * n.transpose() + across * Mat3::Identity();
+}
+
+}  // namespace
+
+VertexUnknowns::VertexUnknowns(const Fabric& fabric, const StrandLayout& layout, const Shells& shells)
+{
+    slot.assign(fabric.vertexCount(), -1);
+    twistSlot.assign(fabric.edges.size(), -1);
+    std::vector<int> owner(fabric.vertexCount(), -1);
+    for (std::size_t g = 0; g < layout.groups.size(); ++g) {
+        const StrandLayout::Group& group = layout.groups[g];
+        for (int j = 0; j < group.vertices; ++j)
+            for (int l = 0; l < kLanes; ++l) {
+                const int v = layout.vertex[group.firstVertex + j][l], at = (group.firstRow + 4 * j) * kLanes + l;
+                if (v >= 0 && layout.strand[g][l] > owner[v]) {
+                    owner[v] = layout.strand[g][l];
+                    slot[v] = at;
+                }
+                const int e = j < group.edges() ? layout.edge[group.firstEdge + j][l] : -1;
+                if (e >= 0) twistSlot[e] = at + 3 * kLanes;
+            }
+    }
+    strandSize = layout.rows * kLanes;
+    int count = 0;
+    for (int v : shells.vertices())
+        if (slot[v] < 0) {
+            slot[v] = strandSize + (count / kLanes) * 3 * kLanes + count % kLanes;
+            ++count;
+        }
+    size = strandSize + (count + kLanes - 1) / kLanes * 3 * kLanes;
+}
+
+VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
+    : fabric_(fabric), rods_(fabric, restState(fabric), settings), shells_(fabric, settings), unknowns_(fabric, rods_.layout(), shells_),
+      cloth_(shells_.matrix())
+{
+    strands_.resize(rods_.layout());
+    ownsDiagonal_.resize(shells_.vertices().size());
+    for (std::size_t row = 0; row < ownsDiagonal_.size(); ++row) ownsDiagonal_[row] = unknowns_.isOnStrand(shells_.vertices()[row]);
+    if (!shells_.empty()) clothFactor_ = ClothPreconditioner(cloth_, ownsDiagonal_);
+    for (AlignedArray<double>* v : {&gradient_, &solution_, &residual_, &z_, &p_, &sp_, &q_}) v->resize(unknowns_.size);
+    findLinks();
+    clothExtra_.resize(shells_.vertices().size());
+    clothIn_.resize(3 * shells_.vertices().size());
+    clothOut_.resize(3 * shells_.vertices().size());
+    clothRow_.assign(fabric.vertexCount(), -1);
+    for (std::size_t row = 0; row < shells_.vertices().size(); ++row) clothRow_[shells_.vertices()[row]] = static_cast<int>(row);
+}
+
+/// Vertices of strands that another strand owns.
+void VertexSystem::findLinks()
+{
+    const StrandLayout& layout = rods_.layout();
+    for (const StrandLayout::Group& group : layout.groups)
+        for (int j = 0; j < group.vertices; ++j)
+            for (int l = 0; l < kLanes; ++l) {
+                const int v = layout.vertex[group.firstVertex + j][l], row = group.firstRow + 4 * j;
+                if (v < 0 || unknowns_.slot[v] == row * kLanes + l) continue;
+                Link link{v, row, l, {}, {}};
+                // The 8 unknowns before and the 8 after: two vertices and two angles on either side.
+                for (int n = 0; n < 16; ++n) {
+                    const int local = 4 * j + (n < 8 ? n - 8 : n - 5), other = local / 4;
+                    link.slot[n] = -1;
+                    if (local < 0 || local >= group.rows()) continue;
+                    const int w = layout.vertex[group.firstVertex + other][l];
+                    const bool isAngle = local % 4 == 3;
+                    const int e = isAngle && other < group.edges() ? layout.edge[group.firstEdge + other][l] : -1;
+                    if (isAngle) link.slot[n] = e >= 0 ? unknowns_.twistSlot[e] : -1;
+                    else if (w >= 0) link.slot[n] = unknowns_.slot[w] + (local % 4) * kLanes;
+                }
+                links_.push_back(link);
+            }
+}
+
+void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
+{
+    contacts_ = contacts;
+    gradient_.fill(0.0);
+    if (!rods_.empty()) rods_.forces(at.state, at.h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
+    if (!shells_.empty()) {
+        cloth_.clear();
+        for (Mat3& m : clothExtra_) m.setZero();
+    }
+    addInertia(at);
+    if (!shells_.empty()) {
+        shells_.forces(at.state.x, at.h, unknowns_.slot, gradient_.data(), &cloth_);
+        for (std::size_t row = 0; row < ownsDiagonal_.size(); ++row)
+            if (ownsDiagonal_[row]) {
+                const double* block = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
+                addToDiagonal(shells_.vertices()[row], Eigen::Map<const Mat3>(block));
+            }
+    }
+    addObstacles(obstacles);
+    if (contacts_ && !contacts_->empty()) addContacts();
+    holdPins();
+}
+
+/// M/h² (x − free) and its diagonal; rows of shared vertices go to their owners first, unused rows become 1.
+void VertexSystem::addInertia(const NewtonPoint& at)
+{
+    const double perStep2 = 1.0 / (at.h * at.h);
+    emptySharedRows();
+    const StrandLayout& layout = rods_.layout();
+    parallelFor(layout.groups.size(), [&](std::size_t g) {
+        const StrandLayout::Group& group = layout.groups[g];
+        for (int j = 0; j < group.vertices; ++j)
+            for (int l = 0; l < kLanes; ++l) {
+                const int v = layout.vertex[group.firstVertex + j][l], row = group.firstRow + 4 * j, slot = row * kLanes + l;
+                const bool isOwner = v >= 0 && unknowns_.slot[v] == slot;
+                for (int a = 0; a < 3; ++a) {
+                    strands_.at(row + a, 0, l) += isOwner ? at.mass[v] * perStep2 : 1.0;
+                    if (isOwner) gradient_[slot + a * kLanes] += at.mass[v] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
+                }
+                if (j == group.edges()) continue;
+                const int e = layout.edge[group.firstEdge + j][l];
+                const double inertia = rods_.twistInertia()[group.firstEdge + j][l] * perStep2;
+                strands_.at(row + 3, 0, l) += inertia;
+                if (e >= 0) gradient_[slot + 3 * kLanes] += inertia * (at.state.theta[e] - at.freeAngles[e]);
+            }
+    });
+    parallelFor(shells_.vertices().size(), 256, [&](std::size_t row) {
+        if (ownsDiagonal_[row]) return;
+        const int v = shells_.vertices()[row], slot = unknowns_.slot[v];
+        double* block = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
+        for (int a = 0; a < 3; ++a) {
+            block[4 * a] += at.mass[v] * perStep2;
+            gradient_[slot + a * kLanes] += at.mass[v] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
+        }
+    });
+    totalMass_ = parallelSum(at.mass.size(), [&](std::size_t v) { return fabric_.pinned[v] ? 0.0 : at.mass[v]; });
+}
+
+void VertexSystem::emptySharedRows()
+{
+    for (Link& link : links_) {
+        const int owner = unknowns_.slot[link.vertex];
+        for (int a = 0; a < 3; ++a) {
+            double& from = gradient_[(link.strandRow + a) * kLanes + link.lane];
+            gradient_[owner + a * kLanes] += from;
+            from = 0.0;
+            for (int b = 0; b <= a; ++b) {
+                double& entry = strands_.at(link.strandRow + a, a - b, link.lane);
+                strands_.at(owner / kLanes + a, a - b, owner % kLanes) += entry;
+                entry = 0.0;
+            }
+            for (int n = 0; n < 16; ++n) {
+                const int own = link.strandRow + a, other = link.strandRow + (n < 8 ? n - 8 : n - 5);
+                link.coupling[a][n] = 0.0;
+                if (link.slot[n] < 0) continue;
+                const int distance = std::abs(own - other);
+                if (distance >= StrandMatrix::kBand) continue;
+                double& entry = strands_.at(std::max(own, other), distance, link.lane);
+                std::swap(link.coupling[a][n], entry);
+            }
+        }
+    }
+}
+
+void VertexSystem::addToDiagonal(int vertex, const Mat3& block)
+{
+    if (!unknowns_.isOnStrand(vertex)) {
+        clothExtra_[clothRow_[vertex]] += block;
+        return;
+    }
+    const int row = unknowns_.row(vertex), lane = unknowns_.lane(vertex);
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b <= a; ++b) strands_.at(row + a, a - b, lane) += block(a, b);
+}
+
+void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
+{
+    for (const ObstacleContact& contact : obstacles) {
+        const int slot = unknowns_.slot[contact.vertex];
+        for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += contact.gradient[a];
+        if (unknowns_.isOnStrand(contact.vertex)) {
+            addToDiagonal(contact.vertex, contact.stiffness);
+            continue;
+        }
+        double* block = cloth_.block(cloth_.diagonal(clothRow_[contact.vertex]));
+        for (int e = 0; e < 9; ++e) block[e] += contact.stiffness(e / 3, e % 3);
+    }
+}
+
+/// Each vertex's pairs, in the pairs' order.
+void VertexSystem::sortIncidence()
+{
+    const int pairs = static_cast<int>(contacts_->size());
+    incidenceBegin_.assign(fabric_.vertexCount() + 1, 0);
+    for (int p = 0; p < pairs; ++p)
+        for (int v : contacts_->vertices[p]) ++incidenceBegin_[v + 1];
+    for (std::size_t v = 0; v < fabric_.vertexCount(); ++v) incidenceBegin_[v + 1] += incidenceBegin_[v];
+    incidence_.resize(std::size_t{4} * pairs);
+    cursor_.assign(incidenceBegin_.begin(), incidenceBegin_.end() - 1);
+    for (int p = 0; p < pairs; ++p)
+        for (int k = 0; k < 4; ++k) incidence_[cursor_[contacts_->vertices[p][k]]++] = 4 * p + k;
+}
+
+/// Gradient, and what S or the preconditioner of the cloth takes of the matrix.
+void VertexSystem::addContacts()
+{
+    const ActiveContacts& c = *contacts_;
+    sortIncidence();
+    sideInStrands_.resize(c.size());
+    pairForce_.resize(c.size());
+    constexpr int kNextVertex = 4 * kLanes;  // how far the next vertex of a strand is in a vector
+    parallelFor(c.size(), 1024, [&](std::size_t p) {
+        for (int which = 0; which < 2; ++which) {
+            const Side side = sideOf(c.firstSide[p], which);
+            const int first = c.vertices[p][side.begin], last = c.vertices[p][side.end - 1];
+            const int apart = std::abs(unknowns_.slot[first] - unknowns_.slot[last]);
+            sideInStrands_[p][which] = unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) &&
+                                       (side.end - side.begin == 1 || (side.end - side.begin == 2 && apart == kNextVertex));
+        }
+    });
+    parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
+        if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;
+        const int slot = unknowns_.slot[v];
+        Vec3 gradient = Vec3::Zero();
+        Mat3 own = Mat3::Zero(), before = Mat3::Zero();
+        for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i) {
+            const int p = incidence_[i] / 4, k = incidence_[i] % 4, which = k < c.firstSide[p] ? 0 : 1;
+            const double weight = c.weights[p][k];
+            gradient += weight * c.force[p];
+            const bool inStrands = sideInStrands_[p][which];
+            if (unknowns_.isOnStrand(static_cast<int>(v)) && !inStrands) continue;
+            const Mat3 block = contactBlock(c, p);
+            own += weight * weight * block;
+            if (!inStrands) continue;
+            const Side side = sideOf(c.firstSide[p], which);
+            for (int other = side.begin; other < side.end; ++other)
+                if (unknowns_.slot[c.vertices[p][other]] == slot - kNextVertex) before += weight * c.weights[p][other] * block;
+        }
+        for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += gradient[a];
+        addToDiagonal(static_cast<int>(v), own);
+        if (before.isZero(0.0)) return;
+        const int row = unknowns_.row(static_cast<int>(v)), lane = unknowns_.lane(static_cast<int>(v));
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) strands_.at(row + a, 4 + a - b, lane) += before(a, b);
+    });
+}
+
+/// Rows and columns of what is held become those of the identity; the gradient there 0.
+void VertexSystem::holdPins()
+{
+    const StrandLayout& layout = rods_.layout();
+    heldSlots_.clear();
+    for (int v : fabric_.pins.vertex)
+        for (int a = 0; a < 3; ++a) heldSlots_.push_back(unknowns_.slot[v] + a * kLanes);
+    for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
+        if (fabric_.edges.twistHeld[e]) heldSlots_.push_back(unknowns_.twistSlot[e]);
+    for (int slot : heldSlots_) {
+        gradient_[slot] = 0.0;
+        if (slot >= unknowns_.strandSize) continue;
+        const int row = slot / kLanes, lane = slot % kLanes;
+        const auto group = std::ranges::upper_bound(layout.groups, row, {}, &StrandLayout::Group::firstRow) - 1;
+        for (int k = 1; k < StrandMatrix::kBand; ++k) {
+            if (row - k >= group->firstRow) strands_.at(row, k, lane) = 0.0;
+            if (row + k < group->firstRow + group->rows()) strands_.at(row + k, k, lane) = 0.0;
+        }
+        strands_.at(row, 0, lane) = 1.0;
+    }
+}
+
+void VertexSystem::factor()
+{
+    if (!rods_.empty()) strands_.factor(rods_.layout());
+    if (!shells_.empty()) clothFactor_.factor(cloth_, clothExtra_);
+}
+
+Vec3 VertexSystem::move(int vertex) const
+{
+    const int slot = unknowns_.slot[vertex];
+    return {solution_[slot], solution_[slot + kLanes], solution_[slot + 2 * kLanes]};
+}
+
+}  // namespace sim

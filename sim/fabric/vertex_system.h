@@ -1,0 +1,98 @@
+#pragma once
+
+#include "sim/fabric/cloth_preconditioner.h"
+#include "sim/fabric/contact/contact.h"
+#include "sim/fabric/obstacle_contact.h"
+#include "sim/fabric/rods/rods.h"
+#include "sim/fabric/shells/shells.h"
+#include "sim/fabric/vertex_unknowns.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// What a Newton iteration looks at: the fabric's state and where it would go without forces.
+struct NewtonPoint {
+    const FabricState& state;
+    std::span<const Vec3> freePositions;     ///< of each vertex [cm]
+    std::span<const double> freeAngles;      ///< of each yarn edge [rad]
+    std::span<const double> mass;            ///< of each vertex, with what it has absorbed [g]
+    double h;                                ///< length of the step [s]
+};
+
+/// Linear solve of one Newton iteration.
+struct LinearReport {
+    int iterations = 0;
+    double firstEnergy = 0.0;                ///< rᵀz at the start [erg]
+    double speedError = 0.0;                 ///< √(rᵀz / total mass) at the end [cm/s]
+};
+
+/// The Newton system in vertex space, A = S + K + C: S the strands with their inertia, the same-side part of their contacts and
+/// obstacles, factored exactly; K the cloth; C contact between different strands, and what shared vertices tie together.
+/// Solved by conjugate gradients with S and a block-incomplete factor of K as preconditioner (contact-design 3.3).
+class VertexSystem {
+ public:
+    VertexSystem(const Fabric& fabric, const FabricSettings& settings);
+
+    const Rods& rods() const { return rods_; }
+    Rods& rods() { return rods_; }
+    const Shells& shells() const { return shells_; }
+    Shells& shells() { return shells_; }
+    const VertexUnknowns& unknowns() const { return unknowns_; }
+
+    /// Gradient and matrix at a point. The contacts must live until the solve is done.
+    void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
+    void factor();
+    /// Newton's move. Stops when rᵀz has fallen below (tolerance)² of its first value, (0.3 tolerance)² of `otherEnergy` (that of the
+    /// step's first iteration; 0 = none), or when the rms speed error is below speedTolerance [cm/s].
+    LinearReport solve(double tolerance, double speedTolerance, double otherEnergy, int maxIterations);
+
+    Vec3 move(int vertex) const;             ///< of the last solve [cm]
+    double turn(int edge) const { return solution_[unknowns_.twistSlot[edge]]; }  ///< [rad]
+    const AlignedArray<double>& gradient() const { return gradient_; }
+
+ private:
+    /// A vertex's rows in a strand that does not own it: they are emptied, and what they held acts through this.
+    struct Link {
+        int vertex, strandRow, lane;
+        std::array<int, 16> slot;            ///< of the unknowns that its rows were coupled to; −1 for none
+        std::array<std::array<double, 16>, 3> coupling;
+    };
+
+    void findLinks();
+    void addInertia(const NewtonPoint& at);
+    void emptySharedRows();
+    void addToDiagonal(int vertex, const Mat3& block);
+    void addObstacles(std::span<const ObstacleContact> obstacles);
+    void addContacts();
+    void sortIncidence();
+    void holdPins();
+    void applyContacts(const double* p);
+    void addOffStrand(const double* p, double* q) const;
+    void precondition(const double* r, double* z) const;
+
+    const Fabric& fabric_;
+    Rods rods_;
+    Shells shells_;
+    VertexUnknowns unknowns_;
+    StrandMatrix strands_;
+    BlockMatrix cloth_;
+    ClothPreconditioner clothFactor_;
+    std::vector<char> ownsDiagonal_;         ///< of each row of cloth: it is on a strand, which holds its diagonal block
+    std::vector<int> clothRow_;              ///< of each vertex; −1 without cloth
+    std::vector<Mat3> clothExtra_;           ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
+    mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
+    std::vector<Link> links_;
+    double totalMass_ = 0.0;
+
+    const ActiveContacts* contacts_ = nullptr;
+    std::vector<int> incidenceBegin_, incidence_, cursor_;  ///< of each vertex: 4 · pair + place, ascending
+    std::vector<std::array<char, 2>> sideInStrands_;   ///< of each pair: S holds the side's own part
+    std::vector<std::array<Vec3, 2>> pairForce_;       ///< C p on either side of each pair
+    std::vector<int> heldSlots_;                       ///< unknowns that are pinned
+
+    AlignedArray<double> gradient_, solution_, residual_, z_, p_, sp_, q_;
+};
+
+}  // namespace sim

@@ -1,0 +1,274 @@
+#include "pieces.h"
+#include "sim/fabric/rods/rod_kernel.h"
+#include "sim/fabric/rods/rods.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <numeric>
+
+namespace sim {
+namespace {
+
+using testing::Noise;
+
+/// Three yarns of different length in a curved and twisted state, elliptic, with a section that is turned.
+struct CurvedYarns {
+    FabricPiece piece;
+    Fabric fabric;
+    FabricSettings settings;
+    FabricState rest, state;
+
+    explicit CurvedYarns(unsigned seed, double amount = 0.3)
+    {
+        Noise noise(seed);
+        std::vector<FabricGeometry> all;
+        piece.material = testing::wool();
+        piece.material.sectionRotation = 0.4;
+        piece.radius = {0.048, 0.03};
+        for (int n : {4, 7, 3}) {
+            std::vector<int> strand;
+            for (int j = 0; j < n; ++j) {
+                strand.push_back(static_cast<int>(piece.points.size()));
+                piece.points.push_back(Vec3(j, n, 0.0) + 0.2 * noise.vector());
+            }
+            piece.strands.push_back(strand);
+        }
+        fabric = testing::fabricOf(piece);
+        rest = state = restState(fabric);
+        for (Vec3& x : state.x) x += amount * noise.vector();
+        for (double& angle : state.theta) angle = amount * noise();
+        Rods(fabric, rest, settings).transportFrames(state);
+    }
+};
+
+double totalEnergy(const Rods& rods, const FabricState& state)
+{
+    const auto e = rods.energies(state);
+    return e[0] + e[1] + e[2];
+}
+
+/// The same energy after moving one unknown, with frames carried along.
+double movedEnergy(const Rods& rods, FabricState state, std::size_t unknown, double by)
+{
+    const std::size_t positions = 3 * state.x.size();
+    if (unknown < positions) state.x[unknown / 3][unknown % 3] += by;
+    else state.theta[unknown - positions] += by;
+    rods.transportFrames(state);
+    return totalEnergy(rods, state);
+}
+
+/// Gradient by vertex and edge instead of by packed rows.
+std::vector<double> gradientOf(const Rods& rods, const FabricState& state, StrandMatrix* matrix = nullptr, double h = 1.0)
+{
+    const StrandLayout& layout = rods.layout();
+    std::vector<Pack> packed(layout.rows, Pack{});
+    rods.forces(state, h, packed.data(), matrix);
+    std::vector<double> gradient(3 * state.x.size() + state.theta.size(), 0.0);
+    for (const StrandLayout::Group& group : layout.groups)
+        for (int j = 0; j < group.vertices; ++j)
+            for (int l = 0; l < kLanes; ++l) {
+                const int v = layout.vertex[group.firstVertex + j][l], row = group.firstRow + 4 * j;
+                if (v < 0) continue;
+                for (int a = 0; a < 3; ++a) gradient[3 * v + a] += packed[row + a][l];
+                const int e = j < group.edges() ? layout.edge[group.firstEdge + j][l] : -1;
+                if (e >= 0) gradient[3 * state.x.size() + e] = packed[row + 3][l];
+            }
+    return gradient;
+}
+
+TEST(Rods, GradientMatchesFiniteDifferences)
+{
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const CurvedYarns yarns(seed);
+        const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+        const std::vector<double> gradient = gradientOf(rods, yarns.state);
+        double largest = 0.0, error = 0.0;
+        constexpr double kStep = 1.0e-5;  // cm or rad: truncation 1e-10 of the forces, round-off 1e-9 of them
+        for (std::size_t i = 0; i < gradient.size(); ++i) {
+            const double differences =
+                (movedEnergy(rods, yarns.state, i, kStep) - movedEnergy(rods, yarns.state, i, -kStep)) / (2.0 * kStep);
+            error = std::max(error, std::abs(differences - gradient[i]));
+            largest = std::max(largest, std::abs(gradient[i]));
+        }
+        EXPECT_LT(error, 1.0e-7 * largest) << "seed " << seed;
+    }
+}
+
+TEST(Rods, RestShapeIsFreeOfForceAndStaysSoWhenMovedRigidly)
+{
+    const CurvedYarns yarns(3, 0.0);
+    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    for (double g : gradientOf(rods, yarns.state)) EXPECT_LT(std::abs(g), 1.0e-7);  // dyn; stiffnesses are 1e4
+    FabricState moved = yarns.state;
+    const Eigen::AngleAxisd turn(0.7, Vec3(1.0, -2.0, 0.5).normalized());
+    for (Vec3& x : moved.x) x = turn * x + Vec3(3.0, 4.0, 5.0);
+    for (Vec3& u : moved.reference) u = turn * u;
+    for (Vec3& t : moved.tangent) t = turn * t;
+    for (double g : gradientOf(rods, moved)) EXPECT_LT(std::abs(g), 1.0e-7);
+}
+
+/// Energy, and forces and torques in balance, whatever the pose.
+TEST(Rods, EnergyIsInvariantAndForcesAndTorquesBalance)
+{
+    const CurvedYarns yarns(5);
+    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    const double energy = totalEnergy(rods, yarns.state);
+    FabricState moved = yarns.state;
+    const Eigen::AngleAxisd turn(1.1, Vec3(-1.0, 2.0, 0.3).normalized());
+    for (Vec3& x : moved.x) x = turn * x + Vec3(1.0, -2.0, 0.5);
+    for (Vec3& u : moved.reference) u = turn * u;
+    for (Vec3& t : moved.tangent) t = turn * t;
+    EXPECT_NEAR(totalEnergy(rods, moved), energy, 1.0e-12 * energy);
+
+    const std::vector<double> gradient = gradientOf(rods, yarns.state);
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    double scale = 0.0;
+    for (std::size_t v = 0; v < yarns.state.x.size(); ++v) {
+        const Vec3 f(gradient[3 * v], gradient[3 * v + 1], gradient[3 * v + 2]);
+        force += f;
+        torque += yarns.state.x[v].cross(f);
+        scale += f.norm() * yarns.state.x[v].norm();
+    }
+    for (std::size_t e = 0; e < yarns.state.theta.size(); ++e)
+        torque += gradient[3 * yarns.state.x.size() + e] * yarns.state.tangent[e];
+    EXPECT_LT(force.norm(), 1.0e-11 * scale);
+    EXPECT_LT(torque.norm(), 1.0e-10 * scale);
+}
+
+Eigen::MatrixXd denseOf(const StrandMatrix& matrix, const StrandLayout::Group& group, int lane, int rows)
+{
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows, rows);
+    for (int r = 0; r < rows; ++r)
+        for (int k = 0; k < StrandMatrix::kBand && k <= r; ++k) dense(r, r - k) = dense(r - k, r) = matrix.at(group.firstRow + r, k, lane);
+    return dense;
+}
+
+TEST(Rods, HessianIsPositiveAndExactAtRest)
+{
+    CurvedYarns yarns(7);
+    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    StrandMatrix matrix;
+    matrix.resize(rods.layout());
+    gradientOf(rods, yarns.state, &matrix);
+    const StrandLayout::Group& group = rods.layout().groups[0];
+    for (int lane = 0; lane < 3; ++lane) {
+        const int rows = 4 * yarns.fabric.strands.size(rods.layout().strand[0][lane]) - 1;
+        const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(denseOf(matrix, group, lane, rows)).eigenvalues();
+        EXPECT_GT(values.minCoeff(), -1.0e-12 * values.maxCoeff());
+    }
+
+    gradientOf(rods, yarns.rest, &matrix);
+    const int strand = rods.layout().strand[0][0], n = yarns.fabric.strands.size(strand);  // the longest
+    const Eigen::MatrixXd dense = denseOf(matrix, group, 0, 4 * n - 1);
+    constexpr double kStep = 1.0e-6;
+    double error = 0.0;
+    for (int column = 0; column < 4 * n - 1; ++column) {
+        const auto gradientAt = [&](double by) {
+            FabricState s = yarns.rest;
+            if (column % 4 == 3) s.theta[yarns.fabric.strands.edgeBegin(strand) + column / 4] += by;
+            else s.x[yarns.fabric.strands.vertex(strand, column / 4)][column % 4] += by;
+            rods.transportFrames(s);
+            return gradientOf(rods, s);
+        };
+        const std::vector<double> up = gradientAt(kStep), down = gradientAt(-kStep);
+        for (int row = 0; row < 4 * n - 1; ++row) {
+            const std::size_t i = row % 4 == 3 ? 3 * yarns.rest.x.size() + yarns.fabric.strands.edgeBegin(strand) + row / 4
+                                               : 3 * yarns.fabric.strands.vertex(strand, row / 4) + row % 4;
+            error = std::max(error, std::abs((up[i] - down[i]) / (2.0 * kStep) - dense(row, column)));
+        }
+    }
+    EXPECT_LT(error, 1.0e-5 * dense.cwiseAbs().maxCoeff());
+}
+
+TEST(Rods, FactorsSolveWhatTheMatrixMultiplies)
+{
+    const CurvedYarns yarns(9);
+    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    StrandMatrix matrix;
+    matrix.resize(rods.layout());
+    gradientOf(rods, yarns.state, &matrix);
+    const StrandLayout::Group& group = rods.layout().groups[0];
+    for (int r = 0; r < group.rows(); ++r)
+        for (int l = 0; l < kLanes; ++l) matrix.at(r, 0, l) += 10.0;
+    Noise noise(1);
+    std::vector<Pack> x(group.rows()), b(group.rows()), z(group.rows());
+    for (Pack& p : x)
+        for (int l = 0; l < kLanes; ++l) p[l] = noise();
+    matrix.multiply(group, x.data(), b.data());
+    matrix.factor(rods.layout());
+    matrix.solve(group, b.data(), z.data());
+    for (int r = 0; r < group.rows(); ++r)
+        for (int l = 0; l < kLanes; ++l) EXPECT_NEAR(z[r][l], x[r][l], 1.0e-9);  // condition about 1e4
+}
+
+/// T3: around a circle of tangents at 60 degrees from an axis the frame comes back turned by the solid angle π.
+TEST(RodFrames, TransportAroundAClosedPathTurnsBySolidAngle)
+{
+    constexpr int kSteps = 4000;
+    const double cap = kPi / 3.0;
+    const auto tangentAt = [&](int i) {
+        const double a = 2.0 * kPi * i / kSteps;
+        return Triple<double>{std::sin(cap) * std::cos(a), std::sin(cap) * std::sin(a), std::cos(cap)};
+    };
+    const Triple<double> start = unitAcross(Triple<double>{1.0, 0.3, 0.2}, tangentAt(0));
+    Triple<double> u = start;
+    for (int i = 1; i <= kSteps; ++i) u = unitAcross(transported(u, tangentAt(i - 1), tangentAt(i)), tangentAt(i));
+    const double angle = std::abs(std::atan2(dot(tangentAt(0), cross(start, u)), dot(start, u)));
+    EXPECT_NEAR(angle, 2.0 * kPi * (1.0 - std::cos(cap)), 1.0e-5);
+}
+
+/// T3: five turns at one end, in steps of 30 degrees, are ten π of twist and not 0.
+TEST(RodFrames, TwistCountsFullTurns)
+{
+    const FabricPiece piece = testing::pieceOf(strand(Vec3::Zero(), Vec3(4.0, 0.0, 0.0), 4), testing::wool(), {0.05, 0.05});
+    const Fabric fabric = testing::fabricOf(piece);
+    const FabricSettings settings;
+    FabricState state = restState(fabric);
+    const Rods rods(fabric, state, settings);
+    // Turning the last edge's frame rigidly and its θ back leaves the material where it is: reference twist takes it up.
+    for (int i = 0; i < 60; ++i) {
+        const Eigen::AngleAxisd turn(kPi / 6.0, state.tangent[3]);
+        state.reference[3] = turn * state.reference[3];
+        rods.transportFrames(state);
+    }
+    EXPECT_NEAR(state.referenceTwist[3], 10.0 * kPi, 1.0e-9);
+}
+
+/// T4: a helix has curvature R/(R² + p²), and none of its twist is in the parallel frame.
+TEST(RodFrames, HelixHasItsCurvature)
+{
+    const double radius = 1.0, pitch = 0.5, exact = radius / (radius * radius + pitch * pitch);
+    double previous = 0.0;
+    for (int n : {100, 200}) {
+        std::vector<Vec3> points;
+        for (int i = 0; i <= n; ++i) {
+            const double a = 2.0 * kPi * i / n;
+            points.emplace_back(radius * std::cos(a), radius * std::sin(a), pitch * a);
+        }
+        const Fabric fabric = testing::fabricOf(testing::pieceOf(strand(points), testing::wool(), {0.02, 0.02}));
+        const FabricState s = restState(fabric);
+        RodEdge<double> e, f;
+        const int j = n / 2;
+        for (auto [edge, i] : {std::pair{&e, j - 1}, std::pair{&f, j}}) {
+            edge->length = fabric.edges.restLength[i];
+            edge->tangent = toTriple(s.tangent[i]);
+            edge->m1 = toTriple(s.reference[i]);
+            edge->m2 = cross(edge->tangent, edge->m1);
+        }
+        const RodStrain<double> strain = rodStrain(e, f);
+        const double curvature = std::hypot(strain.curvature[0], strain.curvature[1]) / e.length;
+        const double error = std::abs(curvature - exact);
+        if (previous > 0.0) {
+            EXPECT_NEAR(previous / error, 4.0, 0.1);
+        }
+        previous = error;
+        const Rods rods(fabric, s, {});
+        for (double g : gradientOf(rods, s)) EXPECT_LT(std::abs(g), 1.0e-6);  // dyn; the stiffnesses are 1e4
+    }
+}
+
+}  // namespace
+}  // namespace sim
