@@ -135,6 +135,17 @@ template <class V>
 #endif
 }
 
+[[gnu::always_inline]] inline unsigned floatMaskBits(FloatMask mask)
+{
+#ifdef __AVX512DQ__
+    return _mm512_movepi32_mask((__m512i)mask);
+#else
+    unsigned bits = 0;
+    for (int l = 0; l < kFloatLanes; ++l) bits |= (mask[l] != 0 ? 1u : 0u) << l;
+    return bits;
+#endif
+}
+
 /// The inverse: lane l is set where bit l of the low 8 is.
 [[gnu::always_inline]] inline PackMask maskOfBits(std::uint64_t bits)
 {

@@ -1,0 +1,209 @@
+#include "sim/fabric/contact/limiter.h"
+
+#include "sim/core/parallel.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace sim::contact {
+
+namespace {
+
+/// A pair already below its floor or core may still lose this share of its distance [-].
+constexpr double kKept = 0.97;
+
+std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3> values)
+{
+    return {values[v[0]], values[v[1]], values[v[2]], values[v[3]]};
+}
+
+}  // namespace
+
+Limiter::Limiter(const Primitives& primitives) : primitives_(primitives)
+{
+    motion_.resize(primitives.count());
+}
+
+void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
+{
+    constexpr int kFilterRounds = 5, kBlendRounds = 8;
+    for (int round = 0; round < kFilterRounds; ++round) {
+        cover(x, u, list, report, clock);
+        if (list.empty()) return;
+        findClosing(x, u, list);
+        if (closing_.empty()) return;
+        const int sweeps = pushApart(u);
+        if (sweeps == 1 && round > 0) break;
+    }
+    double fraction = 1.0;
+    for (int round = 0; round < kBlendRounds; ++round) {
+        cover(x, u, list, report, clock);
+        findClosing(x, u, list);
+        fraction = measureFractions(x, u);
+        if (fraction >= 1.0) return;
+        if (round + 1 < kBlendRounds) report.blends += blendFailing(u);
+    }
+    constexpr double kSpare = 0.95;
+    parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSpare * fraction; });
+    ++report.scalings;
+}
+
+/// Whatever changed the moves may have led them to where the list was not looked up.
+void Limiter::cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
+{
+    clock.start(Stage::FabricCandidates);
+    report.listBuilds += list.coverMove(x, u);
+    if (list.empty()) return;
+    clock.start(Stage::FabricContact);
+    list.measure(x);
+}
+
+void Limiter::motionOfPrimitives(std::span<const Vec3> u)
+{
+    const Primitives& p = primitives_;
+    const auto setMotion = [&](int number, const auto& vertices) {
+        Vec3 mean = Vec3::Zero();
+        for (int v : vertices) mean += u[v];
+        mean /= static_cast<double>(vertices.size());
+        double most = 0.0;
+        for (int v : vertices) most = std::max(most, (u[v] - mean).squaredNorm());
+        motion_.set(number, mean, std::sqrt(most));
+    };
+    parallelFor(p.edges.size(), 1024, [&](std::size_t e) { setMotion(static_cast<int>(e), p.edges[e]); });
+    if (p.faces.empty()) return;
+    parallelFor(u.size(), 1024, [&](std::size_t v) { motion_.set(p.firstVertex() + v, u[v]); });
+    parallelFor(p.faces.size(), 1024, [&](std::size_t f) { setMotion(p.firstFace() + static_cast<int>(f), p.faces[f]); });
+}
+
+/// Pairs whose distance could fall below their floor (or by more than 3 %) in this move; all others are safe. This depends on the pair, x and u
+/// alone, not on what else is in the list.
+void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list)
+{
+    const Candidates& pairs = list.pairs();
+    motionOfPrimitives(u);
+    const Chunks chunks(pairs.size());
+    std::array<int, kMaxChunks> count{};
+    near_.resize(pairs.size());
+    parallelFor(chunks.count(), [&](std::size_t chunk) {
+        const std::size_t begin = chunks.begin(chunk), end = chunks.end(chunk);
+        int* out = near_.data() + begin;
+        for (std::size_t first = begin; first < end; first += kLanes) {
+            const std::size_t last = std::min(end, first + kLanes) - 1;
+            EightIndices a, b;
+            Pack distance, floor;
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                const std::size_t i = std::min(first + lane, last);
+                a[lane] = pairs.a[i], b[lane] = pairs.b[i];
+                distance[lane] = pairs.distance[i], floor[lane] = pairs.range(i).floor();
+            }
+            const QuadPack moveA = gatherQuads(motion_, a), moveB = gatherQuads(motion_, b);
+            const Pack kept = kKept * distance;
+            const Pack free = distance - (floor < kept ? floor : kept) - moveA.w - moveB.w;
+            const Pack dx = moveA.x - moveB.x, dy = moveA.y - moveB.y, dz = moveA.z - moveB.z;
+            constexpr double kRounding = 1.0 + 1.0e-12;
+            const PackMask far = (free > 0.0) & ((dx * dx + dy * dy + dz * dz) * kRounding < free * free);
+            for (unsigned bits = ~maskBits(far) & 0xffu; bits != 0; bits &= bits - 1) {
+                const std::size_t i = first + std::countr_zero(bits);
+                if (i > last) break;
+                std::array<Triple<double>, 4> move;
+                for (std::size_t c = 0; c < 4; ++c) move[c] = triple(u[pairs.vertices[i][c]]);
+                const double d = pairs.distance[i];
+                if (relativeMotion(list.kind(i), move) >= d - std::min(pairs.range(i).floor(), kKept * d))
+                    out[count[chunk]++] = static_cast<int>(i);
+            }
+        }
+    });
+    closing_.clear();
+    for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+        for (int i = 0; i < count[chunk]; ++i) closing_.push_back(closing(x, pairs, near_[chunks.begin(chunk) + i]));
+}
+
+Limiter::Closing Limiter::closing(std::span<const Vec3> x, const Candidates& pairs, int pair) const
+{
+    Closing c;
+    c.pair = pair;
+    c.kind = primitives_.kind(pairs.a[pair]);
+    c.vertices = pairs.vertices[pair];
+    c.weights = pairWeights(c.kind, pairs.p[pair], pairs.q[pair]);
+    const double d = pairs.distance[pair];
+    c.distance = d;
+    const PairRange range = pairs.range(pair);
+    Vec3 apart = Vec3::Zero();
+    c.compliance = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        apart += c.weights[k] * x[c.vertices[k]];
+        c.compliance += c.weights[k] * c.weights[k] * inverseMass_[c.vertices[k]];
+    }
+    c.normal = d > 0.0 ? Vec3(apart / d) : Vec3::Zero().eval();
+    c.allowed = std::max(d - range.floor(), 0.2 * std::max(d - range.core, 0.0));
+    c.separation = std::min(range.core, kKept * d);
+    c.tolerance = 1.0e-3 * (primitives_.radius[pairs.a[pair]] + primitives_.radius[pairs.b[pair]]);
+    return c;
+}
+
+/// Gauss-Seidel with the closest points of x: approaches along the normal beyond what is allowed become blows without bounce.
+/// @return sweeps it took
+int Limiter::pushApart(std::span<Vec3> u)
+{
+    constexpr int kMostSweeps = 30;
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+        bool pushed = false;
+        for (std::size_t i = 0; i < closing_.size(); ++i)  // to and fro: blows travel both ways
+            pushed |= push(closing_[sweep % 2 == 0 ? i : closing_.size() - 1 - i], u);
+        if (!pushed) return sweep + 1;
+    }
+    return kMostSweeps;
+}
+
+/// @return whether that was more than the tolerance
+bool Limiter::push(const Closing& c, std::span<Vec3> u) const
+{
+    double apart = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) apart += c.weights[k] * c.normal.dot(u[c.vertices[k]]);
+    const double excess = -c.allowed - apart;
+    if (excess <= 0.01 * c.tolerance || c.compliance == 0.0) return false;
+    const double impulse = excess / c.compliance;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (const double w = inverseMass_[c.vertices[k]]; w > 0.0) u[c.vertices[k]] += (impulse * w * c.weights[k]) * c.normal;
+    return excess > c.tolerance;
+}
+
+/// @return the least
+double Limiter::measureFractions(std::span<const Vec3> x, std::span<const Vec3> u)
+{
+    fraction_.resize(closing_.size());
+    parallelFor(closing_.size(), 64, [&](std::size_t i) {
+        const Closing& c = closing_[i];
+        fraction_[i] = safeFraction(c.kind, atVertices(c.vertices, x), atVertices(c.vertices, u), c.separation);
+    });
+    double least = 1.0;
+    for (double f : fraction_) least = std::min(least, f);
+    return least;
+}
+
+/// Draws the four vertices of each failing pair towards their common motion: without bounce, momentum kept, held vertices unmoved.
+/// @return pairs
+int Limiter::blendFailing(std::span<Vec3> u) const
+{
+    constexpr double kBlend = 0.3;
+    int pairs = 0;
+    for (std::size_t i = 0; i < closing_.size(); ++i) {
+        if (fraction_[i] >= 1.0) continue;
+        ++pairs;
+        const std::array<int, 4>& vertices = closing_[i].vertices;
+        const bool held = std::ranges::any_of(vertices, [&](int v) { return inverseMass_[v] == 0.0; });
+        Vec3 mean = Vec3::Zero();
+        double mass = 0.0;
+        for (int v : vertices) {
+            const double m = held ? (inverseMass_[v] == 0.0 ? 1.0 : 0.0) : 1.0 / inverseMass_[v];
+            mean += m * u[v];
+            mass += m;
+        }
+        mean /= mass;
+        for (int v : vertices)
+            if (inverseMass_[v] > 0.0) u[v] += kBlend * (mean - u[v]);
+    }
+    return pairs;
+}
+
+}  // namespace sim::contact

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "sim/fabric/contact/candidate_list.h"
+#include "sim/fabric/contact/contact.h"
+
+#include <span>
+#include <vector>
+
+namespace sim::contact {
+
+/// Makes moves safe in the relative motion of each pair, never in the absolute one (contact-design 3.4).
+class Limiter {
+ public:
+    explicit Limiter(const Primitives& primitives);
+
+    /// @param inverseMass  of each vertex; 0 = held [1/g]
+    void setMasses(std::span<const double> inverseMass) { inverseMass_ = inverseMass; }
+    void limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
+
+ private:
+    /// A pair that the move brings near.
+    struct Closing {
+        int pair;
+        PairKind kind;
+        std::array<int, 4> vertices;
+        std::array<double, 4> weights;
+        Vec3 normal;           ///< from the second to the first [-]
+        double allowed;        ///< approach along the normal that is left alone [cm]
+        double compliance;     ///< Σ c² / m of the free vertices [1/g]
+        double separation;     ///< least distance on the way [cm]
+        double tolerance;      ///< of the filter [cm]
+        double distance;       ///< [cm]
+    };
+
+    void cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
+    void findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list);
+    void motionOfPrimitives(std::span<const Vec3> u);
+    Closing closing(std::span<const Vec3> x, const Candidates& pairs, int pair) const;
+    int pushApart(std::span<Vec3> u);
+    bool push(const Closing& c, std::span<Vec3> u) const;
+    double measureFractions(std::span<const Vec3> x, std::span<const Vec3> u);
+    int blendFailing(std::span<Vec3> u) const;
+
+    const Primitives& primitives_;
+    std::span<const double> inverseMass_;
+    Points motion_;                  ///< of each primitive: mean of its vertices, and as the fourth their largest distance from it [cm]
+    std::vector<int> near_;          ///< by chunks: what the quick look left
+    std::vector<Closing> closing_;   ///< in the order of the list
+    std::vector<double> fraction_;   ///< of each: safe part of the move [0..1]
+};
+
+/// Safe part of the move u of four vertices: on the way to it they never come nearer than `separation` [cm].
+/// Common motion does not count. Source: Li et al. 2021, "Codimensional Incremental Potential Contact", additive CCD.
+double safeFraction(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double separation);
+
+}  // namespace sim::contact

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "sim/fabric/contact/primitives.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim::contact {
+
+/// The energy of one pair at a distance, and its derivatives [dyn cm, dyn, dyn/cm].
+struct PairEnergy {
+    double energy = 0.0, slope = 0.0, curvature = 0.0;
+};
+
+/// A spring from the reach R inwards; below the wall τ a logarithm that no distance above the core can pay. C1 at R and at τ, convex.
+/// Source: contact-design 3.2.
+inline PairEnergy pairEnergy(double distance, const PairRange& range, double stiffness)
+{
+    if (distance >= range.reach) return {};
+    const double wall = range.wall(), pressed = range.reach - wall, depth = wall - range.core;
+    if (distance >= wall) {
+        const double gap = range.reach - distance;
+        return {0.5 * stiffness * gap * gap, -stiffness * gap, stiffness};
+    }
+    constexpr double kLeastDepth = 0.02;  // of the wall: nearer the core the force stays what it is there
+    const double left = std::max(distance - range.core, kLeastDepth * depth);
+    const double strength = stiffness * pressed * depth;
+    return {0.5 * stiffness * pressed * pressed - strength * std::log(left / depth), -strength / left, strength / (left * left)};
+}
+
+/// Stiffness of a pair [dyn/cm]: of the fibres where they are soft; what a step of h [s] can resolve where they are hard, and no less than it
+/// takes to stop the masses within a few steps.
+/// @param young     E χ of the softer side [dyn/cm^2]
+/// @param touching  sum of the radii [cm]
+/// @param mass      mean of the four vertices [g]
+inline double pairStiffness(double young, double touching, double mass, double h)
+{
+    const double perStep = mass / (h * h);
+    return std::max(std::min(0.1 * young * touching, 100.0 * perStep), 4.0 * perStep);
+}
+
+/// Lagged Coulomb friction: across the normal n a pair that has slid by `slip` since the start of the step has the gradient k_t slip.
+/// @param normalForce  pressing the two together [dyn]
+/// @param slip         length across the normal [cm]
+/// @param smooth       slip below which friction grows from 0 to μ N [cm]
+/// @return k_t = μ N f(slip) / slip [dyn/cm]; f(y) = 2y − y² for y = slip / smooth < 1, else 1
+/// Source: model-fabric 13.4; Li et al. 2020, "Incremental Potential Contact".
+inline double frictionStiffness(double coefficient, double normalForce, double slip, double smooth)
+{
+    const double y = slip / smooth;
+    return coefficient * normalForce * (y < 1.0 ? (2.0 - y) / smooth : 1.0 / slip);
+}
+
+}  // namespace sim::contact

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "sim/fabric/contact/box_tree.h"
+#include "sim/fabric/contact/primitives.h"
+#include "sim/fabric/contact/rest_pairs.h"
+
+#include <vector>
+
+namespace sim::contact {
+
+/// Two primitives that may touch soon.
+struct FoundPair {
+    int a, b;          ///< as Primitives numbers them, a < b
+    PairRange range;
+};
+
+/// How far two primitives may be apart and still make a candidate, and how far vertices may stray before it could be missed. With R and
+/// the floor of a pair at most 1.125 and 0.6533 of the radii's sum (PairRange):
+/// A pair outside the list had d(from) − rel(move) > Σ reach. With vertices astray by s in position and in displacement, on each side,
+/// d falls by s and rel(u) grows by 5/3 s at most (3/2 s for edges): d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor: such a move is
+/// harmless at first glance. And at x alone d > Σ (reach − s') ≥ R for s' ≤ margin: it does not act.
+struct ListMargin {
+    static constexpr double kMargin = 0.7;   ///< of the radius [-]
+    static double reach(double radius) { return (1.125 + kMargin) * radius; }
+    static double stray(double radius) { return (1.125 + kMargin - 0.6533) / (1.0 + 5.0 / 3.0) * radius; }
+    static double strayAtRest(double radius) { return kMargin * radius; }
+};
+
+/// Finds pairs of which one at least has a dirty vertex.
+class PairSearch {
+ public:
+    PairSearch(const Primitives& primitives, std::span<const Vec3> rest);
+
+    /// All pairs of a dirty primitive with d(from) − (relative motion) within the reach of both, each once, in any order.
+    void run(const Sweep& sweep, std::span<const char> dirtyVertices, const RestPairs& restPairs);
+
+    std::size_t tasks() const { return tasks_; }
+    const std::vector<FoundPair>& found(std::size_t task) const { return found_[task]; }
+
+ private:
+    enum class Query { EdgesToEdges, VerticesToFaces, FacesToVertices };
+    struct DirtyLeaf {
+        Query query;
+        int leaf;
+    };
+    class Filter;
+    void listDirtyLeaves(Query query, const BoxTree& tree);
+    void searchFrom(const DirtyLeaf& dirty, Filter& filter) const;
+
+    const Primitives& primitives_;
+    std::vector<double> reach_;   ///< of each primitive [cm]
+    BoxTree edges_, vertices_, faces_;
+    std::vector<DirtyLeaf> dirtyLeaves_;
+    std::size_t tasks_ = 0;
+    std::vector<std::vector<FoundPair>> found_;
+};
+
+}  // namespace sim::contact

@@ -1,0 +1,234 @@
+#include "sim/fabric/contact/closest_points.h"
+#include "sim/fabric/contact/limiter.h"
+#include "sim/fabric/contact/pair_energy.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace sim::test {
+namespace {
+
+using namespace contact;
+using Corners = std::array<Vec3, 4>;
+constexpr PairKind kKinds[] = {PairKind::EdgeEdge, PairKind::VertexFace};
+
+Vec3 separationAt(PairKind kind, const Corners& x, double p, double q)
+{
+    const std::array<double, 4> c = pairWeights(kind, p, q);
+    return c[0] * x[0] + c[1] * x[1] + c[2] * x[2] + c[3] * x[3];
+}
+
+/// Least distance by looking everywhere: a grid that closes in on its best point. Convex, so nothing is overlooked.
+double searchedDistance(PairKind kind, const Corners& x)
+{
+    double bestP = 0.5, bestQ = kind == PairKind::EdgeEdge ? 0.5 : 0.25, width = 0.5, best = 1.0e30;
+    for (int level = 0; level < 60; ++level, width *= 0.6) {
+        const double midP = bestP, midQ = bestQ;
+        for (int i = -6; i <= 6; ++i)
+            for (int j = -6; j <= 6; ++j) {
+                const double p = std::clamp(midP + width * i / 6.0, 0.0, 1.0);
+                double q = std::clamp(midQ + width * j / 6.0, 0.0, 1.0);
+                if (kind == PairKind::VertexFace) q = std::min(q, 1.0 - p);
+                if (const double d = separationAt(kind, x, p, q).norm(); d < best) best = d, bestP = p, bestQ = q;
+            }
+    }
+    return best;
+}
+
+Closest<double> closestOf(PairKind kind, const Corners& x)
+{
+    return closestPoints<double>(kind, {triple(x[0]), triple(x[1]), triple(x[2]), triple(x[3])});
+}
+
+void expectClosest(PairKind kind, const Corners& x, double tolerance)
+{
+    const Closest<double> c = closestOf(kind, x);
+    const Vec3 separation(c.separation.x, c.separation.y, c.separation.z);
+    EXPECT_LE((separation - separationAt(kind, x, c.p, c.q)).norm(), 1.0e-14 * 10.0);  // rounding of coordinates up to 10
+    EXPECT_NEAR(separation.norm(), searchedDistance(kind, x), tolerance);
+    EXPECT_GE(c.p, 0.0), EXPECT_LE(c.p, 1.0);
+    EXPECT_GE(c.q, 0.0), EXPECT_LE(c.q, 1.0);
+    if (kind == PairKind::VertexFace) EXPECT_LE(c.p + c.q, 1.0 + 1.0e-12);  // 1 − (p + q) is rounded
+}
+
+Corners randomCorners(std::mt19937& random, double size = 1.0)
+{
+    std::uniform_real_distribution<double> unit(-size, size);
+    Corners x;
+    for (Vec3& v : x) v = Vec3(unit(random), unit(random), unit(random));
+    return x;
+}
+
+// The search ends on a grid of 0.5 · 0.6^60 / 6 ≈ 4e-15, but d is flat at its least: half the digits of p are enough. 1e-7 where d is
+// not flat: at d = 0 it is a cone.
+constexpr double kSearched = 1.0e-7;
+
+TEST(ClosestPoints, AgreeWithSearchOfRandomPairs)
+{
+    std::mt19937 random(1);
+    for (PairKind kind : kKinds)
+        for (int i = 0; i < 300; ++i) expectClosest(kind, randomCorners(random), kSearched);
+}
+
+TEST(ClosestPoints, OfParallelEdgesAreInTheMiddleOfTheOverlap)
+{
+    const Corners x = {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(3, 1, 0), Vec3(1, 1, 0)};
+    const Closest<double> c = closestOf(PairKind::EdgeEdge, x);
+    EXPECT_NEAR(c.p, 0.75, 1.0e-15);
+    EXPECT_NEAR(c.q, 0.75, 1.0e-15);
+    expectClosest(PairKind::EdgeEdge, {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(3, 1, 0), Vec3(2, 1, 0)}, kSearched);
+}
+
+TEST(ClosestPoints, OfNearlyParallelEdgesAreAsNear)
+{
+    std::mt19937 random(2);
+    for (double angle : {1.0e-3, 1.0e-5, 1.0e-6, 1.0e-7, 1.0e-9, 1.0e-12})
+        for (int i = 0; i < 50; ++i) {
+            Corners x = randomCorners(random), nudge = randomCorners(random, angle);
+            x[3] = x[2] + 1.3 * (x[1] - x[0]) + nudge[0];
+            expectClosest(PairKind::EdgeEdge, x, 1.0e-6);  // at most kParallel^½ of an edge beside the nearest
+        }
+}
+
+TEST(ClosestPoints, OfDegenerateShapes)
+{
+    std::mt19937 random(3);
+    for (int i = 0; i < 50; ++i) {
+        Corners x = randomCorners(random);
+        x[1] = x[0];
+        expectClosest(PairKind::EdgeEdge, x, kSearched);
+        x[3] = x[2];
+        expectClosest(PairKind::EdgeEdge, x, kSearched);
+        expectClosest(PairKind::VertexFace, x, kSearched);
+        x[1] = x[2];
+        expectClosest(PairKind::VertexFace, x, kSearched);
+        x = randomCorners(random);
+        x[3] = x[1] + 0.3 * (x[2] - x[1]);
+        expectClosest(PairKind::VertexFace, x, kSearched);
+    }
+}
+
+TEST(ClosestPoints, PacksAgreeWithScalars)
+{
+    std::mt19937 random(4);
+    for (PairKind kind : kKinds)
+        for (int i = 0; i < 20; ++i) {
+            std::array<Triple<Pack>, 4> packed;
+            std::array<Corners, kLanes> x;
+            for (int lane = 0; lane < kLanes; ++lane) {
+                x[lane] = randomCorners(random);
+                for (int c = 0; c < 4; ++c) {
+                    packed[c].x[lane] = x[lane][c].x();
+                    packed[c].y[lane] = x[lane][c].y();
+                    packed[c].z[lane] = x[lane][c].z();
+                }
+            }
+            const Closest<Pack> c = closestPoints(kind, packed);
+            for (int lane = 0; lane < kLanes; ++lane) {  // but for contractions of the compiler's choice
+                EXPECT_NEAR(c.p[lane], closestOf(kind, x[lane]).p, 1.0e-12);
+                EXPECT_NEAR(c.q[lane], closestOf(kind, x[lane]).q, 1.0e-12);
+            }
+        }
+}
+
+TEST(RelativeMotion, BoundsTheChangeOfDistance)
+{
+    std::mt19937 random(5);
+    for (PairKind kind : kKinds)
+        for (int i = 0; i < 2000; ++i) {
+            const Corners x = randomCorners(random), u = randomCorners(random, 0.5);
+            Corners y;
+            for (int c = 0; c < 4; ++c) y[c] = x[c] + u[c];
+            const double motion = relativeMotion(kind, {triple(u[0]), triple(u[1]), triple(u[2]), triple(u[3])});
+            const auto distance = [&](const Corners& z) {
+                const Triple<double> s = closestOf(kind, z).separation;
+                return std::sqrt(dot(s, s));
+            };
+            EXPECT_LE(std::abs(distance(y) - distance(x)), motion * (1.0 + 1.0e-12));
+        }
+}
+
+TEST(SafeFraction, StopsBeforeAndNotLongBeforeTheMeeting)
+{
+    std::mt19937 random(6);
+    int stopped = 0;
+    for (PairKind kind : kKinds)
+        for (int i = 0; i < 1000; ++i) {
+            const Corners x = randomCorners(random), u = randomCorners(random, 2.0);
+            const auto distanceAt = [&](double t) {
+                Corners y;
+                for (int c = 0; c < 4; ++c) y[c] = x[c] + t * u[c];
+                const Triple<double> s = closestOf(kind, y).separation;
+                return std::sqrt(dot(s, s));
+            };
+            const double separation = 0.3 * distanceAt(0.0);
+            const double fraction = safeFraction(kind, x, u, separation);
+            double least = 1.0e30;
+            for (int k = 0; k <= 400; ++k) least = std::min(least, distanceAt(fraction * k / 400.0));
+            EXPECT_GE(least, separation * (1.0 - 1.0e-12));
+            if (fraction == 1.0) continue;
+            ++stopped;
+            EXPECT_LT(distanceAt(fraction) - separation, 0.1 * (distanceAt(0.0) - separation));  // stops at a tenth of the gap
+        }
+    EXPECT_GT(stopped, 50);
+}
+
+constexpr PairRange kRange = {0.108, 0.0547};
+
+TEST(PairEnergy, DerivativesMatchDifferences)
+{
+    for (double d = kRange.core + 0.04 * (kRange.reach - kRange.core); d < 1.1 * kRange.reach; d += 1.01e-4) {
+        constexpr double kEps = 1.0e-7;  // error: third derivative · ε² / 6, relative to E' up to (ε / 0.3e-3)² ≈ 1e-7
+        if (std::abs(d - kRange.wall()) < 2 * kEps || std::abs(d - kRange.reach) < 2 * kEps) continue;  // curvature jumps there
+        const PairEnergy e = pairEnergy(d, kRange, 1.0e4);
+        const PairEnergy after = pairEnergy(d + kEps, kRange, 1.0e4), before = pairEnergy(d - kEps, kRange, 1.0e4);
+        EXPECT_NEAR((after.energy - before.energy) / (2 * kEps), e.slope, 1.0e-5 * (1.0 + std::abs(e.slope))) << d;
+        EXPECT_NEAR((after.slope - before.slope) / (2 * kEps), e.curvature, 1.0e-5 * (1.0 + e.curvature)) << d;
+        EXPECT_LE(e.slope, 0.0);
+        EXPECT_GE(e.curvature, 0.0);
+    }
+}
+
+TEST(PairEnergy, IsSmoothAtTheWallAndZeroAtTheReach)
+{
+    constexpr double kEps = 1.0e-13;
+    const PairEnergy above = pairEnergy(kRange.wall() + kEps, kRange, 1.0e4), below = pairEnergy(kRange.wall() - kEps, kRange, 1.0e4);
+    EXPECT_NEAR(above.energy, below.energy, 1.0e-9 * above.energy);  // energy and slope change by 1e-11 and 1e-10 over 2 ε
+    EXPECT_NEAR(above.slope, below.slope, -1.0e-9 * above.slope);
+    EXPECT_EQ(pairEnergy(kRange.reach, kRange, 1.0e4).energy, 0.0);
+    EXPECT_EQ(pairEnergy(kRange.reach, kRange, 1.0e4).slope, 0.0);
+    EXPECT_NEAR(pairEnergy(kRange.reach - 1.0e-9, kRange, 1.0e4).slope, 0.0, 1.1e-5);  // k ε
+}
+
+TEST(PairEnergy, WallIsLastInsideTheCore)
+{
+    const PairEnergy inside = pairEnergy(0.5 * kRange.core, kRange, 1.0e4);
+    EXPECT_TRUE(std::isfinite(inside.energy));
+    EXPECT_LT(inside.slope, pairEnergy(kRange.wall(), kRange, 1.0e4).slope);
+}
+
+TEST(PairStiffness, IsTheFibresOrWhatAStepResolves)
+{
+    const double mass = 6.6e-4, young = 6.6e7 * 0.16, touching = 0.096;
+    EXPECT_NEAR(pairStiffness(young, touching, mass, 1.0e-3), 100.0 * mass / 1.0e-6, 1.0e-9);
+    EXPECT_NEAR(pairStiffness(young, touching, mass, 2.0e-4), 0.1 * young * touching, 1.0e-9);
+    EXPECT_NEAR(pairStiffness(1.0, touching, mass, 1.0e-3), 4.0 * mass / 1.0e-6, 1.0e-9);
+}
+
+TEST(Friction, OpposesSlidingAndIsBoundedByTheNormalForce)
+{
+    constexpr double kSmooth = 1.0e-3, kNormal = 7.0, kCoefficient = 0.577;
+    EXPECT_NEAR(frictionStiffness(kCoefficient, kNormal, 0.0, kSmooth), 2.0 * kCoefficient * kNormal / kSmooth, 1.0e-9);
+    double last = 0.0;
+    for (double slip = 1.0e-5; slip < 3.0e-3; slip += 1.0e-5) {
+        const double force = frictionStiffness(kCoefficient, kNormal, slip, kSmooth) * slip;
+        EXPECT_LE(force, kCoefficient * kNormal * (1.0 + 1.0e-15));
+        EXPECT_GE(force, last * (1.0 - 1.0e-15));
+        last = force;
+    }
+    EXPECT_NEAR(last, kCoefficient * kNormal, 1.0e-12);
+}
+
+}  // namespace
+}  // namespace sim::test
