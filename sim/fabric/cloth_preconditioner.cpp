@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 

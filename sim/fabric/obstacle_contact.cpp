@@ -8,7 +8,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kStiffness = 200.0;      ///< of the penalty relative to m/h² (contact-design 3.2) [-]
+constexpr double kStiffness = 50.0;       ///< of the penalty relative to m/h² (contact-design 3.2) [-]
 constexpr double kActivation = 0.25;      ///< distance at which it begins to act, in radii of the fabric [-]
 constexpr double kSmoothingSpeed = 1.0;   ///< below which friction grows with the speed [cm/s]
 

@@ -29,6 +29,13 @@ void add(double* vector, int slot, const Vec3& v)
     for (int a = 0; a < 3; ++a) vector[slot + a * kLanes] += v[a];
 }
 
+/// H u of a pair.
+Vec3 timesContact(const ActiveContacts& c, std::size_t pair, const Vec3& u)
+{
+    const double across = c.frictionStiffness[pair];
+    return across * u + ((c.stiffness[pair] - across) * c.normal[pair].dot(u)) * c.normal[pair];
+}
+
 }  // namespace
 
 void VertexSystem::precondition(const double* r, double* z) const
@@ -61,8 +68,7 @@ void VertexSystem::applyContacts(const double* p)
         const Vec3 both = moved[0] + moved[1];
         for (int side = 0; side < 2; ++side) {
             const Vec3 u = sideInStrands_[n][side] ? Vec3(both - moved[side]) : both;
-            const double across = c.frictionStiffness[n];
-            pairForce_[n][side] = across * u + ((c.stiffness[n] - across) * c.normal[n].dot(u)) * c.normal[n];
+            pairForce_[n][side] = timesContact(c, n, u);
         }
     });
 }
@@ -87,10 +93,15 @@ void VertexSystem::addOffStrand(const double* p, double* q) const
     if (contacts_ && !contacts_->empty()) {
         parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
             if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;
+            const bool isOnStrand = unknowns_.isOnStrand(static_cast<int>(v));
             Vec3 sum = Vec3::Zero();
             for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i) {
-                const int n = incidence_[i] / 4, k = incidence_[i] % 4;
-                sum += contacts_->weights[n][k] * pairForce_[n][k < contacts_->firstSide[n] ? 0 : 1];
+                const int n = incidence_[i] / 4, k = incidence_[i] % 4, side = k < contacts_->firstSide[n] ? 0 : 1;
+                const double weight = contacts_->weights[n][k];
+                Vec3 force = pairForce_[n][side];
+                if (isOnStrand && !sideInStrands_[n][side])  // its own diagonal is in S
+                    force -= timesContact(*contacts_, n, weight * at(p, unknowns_.slot[v]));
+                sum += weight * force;
             }
             add(q, unknowns_.slot[v], sum);
         });

@@ -245,11 +245,9 @@ void VertexSystem::addContacts()
             const int p = incidence_[i] / 4, k = incidence_[i] % 4, which = k < c.firstSide[p] ? 0 : 1;
             const double weight = c.weights[p][k];
             gradient += weight * c.force[p];
-            const bool inStrands = sideInStrands_[p][which];
-            if (unknowns_.isOnStrand(static_cast<int>(v)) && !inStrands) continue;
             const Mat3 block = contactBlock(c, p);
             own += weight * weight * block;
-            if (!inStrands) continue;
+            if (!sideInStrands_[p][which]) continue;
             const Side side = sideOf(c.firstSide[p], which);
             for (int other = side.begin; other < side.end; ++other)
                 if (unknowns_.slot[c.vertices[p][other]] == slot - kNextVertex) before += weight * c.weights[p][other] * block;

@@ -88,7 +88,7 @@ class VertexSystem {
 
     const ActiveContacts* contacts_ = nullptr;
     std::vector<int> incidenceBegin_, incidence_, cursor_;  ///< of each vertex: 4 · pair + place, ascending
-    std::vector<std::array<char, 2>> sideInStrands_;   ///< of each pair: S holds the side's own part
+    std::vector<std::array<char, 2>> sideInStrands_;   ///< of each pair: S holds all of the side's own part, else only the diagonals of its vertices on strands
     std::vector<std::array<Vec3, 2>> pairForce_;       ///< C p on either side of each pair
     std::vector<int> heldSlots_;                       ///< unknowns that are pinned
 
