@@ -97,7 +97,7 @@ void writePiece(SectionWriter& w, const FabricPiece& piece)
 {
     w.line("- name", Node::scalar(piece.name, {}).flow(), sizeText(piece));
     if (!piece.group.empty()) w.line("  group", Node::scalar(piece.group, {}).flow(), "Another name for motions");
-    w.line("  " + piece.kind, piece.text, "[cm]");
+    w.line(fmt::format("  {}", piece.kind), piece.text, "[cm]");
     if (!piece.transformText.empty()) w.line("  transform", piece.transformText, "[cm], [deg]");
     const Vec3& v = piece.velocity;
     w.line("  velocity", fmt::format("[{}, {}, {}]", formatPlain(v[0]), formatPlain(v[1]), formatPlain(v[2])),

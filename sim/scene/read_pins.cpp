@@ -131,8 +131,7 @@ class PinReader {
             if (held_[i]) pin.vertices.push_back(static_cast<int>(i));
         }
         if (pin.vertices.empty())
-            fail(node_.place, fmt::format("{}{}: holds no vertex; move or enlarge what it selects", path_,
-                                          pin.name.empty() ? "" : " " + inQuotes(pin.name)));
+            fail(node_.place, fmt::format("{}: holds no vertex; move or enlarge what it selects", calledPath(pin)));
         if (const Node* motion = node_.find("motion")) {
             ReadMotion read = readMotion(*motion, joinPath(path_, "motion"));
             pin.motion = std::move(read.motion);
@@ -142,6 +141,12 @@ class PinReader {
     }
 
  private:
+    /// "fabrics.cloth.pin, "left"", for messages.
+    std::string calledPath(const PinGroup& pin) const
+    {
+        return pin.name.empty() ? path_ : fmt::format("{}, {}", path_, inQuotes(pin.name));
+    }
+
     static constexpr const char* kSelections[] = {"corners", "edge", "nodes", "shape", "box", "ball"};
 
     std::string select()

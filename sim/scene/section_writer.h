@@ -92,7 +92,9 @@ class SectionWriter {
     }
     void pixels(const char* key, int& width, int& height, int, int, const char* help)
     {
-        line(key, "[" + std::to_string(width) + ", " + std::to_string(height) + "]", help);
+        std::string list = "[";
+        list += std::to_string(width) + ", " + std::to_string(height) + "]";
+        line(key, list, help);
     }
     void color(const char* key, Eigen::Vector3f& x, const char* help);
     void flags(const char* key, std::initializer_list<NamedFlag> all, const char* help);
