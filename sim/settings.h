@@ -3,6 +3,7 @@
 #include "sim/core/types.h"
 #include "sim/core/units.h"
 
+#include <cmath>
 #include <limits>
 
 // Every number a scene may set: default, unit, one sentence. Keys and ranges are in scene/describe.h.
@@ -96,6 +97,16 @@ struct FabricSettings {
     double tolerance = 0.0;           ///< vertex: of the linear solve, relative [-]; grid: speed error [cm/s]; 0 = 2e-2, 1e-3
     bool contact = true;              ///< fabric touches itself and obstacles
     int maxHalvings = 4;              ///< of a step that could not be taken, vertex only
+    double gridObstacleYoung = 6.6e6;     ///< Stiffness of obstacles against fabric, grid only [dyn/cm^2]
+    double gridObstacleThickness = 0.25;  ///< Cells around obstacles in which they push, grid only [-]
+};
+
+/// What fabric is like inside: fibres and the pores between them.
+struct PorousSettings {
+    double fibreDiameter = 0.01;  ///< [cm]
+    double volumeFraction = 1.0;  ///< fibres per envelope volume, of materials that do not say their own (0..1]
+
+    double poreRadius() const { return 0.5 * fibreDiameter * std::sqrt((1.0 - volumeFraction) / volumeFraction); }  ///< [cm]
 };
 
 struct SolverSettings {
@@ -111,6 +122,7 @@ struct Settings {
     FabricTransferSettings fabricTransfer;
     LiquidSettings liquid;
     FabricSettings fabric;
+    PorousSettings porous;
     SolverSettings solver;
 };
 

@@ -55,7 +55,9 @@ struct FabricPiece {
     Vec3 velocity = Vec3::Zero();           ///< [cm/s]
     std::vector<PinGroup> pins;
     std::string where;                      ///< "flag.yaml:14", for messages
-    std::string text;                       ///< its shape as a scene says it, in cgs: "cloth_grid: {…}, transform: {…}"
+    std::string kind;                       ///< the generator that made it: "cloth_grid"
+    std::string text;                       ///< what it was asked for, as a scene says it, in cgs, on one line
+    std::string transformText;              ///< where it was moved then, likewise; empty if it was not
 };
 
 }  // namespace sim

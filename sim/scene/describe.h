@@ -203,9 +203,7 @@ void describe(V& v, Settings& s)
 template <class V>
 void describeLater(V& v)
 {
-    constexpr const char* kLiquidOnly = "this version simulates liquid only; remove the section";
-    for (const char* key : {"fabrics", "materials", "porous", "coupling", "fabric", "contact"})
-        v.later(key, kLiquidOnly);
+    v.later("coupling", "this version simulates fabric dry; remove the section");
     v.later("changes", "this version cannot change settings during a run; remove the section");
     v.later("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
 }

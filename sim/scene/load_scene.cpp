@@ -1,8 +1,10 @@
 #include "sim/scene/load_scene.h"
 
 #include "sim/scene/describe.h"
+#include "sim/scene/describe_fabric.h"
 #include "sim/scene/measure_region.h"
 #include "sim/scene/read_bodies.h"
+#include "sim/scene/read_fabrics.h"
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/section_writer.h"
@@ -25,7 +27,8 @@ void describeTop(V& v, Settings& settings)
     v.other("drench", "");
     v.other("scene", "");
     describe(v, settings);
-    for (const char* key : {"liquid", "obstacles", "domain", "motion"}) v.other(key, "");
+    describeFabric(v, settings);
+    for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion"}) v.other(key, "");
     for (const char* key : {"render", "output", "compare"}) v.other(key, "");
     for (const char* key : {"benchmark", "test"}) v.other(key, "");  // of other verbs; they change nothing in a run
     describeLater(v);
@@ -101,13 +104,16 @@ Scene readScene(const SceneFile& file)
     SectionReader::read(&root, "", [&](auto& v) { describeTop(v, scene.settings); });
     readNames(root, file.file, scene);
     SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, scene.settings.liquid); });
+    scene.materials = readMaterials(root, scene.settings.porous);
+    scene.fabrics = readFabrics(root, scene);
     scene.obstacles = readObstacles(root, scene.settings);
+    readMotions(root, scene);
     if (const Node* domain = root.find("domain")) {
         ReadShape shape = readShape(*domain, "domain", scene.settings.cell);
         scene.domain = std::move(shape.shape);
         scene.domainText = std::move(shape.text);
     }
-    scene.sources = readSources(root, scene.settings);
+    scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
     for (const SourceSettings& source : scene.sources) checkSource(source, scene);
     return scene;
 }

@@ -1,9 +1,13 @@
+#include "sim/fabric/fabric.h"
 #include "sim/scene/describe.h"
+#include "sim/scene/describe_fabric.h"
 #include "sim/scene/load_scene.h"
 #include "sim/scene/measure_region.h"
 #include "sim/scene/section_writer.h"
 
 #include <fmt/format.h>
+
+#include <numeric>
 
 namespace sim {
 
@@ -45,7 +49,7 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
     LiquidSettings liquid = scene.settings.liquid;
     top.below("liquid", "", [&](SectionWriter& w) {
         describe(w, liquid);
-        w.line("sources", "", "");
+        if (!scene.sources.empty()) w.line("sources", "", "");
         for (const SourceSettings& source : scene.sources) writeSource(w, source, scene);
     });
 }
@@ -57,7 +61,61 @@ void writeObstacle(SectionWriter& w, const ObstacleSettings& obstacle)
            fmt::format("{}{}", obstacle.inside ? "around " : "", boundsText(body)));
     w.line("  shape", obstacle.shapeText, "[cm]");
     w.line("  inside", obstacle.inside ? "true" : "false", "The solid is everything outside of the shape");
+    w.line("  collide", obstacle.collide ? "true" : "false", "Fabric touches it");
+    if (obstacle.frictionAngle)
+        w.line("  friction_angle", formatNumber(*obstacle.frictionAngle, Quantity::Angle), "[deg] Of fabric on it");
     if (!obstacle.motionText.empty()) w.line("  motion", obstacle.motionText, "[s], [cm], [deg]");
+}
+
+void writeMaterials(SectionWriter& top, std::vector<NamedMaterial> materials)
+{
+    top.below("materials", "", [&](SectionWriter& w) {
+        for (NamedMaterial& m : materials)
+            w.below(Node::scalar(m.name, {}).flow(), "", [&](SectionWriter& inner) { describe(inner, m.material); });
+    });
+}
+
+std::string pinText(const PinGroup& pin)
+{
+    return fmt::format("{{{}{}{}{}}}",
+                       pin.name.empty() ? "" : fmt::format("name: {}, ", Node::scalar(pin.name, {}).flow()), pin.text,
+                       pin.twist ? ", twist: true" : "", pin.motionText.empty() ? "" : ", motion: " + pin.motionText);
+}
+
+std::string sizeText(const FabricPiece& piece)
+{
+    const Fabric fabric = assembleFabric({&piece, 1});
+    const double mass = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& x : piece.points) bounds.extend(x);
+    return fmt::format("{} vertices, {} yarns, {} faces, {:.4g} g, {} to {} cm", piece.points.size(),
+                       piece.strands.size(), piece.faces.size(), mass, vectorText(bounds.min()),
+                       vectorText(bounds.max()));
+}
+
+void writePiece(SectionWriter& w, const FabricPiece& piece)
+{
+    w.line("- name", Node::scalar(piece.name, {}).flow(), sizeText(piece));
+    if (!piece.group.empty()) w.line("  group", Node::scalar(piece.group, {}).flow(), "Another name for motions");
+    w.line(fmt::format("  {}", piece.kind), piece.text, "[cm]");
+    if (!piece.transformText.empty()) w.line("  transform", piece.transformText, "[cm], [deg]");
+    const Vec3& v = piece.velocity;
+    w.line("  velocity", fmt::format("[{}, {}, {}]", formatPlain(v[0]), formatPlain(v[1]), formatPlain(v[2])),
+           "[cm/s]");
+    if (piece.pins.empty()) return;
+    w.below("  pin", "[cm], [s], [deg]", [&](SectionWriter& inner) {
+        inner.indentBy(1);
+        for (const PinGroup& pin : piece.pins) inner.item(pinText(pin));
+    });
+}
+
+void writeFabric(SectionWriter& w, const Scene& scene)
+{
+    Settings settings = scene.settings;
+    describeFabric(w, settings);
+    writeMaterials(w, scene.materials);
+    if (!scene.fabrics.empty()) w.line("fabrics", "", "");
+    for (const FabricPiece& piece : scene.fabrics) writePiece(w, piece);
 }
 
 }  // namespace
@@ -72,6 +130,7 @@ std::string printScene(const Scene& scene)
     Settings settings = scene.settings;
     describe(w, settings);
     writeLiquid(w, scene);
+    if (!scene.fabrics.empty() || !scene.materials.empty()) writeFabric(w, scene);
     if (!scene.obstacles.empty()) w.line("obstacles", "", "");
     for (const ObstacleSettings& o : scene.obstacles) writeObstacle(w, o);
     if (scene.domain) w.line("domain", scene.domainText, "[cm] Liquid outside is deleted");

@@ -1,52 +1,15 @@
 #include "sim/scene/read_bodies.h"
 
 #include "sim/scene/describe.h"
+#include "sim/scene/read_list.h"
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace sim {
 
 namespace {
-
-/// The list behind a key, or nullptr; anything but a list is refused.
-const Node* listAt(const Node* map, const char* key, const std::string& path, const char* example)
-{
-    const Node* node = map ? map->find(key) : nullptr;
-    if (node && !node->isList())
-        fail(node->place, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
-    return node;
-}
-
-/// The element's name, or its number where it has none: as overrides address it.
-std::string nameIn(const Node& element, std::size_t index, const std::string& path)
-{
-    const Node* name = element.find("name");
-    if (!name) return std::to_string(index);
-    const std::string& text = readText(*name, joinPath(path, std::to_string(index) + ".name"));
-    const auto isAllowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    };
-    if (text.empty() || !std::all_of(text.begin(), text.end(), isAllowed)) {
-        fail(name->place,
-             fmt::format("{}.{}.name: {} may have letters, digits, _ and - only", path, index, inQuotes(text)));
-    }
-    return text;
-}
-
-template <class Settings>
-void requireUnique(const std::vector<Settings>& all, const std::string& path)
-{
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (all[i].name == all[k].name)
-                fail(all[i].where, fmt::format("{}: two are named {}; rename one", path, inQuotes(all[i].name)));
-        }
-    }
-}
 
 void checkEmission(const Emission& e, const Node& node, const std::string& path, double start)
 {
@@ -102,20 +65,21 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
     ObstacleSettings obstacle;
     obstacle.name = name;
     obstacle.where = node.place.text();
+    double friction = 0.0;
     SectionReader::read(&node, path, [&](auto& v) {
         v.other("name", "");
         v.needs("shape", "the solid body, like shape: {ball: {center: [0, 0, 0], radius: 1}}");
         v.other("shape", "");
         v.flag("inside", obstacle.inside, "");
         v.other("motion", "");
+        v.flag("collide", obstacle.collide, "");
+        v.number("friction_angle", friction, Quantity::Angle, Range::between(0.0, 89.0), "");
         v.withoutEffect([](auto& w) {
             bool flag = true;
-            double angle = 0.0;
-            w.flag("collide", flag, "");
             w.flag("cohesive", flag, "");
-            w.number("friction_angle", angle, Quantity::Angle, Range::between(0.0, 89.0), "");
         });
     });
+    if (node.find("friction_angle")) obstacle.frictionAngle = friction;
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);
     obstacle.shape = obstacle.inside ? shape.shape.inverted() : std::move(shape.shape);
     obstacle.shapeText = std::move(shape.text);
@@ -127,68 +91,18 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
     return obstacle;
 }
 
-ObstacleSettings& obstacleNamed(const std::string& name, const Node& node, std::vector<ObstacleSettings>& obstacles)
-{
-    std::vector<std::string> names;
-    for (ObstacleSettings& o : obstacles) {
-        if (o.name == name) return o;
-        names.push_back(o.name);
-    }
-    fail(node.place, fmt::format("motion: no obstacle is named {}{}", inQuotes(name), suggestion(name, names)));
-}
-
-/// Gives an obstacle the motion that the section `motion` has for it.
-void giveMotion(const Node& pieces, const std::string& name, const std::string& path,
-                std::vector<ObstacleSettings>& obstacles)
-{
-    ObstacleSettings& obstacle = obstacleNamed(name, pieces, obstacles);
-    if (!obstacle.motionText.empty())
-        fail(pieces.place,
-             fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
-    ReadMotion read = readMotion(pieces, path);
-    obstacle.motion = std::move(read.motion);
-    obstacle.motionText = std::move(read.text);
-}
-
-/// The section `motion`: a map {name: [pieces]}, or a list of pieces that each say which obstacle they move.
-void readMotions(const Node& section, std::vector<ObstacleSettings>& obstacles)
-{
-    if (section.isMap()) {
-        for (std::size_t i = 0; i < section.keys.size(); ++i) {
-            giveMotion(section.items[i], section.keys[i], joinPath("motion", section.keys[i]), obstacles);
-        }
-        return;
-    }
-    if (!section.isList())
-        fail(section.place,
-             fmt::format("motion: needs a list like [{{obstacle: paddle, t: [0, 1], translate: [0, 5, 0]}}], not {}",
-                         section.called()));
-    Node byName = Node::map(section.place);
-    for (const Node& item : section.items) {
-        const Node* name = item.find("obstacle") ? item.find("obstacle") : item.find("group");
-        if (!name) fail(item.place, "motion: obstacle is missing; it is the name of what moves, like obstacle: paddle");
-        Node piece = item;
-        piece.erase("obstacle");
-        piece.erase("group");
-        Node& pieces = byName.at(readText(*name, "motion.obstacle"), item.place);
-        pieces.kind = Node::Kind::List;
-        pieces.items.push_back(std::move(piece));
-    }
-    readMotions(byName, obstacles);
-}
-
 }  // namespace
 
-std::vector<SourceSettings> readSources(const Node& root, const Settings& settings)
+std::vector<SourceSettings> readSources(const Node& root, const Settings& settings, bool isNeeded)
 {
     std::vector<SourceSettings> sources;
     const std::string path = "liquid.sources";
     const Node* list = listAt(root.find("liquid"), "sources", path, "[{shape: …}]");
-    if (!list || list->items.empty()) {
+    if (isNeeded && (!list || list->items.empty())) {
         fail(list ? list->place : root.place,
              "liquid.sources: a scene needs at least one source, like - shape: {ball: {center: [0, 5, 0], radius: 1}}");
     }
-    for (std::size_t i = 0; i < list->items.size(); ++i) {
+    for (std::size_t i = 0; list && i < list->items.size(); ++i) {
         const std::string name = nameIn(list->items[i], i, path);
         sources.push_back(readSource(list->items[i], name, joinPath(path, name), settings));
     }
@@ -206,7 +120,6 @@ std::vector<ObstacleSettings> readObstacles(const Node& root, const Settings& se
         }
     }
     requireUnique(obstacles, "obstacles");
-    if (const Node* section = root.find("motion")) readMotions(*section, obstacles);
     return obstacles;
 }
 

@@ -5,10 +5,11 @@
 
 namespace sim {
 
-/// Reads liquid.sources. Everything but the shapes' extent is checked; `settings` gives cell, start and spacing.
-std::vector<SourceSettings> readSources(const Node& root, const Settings& settings);
+/// Reads liquid.sources, of which there must be one where it `isNeeded`. Everything but the shapes' extent is checked;
+/// `settings` gives cell, start and spacing.
+std::vector<SourceSettings> readSources(const Node& root, const Settings& settings, bool isNeeded);
 
-/// Reads obstacles, with their motions: those inside them and those of the section `motion`, which names them.
+/// Reads obstacles and the motions that stand in them.
 std::vector<ObstacleSettings> readObstacles(const Node& root, const Settings& settings);
 
 }  // namespace sim

@@ -1,50 +1,24 @@
 #include "sim/scene/read_shape.h"
 
-#include "sim/core/units.h"
+#include "sim/scene/read_place.h"
 #include "sim/scene/section_reader.h"
-#include "sim/scene/section_writer.h"
 #include "sim/shapes/obj.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <optional>
 
 namespace sim {
 
 namespace {
-
-constexpr double kFarthest = 1.0e7;  // [cm], 100 km: sizes beyond it are slips, and their squares lose all digits
 
 struct Context {
     std::string path;
     double cell = 0.0;
 };
 
-/// The fields as one line of YAML, as a declaration writes them.
-template <class Fields>
-std::string flowOf(Fields fields)
-{
-    SectionWriter writer;
-    fields(writer);
-    return writer.flow();
-}
-
 const Range kSize = Range::aboveTo(0.0, kFarthest);
 const Range kRound = Range::between(0.0, kFarthest);
-
-void requireNear(const Node& node, const std::string& path, const Vec3& x)
-{
-    if (x.cwiseAbs().maxCoeff() > kFarthest) fail(node.place, fmt::format("{}: lies beyond {} cm", path, kFarthest));
-}
-
-Vec3 unitAxis(const Node& node, const std::string& path, const Vec3& axis)
-{
-    const double length = axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length))
-        fail(node.place, fmt::format("{}.axis: must be a direction, like [0, 1, 0]", path));
-    return axis / length;
-}
 
 ReadShape readBox(const Node& node, const Context& context, bool isRound)
 {
@@ -127,7 +101,7 @@ ReadShape readCylinder(const Node& node, const Context& context)
     };
     SectionReader::read(&node, context.path, fields);
     requireNear(node, context.path, center);
-    return {Shape::cylinder(center, unitAxis(node, context.path, axis), radius, half, round), flowOf(fields)};
+    return {Shape::cylinder(center, unitAxis(node, context.path + ".axis", axis), radius, half, round), flowOf(fields)};
 }
 
 ReadShape readMesh(const Node& node, const Context& context)
@@ -148,14 +122,9 @@ ReadShape readMesh(const Node& node, const Context& context)
     if (!(cell > 0.0))
         fail(node.place,
              fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
-    namespace fs = std::filesystem;
     const Node& name = *node.find("file");
-    const fs::path directory = name.place.source ? name.place.source->directory : ".";
-    const fs::path path = directory / fs::path(file);
-    std::error_code error;
-    if (!fs::is_regular_file(path, error))
-        fail(name.place, fmt::format("{}.file: there is no file {}", context.path, fileInQuotes(path.string())));
-    file = fs::absolute(path, error).lexically_normal().string();
+    const std::filesystem::path path = existingFile(name, context.path + ".file");
+    file = path.string();
     try {
         return {shapeFromObj(path, scale, cell), flowOf(fields)};
     } catch (const InputError& e) {
@@ -193,34 +162,18 @@ ReadShape readBody(const Node& node, const Context& context, const std::string& 
     return {inner.shape.inverted(), inner.text};
 }
 
-/// Turns the shape about a point: `origin`, or else the middle of its bounds (the scene's origin where it has none).
-void rotate(ReadShape& body, const Node& node, const std::string& path)
+/// Where the shape turns unless it says so: the middle of its bounds, the scene's origin where it has none.
+Vec3 middleOf(const Shape& shape)
 {
-    Vec3 axis = Vec3::UnitY(), origin = Vec3::Zero();
-    const Eigen::AlignedBox3d bounds = body.shape.bounds();
-    if (!bounds.isEmpty() && bounds.sizes().maxCoeff() < kFarthest) origin = bounds.center();
-    double angle = 0.0;
-    const auto fields = [&](auto& v) {
-        v.needs("axis", "the direction to turn about, like axis: [0, 0, 1]");
-        v.vector("axis", axis, Quantity::None, "");
-        v.needs("angle", "how far to turn, in degrees, like angle: 30");
-        v.number("angle", angle, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
-        v.vector("origin", origin, Quantity::Length, "");
-    };
-    SectionReader::read(&node, path, fields);
-    requireNear(node, path, origin);
-    const Eigen::AngleAxisd turn(angle, unitAxis(node, path, axis));
-    body.shape =
-        body.shape.moved(Eigen::Isometry3d(Eigen::Translation3d(origin) * turn * Eigen::Translation3d(-origin)));
-    body.text += ", rotate: " + flowOf(fields);
+    const Eigen::AlignedBox3d bounds = shape.bounds();
+    if (bounds.isEmpty() || !(bounds.sizes().maxCoeff() < kFarthest)) return Vec3::Zero();
+    return bounds.center();
 }
 
-void translate(ReadShape& body, const Node& node, const std::string& path)
+void apply(const ReadTransform& transform, const char* key, ReadShape& body)
 {
-    Vec3 by = Vec3::Zero();
-    readNumbers(node, path, {by.data(), 3}, Quantity::Length, Range::between(-kFarthest, kFarthest));
-    body.shape = body.shape.moved(Eigen::Isometry3d(Eigen::Translation3d(by)));
-    body.text += fmt::format(", translate: [{}, {}, {}]", formatPlain(by[0]), formatPlain(by[1]), formatPlain(by[2]));
+    body.shape = body.shape.moved(transform.transform);
+    body.text += fmt::format(", {}: {}", key, transform.text);
 }
 
 /// The one key of the shape that says what body it is.
@@ -253,8 +206,10 @@ ReadShape readShape(const Node& node, const std::string& path, double cell)
     const Node& given = *node.find(kind);
     ReadShape body = readBody(given, {joinPath(path, kind), cell}, kind);
     body.text = kind + ": " + body.text;
-    if (const Node* turn = node.find("rotate")) rotate(body, *turn, joinPath(path, "rotate"));
-    if (const Node* by = node.find("translate")) translate(body, *by, joinPath(path, "translate"));
+    if (const Node* turn = node.find("rotate"))
+        apply(readRotation(*turn, joinPath(path, "rotate"), middleOf(body.shape)), "rotate", body);
+    if (const Node* by = node.find("translate"))
+        apply(readTranslation(*by, joinPath(path, "translate")), "translate", body);
     body.text = "{" + body.text + "}";
     return body;
 }

@@ -49,6 +49,11 @@ struct ObstacleSettings {
     std::string motionText;  ///< the motion likewise; empty if static
 };
 
+struct NamedMaterial {
+    std::string name;
+    FabricMaterial material;
+};
+
 /// One scene file, resolved: includes, variant and overrides applied, units converted to CGS.
 struct Scene {
     std::string name, title, description;
@@ -56,6 +61,7 @@ struct Scene {
     std::string file;                 ///< the file it came from, for messages
     Settings settings;
     std::vector<SourceSettings> sources;
+    std::vector<NamedMaterial> materials;
     std::vector<FabricPiece> fabrics;
     std::vector<ObstacleSettings> obstacles;
     std::optional<Shape> domain;      ///< liquid outside of it is deleted

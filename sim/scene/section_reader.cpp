@@ -21,6 +21,14 @@ bool parseWhole(const std::string& text, Integer& out)
     return error == std::errc() && end == text.data() + text.size();
 }
 
+void readWholeNumbers(const Node& node, const std::string& path, const char* example, std::array<int*, 2> out, int low,
+                      int high)
+{
+    if (!node.isList() || node.items.size() != 2)
+        failAt(node, path, fmt::format("needs a list of 2 whole numbers, like {}, not {}", example, node.called()));
+    for (std::size_t i = 0; i < 2; ++i) *out[i] = static_cast<int>(readInteger(node.items[i], path, low, high));
+}
+
 }  // namespace
 
 std::string Range::text(const std::string& unit) const
@@ -28,6 +36,7 @@ std::string Range::text(const std::string& unit) const
     const std::string suffix = unit.empty() ? "" : " " + unit;
     const bool hasLow = low > -std::numeric_limits<double>::infinity();
     const bool hasHigh = high < std::numeric_limits<double>::infinity();
+    if (hasLow && hasHigh && isLowOpen && isHighOpen) return fmt::format("above {}, below {}{}", low, high, suffix);
     if (hasLow && hasHigh && isLowOpen) return fmt::format("above {}, at most {}{}", low, high, suffix);
     if (hasLow && hasHigh) return fmt::format("{} to {}{}", low, high, suffix);
     if (hasLow) return fmt::format("{} {}{}", isLowOpen ? "above" : "at least", low, suffix);
@@ -159,14 +168,27 @@ void SectionReader::numberOrWord(const char* key, double& out, const char* word,
     if (!isWord) out = readNumber(*n, pathOf(key), quantity, range);
 }
 
+void SectionReader::numberOrPair(const char* key, std::array<double, 2>& out, Quantity quantity, Range range,
+                                 const char*)
+{
+    const Node* n = find(key);
+    if (!n) return;
+    if (n->isList()) return readNumbers(*n, pathOf(key), out, quantity, range);
+    out.fill(readNumber(*n, pathOf(key), quantity, range));
+}
+
 void SectionReader::pixels(const char* key, int& width, int& height, int low, int high, const char*)
 {
     const Node* n = find(key);
     if (!n) return;
-    if (!n->isList() || n->items.size() != 2)
-        failAt(*n, pathOf(key), fmt::format("needs a list of 2 whole numbers, like [960, 540], not {}", n->called()));
-    width = static_cast<int>(readInteger(n->items[0], pathOf(key), low, high));
-    height = static_cast<int>(readInteger(n->items[1], pathOf(key), low, high));
+    readWholeNumbers(*n, pathOf(key), "[960, 540]", {&width, &height}, low, high);
+}
+
+void SectionReader::counts(const char* key, Eigen::Vector2i& out, int low, int high, const char*)
+{
+    const Node* n = find(key);
+    if (!n) return;
+    readWholeNumbers(*n, pathOf(key), "[20, 30]", {&out[0], &out[1]}, low, high);
 }
 
 void SectionReader::color(const char* key, Eigen::Vector3f& out, const char*)

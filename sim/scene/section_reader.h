@@ -51,7 +51,9 @@ class KeyList {
     }
     void vector(const char* key, Vec3&, Quantity, const char*) { add(key); }
     void pair(const char* key, std::array<double, 2>&, Quantity, Range, const char*) { add(key); }
+    void numberOrPair(const char* key, std::array<double, 2>&, Quantity, Range, const char*) { add(key); }
     void pixels(const char* key, int&, int&, int, int, const char*) { add(key); }
+    void counts(const char* key, Eigen::Vector2i&, int, int, const char*) { add(key); }
     void color(const char* key, Eigen::Vector3f&, const char*) { add(key); }
     void flags(const char* key, std::initializer_list<NamedFlag>, const char*) { add(key); }
     void either(const char* key, bool&, const char*, const char*, const char*) { add(key); }
@@ -102,6 +104,8 @@ class SectionReader {
 
     bool has(const char* key) const { return find(key) != nullptr; }
     const Node* find(const char* key) const { return node_.find(key); }
+    const std::string& path() const { return path_; }
+    const Place& place() const { return node_.place; }
     std::string pathOf(const char* key) const { return joinPath(path_, key); }
     /// The line of the key, or of the section where the key is missing.
     Place placeOf(const char* key) const;
@@ -159,7 +163,11 @@ class SectionReader {
     {
         if (const Node* n = find(key)) readNumbers(*n, pathOf(key), out, quantity, range);
     }
+    /// A list of two numbers, or one that stands for both.
+    void numberOrPair(const char* key, std::array<double, 2>& out, Quantity quantity, Range range, const char*);
     void pixels(const char* key, int& width, int& height, int low, int high, const char*);
+    /// A list of two whole numbers.
+    void counts(const char* key, Eigen::Vector2i& out, int low, int high, const char*);
     void color(const char* key, Eigen::Vector3f& out, const char*);
     void flags(const char* key, std::initializer_list<NamedFlag> all, const char*)
     {

@@ -81,9 +81,20 @@ class SectionWriter {
     {
         numbers(key, x, q, help);
     }
+    void numberOrPair(const char* key, std::array<double, 2>& x, Quantity q, Range range, const char* help)
+    {
+        if (x[0] == x[1]) return number(key, x[0], q, range, help);
+        numbers(key, x, q, help);
+    }
+    void counts(const char* key, Eigen::Vector2i& n, int low, int high, const char* help)
+    {
+        pixels(key, n[0], n[1], low, high, help);
+    }
     void pixels(const char* key, int& width, int& height, int, int, const char* help)
     {
-        line(key, "[" + std::to_string(width) + ", " + std::to_string(height) + "]", help);
+        std::string list = "[";
+        list += std::to_string(width) + ", " + std::to_string(height) + "]";
+        line(key, list, help);
     }
     void color(const char* key, Eigen::Vector3f& x, const char* help);
     void flags(const char* key, std::initializer_list<NamedFlag> all, const char* help);

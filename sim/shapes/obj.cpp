@@ -28,9 +28,27 @@ std::string_view nextWord(std::string_view& line)
 /// Reads one file; knows the line for messages.
 class ObjReader {
  public:
-    explicit ObjReader(const std::filesystem::path& file) : file_(file.string()), in_(file) {}
+    ObjReader(const std::filesystem::path& file, bool wantsLines)
+        : file_(file.string()), in_(file), wantsLines_(wantsLines)
+    {
+    }
 
-    TriangleMesh read()
+    TriangleMesh readMesh()
+    {
+        read();
+        if (mesh_.triangles.empty()) throw InputError(file_ + ": has no faces");
+        return std::move(mesh_);
+    }
+
+    PolylineSet readLines()
+    {
+        read();
+        if (lines_.empty()) throw InputError(file_ + ": has no lines (l)");
+        return {std::move(mesh_.vertices), std::move(lines_)};
+    }
+
+ private:
+    void read()
     {
         if (!in_) throw InputError(file_ + ": cannot be opened");
         for (std::string line; std::getline(in_, line);) {
@@ -40,15 +58,13 @@ class ObjReader {
             const std::string_view kind = nextWord(rest);
             if (kind == "v") readVertex(rest);
             if (kind == "f") readFace(rest);
+            if (kind == "l" && wantsLines_) readLine(rest);
             if (std::max(mesh_.vertices.size(), mesh_.triangles.size()) > kMostElements)
                 fail("more than 100 million vertices or triangles");
         }
         if (in_.bad()) throw InputError(file_ + ": could not be read to its end");
-        if (mesh_.triangles.empty()) throw InputError(file_ + ": has no faces");
-        return std::move(mesh_);
     }
 
- private:
     [[noreturn]] void fail(const std::string& what) const
     {
         throw InputError(file_ + ":" + std::to_string(line_) + ": " + what);
@@ -95,17 +111,32 @@ class ObjReader {
         if (corners < 3) fail("a face needs three corners or more");
     }
 
+    void readLine(std::string_view rest)
+    {
+        std::vector<int>& line = lines_.emplace_back();
+        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest))
+            line.push_back(readCorner(word));
+        if (line.size() < 2) fail("a line needs two vertices or more");
+    }
+
     std::string file_;
     std::ifstream in_;
+    bool wantsLines_;
     int line_ = 0;
     TriangleMesh mesh_;
+    std::vector<std::vector<int>> lines_;
 };
 
 }  // namespace
 
 TriangleMesh readObj(const std::filesystem::path& file)
 {
-    return ObjReader(file).read();
+    return ObjReader(file, false).readMesh();
+}
+
+PolylineSet readObjLines(const std::filesystem::path& file)
+{
+    return ObjReader(file, true).readLines();
 }
 
 Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell)

@@ -12,6 +12,15 @@ namespace sim {
 /// what".
 TriangleMesh readObj(const std::filesystem::path& file);
 
+/// Points and the lines through them.
+struct PolylineSet {
+    std::vector<Vec3> vertices;           ///< [cm]
+    std::vector<std::vector<int>> lines;  ///< vertices in order, 2 or more
+};
+
+/// The `v` and `l` lines of a Wavefront OBJ file, the others skipped; corners as in readObj.
+PolylineSet readObjLines(const std::filesystem::path& file);
+
 /// The closed mesh in an OBJ file, times `scale` (the file's unit in cm), sampled on a lattice of pitch `cell` [cm].
 Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell);
 

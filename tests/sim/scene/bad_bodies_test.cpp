@@ -295,7 +295,7 @@ obstacles:
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 motion: [{obstacle: paddel, t: [0, 1], translate: [0, 1, 0]}]
 )",
-     "bad.yaml:3: motion: no obstacle is named \"paddel\""},
+     "bad.yaml:3: motion: no obstacle, pin or fabric is named \"paddel\""},
     {"MotionNameless", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 motion: [{t: [0, 1], translate: [0, 1, 0]}]

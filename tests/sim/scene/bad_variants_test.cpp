@@ -5,12 +5,11 @@
 namespace {
 
 const BadScene kBadScenes[] = {
-    {"Fabrics", R"(grid: {cell: 0.1}
+    {"Coupling", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-fabrics:
-  - {name: cloth}
+coupling: {drag: off}
 )",
-     "bad.yaml:3: fabrics: this version simulates liquid only; remove the section"},
+     "bad.yaml:3: coupling: this version simulates fabric dry; remove the section"},
     {"Changes", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 changes: []

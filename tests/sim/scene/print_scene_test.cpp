@@ -58,6 +58,43 @@ output: {dir: some where, every: 1/3 s, frames: none, data: [stats], video: {fps
 compare: {variants: {transfer.method: [pic, apic], gravity: [[0, -9.81, 0], [0, 0, 0]]}, layout: grid, products: [sheet], reference: "apic, [0, 0, 0]"}
 )";
 
+const char* const kAllFabric = R"(
+units: si
+grid: {cell: 2 mm}
+porous: {fibre_diameter: 0.1 mm, pore_radius: 0.07 mm}
+fabric: {solver: "off", bending: hinge, hinge: {constant: 3, measure: sin}, tolerance: 1.0e-3}
+contact: {obstacle_thickness: 0.3}
+materials:
+  wool: {young: 1.0e+6, friction_angle: 0.31 rad, section_rotation: 11.1}
+  "12": {young: 2.34 MPa, volume_fraction: 0.77, damp_bending: false}
+fabrics:
+  - cloth_grid: {material: wool, nodes: [5, 4], size: [0.1, 0.07], center: [0, 0.1, 0], u: [1, 1, 0], v: [0, 0.3, 1], radius: [0.2 mm, 0.3 mm]}
+    velocity: [0.1, 0, 0.3]
+    pin:
+      - {name: left, corners: ["x- z-", z+], patch: 2, border_only: true, motion: {t: [0, 1], translate: [0, 0.1, 0]}}
+      - {nodes: [12, 13]}
+  - name: weave
+    group: things
+    material: "12"
+    woven_yarns: {yarns: [6, 7], spacing: 1.44 mm, radius: 0.3 mm, weave: twill, borders: false, u: [0, 1, 0]}
+    transform: {rotate: {axis: [1, 2, 3], angle: 33}, translate: [0.1, 0.2, 0.3]}
+    pin: {name: right, edge: z-, patch: 2, twist: true}
+  - strand: {material: wool, points: [[0, 0, 0], [0.01, 1/3, 0], [0.02, 0.4, 0]], radius: 0.3 mm}
+    pin: {ball: {center: [0, 0, 0], radius: 0.01}}
+  - strand: {material: wool, from: [1, 0, 0], to: [1, 0.1, 0], segments: 7, radius: 0.3 mm}
+    pin: {shape: {subtract: [{box: {min: [0, 0, -1], max: [2, 0.05, 1]}}, {ball: {center: [1, 0, 0], radius: 0.01}}]}}
+obstacles:
+  - {name: ball, shape: {ball: {center: [5, 0, 0], radius: 0.1}}, collide: false, friction_angle: 0.4 rad}
+motion: {right: {t: [0, 2], rotate: {axis: [0, 0, 1], angle: 99, origin: [0, 0.1, 0]}}}
+)";
+
+std::string allFabric()
+{
+    std::string text = kAllFabric;
+    text.replace(text.find("1/3"), 3, "0.3333333333333333");
+    return text;
+}
+
 std::string everything()
 {
     std::string text = kEverything;
@@ -68,6 +105,50 @@ std::string everything()
 TEST(PrintScene, LoadsAgainToTheSame)
 {
     expectRoundTrip(sim::sceneFileFromText(everything(), "everything.yaml"));
+}
+
+TEST(PrintScene, FabricLoadsAgainToTheSame)
+{
+    expectRoundTrip(sim::sceneFileFromText(allFabric(), "fabric.yaml"));
+}
+
+TEST(PrintScene, KeepsEveryBitOfTheFabric)
+{
+    const sim::Scene before = sim::readScene(sim::sceneFileFromText(allFabric(), "fabric.yaml"));
+    const sim::Scene after = sim::readScene(sim::sceneFileFromText(sim::printScene(before), "printed.yaml"));
+    EXPECT_EQ(before.settings.porous.volumeFraction, after.settings.porous.volumeFraction);
+    EXPECT_EQ(before.settings.porous.fibreDiameter, after.settings.porous.fibreDiameter);
+    EXPECT_EQ(before.settings.fabric.solver, after.settings.fabric.solver);
+    EXPECT_EQ(before.settings.fabric.tolerance, after.settings.fabric.tolerance);
+    EXPECT_EQ(before.settings.fabric.hingeConstant, after.settings.fabric.hingeConstant);
+    EXPECT_EQ(before.settings.fabric.gridObstacleThickness, after.settings.fabric.gridObstacleThickness);
+    EXPECT_EQ(before.obstacles.at(0).collide, after.obstacles.at(0).collide);
+    EXPECT_EQ(before.obstacles[0].frictionAngle, after.obstacles[0].frictionAngle);
+    ASSERT_EQ(before.fabrics.size(), after.fabrics.size());
+    for (std::size_t i = 0; i < before.fabrics.size(); ++i) {
+        const sim::FabricPiece &a = before.fabrics[i], &b = after.fabrics[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.group, b.group);
+        EXPECT_EQ(a.materialName, b.materialName);
+        EXPECT_EQ(a.material.young, b.material.young);
+        EXPECT_EQ(a.material.frictionAngle, b.material.frictionAngle);
+        EXPECT_EQ(a.material.sectionRotation, b.material.sectionRotation);
+        EXPECT_EQ(a.material.volumeFraction, b.material.volumeFraction);
+        EXPECT_EQ(a.material.dampBending, b.material.dampBending);
+        EXPECT_EQ(a.radius, b.radius);
+        EXPECT_EQ(a.points, b.points);
+        EXPECT_EQ(a.strands, b.strands);
+        EXPECT_EQ(a.faces, b.faces);
+        EXPECT_EQ(a.velocity, b.velocity);
+        ASSERT_EQ(a.pins.size(), b.pins.size());
+        for (std::size_t k = 0; k < a.pins.size(); ++k) {
+            EXPECT_EQ(a.pins[k].name, b.pins[k].name);
+            EXPECT_EQ(a.pins[k].vertices, b.pins[k].vertices);
+            EXPECT_EQ(a.pins[k].twist, b.pins[k].twist);
+            EXPECT_EQ(a.pins[k].motion.transform(0.7) * sim::Vec3(1, 2, 3),
+                      b.pins[k].motion.transform(0.7) * sim::Vec3(1, 2, 3));
+        }
+    }
 }
 
 TEST(PrintScene, SmallestSceneLoadsAgainToTheSame)

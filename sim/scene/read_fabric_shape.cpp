@@ -1,0 +1,235 @@
+#include "sim/fabric/orient.h"
+#include "sim/scene/choice.h"
+#include "sim/scene/read_fabrics.h"
+#include "sim/scene/read_place.h"
+#include "sim/scene/section_reader.h"
+#include "sim/shapes/obj.h"
+
+#include <fmt/format.h>
+
+namespace sim {
+
+static std::span<const Choice<Weave>> choicesOf(Weave)
+{
+    static constexpr Choice<Weave> kAll[] = {
+        {"plain", Weave::Plain}, {"twill", Weave::Twill}, {"herringbone", Weave::Herringbone}};
+    return kAll;
+}
+
+namespace {
+
+constexpr int kMostVertices = 5'000'000;
+
+const Range kSize = Range::aboveTo(0.0, kFarthest);
+
+struct Context {
+    const Node& node;
+    std::string path;
+
+    [[noreturn]] void fail(const std::string& message) const { sim::fail(node.place, path + ": " + message); }
+};
+
+/// The fields that every kind has.
+template <class V>
+void describeThread(V& v, std::array<double, 2>& radius)
+{
+    v.other("material", "Name of one of materials");
+    v.needs("radius", "half the thickness of a yarn or of the cloth, like radius: 0.02; [a, b] is an elliptic section");
+    v.numberOrPair("radius", radius, Quantity::Length, kSize, "");
+}
+
+/// Where a sheet lies: from a corner, or around its middle, along two directions.
+struct Placement {
+    Vec3 origin = Vec3::Zero(), center = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitZ();
+    bool byCenter = false;
+};
+
+template <class V>
+void describe(V& v, Placement& p)
+{
+    v.whenReading([&](auto& r) {
+        p.byCenter = r.has("center");
+        r.require(!p.byCenter || !r.has("origin"), "center", "stands for origin; give one of them");
+    });
+    v.when(!p.byCenter, [&](auto& w) { w.vector("origin", p.origin, Quantity::Length, "The corner"); });
+    v.when(p.byCenter, [&](auto& w) { w.vector("center", p.center, Quantity::Length, "The middle"); });
+    v.vector("u", p.u, Quantity::None, "Direction of the first");
+    v.vector("v", p.v, Quantity::None, "Direction of the second");
+}
+
+/// Fills origin, u and v of a sheet of that extent.
+template <class Sheet>
+void place(const Placement& p, double alongU, double alongV, const Context& context, Sheet& sheet)
+{
+    sheet.u = unitAxis(context.node, context.path + ".u", p.u);
+    sheet.v = unitAxis(context.node, context.path + ".v", p.v);
+    constexpr double kSmallestAngle = 1.0e-3;  // [rad]
+    if (sheet.u.cross(sheet.v).norm() < kSmallestAngle) context.fail("u and v must point in different directions");
+    sheet.origin = p.byCenter ? Vec3(p.center - 0.5 * (alongU * sheet.u + alongV * sheet.v)) : p.origin;
+    requireNear(context.node, context.path, sheet.origin.cwiseAbs() + Vec3::Constant(std::max(alongU, alongV)));
+}
+
+void requireFew(double count, const Context& context)
+{
+    if (count > kMostVertices)
+        context.fail(fmt::format("would have {:.3g} vertices (at most {:.0e} are possible); ask for fewer", count,
+                                 static_cast<double>(kMostVertices)));
+}
+
+ReadFabricShape readClothGrid(const Context& context)
+{
+    ClothGrid grid;
+    Placement placement;
+    std::array<double, 2> radius{}, size{};
+    bool bySize = false;
+    const auto fields = [&](auto& v) {
+        describeThread(v, radius);
+        v.needs("nodes", "the number of vertices each way, like nodes: [50, 50]");
+        v.counts("nodes", grid.nodes, 2, kMostVertices, "");
+        v.whenReading([&](auto& r) {
+            bySize = r.has("size");
+            if (bySize == r.has("spacing")) context.fail("needs either spacing or size");
+        });
+        v.when(!bySize, [&](auto& w) { w.numberOrPair("spacing", grid.spacing, Quantity::Length, kSize, ""); });
+        v.when(bySize, [&](auto& w) { w.numberOrPair("size", size, Quantity::Length, kSize, ""); });
+        describe(v, placement);
+    };
+    SectionReader::read(&context.node, context.path, fields);
+    requireFew(pointCount(grid), context);
+    const std::string text = flowOf(fields);
+    for (int axis = 0; axis < 2; ++axis) {
+        if (bySize) grid.spacing[axis] = size[axis] / (grid.nodes[axis] - 1);
+        size[axis] = grid.spacing[axis] * (grid.nodes[axis] - 1);
+    }
+    place(placement, size[0], size[1], context, grid);
+    return {clothGrid(grid), radius, text};
+}
+
+ReadFabricShape readWovenYarns(const Context& context)
+{
+    WovenYarns cloth;
+    Placement placement;
+    std::array<double, 2> radius{};
+    const auto fields = [&](auto& v) {
+        describeThread(v, radius);
+        v.needs("yarns", "their number along u and along v, the border included, like yarns: [50, 50]");
+        v.counts("yarns", cloth.yarns, 3, kMostVertices, "");
+        v.needs("spacing", "the distance from yarn to yarn, like spacing: 0.144");
+        v.number("spacing", cloth.spacing, Quantity::Length, kSize, "");
+        v.whenReading([&](auto&) { cloth.amplitude = 0.5 * cloth.spacing; });
+        v.number("amplitude", cloth.amplitude, Quantity::Length, Range::between(0.0, kFarthest), "");
+        v.choice("weave", cloth.weave, "");
+        v.flag("borders", cloth.borders, "");
+        describe(v, placement);
+    };
+    SectionReader::read(&context.node, context.path, fields);
+    requireFew(pointCount(cloth), context);
+    place(placement, cloth.spacing * (cloth.yarns[1] - 1), cloth.spacing * (cloth.yarns[0] - 1), context, cloth);
+    return {wovenYarns(cloth), radius, flowOf(fields)};
+}
+
+std::vector<Vec3> readPoints(const Node& node, const std::string& path)
+{
+    if (!node.isList() || node.items.size() < 2)
+        fail(node.place,
+             fmt::format("{}: needs two or more points, like [[0, 0, 0], [1, 0, 0]], not {}", path, node.called()));
+    std::vector<Vec3> points(node.items.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        readNumbers(node.items[i], path, {points[i].data(), 3}, Quantity::Length,
+                    Range::between(-kFarthest, kFarthest));
+    return points;
+}
+
+ReadFabricShape readStrand(const Context& context)
+{
+    std::array<double, 2> radius{};
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    int segments = 0;
+    const Node* points = context.node.find("points");
+    const auto fields = [&](auto& v) {
+        describeThread(v, radius);
+        v.other("points", "");
+        v.when(!points, [&](auto& w) {
+            w.whenReading([&](auto& r) {
+                const int given = r.has("from") + r.has("to") + r.has("segments");
+                if (points ? given > 0 : given < 3) context.fail("needs either points, or from, to and segments");
+            });
+            w.vector("from", from, Quantity::Length, "");
+            w.vector("to", to, Quantity::Length, "");
+            w.integer("segments", segments, 1, kMostVertices - 1, "");
+        });
+    };
+    SectionReader::read(&context.node, context.path, fields);
+    std::string text = flowOf(fields);
+    if (!points) {
+        requireNear(context.node, context.path, from.cwiseAbs().cwiseMax(to.cwiseAbs()));
+        if (!((to - from).norm() > 0.0)) context.fail("from and to are the same point");
+        return {strand(from, to, segments), radius, text};
+    }
+    const std::vector<Vec3> all = readPoints(*points, context.path + ".points");
+    text.pop_back();
+    text += ", points: [";
+    for (std::size_t i = 0; i < all.size(); ++i)
+        text += fmt::format("{}[{}, {}, {}]", i > 0 ? ", " : "", formatPlain(all[i][0]), formatPlain(all[i][1]),
+                            formatPlain(all[i][2]));
+    return {strand(all), radius, text + "]}"};
+}
+
+ReadFabricShape readFile(const Context& context, bool isCloth)
+{
+    std::array<double, 2> radius{};
+    std::string file;
+    double scale = 1.0;
+    const auto fields = [&](auto& v) {
+        describeThread(v, radius);
+        v.needs("file", isCloth ? "an OBJ file, relative to the scene, like file: shirt.obj"
+                                : "an OBJ file whose l lines are yarns, relative to the scene, like file: net.obj");
+        v.text("file", file, "");
+        v.number("scale", scale, Quantity::None, kSize, "The file's unit in cm");
+    };
+    SectionReader::read(&context.node, context.path, fields);
+    const Node& name = *context.node.find("file");
+    const std::filesystem::path path = existingFile(name, context.path + ".file");
+    file = path.string();
+    FabricGeometry out;
+    try {
+        if (isCloth) {
+            TriangleMesh mesh = readObj(path);
+            out.points = std::move(mesh.vertices);
+            out.faces = std::move(mesh.triangles);
+        } else {
+            PolylineSet lines = readObjLines(path);
+            out.points = std::move(lines.vertices);
+            out.strands = std::move(lines.lines);
+        }
+    } catch (const InputError& e) {
+        fail(name.place, fmt::format("{}: {}", context.path, e.what()));
+    }
+    requireFew(static_cast<double>(out.points.size()), context);
+    for (Vec3& x : out.points) {
+        x *= scale;
+        requireNear(name, context.path, x);
+    }
+    if (const std::string problem = orientAlike(out.faces); !problem.empty())
+        fail(name.place, fmt::format("{}.file: {}", context.path, problem));
+    return {std::move(out), radius, flowOf(fields)};
+}
+
+}  // namespace
+
+const std::vector<std::string>& fabricShapeKinds()
+{
+    static const std::vector<std::string> kKinds = {"cloth_grid", "woven_yarns", "strand", "mesh", "points"};
+    return kKinds;
+}
+
+ReadFabricShape readFabricShape(const Node& node, const std::string& path, const std::string& kind)
+{
+    const Context context{node, path};
+    if (kind == "cloth_grid") return readClothGrid(context);
+    if (kind == "woven_yarns") return readWovenYarns(context);
+    if (kind == "strand") return readStrand(context);
+    return readFile(context, kind == "mesh");
+}
+
+}  // namespace sim

@@ -1,0 +1,130 @@
+#include "sim/scene/read_fabrics.h"
+
+#include "sim/scene/read_list.h"
+#include "sim/scene/read_place.h"
+#include "sim/scene/section_reader.h"
+
+#include <fmt/format.h>
+
+namespace sim {
+
+namespace {
+
+constexpr std::size_t kMostVertices = 5'000'000;  // of all pieces
+
+/// The one key of a piece that says what it is.
+std::string kindOf(const Node& node, const std::string& path)
+{
+    std::string kind;
+    for (const std::string& candidate : fabricShapeKinds()) {
+        if (!node.find(candidate)) continue;
+        if (!kind.empty())
+            fail(node.place, fmt::format("{}: has both {} and {}; make them two pieces", path, kind, candidate));
+        kind = candidate;
+    }
+    if (kind.empty())
+        fail(node.place, fmt::format("{}: says no fabric; it takes one of {}", path, listed(fabricShapeKinds())));
+    return kind;
+}
+
+/// The material of a piece stands beside its shape or in it.
+const NamedMaterial& materialOf(const Node& piece, const Node& shape, const std::string& path,
+                                const std::vector<NamedMaterial>& materials)
+{
+    const Node* outside = piece.find("material");
+    const Node* name = shape.find("material");
+    if (outside && name) fail(outside->place, fmt::format("{}.material: is given twice; remove one", path));
+    if (outside) name = outside;
+    std::vector<std::string> names;
+    for (const NamedMaterial& m : materials) names.push_back(m.name);
+    if (!name) {
+        fail(piece.place, fmt::format("{}.material is missing; it is the name of one of materials{}", path,
+                                      names.empty() ? ", like material: wool" : suggestion("", names)));
+    }
+    const std::string& text = readText(*name, path + ".material");
+    for (const NamedMaterial& m : materials) {
+        if (m.name == text) return m;
+    }
+    fail(name->place, fmt::format("{}.material: materials has no {}{}", path, inQuotes(text), suggestion(text, names)));
+}
+
+/// Moves the points; returns the words of it.
+std::string place(const Node& node, const std::string& path, std::vector<Vec3>& points)
+{
+    std::string text;
+    const auto apply = [&](const ReadTransform& read, const char* key) {
+        for (Vec3& x : points) x = read.transform * x;
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, read.text);
+    };
+    SectionReader::read(&node, path, [](auto& v) {
+        v.other("rotate", "");
+        v.other("translate", "");
+    });
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& x : points) bounds.extend(x);
+    if (const Node* turn = node.find("rotate"))
+        apply(readRotation(*turn, joinPath(path, "rotate"), bounds.center()), "rotate");
+    if (const Node* by = node.find("translate")) apply(readTranslation(*by, joinPath(path, "translate")), "translate");
+    return "{" + text + "}";
+}
+
+void readPieceFields(const Node& node, const std::string& path, FabricPiece& piece)
+{
+    SectionReader::read(&node, path, [&](auto& v) {
+        v.other("name", "");
+        v.text("group", piece.group, "Another name for motions, which several pieces may share");
+        v.other("material", "");
+        for (const std::string& kind : fabricShapeKinds()) v.other(kind.c_str(), "");
+        v.vector("velocity", piece.velocity, Quantity::Velocity, "");
+        v.other("pin", "");
+        v.other("transform", "");
+        v.later("wetness", "this version simulates fabric dry; remove the key");
+    });
+    if (const Node* group = node.find("group")) requireName(piece.group, group->place, path + ".group");
+}
+
+FabricPiece readPiece(const Node& node, const std::string& name, const std::string& path, const Scene& scene)
+{
+    FabricPiece piece;
+    piece.name = name;
+    piece.where = node.place.text();
+    readPieceFields(node, path, piece);
+    const std::string kind = piece.kind = kindOf(node, path);
+    ReadFabricShape shape = readFabricShape(*node.find(kind), joinPath(path, kind), kind);
+    const NamedMaterial& material = materialOf(node, *node.find(kind), path, scene.materials);
+    piece.materialName = material.name;
+    piece.material = material.material;
+    piece.radius = shape.radius;
+    piece.text = fmt::format("{{material: {}, {}", Node::scalar(material.name, {}).flow(), shape.text.substr(1));
+    piece.points = shape.geometry.points;
+    if (const Node* transform = node.find("transform"))
+        piece.transformText = place(*transform, joinPath(path, "transform"), piece.points);
+    if (const Node* pin = node.find("pin"))
+        piece.pins = readPins(*pin, joinPath(path, "pin"), shape.geometry, piece.points, scene.settings.cell);
+    piece.strands = std::move(shape.geometry.strands);
+    piece.faces = std::move(shape.geometry.faces);
+    return piece;
+}
+
+}  // namespace
+
+std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene)
+{
+    std::vector<FabricPiece> pieces;
+    const Node* list = listAt(&root, "fabrics", "fabrics", "[{cloth_grid: …}]");
+    std::size_t vertices = 0;
+    for (std::size_t i = 0; list && i < list->items.size(); ++i) {
+        const std::string name = nameIn(list->items[i], i, "fabrics");
+        const FabricPiece& piece =
+            pieces.emplace_back(readPiece(list->items[i], name, joinPath("fabrics", name), scene));
+        assembleFabric({&piece, 1});  // complains about what is no fabric
+        vertices += piece.points.size();
+        if (vertices > kMostVertices)
+            fail(piece.where,
+                 fmt::format("fabrics: together have {} vertices; at most {} are possible", vertices, kMostVertices));
+    }
+    requireUnique(pieces, "fabrics");
+    return pieces;
+}
+
+}  // namespace sim

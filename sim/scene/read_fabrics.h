@@ -1,0 +1,34 @@
+#pragma once
+
+#include "sim/fabric/generators.h"
+#include "sim/scene/node.h"
+#include "sim/scene/scene.h"
+
+namespace sim {
+
+/// Reads materials; `porous` gives the volume fraction of those that do not say theirs.
+std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings& porous);
+
+/// Reads fabrics with their pins, placed and checked; `scene` gives materials and the cell.
+std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene);
+
+/// One generator of a piece of fabric.
+struct ReadFabricShape {
+    FabricGeometry geometry;
+    std::array<double, 2> radius{};  ///< [cm]
+    std::string text;  ///< its fields as a scene says them, in cgs, without material: "nodes: [9, 9], radius: 0.02"
+};
+
+/// @param kind  one of fabricShapeKinds()
+ReadFabricShape readFabricShape(const Node& node, const std::string& path, const std::string& kind);
+const std::vector<std::string>& fabricShapeKinds();
+
+/// Reads the pins of a piece, one map or a list of them. Corners and sides are those of the generator's own geometry;
+/// shapes are where the `placed` points are.
+std::vector<PinGroup> readPins(const Node& node, const std::string& path, const FabricGeometry& geometry,
+                               std::span<const Vec3> placed, double cell);
+
+/// The section `motion`: gives obstacles, pins and the pins of fabrics the motions that name them.
+void readMotions(const Node& root, Scene& scene);
+
+}  // namespace sim
