@@ -22,6 +22,31 @@ Json energyJson(const sim::Energies& e)
     return {{"kinetic", e.kinetic}, {"modal", e.modal}, {"potential", e.potential}, {"total", e.total()}};
 }
 
+Json fabricJson(const sim::StepReport& step)
+{
+    const sim::FabricReport& r = step.fabric;
+    const sim::FabricEnergies& e = step.energies.fabric;
+    return {{"newton", r.newton},
+            {"iterations", r.iterations},
+            {"speed_error", r.speedError},
+            {"taken_fraction", r.takenFraction},
+            {"halvings", r.halvings},
+            {"shortened", r.shortened},
+            {"list_builds", r.listBuilds},
+            {"scalings", r.scalings},
+            {"candidates", r.candidates},
+            {"contacts", r.contacts},
+            {"obstacle_contacts", r.obstacleContacts},
+            {"energy",
+             {{"kinetic", e.kinetic},
+              {"potential", e.potential},
+              {"stretching", e.stretching},
+              {"bending", e.bending},
+              {"twisting", e.twisting},
+              {"membrane", e.membrane},
+              {"shell_bending", e.shellBending}}}};
+}
+
 /// Seconds of the stages that ran in this step.
 Json stageJson(const sim::StepReport& report)
 {
@@ -33,7 +58,7 @@ Json stageJson(const sim::StepReport& report)
 
 std::string stepLine(const sim::State& state, const sim::StepReport& report)
 {
-    const Json line = {
+    Json line = {
         {"step", state.step},
         {"time", state.time},
         {"dt", report.dt},
@@ -50,16 +75,20 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"energy", energyJson(report.energies)},
         {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}}},
     };
+    if (!state.fabric.x.empty()) line["fabric"] = fabricJson(report);
     return line.dump();
 }
 
-constexpr std::string_view kEnergyHeader = "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg";
+constexpr std::string_view kEnergyHeader =
+    "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg,"
+    "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg";
 
 std::string energyRow(double time, const sim::Energies& e, std::size_t particles, double liquidMass)
 {
     const double perParticle = particles > 0 ? e.total() / static_cast<double>(particles) : 0.0;
-    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g}", time, e.kinetic, e.modal, e.potential, e.total(),
-                       particles, liquidMass, perParticle);
+    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
+                       e.potential, e.total(), particles, liquidMass, perParticle, e.fabric.kinetic, e.fabric.potential,
+                       e.fabric.elastic());
 }
 
 double since(std::chrono::steady_clock::time_point begin)
@@ -96,6 +125,12 @@ Json reportJson(const RunSummary& s)
                  {"particles_mean", s.particleSum / steps},
                  {"cells", s.cells},
                  {"iterations", {{"mean", static_cast<double>(s.totalIterations) / steps}, {"max", s.maxIterations}, {"total", s.totalIterations}}},
+                 {"fabric",
+                  {{"vertices", s.fabricVertices},
+                   {"iterations_mean", static_cast<double>(s.fabricIterations) / steps},
+                   {"halvings", s.fabricHalvings},
+                   {"shortened", s.fabricShortened},
+                   {"least_taken_fraction", s.leastTakenFraction}}},
                  {"largest_cfl", s.largestCfl},
                  {"mass_error", s.massError},
                  {"state_hash", s.stateHash},
@@ -169,6 +204,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
 void Reports::initial(const sim::State& state, const sim::Energies& energies)
 {
     summary_.particles = state.liquid.count;
+    summary_.fabricVertices = state.fabric.x.size();
     energy_.add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass));
 }
 
@@ -185,6 +221,10 @@ void Reports::step(const sim::State& state, const sim::StepReport& report)
     summary_.particleSum += static_cast<double>(report.particles);
     summary_.totalIterations += report.pressure.iterations;
     summary_.maxIterations = std::max<std::int64_t>(summary_.maxIterations, report.pressure.iterations);
+    summary_.fabricIterations += report.fabric.iterations;
+    summary_.fabricHalvings += report.fabric.halvings;
+    summary_.fabricShortened += report.fabric.shortened;
+    summary_.leastTakenFraction = std::min(summary_.leastTakenFraction, report.fabric.takenFraction);
     summary_.largestCfl = std::max(summary_.largestCfl, report.cfl);
     const double entered = state.ledger.emittedMass;
     if (entered > 0.0)

@@ -40,6 +40,9 @@ struct RunSummary {
     std::size_t particles = 0, cells = 0;    ///< at the end
     double particleSum = 0.0;                ///< over the steps
     std::int64_t totalIterations = 0, maxIterations = 0;
+    std::size_t fabricVertices = 0;
+    std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
+    double leastTakenFraction = 1.0;         ///< of the moves that the fabric's Newton asked for, over the steps [-]
     double largestCfl = 0.0;
     double massError = 0.0;                  ///< (entered − left − there) / entered, largest over the steps [-]
     std::string stateHash;

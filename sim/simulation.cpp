@@ -41,21 +41,24 @@ double fastest(const LiquidParticles& particles)
 
 }  // namespace
 
-Simulation::Simulation(Scene scene) : scene_(std::move(scene))
+Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics))
 {
     const Settings& settings = scene_.settings;
     state_.time = settings.time.start;
     state_.grid.dx = settings.cell;
     state_.liquid.modeCount = storedModes(settings.transfer.modeCount());
     state_.emittedVolume.assign(scene_.sources.size(), 0.0);
+    state_.fabric = initialState(fabric_, scene_.fabrics);
     prepareWorkspace();
     emitLiquid(scene_, state_, state_.time, state_.time);
     maxSpeed_ = fastest(state_.liquid);
 }
 
-Simulation::Simulation(Scene scene, State state) : scene_(std::move(scene)), state_(std::move(state))
+Simulation::Simulation(Scene scene, State state)
+    : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state))
 {
     SIM_CHECK(state_.grid.dx == scene_.settings.cell && state_.emittedVolume.size() == scene_.sources.size());
+    SIM_CHECK(state_.fabric.x.size() == fabric_.vertexCount());
     SIM_CHECK(state_.liquid.modeCount == storedModes(scene_.settings.transfer.modeCount()));
     prepareWorkspace();
     maxSpeed_ = fastest(state_.liquid);
@@ -67,16 +70,23 @@ void Simulation::prepareWorkspace()
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_);
+    if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
+        work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
 }
 
-Energies Simulation::energies() const { return liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity); }
+Energies Simulation::energies() const
+{
+    Energies energies = liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity);
+    if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
+    return energies;
+}
 
 StepReport Simulation::step(double until)
 {
     const auto fail = [&](std::string_view stage, std::string_view why) {
         return RunError(fmt::format("scene {}, step {}, t = {:.6g} s, stage {}: {}", scene_.name, state_.step + 1, state_.time, stage, why));
     };
-    const double largest = chooseTimeStep(scene_.settings, maxSpeed_);
+    const double largest = chooseTimeStep(scene_.settings, state_, maxSpeed_);
     if (!(largest >= scene_.settings.time.dtMin))
         throw fail("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: a particle moves at {:.3g} cm/s",
                                             largest, scene_.settings.time.dtMin, maxSpeed_));
@@ -84,7 +94,7 @@ StepReport Simulation::step(double until)
     // A step may be longer than the bound by round-off, so that 4e-3 s in steps of 2e-4 s are 20 and not 21.
     const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - 1.0e-9)));
     const double dt = left / parts;
-    const double cfl = cflNumber(scene_.settings, maxSpeed_, dt);
+    const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, maxSpeed_, dt) : 0.0;
     StepReport report;
     try {
         report = sim::step(state_, scene_, work_, dt);
@@ -94,7 +104,7 @@ StepReport Simulation::step(double until)
     if (parts == 1.0) state_.time = until;
     report.cfl = cfl;
     maxSpeed_ = report.maxSpeed;
-    if (!report.failure.empty()) throw fail("grid_to_particles", report.failure);
+    if (!report.failure.empty()) throw fail(kStageNames[static_cast<int>(report.failedStage)], report.failure);
     return report;
 }
 
@@ -118,6 +128,9 @@ std::uint64_t stateHash(const State& state)
         add(state.grid.coords(b).data(), 3 * sizeof(int));
         add(state.pressure.block(b), kBlockCells * sizeof(double));
     }
+    const FabricState& fabric = state.fabric;
+    for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference}) add(v->data(), v->size() * sizeof(Vec3));
+    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist}) add(v->data(), v->size() * sizeof(double));
     add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
     add(&state.unrelaxed, sizeof state.unrelaxed);
     add(&state.uncorrected, sizeof state.uncorrected);

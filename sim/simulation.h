@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/vertex_solver.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/step.h"
@@ -17,6 +18,7 @@ class Simulation {
     const State& state() const { return state_; }
     const Scene& scene() const { return scene_; }
     const Workspace& workspace() const { return work_; }
+    const Fabric& fabric() const { return fabric_; }
     /// Energies of the initial state; afterwards the step's report tells them.
     Energies energies() const;
 
@@ -29,6 +31,7 @@ class Simulation {
     void prepareWorkspace();
 
     Scene scene_;
+    Fabric fabric_;
     State state_;
     Workspace work_;
     double maxSpeed_ = 0.0;  ///< of the particles [cm/s]

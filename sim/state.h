@@ -23,4 +23,7 @@ struct State {
     Ledger ledger;
 };
 
+/// Is there liquid, or are there blocks of the grid that liquid has just left?
+inline bool hasLiquid(const State& state) { return state.liquid.count > 0 || state.grid.count() > 0; }
+
 }  // namespace sim

@@ -77,24 +77,15 @@ void finishAtWalls(const BlockGrid& grid, double friction, bool flip, Workspace&
     apply(liquid.faces.valid, liquid.faces.velocity);
 }
 
-}  // namespace
-
-StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
+/// All stages of the liquid.
+void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock)
 {
     const Settings& settings = scene.settings;
     const bool flip = settings.transfer.method == TransferMethod::Flip;
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
-    StepReport report;
-    report.dt = dt;
-    StageClock clock(report);
 
     work.obstacles.moveTo(state.time, state.time + dt);
-
-    if (emits(scene, state, state.time, state.time + dt)) {
-        clock.start(Stage::Emit);
-        emitLiquid(scene, state, state.time, state.time + dt);
-    }
 
     clock.start(Stage::Sort);
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
@@ -154,17 +145,42 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
         pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
     }
 
-    state.time += dt;
-    ++state.step;
-    state.lastDt = dt;
-
     const WeightSums weights = weightSums(particles, settings.gravity);
-    report.energies = {sums.kinetic, flip ? 0.0 : sums.modal, weights.potential};
+    report.energies = {sums.kinetic, flip ? 0.0 : sums.modal, weights.potential, {}};
     report.liquidMass = weights.mass;
     report.particles = particles.count;
     report.blocks = grid.count();
     report.liquidCells = countLiquidCells(grid, work.grid);
     if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
+}
+
+void stepFabric(State& state, const Settings& settings, VertexSolver& solver, double dt, StepReport& report, StageClock& clock)
+{
+    report.fabric = solver.step(state.time, dt, settings.gravity, state.fabric, clock);
+    report.energies.fabric = solver.energies(state.fabric, settings.gravity);
+    if (std::isfinite(report.energies.fabric.total())) return;
+    report.failure = "the fabric's energy is not finite";
+    report.failedStage = Stage::FabricSolve;
+}
+
+}  // namespace
+
+StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
+{
+    StepReport report;
+    report.dt = dt;
+    StageClock clock(report);
+
+    if (emits(scene, state, state.time, state.time + dt)) {
+        clock.start(Stage::Emit);
+        emitLiquid(scene, state, state.time, state.time + dt);
+    }
+    if (hasLiquid(state)) stepLiquid(state, scene, work, dt, report, clock);
+    if (work.fabric) stepFabric(state, scene.settings, *work.fabric, dt, report, clock);
+
+    state.time += dt;
+    ++state.step;
+    state.lastDt = dt;
     return report;
 }
 
@@ -173,9 +189,10 @@ double cflNumber(const Settings& settings, double maxSpeed, double dt)
     return dt * (maxSpeed + std::sqrt(settings.cell * settings.gravity.norm())) / settings.cell;
 }
 
-double chooseTimeStep(const Settings& settings, double maxSpeed)
+double chooseTimeStep(const Settings& settings, const State& state, double maxSpeed)
 {
     const TimeSettings& time = settings.time;
+    if (!hasLiquid(state)) return time.dt;
     const double perCfl = 1.0 / cflNumber(settings, maxSpeed, 1.0);
     const double bound = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(time.cfl, time.maxCflLiquid);
     return std::min(time.dt, bound * perCfl);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/vertex_solver.h"
 #include "sim/liquid/extrapolate.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
@@ -9,6 +10,8 @@
 #include "sim/state.h"
 #include "sim/transfer/gather.h"
 #include "sim/transfer/scatter.h"
+
+#include <memory>
 
 namespace sim {
 
@@ -28,13 +31,14 @@ struct Workspace {
     RelaxScratch relax;
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
+    std::unique_ptr<VertexSolver> fabric;                  ///< nothing where there is no fabric that moves
 };
 
-/// Advance the liquid by dt [s] (model-fluid 15.1).
+/// Advance liquid and fabric by dt [s] (model-fluid 15.1). What is not there runs none of its stages.
 StepReport step(State& state, const Scene& scene, Workspace& work, double dt);
 
 /// Largest stable time step from here [s], by the scene's mode and bounds (model-fluid 15.1), not yet fitted to a frame.
-double chooseTimeStep(const Settings& settings, double maxSpeed);
+double chooseTimeStep(const Settings& settings, const State& state, double maxSpeed);
 
 /// dt (max speed + sqrt(h |g|)) / h (model-fluid 15.1).
 double cflNumber(const Settings& settings, double maxSpeed, double dt);

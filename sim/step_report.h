@@ -60,12 +60,22 @@ struct Ledger {
     Vec3 leftMomentum = Vec3::Zero();           ///< [g cm/s]
 };
 
-/// Energies of the liquid (model-fluid 4.7) [erg].
+/// Energies of the fabric (model-fabric 6.6) [erg].
+struct FabricEnergies {
+    double kinetic = 0.0, potential = 0.0;
+    double stretching = 0.0, bending = 0.0, twisting = 0.0;   ///< of yarns
+    double membrane = 0.0, shellBending = 0.0;                ///< of cloth
+    double elastic() const { return stretching + bending + twisting + membrane + shellBending; }
+    double total() const { return kinetic + potential + elastic(); }
+};
+
+/// Energies of the liquid (model-fluid 4.7) and the fabric [erg].
 struct Energies {
     double kinetic = 0.0;    ///< of the particles' velocities, ½ m v²
     double modal = 0.0;      ///< of the higher modes around them
     double potential = 0.0;  ///< −m g·x
-    double total() const { return kinetic + modal + potential; }
+    FabricEnergies fabric;
+    double total() const { return kinetic + modal + potential + fabric.total(); }
 };
 
 /// What one step did.
@@ -81,7 +91,8 @@ struct StepReport {
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     Energies energies;                           ///< at the end of the step
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
-    std::string_view failure;                    ///< empty, or why the state can't be trusted
+    std::string_view failure;                    ///< empty, or why the state can't be trusted …
+    Stage failedStage = Stage::GridToParticles;  ///< … and since when
 
     double seconds() const
     {

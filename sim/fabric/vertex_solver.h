@@ -12,15 +12,6 @@
 
 namespace sim {
 
-/// Energies of the fabric [erg].
-struct FabricEnergies {
-    double kinetic = 0.0, potential = 0.0;
-    double stretching = 0.0, bending = 0.0, twisting = 0.0;   ///< of yarns
-    double membrane = 0.0, shellBending = 0.0;                ///< of cloth
-    double elastic() const { return stretching + bending + twisting + membrane + shellBending; }
-    double total() const { return kinetic + potential + elastic(); }
-};
-
 /// `fabric.solver: vertex`: backward Euler in vertex space with the pairwise-limited Newton step of contact-design 3.3. Nothing ever
 /// crosses: every move that is made was checked pair by pair along its straight path.
 class VertexSolver {
