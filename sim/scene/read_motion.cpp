@@ -208,7 +208,7 @@ ReadMotion readMotion(const Node& node, const std::string& path)
 {
     ReadMotion out;
     if (!node.isList()) {
-        out.text = "[" + PieceReader(node, path).addTo(out.motion) + "]";
+        out.text = fmt::format("[{}]", PieceReader(node, path).addTo(out.motion));
         return out;
     }
     if (node.items.empty()) fail(node.place, fmt::format("{}: is an empty list; remove it", path));
