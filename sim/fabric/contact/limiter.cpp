@@ -27,18 +27,20 @@ Limiter::Limiter(const Primitives& primitives) : primitives_(primitives)
 void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     constexpr int kFilterRounds = 5, kBlendRounds = 8;
-    for (int round = 0; round < kFilterRounds; ++round) {
+    bool changed = true;  // the moves, since they were looked at
+    for (int round = 0; round < kFilterRounds && changed; ++round) {
         cover(x, u, list, report, clock);
         if (list.empty()) return;
         findClosing(x, u, list);
         if (closing_.empty()) return;
-        const int sweeps = pushApart(u);
-        if (sweeps == 1 && round > 0) break;
+        changed = pushApart(u);
     }
     double fraction = 1.0;
     for (int round = 0; round < kBlendRounds; ++round) {
-        cover(x, u, list, report, clock);
-        findClosing(x, u, list);
+        if (changed || round > 0) {
+            cover(x, u, list, report, clock);
+            findClosing(x, u, list);
+        }
         fraction = measureFractions(x, u);
         if (fraction >= 1.0) return;
         if (round + 1 < kBlendRounds) report.blends += blendFailing(u);
@@ -79,14 +81,19 @@ void Limiter::motionOfPrimitives(std::span<const Vec3> u)
 /// alone, not on what else is in the list.
 void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list)
 {
-    const Candidates& pairs = list.pairs();
     motionOfPrimitives(u);
+    closing_.clear();
+    for (const CandidatePool* pairs : {&list.edgePairs(), &list.facePairs()}) findClosing(x, u, *pairs);
+}
+
+void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs)
+{
     const Chunks chunks(pairs.size());
     std::array<int, kMaxChunks> count{};
     near_.resize(pairs.size());
     parallelFor(chunks.count(), [&](std::size_t chunk) {
         const std::size_t begin = chunks.begin(chunk), end = chunks.end(chunk);
-        int* out = near_.data() + begin;
+        PairPlace* out = near_.data() + begin;
         for (std::size_t first = begin; first < end; first += kLanes) {
             const std::size_t last = std::min(end, first + kLanes) - 1;
             EightIndices a, b;
@@ -108,26 +115,26 @@ void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, cons
                 std::array<Triple<double>, 4> move;
                 for (std::size_t c = 0; c < 4; ++c) move[c] = triple(u[pairs.vertices[i][c]]);
                 const double d = pairs.distance[i];
-                if (relativeMotion(list.kind(i), move) >= d - std::min(pairs.range(i).floor(), kKept * d))
-                    out[count[chunk]++] = static_cast<int>(i);
+                if (relativeMotion(pairs.kind, move) >= d - std::min(pairs.range(i).floor(), kKept * d))
+                    out[count[chunk]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
             }
         }
     });
-    closing_.clear();
+    places_.clear();
     for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
-        for (int i = 0; i < count[chunk]; ++i) closing_.push_back(closing(x, pairs, near_[chunks.begin(chunk) + i]));
+        places_.insert(places_.end(), near_.begin() + chunks.begin(chunk), near_.begin() + chunks.begin(chunk) + count[chunk]);
+    sorter_.sort(places_, primitives_.firstFace());
+    for (const PairPlace& place : places_) closing_.push_back(closing(x, pairs, place.place));
 }
 
-Limiter::Closing Limiter::closing(std::span<const Vec3> x, const Candidates& pairs, int pair) const
+Limiter::Closing Limiter::closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const
 {
     Closing c;
-    c.pair = pair;
-    c.kind = primitives_.kind(pairs.a[pair]);
-    c.vertices = pairs.vertices[pair];
-    c.weights = pairWeights(c.kind, pairs.p[pair], pairs.q[pair]);
-    const double d = pairs.distance[pair];
-    c.distance = d;
-    const PairRange range = pairs.range(pair);
+    c.kind = pairs.kind;
+    c.vertices = pairs.vertices[place];
+    c.weights = pairWeights(c.kind, pairs.p[place], pairs.q[place]);
+    const double d = pairs.distance[place];
+    const PairRange range = pairs.range(place);
     Vec3 apart = Vec3::Zero();
     c.compliance = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -137,35 +144,34 @@ Limiter::Closing Limiter::closing(std::span<const Vec3> x, const Candidates& pai
     c.normal = d > 0.0 ? Vec3(apart / d) : Vec3::Zero().eval();
     c.allowed = std::max(d - range.floor(), 0.2 * std::max(d - range.core, 0.0));
     c.separation = std::min(range.core, kKept * d);
-    c.tolerance = 1.0e-3 * (primitives_.radius[pairs.a[pair]] + primitives_.radius[pairs.b[pair]]);
+    c.radii = primitives_.radius[pairs.a[place]] + primitives_.radius[pairs.b[place]];
     return c;
 }
 
 /// Gauss-Seidel with the closest points of x: approaches along the normal beyond what is allowed become blows without bounce.
-/// @return sweeps it took
-int Limiter::pushApart(std::span<Vec3> u)
+/// @return whether any move has changed
+bool Limiter::pushApart(std::span<Vec3> u)
 {
     constexpr int kMostSweeps = 30;
+    constexpr double kTolerance = 1.0e-3, kLeast = 1.0e-5;  // of the radii: what ends the sweeps, what is not worth a push
+    bool changed = false;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-        bool pushed = false;
-        for (std::size_t i = 0; i < closing_.size(); ++i)  // to and fro: blows travel both ways
-            pushed |= push(closing_[sweep % 2 == 0 ? i : closing_.size() - 1 - i], u);
-        if (!pushed) return sweep + 1;
+        bool settled = true;
+        for (std::size_t i = 0; i < closing_.size(); ++i) {  // to and fro: blows travel both ways
+            const Closing& c = closing_[sweep % 2 == 0 ? i : closing_.size() - 1 - i];
+            double apart = 0.0;
+            for (std::size_t k = 0; k < 4; ++k) apart += c.weights[k] * c.normal.dot(u[c.vertices[k]]);
+            const double excess = -c.allowed - apart;
+            if (excess <= kLeast * c.radii || c.compliance == 0.0) continue;
+            const double impulse = excess / c.compliance;
+            for (std::size_t k = 0; k < 4; ++k)
+                if (const double w = inverseMass_[c.vertices[k]]; w > 0.0) u[c.vertices[k]] += (impulse * w * c.weights[k]) * c.normal;
+            changed = true;
+            if (excess > kTolerance * c.radii) settled = false;
+        }
+        if (settled) break;
     }
-    return kMostSweeps;
-}
-
-/// @return whether that was more than the tolerance
-bool Limiter::push(const Closing& c, std::span<Vec3> u) const
-{
-    double apart = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) apart += c.weights[k] * c.normal.dot(u[c.vertices[k]]);
-    const double excess = -c.allowed - apart;
-    if (excess <= 0.01 * c.tolerance || c.compliance == 0.0) return false;
-    const double impulse = excess / c.compliance;
-    for (std::size_t k = 0; k < 4; ++k)
-        if (const double w = inverseMass_[c.vertices[k]]; w > 0.0) u[c.vertices[k]] += (impulse * w * c.weights[k]) * c.normal;
-    return excess > c.tolerance;
+    return changed;
 }
 
 /// @return the least

@@ -47,9 +47,9 @@ void expectClosest(PairKind kind, const Corners& x, double tolerance)
     const Vec3 separation(c.separation.x, c.separation.y, c.separation.z);
     EXPECT_LE((separation - separationAt(kind, x, c.p, c.q)).norm(), 1.0e-14 * 10.0);  // rounding of coordinates up to 10
     EXPECT_NEAR(separation.norm(), searchedDistance(kind, x), tolerance);
-    EXPECT_GE(c.p, 0.0), EXPECT_LE(c.p, 1.0);
-    EXPECT_GE(c.q, 0.0), EXPECT_LE(c.q, 1.0);
-    if (kind == PairKind::VertexFace) EXPECT_LE(c.p + c.q, 1.0 + 1.0e-12);  // 1 − (p + q) is rounded
+    const std::array<double, 4> weights = pairWeights(kind, c.p, c.q);
+    for (int k = 0; k < 4; ++k)  // of the first side positive, of the second negative, but for the rounding of p + q
+        EXPECT_GE(k < (kind == PairKind::EdgeEdge ? 2 : 1) ? weights[k] : -weights[k], -1.0e-12);
 }
 
 Corners randomCorners(std::mt19937& random, double size = 1.0)
