@@ -8,7 +8,11 @@ namespace sim::contact {
 
 void CandidatePool::resize(std::size_t n)
 {
-    a.resize(n), b.resize(n), vertices.resize(n), reach.resize(n), core.resize(n), distance.resize(n), p.resize(n), q.resize(n);
+    for (AlignedArray<double>* numbers : {&reach, &core, &distance, &p, &q}) {
+        numbers->resize(n + kLanes);  // so that packs may read past the last pair
+        numbers->resize(n);
+    }
+    a.resize(n), b.resize(n), vertices.resize(n);
 }
 
 void CandidatePool::set(std::size_t place, const FoundPair& pair, const Primitives& primitives)

@@ -12,6 +12,13 @@ namespace {
 /// A pair already below its floor or core may still lose this share of its distance [-].
 constexpr double kKept = 0.97;
 
+/// Moves that may bring a pair below are looked at closely [cm].
+template <class T>
+T floorOf(T reach, T core)
+{
+    return core + 0.15 * (reach - core);
+}
+
 std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3> values)
 {
     return {values[v[0]], values[v[1]], values[v[2]], values[v[3]]};
@@ -28,12 +35,13 @@ void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
 {
     constexpr int kFilterRounds = 5, kBlendRounds = 8;
     bool changed = true;  // the moves, since they were looked at
-    for (int round = 0; round < kFilterRounds && changed; ++round) {
+    for (int round = 0; round < kFilterRounds; ++round) {
         cover(x, u, list, report, clock);
         if (list.empty()) return;
         findClosing(x, u, list);
         if (closing_.empty()) return;
-        changed = pushApart(u);
+        const int sweeps = pushApart(u, changed);
+        if (sweeps == 1) break;
     }
     double fraction = 1.0;
     for (int round = 0; round < kBlendRounds; ++round) {
@@ -97,12 +105,12 @@ void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, cons
         for (std::size_t first = begin; first < end; first += kLanes) {
             const std::size_t last = std::min(end, first + kLanes) - 1;
             EightIndices a, b;
-            Pack distance, floor;
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                const std::size_t i = std::min(first + lane, last);
-                a[lane] = pairs.a[i], b[lane] = pairs.b[i];
-                distance[lane] = pairs.distance[i], floor[lane] = pairs.range(i).floor();
+                a[lane] = pairs.a[std::min(first + lane, last)];
+                b[lane] = pairs.b[std::min(first + lane, last)];
             }
+            const Pack distance = loadPack(&pairs.distance[first]), core = loadPack(&pairs.core[first]);
+            const Pack floor = floorOf(loadPack(&pairs.reach[first]), core);
             const QuadPack moveA = gatherQuads(motion_, a), moveB = gatherQuads(motion_, b);
             const Pack kept = kKept * distance;
             const Pack free = distance - (floor < kept ? floor : kept) - moveA.w - moveB.w;
@@ -112,10 +120,9 @@ void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, cons
             for (unsigned bits = ~maskBits(far) & 0xffu; bits != 0; bits &= bits - 1) {
                 const std::size_t i = first + std::countr_zero(bits);
                 if (i > last) break;
-                std::array<Triple<double>, 4> move;
-                for (std::size_t c = 0; c < 4; ++c) move[c] = triple(u[pairs.vertices[i][c]]);
-                const double d = pairs.distance[i];
-                if (relativeMotion(pairs.kind, move) >= d - std::min(pairs.range(i).floor(), kKept * d))
+                const std::array<int, 4>& v = pairs.vertices[i];
+                const double d = pairs.distance[i], bound = std::min(floorOf(pairs.reach[i], pairs.core[i]), kKept * d);
+                if (mayComeNearer(pairs.kind, atVertices(v, x), atVertices(v, u), d, bound))
                     out[count[chunk]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
             }
         }
@@ -142,19 +149,20 @@ Limiter::Closing Limiter::closing(std::span<const Vec3> x, const CandidatePool& 
         c.compliance += c.weights[k] * c.weights[k] * inverseMass_[c.vertices[k]];
     }
     c.normal = d > 0.0 ? Vec3(apart / d) : Vec3::Zero().eval();
-    c.allowed = std::max(d - range.floor(), 0.2 * std::max(d - range.core, 0.0));
+    c.allowed = std::max(d - floorOf(range.reach, range.core), 0.2 * std::max(d - range.core, 0.0));
     c.separation = std::min(range.core, kKept * d);
     c.radii = primitives_.radius[pairs.a[place]] + primitives_.radius[pairs.b[place]];
     return c;
 }
 
 /// Gauss-Seidel with the closest points of x: approaches along the normal beyond what is allowed become blows without bounce.
-/// @return whether any move has changed
-bool Limiter::pushApart(std::span<Vec3> u)
+/// @param changed  becomes whether any move has
+/// @return sweeps it took
+int Limiter::pushApart(std::span<Vec3> u, bool& changed)
 {
     constexpr int kMostSweeps = 30;
     constexpr double kTolerance = 1.0e-3, kLeast = 1.0e-5;  // of the radii: what ends the sweeps, what is not worth a push
-    bool changed = false;
+    changed = false;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
         bool settled = true;
         for (std::size_t i = 0; i < closing_.size(); ++i) {  // to and fro: blows travel both ways
@@ -169,9 +177,9 @@ bool Limiter::pushApart(std::span<Vec3> u)
             changed = true;
             if (excess > kTolerance * c.radii) settled = false;
         }
-        if (settled) break;
+        if (settled) return sweep + 1;
     }
-    return changed;
+    return kMostSweeps;
 }
 
 /// @return the least

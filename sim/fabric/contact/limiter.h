@@ -35,7 +35,7 @@ class Limiter {
     void motionOfPrimitives(std::span<const Vec3> u);
     void findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs);
     Closing closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const;
-    bool pushApart(std::span<Vec3> u);
+    int pushApart(std::span<Vec3> u, bool& changed);
     double measureFractions(std::span<const Vec3> x, std::span<const Vec3> u);
     int blendFailing(std::span<Vec3> u) const;
 
