@@ -26,17 +26,6 @@ std::vector<double> leastRadius(const Primitives& p)
 
 }  // namespace
 
-void Candidates::resize(std::size_t n)
-{
-    a.resize(n), b.resize(n), vertices.resize(n), reach.resize(n), core.resize(n), distance.resize(n), p.resize(n), q.resize(n);
-}
-
-void Candidates::copy(std::size_t to, const Candidates& other, std::size_t from)
-{
-    a[to] = other.a[from], b[to] = other.b[from], vertices[to] = other.vertices[from], reach[to] = other.reach[from], core[to] = other.core[from];
-    distance[to] = other.distance[from], p[to] = other.p[from], q[to] = other.q[from];
-}
-
 CandidateList::CandidateList(const Fabric& fabric) : primitives_(fabric), search_(primitives_, fabric.rest)
 {
     const std::size_t n = fabric.vertexCount();
@@ -47,9 +36,6 @@ CandidateList::CandidateList(const Fabric& fabric) : primitives_(fabric), search
     sweep_.from.resize(n), sweep_.move.resize(n), measuredAt_.resize(n);
     dirtyVertices_.resize(n);
     dirty_.resize(primitives_.count());
-    for (Candidates* c : {&pairs_, &next_}) c->begin.assign(primitives_.firstFace() + 1, 0);
-    foundBegin_.assign(primitives_.firstFace() + 1, 0);
-    foundNext_ = foundBegin_;
     findRestPairs(fabric.rest);
 }
 
@@ -57,16 +43,22 @@ void CandidateList::findRestPairs(std::span<const Vec3> rest)
 {
     coverPlace(rest);
     measure(rest);
+    std::vector<PairPlace> places;
     RestPairs found;
     found.begin = {0};
-    for (int a = 0; a < primitives_.firstFace(); ++a) {
-        for (int c = pairs_.begin[a]; c < pairs_.begin[a + 1]; ++c)
-            if (pairs_.distance[c] < pairs_.reach[c]) {
-                found.partner.push_back(pairs_.b[c]);
-                found.distance.push_back(pairs_.distance[c]);
-            }
-        found.begin.push_back(static_cast<int>(found.partner.size()));
+    PairSorter sorter;
+    for (const CandidatePool* pool : {&edgePairs_, &facePairs_}) {
+        places.clear();
+        for (std::size_t i = 0; i < pool->size(); ++i)
+            if (pool->distance[i] < pool->reach[i]) places.push_back({pool->a[i], pool->b[i], static_cast<int>(i)});
+        sorter.sort(places, primitives_.firstFace());
+        for (const PairPlace& pair : places) {
+            found.begin.resize(pair.a + 1, static_cast<int>(found.partner.size()));
+            found.partner.push_back(pair.b);
+            found.distance.push_back(pool->distance[pair.place]);
+        }
     }
+    found.begin.resize(primitives_.firstFace() + 1, static_cast<int>(found.partner.size()));
     restPairs_ = std::move(found);
     built_ = false;
 }
@@ -115,8 +107,11 @@ void CandidateList::build()
 {
     search_.run(sweep_, dirtyVertices_, restPairs_);
     markDirtyPrimitives();
-    sortFound();
-    merge();
+    for (CandidatePool* pool : {&edgePairs_, &facePairs_}) {
+        if (!built_) pool->clear();
+        if (!pool->fresh.empty()) measured_ = false;  // pairs of an earlier build have not been measured yet
+        pool->replace(primitives_, dirty_, search_);
+    }
     built_ = true;
 }
 
@@ -133,59 +128,23 @@ void CandidateList::markDirtyPrimitives()
     });
 }
 
-/// By first primitive, then by second: the order in which they were found is forgotten.
-void CandidateList::sortFound()
-{
-    std::ranges::fill(foundBegin_, 0);
-    for (std::size_t task = 0; task < search_.tasks(); ++task)
-        for (const FoundPair& f : search_.found(task)) ++foundBegin_[f.a + 1];
-    for (std::size_t a = 1; a < foundBegin_.size(); ++a) foundBegin_[a] += foundBegin_[a - 1];
-    found_.resize(foundBegin_.back());
-    foundNext_ = foundBegin_;
-    for (std::size_t task = 0; task < search_.tasks(); ++task)
-        for (const FoundPair& f : search_.found(task)) found_[foundNext_[f.a]++] = f;
-}
-
-/// Pairs of clean primitives stay, those found come in between.
-void CandidateList::merge()
-{
-    const std::size_t firsts = foundBegin_.size() - 1;
-    const auto isKept = [&](int c) { return built_ && !dirty_[pairs_.a[c]] && !dirty_[pairs_.b[c]]; };
-    parallelFor(firsts, kGrain, [&](std::size_t a) {
-        int kept = 0;
-        for (int c = pairs_.begin[a]; c < pairs_.begin[a + 1]; ++c) kept += isKept(c);
-        next_.begin[a + 1] = kept + foundBegin_[a + 1] - foundBegin_[a];
-        std::sort(found_.begin() + foundBegin_[a], found_.begin() + foundBegin_[a + 1],
-                  [](const FoundPair& f, const FoundPair& g) { return f.b < g.b; });
-    });
-    for (std::size_t a = 0; a < firsts; ++a) next_.begin[a + 1] += next_.begin[a];
-    next_.resize(next_.begin[firsts]);
-    if (!fresh_.empty()) measured_ = false;  // pairs of an earlier build were not measured yet
-    fresh_.resize(found_.size());
-    parallelFor(firsts, kGrain, [&](std::size_t a) {
-        int to = next_.begin[a], f = foundBegin_[a];
-        const auto takeFound = [&] {
-            const FoundPair& pair = found_[f];
-            next_.a[to] = pair.a, next_.b[to] = pair.b, next_.reach[to] = pair.range.reach, next_.core[to] = pair.range.core;
-            next_.vertices[to] = primitives_.vertices(pair.a, pair.b);
-            fresh_[f++] = to++;
-        };
-        for (int c = pairs_.begin[a]; c < pairs_.begin[a + 1]; ++c) {
-            if (!isKept(c)) continue;
-            while (f < foundBegin_[a + 1] && found_[f].b < pairs_.b[c]) takeFound();
-            next_.copy(to++, pairs_, c);
-        }
-        while (f < foundBegin_[a + 1]) takeFound();
-    });
-    std::swap(pairs_, next_);
-}
-
 void CandidateList::moved()
 {
     parallelFor(sweep_.from.size(), kGrain, [&](std::size_t v) {
         sweep_.from.set(v, sweep_.from[v] + sweep_.move[v]);
         sweep_.move.set(v, Vec3::Zero());
     });
+}
+
+void CandidateList::measure(std::span<const Vec3> x)
+{
+    const bool stands = measured_ && parallelReduce(
+                                         x.size(), true, [&](std::size_t v) { return x[v] == measuredAt_[v]; },
+                                         [](bool a, bool b) { return a && b; });
+    if (!stands) parallelFor(x.size(), kGrain, [&](std::size_t v) { measuredAt_.set(v, x[v]); });
+    edgePairs_.measure(measuredAt_, !stands);
+    facePairs_.measure(measuredAt_, !stands);
+    measured_ = true;
 }
 
 }  // namespace sim::contact

@@ -1,27 +1,12 @@
 #pragma once
 
-#include "sim/fabric/contact/pair_search.h"
+#include "sim/fabric/contact/candidate_pool.h"
 
 #include <limits>
 #include <span>
 #include <vector>
 
 namespace sim::contact {
-
-/// Pairs, one array per quantity, sorted by (a, b): edges with edges first, then vertices with faces.
-struct Candidates {
-    std::vector<int> begin;                         ///< of each first primitive, and the end
-    AlignedArray<int> a, b;
-    AlignedArray<std::array<int, 4>> vertices;
-    AlignedArray<double> reach, core;               ///< as in PairRange [cm]
-    AlignedArray<double> distance;                  ///< of the two where they were last measured [cm]
-    AlignedArray<double> p, q;                      ///< and their nearest points (Closest)
-
-    std::size_t size() const { return a.size(); }
-    PairRange range(std::size_t i) const { return {reach[i], core[i]}; }
-    void resize(std::size_t n);
-    void copy(std::size_t to, const Candidates& other, std::size_t from);
-};
 
 /// The pairs that may act or be hit, kept from move to move: only those of vertices that stray are searched anew.
 /// Whatever its past, it holds all pairs that act at x or that the move u brings near (ListMargin); others among them are inactive.
@@ -42,17 +27,16 @@ class CandidateList {
 
     const Primitives& primitives() const { return primitives_; }
     const RestPairs& restPairs() const { return restPairs_; }
-    const Candidates& pairs() const { return pairs_; }
-    bool empty() const { return pairs_.size() == 0; }
-    PairKind kind(std::size_t pair) const { return primitives_.kind(pairs_.a[pair]); }
+    const CandidatePool& edgePairs() const { return edgePairs_; }
+    const CandidatePool& facePairs() const { return facePairs_; }
+    std::size_t size() const { return edgePairs_.size() + facePairs_.size(); }
+    bool empty() const { return size() == 0; }
 
  private:
     bool cover(std::span<const Vec3> x, std::span<const Vec3> u);
     int findStrays(std::span<const Vec3> x, std::span<const Vec3> u);
     void build();
     void markDirtyPrimitives();
-    void sortFound();
-    void merge();
     void findRestPairs(std::span<const Vec3> rest);
 
     Primitives primitives_;
@@ -63,13 +47,10 @@ class CandidateList {
     bool built_ = false;
     Sweep sweep_;                               ///< for which each vertex's pairs were searched, moved along since
     std::vector<char> dirtyVertices_, dirty_;   ///< of vertices, of primitives
-    Candidates pairs_, next_;
-    std::vector<int> foundBegin_, foundNext_;   ///< of each first primitive in …
-    std::vector<FoundPair> found_;              ///< … all that was found, sorted
+    CandidatePool edgePairs_{PairKind::EdgeEdge}, facePairs_{PairKind::VertexFace};
 
     bool measured_ = false;                     ///< all pairs but the fresh ones, at measuredAt_
     Points measuredAt_;
-    std::vector<int> fresh_;                    ///< pairs found since they were measured
 };
 
 }  // namespace sim::contact

@@ -143,4 +143,25 @@ inline double relativeMotion(PairKind kind, const std::array<Triple<double>, 4>&
     return relativeMotion(kind, u, [](Pack v) { return sqrtPack(v); }, [](Pack a, Pack b) { return maxPack(a, b); });
 }
 
+/// Largest gap, over the axes, between the boxes around the two sides while they move against each other: they don't come nearer [cm].
+inline double sweptGap(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u)
+{
+    const auto box = [&](const std::array<Vec3, 4>& values, std::size_t begin, std::size_t end) {
+        std::array<Vec3, 2> b = {values[begin], values[begin]};
+        for (std::size_t c = begin + 1; c < end; ++c) b = {b[0].cwiseMin(values[c]).eval(), b[1].cwiseMax(values[c]).eval()};
+        return b;
+    };
+    const std::size_t second = kind == PairKind::EdgeEdge ? 2 : 1;
+    const auto xA = box(x, 0, second), xB = box(x, second, 4), uA = box(u, 0, second), uB = box(u, second, 4);
+    const Vec3 below = (xA[0] - xB[1]) + (uA[0] - uB[1]).cwiseMin(0.0), above = (xB[0] - xA[1]) + (uB[0] - uA[1]).cwiseMin(0.0);
+    return std::max(below.maxCoeff(), above.maxCoeff());
+}
+
+/// Could the move u bring a pair that is `distance` apart nearer than `bound` [cm]? A quick answer that is never falsely no.
+inline bool mayComeNearer(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double distance, double bound)
+{
+    const double motion = relativeMotion(kind, {triple(u[0]), triple(u[1]), triple(u[2]), triple(u[3])});
+    return motion >= distance - bound && sweptGap(kind, x, u) <= bound;
+}
+
 }  // namespace sim::contact

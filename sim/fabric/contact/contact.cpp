@@ -14,8 +14,9 @@ using namespace contact;
 struct FabricContact::Parts {
     explicit Parts(const Fabric& fabric) : list(fabric), limiter(list.primitives()), start(fabric.rest) {}
 
-    void findActive();
-    void describe(std::span<const Vec3> x, std::size_t slot);
+    void findActive(const CandidatePool& pairs, std::vector<PairPlace>& found);
+    void describe(std::span<const Vec3> x, const CandidatePool& pairs, std::span<const PairPlace> places, std::size_t first);
+    void describe(std::span<const Vec3> x, const CandidatePool& pairs, std::size_t place, std::size_t slot);
     void resizeActive(std::size_t n);
 
     CandidateList list;
@@ -23,7 +24,9 @@ struct FabricContact::Parts {
     std::vector<Vec3> start;                  ///< of the step [cm]
     std::vector<double> mass, inverseMass;    ///< [g, 1/g]
     double h = 0.0;                           ///< [s]
-    std::vector<int> acting, packed;          ///< pairs of the list: by chunks, and in one row
+    std::vector<PairPlace> acting;            ///< by chunks
+    std::vector<PairPlace> edgePairs, facePairs;  ///< that act, sorted
+    PairSorter sorter;
     ActiveContacts active;
 };
 
@@ -62,26 +65,34 @@ const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageCloc
     }
     clock.start(Stage::FabricContact);
     p.list.measure(x);
-    p.findActive();
-    p.resizeActive(p.packed.size());
-    parallelFor(p.packed.size(), 512, [&](std::size_t slot) { p.describe(x, slot); });
+    p.findActive(p.list.edgePairs(), p.edgePairs);
+    p.findActive(p.list.facePairs(), p.facePairs);
+    p.resizeActive(p.edgePairs.size() + p.facePairs.size());
+    p.describe(x, p.list.edgePairs(), p.edgePairs, 0);
+    p.describe(x, p.list.facePairs(), p.facePairs, p.edgePairs.size());
     return p.active;
 }
 
-void FabricContact::Parts::findActive()
+void FabricContact::Parts::findActive(const CandidatePool& pairs, std::vector<PairPlace>& found)
 {
-    const Candidates& pairs = list.pairs();
     const Chunks chunks(pairs.size());
     std::array<int, kMaxChunks> count{};
     acting.resize(pairs.size());
     parallelFor(chunks.count(), [&](std::size_t c) {
-        int* out = acting.data() + chunks.begin(c);
+        PairPlace* out = acting.data() + chunks.begin(c);
         for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i)
-            if (pairs.distance[i] < pairs.reach[i]) out[count[c]++] = static_cast<int>(i);
+            if (pairs.distance[i] < pairs.reach[i]) out[count[c]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
     });
-    packed.clear();
+    found.clear();
     for (std::size_t c = 0; c < chunks.count(); ++c)
-        packed.insert(packed.end(), acting.begin() + chunks.begin(c), acting.begin() + chunks.begin(c) + count[c]);
+        found.insert(found.end(), acting.begin() + chunks.begin(c), acting.begin() + chunks.begin(c) + count[c]);
+    sorter.sort(found, list.primitives().firstFace());
+}
+
+void FabricContact::Parts::describe(std::span<const Vec3> x, const CandidatePool& pairs, std::span<const PairPlace> places,
+                                    std::size_t first)
+{
+    parallelFor(places.size(), 512, [&](std::size_t i) { describe(x, pairs, places[i].place, first + i); });
 }
 
 void FabricContact::Parts::resizeActive(std::size_t n)
@@ -90,15 +101,14 @@ void FabricContact::Parts::resizeActive(std::size_t n)
     active.stiffness.resize(n), active.frictionStiffness.resize(n);
 }
 
-void FabricContact::Parts::describe(std::span<const Vec3> x, std::size_t slot)
+/// Pair `place` of the pool as number `slot` of the active ones.
+void FabricContact::Parts::describe(std::span<const Vec3> x, const CandidatePool& pairs, std::size_t place, std::size_t slot)
 {
     constexpr double kSmoothSpeed = 1.0;  // of sliding, below which friction fades [cm/s]
     const Primitives& primitives = list.primitives();
-    const Candidates& pairs = list.pairs();
-    const std::size_t i = packed[slot];
-    const int a = pairs.a[i], b = pairs.b[i];
-    const std::array<int, 4>& v = pairs.vertices[i];
-    const std::array<double, 4> c = pairWeights(primitives.kind(a), pairs.p[i], pairs.q[i]);
+    const int a = pairs.a[place], b = pairs.b[place];
+    const std::array<int, 4>& v = pairs.vertices[place];
+    const std::array<double, 4> c = pairWeights(pairs.kind, pairs.p[place], pairs.q[place]);
 
     Vec3 apart = Vec3::Zero(), slip = Vec3::Zero();
     double meanMass = 0.0;
@@ -107,13 +117,13 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::size_t slot)
         slip += c[k] * (x[v[k]] - start[v[k]]);
         meanMass += 0.25 * mass[v[k]];
     }
-    const double distance = pairs.distance[i];
+    const double distance = pairs.distance[place];
     const Vec3 normal = distance > 0.0 ? Vec3(apart / distance) : Vec3::UnitX().eval();
     slip -= normal.dot(slip) * normal;
 
     const double young = std::min(primitives.young[a], primitives.young[b]);
     const double stiffness = pairStiffness(young, primitives.radius[a] + primitives.radius[b], meanMass, h);
-    const PairEnergy energy = pairEnergy(distance, pairs.range(i), stiffness);
+    const PairEnergy energy = pairEnergy(distance, pairs.range(place), stiffness);
     const double sideways = frictionStiffness(primitives.friction2(a, b), -energy.slope, slip.norm(), kSmoothSpeed * h);
 
     active.vertices[slot] = v;
@@ -127,17 +137,19 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::size_t slot)
 
 std::size_t FabricContact::candidates() const
 {
-    return parts_->list.pairs().size();
+    return parts_->list.size();
 }
 
 double FabricContact::leastDistance() const
 {
     const Primitives& primitives = parts_->list.primitives();
-    const Candidates& pairs = parts_->list.pairs();
-    return parallelReduce(
-        pairs.size(), std::numeric_limits<double>::infinity(),
-        [&](std::size_t i) { return pairs.distance[i] / (pairs.reach[i] - primitives.band(pairs.a[i], pairs.b[i])); },
-        [](double a, double b) { return std::min(a, b); });
+    double least = std::numeric_limits<double>::infinity();
+    for (const CandidatePool* pairs : {&parts_->list.edgePairs(), &parts_->list.facePairs()})
+        least = parallelReduce(
+            pairs->size(), least,
+            [&](std::size_t i) { return pairs->distance[i] / (pairs->reach[i] - primitives.band(pairs->a[i], pairs->b[i])); },
+            [](double a, double b) { return std::min(a, b); });
+    return least;
 }
 
 }  // namespace sim

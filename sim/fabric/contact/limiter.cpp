@@ -12,6 +12,13 @@ namespace {
 /// A pair already below its floor or core may still lose this share of its distance [-].
 constexpr double kKept = 0.97;
 
+/// Moves that may bring a pair below are looked at closely [cm].
+template <class T>
+T floorOf(T reach, T core)
+{
+    return core + 0.15 * (reach - core);
+}
+
 std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3> values)
 {
     return {values[v[0]], values[v[1]], values[v[2]], values[v[3]]};
@@ -27,18 +34,21 @@ Limiter::Limiter(const Primitives& primitives) : primitives_(primitives)
 void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     constexpr int kFilterRounds = 5, kBlendRounds = 8;
+    bool changed = true;  // the moves, since they were looked at
     for (int round = 0; round < kFilterRounds; ++round) {
         cover(x, u, list, report, clock);
         if (list.empty()) return;
         findClosing(x, u, list);
         if (closing_.empty()) return;
-        const int sweeps = pushApart(u);
-        if (sweeps == 1 && round > 0) break;
+        const int sweeps = pushApart(u, changed);
+        if (sweeps == 1) break;
     }
     double fraction = 1.0;
     for (int round = 0; round < kBlendRounds; ++round) {
-        cover(x, u, list, report, clock);
-        findClosing(x, u, list);
+        if (changed || round > 0) {
+            cover(x, u, list, report, clock);
+            findClosing(x, u, list);
+        }
         fraction = measureFractions(x, u);
         if (fraction >= 1.0) return;
         if (round + 1 < kBlendRounds) report.blends += blendFailing(u);
@@ -79,23 +89,28 @@ void Limiter::motionOfPrimitives(std::span<const Vec3> u)
 /// alone, not on what else is in the list.
 void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list)
 {
-    const Candidates& pairs = list.pairs();
     motionOfPrimitives(u);
+    closing_.clear();
+    for (const CandidatePool* pairs : {&list.edgePairs(), &list.facePairs()}) findClosing(x, u, *pairs);
+}
+
+void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs)
+{
     const Chunks chunks(pairs.size());
     std::array<int, kMaxChunks> count{};
     near_.resize(pairs.size());
     parallelFor(chunks.count(), [&](std::size_t chunk) {
         const std::size_t begin = chunks.begin(chunk), end = chunks.end(chunk);
-        int* out = near_.data() + begin;
+        PairPlace* out = near_.data() + begin;
         for (std::size_t first = begin; first < end; first += kLanes) {
             const std::size_t last = std::min(end, first + kLanes) - 1;
             EightIndices a, b;
-            Pack distance, floor;
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                const std::size_t i = std::min(first + lane, last);
-                a[lane] = pairs.a[i], b[lane] = pairs.b[i];
-                distance[lane] = pairs.distance[i], floor[lane] = pairs.range(i).floor();
+                a[lane] = pairs.a[std::min(first + lane, last)];
+                b[lane] = pairs.b[std::min(first + lane, last)];
             }
+            const Pack distance = loadPack(&pairs.distance[first]), core = loadPack(&pairs.core[first]);
+            const Pack floor = floorOf(loadPack(&pairs.reach[first]), core);
             const QuadPack moveA = gatherQuads(motion_, a), moveB = gatherQuads(motion_, b);
             const Pack kept = kKept * distance;
             const Pack free = distance - (floor < kept ? floor : kept) - moveA.w - moveB.w;
@@ -105,29 +120,28 @@ void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, cons
             for (unsigned bits = ~maskBits(far) & 0xffu; bits != 0; bits &= bits - 1) {
                 const std::size_t i = first + std::countr_zero(bits);
                 if (i > last) break;
-                std::array<Triple<double>, 4> move;
-                for (std::size_t c = 0; c < 4; ++c) move[c] = triple(u[pairs.vertices[i][c]]);
-                const double d = pairs.distance[i];
-                if (relativeMotion(list.kind(i), move) >= d - std::min(pairs.range(i).floor(), kKept * d))
-                    out[count[chunk]++] = static_cast<int>(i);
+                const std::array<int, 4>& v = pairs.vertices[i];
+                const double d = pairs.distance[i], bound = std::min(floorOf(pairs.reach[i], pairs.core[i]), kKept * d);
+                if (mayComeNearer(pairs.kind, atVertices(v, x), atVertices(v, u), d, bound))
+                    out[count[chunk]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
             }
         }
     });
-    closing_.clear();
+    places_.clear();
     for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
-        for (int i = 0; i < count[chunk]; ++i) closing_.push_back(closing(x, pairs, near_[chunks.begin(chunk) + i]));
+        places_.insert(places_.end(), near_.begin() + chunks.begin(chunk), near_.begin() + chunks.begin(chunk) + count[chunk]);
+    sorter_.sort(places_, primitives_.firstFace());
+    for (const PairPlace& place : places_) closing_.push_back(closing(x, pairs, place.place));
 }
 
-Limiter::Closing Limiter::closing(std::span<const Vec3> x, const Candidates& pairs, int pair) const
+Limiter::Closing Limiter::closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const
 {
     Closing c;
-    c.pair = pair;
-    c.kind = primitives_.kind(pairs.a[pair]);
-    c.vertices = pairs.vertices[pair];
-    c.weights = pairWeights(c.kind, pairs.p[pair], pairs.q[pair]);
-    const double d = pairs.distance[pair];
-    c.distance = d;
-    const PairRange range = pairs.range(pair);
+    c.kind = pairs.kind;
+    c.vertices = pairs.vertices[place];
+    c.weights = pairWeights(c.kind, pairs.p[place], pairs.q[place]);
+    const double d = pairs.distance[place];
+    const PairRange range = pairs.range(place);
     Vec3 apart = Vec3::Zero();
     c.compliance = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -135,37 +149,37 @@ Limiter::Closing Limiter::closing(std::span<const Vec3> x, const Candidates& pai
         c.compliance += c.weights[k] * c.weights[k] * inverseMass_[c.vertices[k]];
     }
     c.normal = d > 0.0 ? Vec3(apart / d) : Vec3::Zero().eval();
-    c.allowed = std::max(d - range.floor(), 0.2 * std::max(d - range.core, 0.0));
+    c.allowed = std::max(d - floorOf(range.reach, range.core), 0.2 * std::max(d - range.core, 0.0));
     c.separation = std::min(range.core, kKept * d);
-    c.tolerance = 1.0e-3 * (primitives_.radius[pairs.a[pair]] + primitives_.radius[pairs.b[pair]]);
+    c.radii = primitives_.radius[pairs.a[place]] + primitives_.radius[pairs.b[place]];
     return c;
 }
 
 /// Gauss-Seidel with the closest points of x: approaches along the normal beyond what is allowed become blows without bounce.
+/// @param changed  becomes whether any move has
 /// @return sweeps it took
-int Limiter::pushApart(std::span<Vec3> u)
+int Limiter::pushApart(std::span<Vec3> u, bool& changed)
 {
     constexpr int kMostSweeps = 30;
+    constexpr double kTolerance = 1.0e-3, kLeast = 1.0e-5;  // of the radii: what ends the sweeps, what is not worth a push
+    changed = false;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-        bool pushed = false;
-        for (std::size_t i = 0; i < closing_.size(); ++i)  // to and fro: blows travel both ways
-            pushed |= push(closing_[sweep % 2 == 0 ? i : closing_.size() - 1 - i], u);
-        if (!pushed) return sweep + 1;
+        bool settled = true;
+        for (std::size_t i = 0; i < closing_.size(); ++i) {  // to and fro: blows travel both ways
+            const Closing& c = closing_[sweep % 2 == 0 ? i : closing_.size() - 1 - i];
+            double apart = 0.0;
+            for (std::size_t k = 0; k < 4; ++k) apart += c.weights[k] * c.normal.dot(u[c.vertices[k]]);
+            const double excess = -c.allowed - apart;
+            if (excess <= kLeast * c.radii || c.compliance == 0.0) continue;
+            const double impulse = excess / c.compliance;
+            for (std::size_t k = 0; k < 4; ++k)
+                if (const double w = inverseMass_[c.vertices[k]]; w > 0.0) u[c.vertices[k]] += (impulse * w * c.weights[k]) * c.normal;
+            changed = true;
+            if (excess > kTolerance * c.radii) settled = false;
+        }
+        if (settled) return sweep + 1;
     }
     return kMostSweeps;
-}
-
-/// @return whether that was more than the tolerance
-bool Limiter::push(const Closing& c, std::span<Vec3> u) const
-{
-    double apart = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) apart += c.weights[k] * c.normal.dot(u[c.vertices[k]]);
-    const double excess = -c.allowed - apart;
-    if (excess <= 0.01 * c.tolerance || c.compliance == 0.0) return false;
-    const double impulse = excess / c.compliance;
-    for (std::size_t k = 0; k < 4; ++k)
-        if (const double w = inverseMass_[c.vertices[k]]; w > 0.0) u[c.vertices[k]] += (impulse * w * c.weights[k]) * c.normal;
-    return excess > c.tolerance;
 }
 
 /// @return the least

@@ -20,7 +20,6 @@ class Limiter {
  private:
     /// A pair that the move brings near.
     struct Closing {
-        int pair;
         PairKind kind;
         std::array<int, 4> vertices;
         std::array<double, 4> weights;
@@ -28,24 +27,25 @@ class Limiter {
         double allowed;        ///< approach along the normal that is left alone [cm]
         double compliance;     ///< Σ c² / m of the free vertices [1/g]
         double separation;     ///< least distance on the way [cm]
-        double tolerance;      ///< of the filter [cm]
-        double distance;       ///< [cm]
+        double radii;          ///< sum of both [cm]
     };
 
     void cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
     void findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list);
     void motionOfPrimitives(std::span<const Vec3> u);
-    Closing closing(std::span<const Vec3> x, const Candidates& pairs, int pair) const;
-    int pushApart(std::span<Vec3> u);
-    bool push(const Closing& c, std::span<Vec3> u) const;
+    void findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs);
+    Closing closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const;
+    int pushApart(std::span<Vec3> u, bool& changed);
     double measureFractions(std::span<const Vec3> x, std::span<const Vec3> u);
     int blendFailing(std::span<Vec3> u) const;
 
     const Primitives& primitives_;
     std::span<const double> inverseMass_;
     Points motion_;                  ///< of each primitive: mean of its vertices, and as the fourth their largest distance from it [cm]
-    std::vector<int> near_;          ///< by chunks: what the quick look left
-    std::vector<Closing> closing_;   ///< in the order of the list
+    std::vector<PairPlace> near_;    ///< by chunks: what the quick look left
+    std::vector<PairPlace> places_;
+    PairSorter sorter_;
+    std::vector<Closing> closing_;   ///< sorted: edges with edges first
     std::vector<double> fraction_;   ///< of each: safe part of the move [0..1]
 };
 

@@ -1,5 +1,5 @@
 #include "sim/core/parallel.h"
-#include "sim/fabric/contact/candidate_list.h"
+#include "sim/fabric/contact/candidate_pool.h"
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ template <PairKind kKind>
 
 /// Measures the pairs slot(0) … slot(n − 1), all of one kind, n ≤ 8.
 template <PairKind kKind, class Slot>
-Measured measurePairs(const Points& x, const Candidates& pairs, std::size_t n, Slot&& slot)
+Measured measurePairs(const Points& x, const CandidatePool& pairs, std::size_t n, Slot&& slot)
 {
     std::array<EightIndices, 4> vertices;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -38,7 +38,7 @@ Measured measurePairs(const Points& x, const Candidates& pairs, std::size_t n, S
 }
 
 template <PairKind kKind>
-void measureFollowing(const Points& x, std::size_t first, std::size_t n, Candidates& pairs)
+void measureFollowing(const Points& x, std::size_t first, std::size_t n, CandidatePool& pairs)
 {
     const Measured m = measurePairs<kKind>(x, pairs, n, [&](std::size_t i) { return first + i; });
     storeFirst(&pairs.distance[first], m.distance, static_cast<int>(n));
@@ -47,7 +47,7 @@ void measureFollowing(const Points& x, std::size_t first, std::size_t n, Candida
 }
 
 template <PairKind kKind>
-void measureListed(const Points& x, const int* slots, std::size_t n, Candidates& pairs)
+void measureListed(const Points& x, const int* slots, std::size_t n, CandidatePool& pairs)
 {
     const Measured m = measurePairs<kKind>(x, pairs, n, [&](std::size_t i) { return slots[i]; });
     for (std::size_t lane = 0; lane < n; ++lane) {
@@ -57,44 +57,33 @@ void measureListed(const Points& x, const int* slots, std::size_t n, Candidates&
     }
 }
 
-/// body(first, n) for the runs of at most eight in [begin, end).
+/// body(first, n) for the runs of at most eight in [0, count).
 template <class Body>
-void forEachPack(std::size_t begin, std::size_t end, Body&& body)
+void forEachPack(std::size_t count, Body&& body)
 {
-    parallelFor((end - begin + kLanes - 1) / kLanes, kPacksPerTask, [&](std::size_t pack) {
-        const std::size_t first = begin + pack * kLanes;
-        body(first, std::min<std::size_t>(kLanes, end - first));
+    parallelFor((count + kLanes - 1) / kLanes, kPacksPerTask, [&](std::size_t pack) {
+        const std::size_t first = pack * kLanes;
+        body(first, std::min<std::size_t>(kLanes, count - first));
     });
+}
+
+template <PairKind kKind>
+void measurePool(const Points& x, bool all, CandidatePool& pairs)
+{
+    if (all) forEachPack(pairs.size(), [&](std::size_t first, std::size_t n) { measureFollowing<kKind>(x, first, n, pairs); });
+    else
+        forEachPack(pairs.fresh.size(), [&](std::size_t first, std::size_t n) {
+            measureListed<kKind>(x, &pairs.fresh[first], n, pairs);
+        });
 }
 
 }  // namespace
 
-void CandidateList::measure(std::span<const Vec3> x)
+void CandidatePool::measure(const Points& x, bool all)
 {
-    const bool stands = measured_ && parallelReduce(
-                                         x.size(), true, [&](std::size_t v) { return x[v] == measuredAt_[v]; },
-                                         [](bool a, bool b) { return a && b; });
-    if (stands) {
-        const auto edgesEnd = std::ranges::lower_bound(fresh_, pairs_.begin[primitives_.edgeCount]);
-        const std::size_t edges = edgesEnd - fresh_.begin();
-        forEachPack(0, edges, [&](std::size_t first, std::size_t n) {
-            measureListed<PairKind::EdgeEdge>(measuredAt_, &fresh_[first], n, pairs_);
-        });
-        forEachPack(edges, fresh_.size(), [&](std::size_t first, std::size_t n) {
-            measureListed<PairKind::VertexFace>(measuredAt_, &fresh_[first], n, pairs_);
-        });
-    } else {
-        parallelFor(x.size(), 1024, [&](std::size_t v) { measuredAt_.set(v, x[v]); });
-        const std::size_t edges = pairs_.begin[primitives_.edgeCount];
-        forEachPack(0, edges, [&](std::size_t first, std::size_t n) {
-            measureFollowing<PairKind::EdgeEdge>(measuredAt_, first, n, pairs_);
-        });
-        forEachPack(edges, pairs_.size(), [&](std::size_t first, std::size_t n) {
-            measureFollowing<PairKind::VertexFace>(measuredAt_, first, n, pairs_);
-        });
-    }
-    fresh_.clear();
-    measured_ = true;
+    if (kind == PairKind::EdgeEdge) measurePool<PairKind::EdgeEdge>(x, all, *this);
+    else measurePool<PairKind::VertexFace>(x, all, *this);
+    fresh.clear();
 }
 
 }  // namespace sim::contact

@@ -16,9 +16,10 @@ struct FoundPair {
 
 /// How far two primitives may be apart and still make a candidate, and how far vertices may stray before it could be missed. With R and
 /// the floor of a pair at most 1.125 and 0.6533 of the radii's sum (PairRange):
-/// A pair outside the list had d(from) − rel(move) > Σ reach. With vertices astray by s in position and in displacement, on each side,
-/// d falls by s and rel(u) grows by 5/3 s at most (3/2 s for edges): d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor: such a move is
-/// harmless at first glance. And at x alone d > Σ (reach − s') ≥ R for s' ≤ margin: it does not act.
+/// A pair outside the list had d(from) − rel(move) > Σ reach, or boxes further apart. With vertices astray by s in position and in
+/// displacement, on each side, d falls by s and rel(u) grows by 5/3 s at most (3/2 s for edges), the gap of the boxes falls by 2 s. So
+/// d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor, or the gap is: such a move is harmless at first glance (mayComeNearer). And at x alone
+/// d > Σ (reach − s') ≥ R for s' ≤ margin: it does not act.
 struct ListMargin {
     static constexpr double kMargin = 0.7;   ///< of the radius [-]
     static double reach(double radius) { return (1.125 + kMargin) * radius; }

@@ -15,8 +15,6 @@ struct PairRange {
 
     /// Below it the spring becomes a wall.
     double wall() const { return core + 0.3 * (reach - core); }
-    /// Moves that may go below are looked at closely.
-    double floor() const { return core + 0.15 * (reach - core); }
 };
 
 /// What can touch: the edges, the vertices and the faces of a fabric, numbered in this order in one row. Pairs (a, b), a < b, are two edges

@@ -19,21 +19,21 @@ Vec3 separationAt(PairKind kind, const Corners& x, double p, double q)
     return c[0] * x[0] + c[1] * x[1] + c[2] * x[2] + c[3] * x[3];
 }
 
-/// Least distance by looking everywhere: a grid that closes in on its best point. Convex, so nothing is overlooked.
+/// Least distance by search: for each p the best q along its line, over p by thirds, since that least is convex in p.
 double searchedDistance(PairKind kind, const Corners& x)
 {
-    double bestP = 0.5, bestQ = kind == PairKind::EdgeEdge ? 0.5 : 0.25, width = 0.5, best = 1.0e30;
-    for (int level = 0; level < 60; ++level, width *= 0.6) {
-        const double midP = bestP, midQ = bestQ;
-        for (int i = -6; i <= 6; ++i)
-            for (int j = -6; j <= 6; ++j) {
-                const double p = std::clamp(midP + width * i / 6.0, 0.0, 1.0);
-                double q = std::clamp(midQ + width * j / 6.0, 0.0, 1.0);
-                if (kind == PairKind::VertexFace) q = std::min(q, 1.0 - p);
-                if (const double d = separationAt(kind, x, p, q).norm(); d < best) best = d, bestP = p, bestQ = q;
-            }
+    const auto leastAt = [&](double p) {
+        const double most = kind == PairKind::EdgeEdge ? 1.0 : 1.0 - p;
+        const Vec3 from = separationAt(kind, x, p, 0.0), along = separationAt(kind, x, p, 1.0) - from;
+        const double q = along.squaredNorm() > 0.0 ? std::clamp(-from.dot(along) / along.squaredNorm(), 0.0, most) : 0.0;
+        return separationAt(kind, x, p, q).norm();
+    };
+    double lo = 0.0, hi = 1.0;
+    for (int i = 0; i < 150; ++i) {
+        const double third = (hi - lo) / 3.0;
+        (leastAt(lo + third) < leastAt(hi - third) ? hi : lo) += leastAt(lo + third) < leastAt(hi - third) ? -third : third;
     }
-    return best;
+    return std::min({leastAt(lo), leastAt(0.0), leastAt(1.0)});
 }
 
 Closest<double> closestOf(PairKind kind, const Corners& x)
@@ -47,9 +47,9 @@ void expectClosest(PairKind kind, const Corners& x, double tolerance)
     const Vec3 separation(c.separation.x, c.separation.y, c.separation.z);
     EXPECT_LE((separation - separationAt(kind, x, c.p, c.q)).norm(), 1.0e-14 * 10.0);  // rounding of coordinates up to 10
     EXPECT_NEAR(separation.norm(), searchedDistance(kind, x), tolerance);
-    EXPECT_GE(c.p, 0.0), EXPECT_LE(c.p, 1.0);
-    EXPECT_GE(c.q, 0.0), EXPECT_LE(c.q, 1.0);
-    if (kind == PairKind::VertexFace) EXPECT_LE(c.p + c.q, 1.0 + 1.0e-12);  // 1 − (p + q) is rounded
+    const std::array<double, 4> weights = pairWeights(kind, c.p, c.q);
+    for (int k = 0; k < 4; ++k)  // of the first side positive, of the second negative, but for the rounding of p + q
+        EXPECT_GE(k < (kind == PairKind::EdgeEdge ? 2 : 1) ? weights[k] : -weights[k], -1.0e-12);
 }
 
 Corners randomCorners(std::mt19937& random, double size = 1.0)
@@ -60,8 +60,7 @@ Corners randomCorners(std::mt19937& random, double size = 1.0)
     return x;
 }
 
-// The search ends on a grid of 0.5 · 0.6^60 / 6 ≈ 4e-15, but d is flat at its least: half the digits of p are enough. 1e-7 where d is
-// not flat: at d = 0 it is a cone.
+// Thirds are told apart by d to about 1e-16, so p is good to 1e-8 where d is smooth, and d to 1e-16; where d ends in a cone, at 0, to 1e-8.
 constexpr double kSearched = 1.0e-7;
 
 TEST(ClosestPoints, AgreeWithSearchOfRandomPairs)

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "sim/fabric/contact/contact.h"
+#include "sim/fabric/contact/primitives.h"
 #include "sim/fabric/fabric.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 namespace sim::test {
 
@@ -131,5 +135,104 @@ inline Fabric wovenSheet(int n)
         for (int j : {0, n - 1}) scene.pin(s * n + j);
     return scene.fabric;
 }
+
+/// Two of a fabric's primitives, and how near they come.
+struct NearPair {
+    int a, b;
+    contact::PairKind kind;
+    std::array<int, 4> vertices;
+    contact::PairRange range;
+};
+
+inline std::array<contact::Triple<double>, 4> cornersOf(const std::array<int, 4>& v, std::span<const Vec3> x)
+{
+    return {contact::triple(x[v[0]]), contact::triple(x[v[1]]), contact::triple(x[v[2]]), contact::triple(x[v[3]])};
+}
+
+inline double distanceOf(const NearPair& pair, std::span<const Vec3> x)
+{
+    const contact::Triple<double> s = contact::closestPoints(pair.kind, cornersOf(pair.vertices, x)).separation;
+    return std::sqrt(dot(s, s));
+}
+
+/// Every pair of a fabric that may ever touch, found by looking at all.
+inline std::vector<NearPair> allPairs(const Fabric& fabric)
+{
+    const contact::Primitives primitives(fabric);
+    std::vector<NearPair> pairs;
+    const auto add = [&](int a, int b) {
+        if (!primitives.canTouch(a, b)) return;
+        NearPair pair = {a, b, primitives.kind(a), primitives.vertices(a, b), {}};
+        pair.range = primitives.range(a, b, distanceOf(pair, fabric.rest));
+        if (pair.range.core > 0.0) pairs.push_back(pair);
+    };
+    for (int a = 0; a < primitives.edgeCount; ++a)
+        for (int b = a + 1; b < primitives.edgeCount; ++b) add(a, b);
+    for (int v = primitives.firstVertex(); v < primitives.firstFace(); ++v)
+        for (int f = primitives.firstFace(); f < primitives.count(); ++f) add(v, f);
+    return pairs;
+}
+
+/// Yarns of one edge and single triangles, strewn at random in a cube of 2 cm; radii differ, none too near another.
+inline Fabric soup(unsigned seed, int yarns, int triangles)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vector = [&](double size) { return Vec3(size * unit(random), size * unit(random), size * unit(random)); };
+    ContactScene scene;
+    for (int i = 0; i < yarns + triangles;) {
+        const ContactScene before = scene;
+        const Vec3 x = vector(1.0);
+        if (i < yarns) scene.addYarn(x, x + vector(0.4), 1, 0.03 + 0.01 * unit(random));
+        else {
+            const int v = scene.addVertex(x);
+            scene.addVertex(x + vector(0.4));
+            scene.addVertex(x + vector(0.4));
+            scene.addFace({v, v + 1, v + 2}, 0.04 + 0.02 * unit(random));
+        }
+        const auto joined = [&](const NearPair& p) { return distanceOf(p, scene.fabric.rest) < 0.05; };
+        if (std::ranges::any_of(allPairs(scene.fabric), joined)) scene = before;
+        else ++i;
+    }
+    return scene.fabric;
+}
+
+/// Random displacements of up to `size` along each axis [cm].
+inline std::vector<Vec3> randomMoves(const Fabric& fabric, double size, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-size, size);
+    std::vector<Vec3> u(fabric.vertexCount());
+    for (Vec3& v : u) v = Vec3(unit(random), unit(random), unit(random));
+    return u;
+}
+
+/// Contact and the positions it works on.
+struct ContactRun {
+    static constexpr double kStep = 1.0e-3;
+
+    explicit ContactRun(const Fabric& f) : fabric(f), contact(f), x(f.rest) { contact.beginStep(x, fabric.mass, kStep); }
+
+    /// Moves as far along u as is safe, and returns how far that was.
+    std::vector<Vec3> moveSafely(std::vector<Vec3> u)
+    {
+        StageClock clock(step);
+        contact.limit(x, u, report, clock);
+        for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[v];
+        contact.moved();
+        return u;
+    }
+    const ActiveContacts& active()
+    {
+        StageClock clock(step);
+        return contact.activeAt(x, clock);
+    }
+
+    const Fabric fabric;
+    FabricContact contact;
+    std::vector<Vec3> x;
+    LimitReport report;
+    StepReport step;
+};
 
 }  // namespace sim::test
