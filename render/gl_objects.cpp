@@ -23,6 +23,20 @@ std::string readText(const fs::path& path)
     return text.str();
 }
 
+/// The text of a shader, with other files of its folder in the place of lines `#include "lighting.glsl"`.
+std::string readShader(const fs::path& path)
+{
+    constexpr std::string_view kInclude = "#include \"";
+    std::istringstream lines(readText(path));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        const bool isInclude = line.starts_with(kInclude) && line.back() == '"';
+        text += isInclude ? readText(path.parent_path() / line.substr(kInclude.size(), line.size() - kInclude.size() - 1)) : line;
+        text += '\n';
+    }
+    return text;
+}
+
 /// What the driver says, on one line.
 std::string oneLine(std::string log)
 {
@@ -36,7 +50,7 @@ class Shader {
  public:
     Shader(const Gl& gl, GLenum stage, const fs::path& path) : gl_(gl), id_(gl.CreateShader(stage))
     {
-        const std::string text = readText(path);
+        const std::string text = readShader(path);
         const char* source = text.c_str();
         gl.ShaderSource(id_, 1, &source, nullptr);
         gl.CompileShader(id_);
@@ -59,6 +73,28 @@ class Shader {
 };
 
 }  // namespace
+
+void describeAttribute(const Gl& gl, GLuint index, int count, std::size_t stride, std::size_t offset)
+{
+    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), reinterpret_cast<const void*>(offset));
+    gl.EnableVertexAttribArray(index);
+}
+
+void describeColorAttribute(const Gl& gl, GLuint index, std::size_t stride, std::size_t offset)
+{
+    gl.VertexAttribPointer(index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride), reinterpret_cast<const void*>(offset));
+    gl.EnableVertexAttribArray(index);
+}
+
+void drawOpaque(const Gl& gl)
+{
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    gl.Disable(GL_BLEND);
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_BACK);
+}
 
 Program::Program(const Gl& gl, const fs::path& shaderDir, const std::string& name) : gl_(&gl)
 {

@@ -40,6 +40,9 @@ void frame(Image& image, const PixelBox& box, Rgb ink)
     fill(image, {box.x + box.width, box.y, 1, box.height}, ink);
 }
 
+/// Of the letters beside an upright colour bar [pixels].
+float barTextSize(const Image& image) { return 0.9f * textSize(image.width, image.height); }
+
 }  // namespace
 
 float textSize(int width, int height)
@@ -85,16 +88,16 @@ PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner
     return font.draw(image, text, x, margin + font.capHeight(size), size, ink);
 }
 
-PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink)
+PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink, int inset)
 {
     const ColorTable table = colorTable(bar.map);
-    const float size = 0.9f * textSize(image.width, image.height), cap = font.capHeight(size);
+    const float size = barTextSize(image), cap = font.capHeight(size);
     const std::vector<double> ticks = niceTicks(bar.range[0], bar.range[1]);
     float textWidth = 0.0f;
     for (const double tick : ticks) textWidth = std::max(textWidth, font.width(tickText(tick), size));
 
     const int height = rounded(0.42f * static_cast<float>(image.height)), width = std::max(4, rounded(0.65f * size));
-    const int right = image.width - rounded(0.8f * size);
+    const int right = image.width - inset - rounded(0.8f * size);
     const PixelBox box = {right - rounded(textWidth + 0.6f * size) - width, (image.height - height) / 2, width, height};
     for (int i = 0; i < height; ++i)
         fill(image, {box.x, box.y + height - 1 - i, width, 1}, barColor(table, i, height));
@@ -108,6 +111,17 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
     const float titleX = static_cast<float>(right) - font.width(bar.title, size);
     font.draw(image, bar.title, titleX, static_cast<float>(box.y) - 0.9f * size, size, ink);
     return box;
+}
+
+void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink)
+{
+    int inset = 0;
+    for (const ColorBar& bar : bars) {
+        const PixelBox box = drawColorBar(image, font, bar, ink, inset);
+        const float size = barTextSize(image);
+        const int titleWidth = rounded(0.8f * size + font.width(bar.title, size));
+        inset = std::max(image.width - box.x, inset + titleWidth) + rounded(size);
+    }
 }
 
 PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size,

@@ -6,6 +6,8 @@
 
 uniform sampler2D colors;
 uniform sampler2D depths;        // window depth of the liquid, 1 where there is none
+uniform sampler2D openness;      // of solids, and distance from the eye [cm]
+uniform float occlusion;         // > 0: there are solids, pixels of alpha 0, and how much openness darkens them
 uniform vec2 nearFar;            // [cm]
 uniform float strength;          // 0 = leave the colours as they are
 uniform float depthStep;         // [cm] that count as an edge
@@ -54,12 +56,29 @@ float light(ivec2 pixel, float here)
     return 1.0 - 0.6 * hidden / (8.0 * float(kRings) * depthStep) + (facing > 0.0 ? 0.45 : 0.3) * facing;
 }
 
+// Mean of the 4 x 4 pixels about this one that lie on the same surface.
+float open(ivec2 pixel, float here)
+{
+    float sum = 0.0, weight = 0.0;
+    ivec2 last = textureSize(openness, 0) - 1;
+    for (int y = -2; y < 2; ++y)
+        for (int x = -2; x < 2; ++x) {
+            vec2 there = texelFetch(openness, clamp(pixel + ivec2(x, y), ivec2(0), last), 0).rg;
+            float same = max(1.0 - 25.0 * abs(there.g - here) / here, 0.001);
+            sum += same * there.r;
+            weight += same;
+        }
+    return sum / weight;
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 color = texelFetch(colors, pixel, 0);
     float depth = depthAt(pixel);
     float shade = 1.0;
-    if (depth < 1.0 && strength > 0.0) shade = mix(1.0, light(pixel, distanceFromEye(depth)), strength);
+    float solid = occlusion > 0.0 ? 1.0 - color.a : 0.0;
+    if (depth < 1.0 && strength > 0.0 && solid < 0.99) shade = mix(1.0, light(pixel, distanceFromEye(depth)), strength);
+    if (depth < 1.0 && solid > 0.0) shade = mix(shade, mix(1.0, open(pixel, distanceFromEye(depth)), occlusion), solid);
     fragment = vec4(color.rgb * shade, 1.0);
 }

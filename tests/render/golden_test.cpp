@@ -3,12 +3,12 @@
 #include "render/renderer.h"
 #include "tests/render/drawing.h"
 #include "tests/render/fake_dam_break.h"
+#include "tests/render/fake_fabric.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 
 // Whole pictures against stored ones. DRENCH_ACCEPT_GOLDENS=1 stores the present ones instead.
 
@@ -64,26 +64,6 @@ TEST(Golden, DamBreakInItsTank)
     drawing.look.overlay.label = "PolyPIC";
     const FrameView view = scene.view();
     expectLikeGolden(drawing.renderer.draw(view, slantedView(view, 16.0 / 9.0), drawing.look), "dam_break");
-}
-
-/// A ball of `rings` rings of triangles.
-void addBall(const Eigen::Vector3f& center, float radius, int rings, std::vector<Eigen::Vector3f>& positions,
-             std::vector<Eigen::Vector3i>& triangles)
-{
-    const int sectors = 2 * rings;
-    const float pi = std::numbers::pi_v<float>;
-    for (int i = 0; i <= rings; ++i)
-        for (int j = 0; j <= sectors; ++j) {
-            const float polar = pi * static_cast<float>(i) / static_cast<float>(rings);
-            const float turn = 2.0f * pi * static_cast<float>(j % sectors) / static_cast<float>(sectors);
-            positions.push_back(center + radius * Eigen::Vector3f(std::sin(polar) * std::sin(turn), std::cos(polar),
-                                                                  std::sin(polar) * std::cos(turn)));
-        }
-    for (int i = 0; i < rings; ++i)
-        for (int j = 0; j < sectors; ++j) {
-            const int a = i * (sectors + 1) + j, b = a + sectors + 1;
-            triangles.insert(triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
-        }
 }
 
 TEST(Golden, ObstaclesOnDarkGround)
