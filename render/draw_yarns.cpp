@@ -12,7 +12,7 @@ constexpr std::size_t kVerticesPerBatch = 1 << 17;
 }  // namespace
 
 DrawYarns::DrawYarns(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), program_(gl, shaderDir, "yarns"), vertexArray_(gl), vertices_(gl), indices_(gl), colorMap_(gl)
+    : gl_(gl), program_(gl, shaderDir, "yarns"), thinProgram_(gl, shaderDir, "thin_yarns"), vertexArray_(gl), vertices_(gl), indices_(gl), colorMap_(gl)
 {
     using Vertex = TubeMesh::Vertex;
     gl.BindVertexArray(vertexArray_.id());
@@ -30,32 +30,42 @@ void DrawYarns::draw(const FrameView::Yarns& yarns, const ViewTransforms& transf
     const int strands = static_cast<int>(yarns.begin.size()) - 1;
     if (strands < 1) return;
     colorMap_.bind(look.colorMap);
-    program_.use();
-    gl_.UniformMatrix4fv(program_["view"], 1, GL_FALSE, transforms.view.data());
-    gl_.UniformMatrix4fv(program_["projection"], 1, GL_FALSE, transforms.projection.data());
-    gl_.Uniform2f(program_["range"], look.range[0], look.range[1]);
-    gl_.Uniform1i(program_["colorMap"], 0);
-    gl_.Uniform1f(program_["plyDepth"], look.plies);
+    setUniforms(program_, transforms, look);
+    setUniforms(thinProgram_, transforms, look);
     drawOpaque(gl_);
 
     const TubeDetail detail = {transforms.eye, transforms.pixelsPerTangent(), look.tubeSides};
-    mesh_.clear();
     for (int s = 0; s < strands; ++s) {
-        addTube(yarns, s, detail, paintOf(look, yarns.materials[s]), mesh_);
-        if (mesh_.vertices.size() > kVerticesPerBatch || s + 1 == strands) drawMesh();
+        Batch& batch = isThin(yarns, s, detail) ? thin_ : thick_;
+        addTube(yarns, s, detail, paintOf(look, yarns.materials[s]), batch.mesh);
+        if (batch.mesh.vertices.size() > kVerticesPerBatch) drawMesh(batch);
     }
+    drawMesh(thick_);
+    drawMesh(thin_);
     gl_.Disable(GL_CULL_FACE);
     requireNoGlError(gl_, "drawing the yarns");
 }
 
-void DrawYarns::drawMesh()
+void DrawYarns::setUniforms(const Program& program, const ViewTransforms& transforms, const YarnLook& look) const
 {
+    program.use();
+    gl_.UniformMatrix4fv(program["view"], 1, GL_FALSE, transforms.view.data());
+    gl_.UniformMatrix4fv(program["projection"], 1, GL_FALSE, transforms.projection.data());
+    gl_.Uniform2f(program["range"], look.range[0], look.range[1]);
+    gl_.Uniform1i(program["colorMap"], 0);
+    gl_.Uniform1f(program["plyDepth"], look.plies);
+}
+
+void DrawYarns::drawMesh(Batch& batch)
+{
+    if (batch.mesh.indices.empty()) return;
+    batch.program.use();
     gl_.BindVertexArray(vertexArray_.id());
-    upload(gl_, GL_ARRAY_BUFFER, vertices_, mesh_.vertices);
-    upload(gl_, GL_ELEMENT_ARRAY_BUFFER, indices_, mesh_.indices);
-    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh_.indices.size()), GL_UNSIGNED_INT, nullptr);
+    upload(gl_, GL_ARRAY_BUFFER, vertices_, batch.mesh.vertices);
+    upload(gl_, GL_ELEMENT_ARRAY_BUFFER, indices_, batch.mesh.indices);
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.mesh.indices.size()), GL_UNSIGNED_INT, nullptr);
     gl_.Finish();
-    mesh_.clear();
+    batch.mesh.clear();
 }
 
 }  // namespace render

@@ -9,7 +9,8 @@
 
 namespace render {
 
-/// Yarns as lit tubes whose plies show their twist.
+/// Yarns as lit tubes whose plies show their twist. Those too thin for plies are lit at their vertices: in a software renderer
+/// small triangles cost what their pixels do.
 class DrawYarns {
  public:
     DrawYarns(const Gl& gl, const std::filesystem::path& shaderDir);
@@ -17,14 +18,19 @@ class DrawYarns {
     void draw(const FrameView::Yarns& yarns, const ViewTransforms& transforms, const YarnLook& look);
 
  private:
-    void drawMesh();
+    struct Batch {
+        const Program& program;
+        TubeMesh mesh;                             ///< kept for its storage
+    };
+    void setUniforms(const Program& program, const ViewTransforms& transforms, const YarnLook& look) const;
+    void drawMesh(Batch& batch);
 
     const Gl& gl_;
-    Program program_;
+    Program program_, thinProgram_;
     VertexArray vertexArray_;
     Buffer vertices_, indices_;
     ColorMapTexture colorMap_;
-    TubeMesh mesh_;                                ///< kept for its storage
+    Batch thick_ = {program_, {}}, thin_ = {thinProgram_, {}};
 };
 
 }  // namespace render

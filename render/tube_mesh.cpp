@@ -88,12 +88,13 @@ class Fineness {
     {
         float nearest = std::numeric_limits<float>::infinity();
         for (int i = 0; i < strand.size(); ++i) nearest = std::min(nearest, (strand.x(i) - detail.eye).squaredNorm());
-        const float pixels = pixelsOf(std::max(strand.a(), strand.b()), std::sqrt(nearest));
-        const int enough = pixels < 1.0f ? 4 : pixels < 3.0f ? 6 : pixels < 6.0f ? 8 : 64;
+        radiusPixels_ = pixelsOf(std::max(strand.a(), strand.b()), std::sqrt(nearest));
+        const int enough = radiusPixels_ < 1.0f ? 4 : radiusPixels_ < 2.5f ? 5 : radiusPixels_ < 5.0f ? 6 : radiusPixels_ < 8.0f ? 8 : 64;
         sides_ = std::clamp(enough, 3, std::max(3, detail.sides));
     }
 
     int sides() const { return sides_; }
+    float radiusPixels() const { return radiusPixels_; }
     int capRings() const { return sides_ <= 6 ? 1 : 3; }
     /// Pieces of the edge from vertex i to the next, so that no piece turns by more than a few degrees or strays visibly.
     int pieces(int i) const
@@ -103,9 +104,9 @@ class Fineness {
         if (!(length > 0.0f)) return 1;
         const auto angleTo = [&](const Vector3f& slope) { return std::atan2(edge.cross(slope).norm(), edge.dot(slope)); };
         const float turn = angleTo(strand_.slope(i)) + angleTo(strand_.slope(i + 1));
-        constexpr float kTurnPerPiece = 12.0f * kPi / 180.0f, kPixelsPerPiece = 3.0f;
+        constexpr float kTurnPerPiece = 12.0f * kPi / 180.0f, kPixelsPerPiece = 6.0f;
         const float visible = pixelsOf(length, (strand_.x(i) - detail_.eye).norm()) / kPixelsPerPiece;
-        return static_cast<int>(std::clamp(std::ceil(std::min(turn / kTurnPerPiece, visible)), 1.0f, 12.0f));
+        return static_cast<int>(std::clamp(std::round(std::min(turn / kTurnPerPiece, visible)), 1.0f, 12.0f));
     }
 
  private:
@@ -113,6 +114,7 @@ class Fineness {
 
     const Strand& strand_;
     const TubeDetail& detail_;
+    float radiusPixels_ = 0.0f;
     int sides_ = 3;
 };
 
@@ -162,6 +164,13 @@ class RingWriter {
 };
 
 }  // namespace
+
+bool isThin(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail)
+{
+    constexpr float kThinPixels = 3.5f;            // where yarns.frag lets the plies fade out
+    const Strand strand(yarns, strandIndex);
+    return Fineness(strand, detail).radiusPixels() < kThinPixels;
+}
 
 void addTube(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail, const std::array<std::uint8_t, 4>& color,
              TubeMesh& mesh)

@@ -30,6 +30,9 @@ struct TubeDetail {
     int sides = 10;                                ///< of a tube that is large in the picture, at least 3
 };
 
+/// The strand is so thin in the picture that its plies cannot be seen.
+bool isThin(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail);
+
 /// Adds one strand: a tube of elliptic section with round ends, through the vertices and round between them. Vertices that
 /// are not finite end the tube; a strand of one vertex or without extent has none.
 /// @param strand  in view.begin

@@ -26,7 +26,8 @@ void main()
     float window = texelFetch(depths, pixel, 0).r;
     float distance = nearFar.x * nearFar.y / (nearFar.y - window * (nearFar.y - nearFar.x));
     fragment = vec4(1.0, distance, 0.0, 1.0);
-    if (window >= 1.0 || texelFetch(colors, pixel, 0).a > 0.99) return;
+    // As a number of turns, because a software renderer skips loops but not branches.
+    int pairs = window >= 1.0 || texelFetch(colors, pixel, 0).a > 0.99 ? 0 : kPairs;
 
     ivec2 size = textureSize(depths, 0);
     float pixelsPerCm = pixelsPerTangent / distance;
@@ -38,7 +39,7 @@ void main()
     float turn = float((cell * 7) & 15) / 16.0, shift = float((cell * 5 + 3) & 15) / 16.0;
 
     float shut = 0.0;
-    for (int i = 0; i < kPairs; ++i) {
+    for (int i = 0; i < pairs; ++i) {
         float fraction = (float(i) + shift) / float(kPairs);
         float radius = inner * exp2(fraction * log2(outer / inner));
         float angle = kGoldenAngle * float(i) + 3.14159265 * turn;

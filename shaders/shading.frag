@@ -33,12 +33,12 @@ float depthAt(ivec2 pixel)
 }
 
 // 1 for an open wall that faces the eye.
-float light(ivec2 pixel, float here)
+float light(ivec2 pixel, float here, int rings)
 {
     float hidden = 0.0;
     vec2 moment = vec2(0.0);     // sum of rise x place, and of place squared: their quotient is the gradient
     float spread = 1e-6;
-    for (int ring = 0; ring < kRings; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
         float radius = max(float(ring + 1), kRadii[ring] * reach);
         for (int i = 0; i < 8; ++i) {
             vec2 place = round(radius * kRing[i]);
@@ -57,18 +57,18 @@ float light(ivec2 pixel, float here)
 }
 
 // Mean of the 4 x 4 pixels about this one that lie on the same surface.
-float open(ivec2 pixel, float here)
+float open(ivec2 pixel, float here, int rows)
 {
     float sum = 0.0, weight = 0.0;
     ivec2 last = textureSize(openness, 0) - 1;
-    for (int y = -2; y < 2; ++y)
+    for (int y = -2; y < rows - 2; ++y)
         for (int x = -2; x < 2; ++x) {
             vec2 there = texelFetch(openness, clamp(pixel + ivec2(x, y), ivec2(0), last), 0).rg;
             float same = max(1.0 - 25.0 * abs(there.g - here) / here, 0.001);
             sum += same * there.r;
             weight += same;
         }
-    return sum / weight;
+    return sum / max(weight, 1e-6);
 }
 
 void main()
@@ -78,7 +78,11 @@ void main()
     float depth = depthAt(pixel);
     float shade = 1.0;
     float solid = occlusion > 0.0 ? 1.0 - color.a : 0.0;
-    if (depth < 1.0 && strength > 0.0 && solid < 0.99) shade = mix(1.0, light(pixel, distanceFromEye(depth)), strength);
-    if (depth < 1.0 && solid > 0.0) shade = mix(shade, mix(1.0, open(pixel, distanceFromEye(depth)), occlusion), solid);
+    // What to leave out is told as a number of turns, because a software renderer skips loops but not branches.
+    bool isLiquid = depth < 1.0 && strength > 0.0 && solid < 0.99, isSolid = depth < 1.0 && solid > 0.0;
+    float here = distanceFromEye(depth);
+    float lightened = light(pixel, here, isLiquid ? kRings : 0), opened = open(pixel, here, isSolid ? 4 : 0);
+    if (isLiquid) shade = mix(1.0, lightened, strength);
+    if (isSolid) shade = mix(shade, mix(1.0, opened, occlusion), solid);
     fragment = vec4(color.rgb * shade, 1.0);
 }

@@ -24,12 +24,12 @@ void main()
 
     // The picture's gradient of the helix, and from it the one along the surface.
     vec2 slope = vec2(dFdx(helix), dFdy(helix));
-    float visible = plyDepth * smoothstep(0.45, 0.12, length(slope));
+    float visible = plyDepth * (1.0 - smoothstep(0.09, 0.21, length(slope)));
     if (visible > 0.0) {
         float across = 2.0 * fract(helix) - 1.0;  // −1 … 1 over one ply
         float groove = smoothstep(0.45, 1.0, abs(across));
         float fibre = 0.5 + 0.5 * sin(6.2831853 * 7.0 * helix);
-        float fibreVisible = smoothstep(0.06, 0.02, length(slope));
+        float fibreVisible = 1.0 - smoothstep(0.015, 0.035, length(slope));
         vec3 dx = dFdx(eyePosition), dy = dFdy(eyePosition);
         vec3 rise = slope.x * cross(dy, normal) + slope.y * cross(normal, dx);
         float size = length(rise);

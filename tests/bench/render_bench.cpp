@@ -62,6 +62,7 @@ int main(int argc, char** argv)
     }
     look.obstacles.style = render::ObstacleStyle::Solid;
     look.overlay.liquidBar = false;
+    if (std::getenv("NOAO")) look.occlusion = 0.0f;
     if (name == "sheet") timePictures(FakeSheet(100).view(), look, 32.0, repeats, file);
     else timePictures(FakeDrape(120).view(), look, 24.0, repeats, file);
     return 0;
