@@ -16,6 +16,7 @@ class Simulation {
 
     const State& state() const { return state_; }
     const Scene& scene() const { return scene_; }
+    const Fabric& fabric() const { return fabric_; }
     const Workspace& workspace() const { return work_; }
     /// Energies of the initial state; afterwards the step's report tells them.
     Energies energies() const;
@@ -29,6 +30,7 @@ class Simulation {
     void prepareWorkspace();
 
     Scene scene_;
+    Fabric fabric_;
     State state_;
     Workspace work_;
     double maxSpeed_ = 0.0;  ///< of the particles [cm/s]

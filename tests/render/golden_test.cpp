@@ -108,4 +108,28 @@ TEST(Golden, ComparisonOfThree)
     expectLikeGolden(compose(panels, labels, Font(), look).image, "comparison");
 }
 
+TEST(Golden, WovenSheetUnderABall)
+{
+    const FakeSheet scene(24);
+    Drawing drawing;
+    drawing.look.samples = 4;
+    drawing.look.obstacles.style = ObstacleStyle::Solid;
+    drawing.camera = orbitCamera({0.0, -0.3, 0.0}, 4.4, 18.0, 35.0);
+    expectLikeGolden(drawing.renderer.draw(scene.view(), drawing.camera, drawing.look), "woven_sheet");
+}
+
+TEST(Golden, ClothOverABallByStrain)
+{
+    const FakeDrape scene(60);
+    Drawing drawing;
+    drawing.look.samples = 4;
+    drawing.look.obstacles.style = ObstacleStyle::Solid;
+    drawing.look.cloth.byValue = true;
+    drawing.look.cloth.range = {0.0f, 0.1f};
+    drawing.look.overlay.colorBar = true;
+    drawing.look.overlay.liquidBar = false;
+    drawing.camera = orbitCamera({0.0, -1.2, 0.0}, 14.0, 18.0, 20.0);
+    expectLikeGolden(drawing.renderer.draw(scene.view(), drawing.camera, drawing.look), "draped_cloth");
+}
+
 }  // namespace
