@@ -8,7 +8,7 @@ DrawShading::DrawShading(const Gl& gl, const std::filesystem::path& shaderDir)
 }
 
 void DrawShading::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength,
-                       float step, const Openness& solids)
+                       float step, const Solids& solids)
 {
     program_.use();
     gl_.Uniform1i(program_["colors"], 0);
@@ -19,9 +19,10 @@ void DrawShading::draw(GLuint colorTexture, GLuint depthTexture, const ViewTrans
     gl_.Uniform1f(program_["pixelsPerTangent"], transforms.pixelsPerTangent());
     gl_.Uniform1f(program_["reach"], static_cast<float>(transforms.height) / 720.0f);
     gl_.Uniform1i(program_["openness"], 2);
-    gl_.Uniform1f(program_["occlusion"], solids.strength);
+    gl_.Uniform1i(program_["hasSolids"], solids.any ? 1 : 0);
+    gl_.Uniform1f(program_["occlusion"], solids.occlusion);
     gl_.ActiveTexture(GL_TEXTURE2);
-    gl_.BindTexture(GL_TEXTURE_2D, solids.texture);
+    gl_.BindTexture(GL_TEXTURE_2D, solids.openness);
     gl_.ActiveTexture(GL_TEXTURE1);
     gl_.BindTexture(GL_TEXTURE_2D, depthTexture);
     gl_.ActiveTexture(GL_TEXTURE0);

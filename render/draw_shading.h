@@ -10,17 +10,17 @@ namespace render {
 /// Idea: Boucheny 2009, eye-dome lighting.
 class DrawShading {
  public:
-    struct Openness {
-        GLuint texture = 0;
-        float strength = 0.0f;                     ///< 0 … 1
+    struct Solids {
+        bool any = false;                          ///< pixels of alpha 0
+        GLuint openness = 0;                       ///< the texture that DrawOcclusion filled
+        float occlusion = 0.0f;                    ///< how much it darkens them: 0 … 1
     };
 
     DrawShading(const Gl& gl, const std::filesystem::path& shaderDir);
     /// @param strength  0 = copy the colours as they are … 1 = dark
     /// @param step      drop in depth [cm] that counts as a full edge
-    /// @param solids    what DrawOcclusion found for pixels of alpha 0, and how much it darkens them; none: 0
     void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength, float step,
-              const Openness& solids);
+              const Solids& solids);
 
  private:
     const Gl& gl_;

@@ -178,16 +178,18 @@ Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& lo
     p.liquid.draw(view.liquid, transforms, look.liquid, samples);
     p.obstacles.draw(view.obstacles, transforms, look.obstacles);
     p.targets->resolve();
-    DrawShading::Openness openness;
-    if (look.occlusion > 0.0f && hasSolids(view, look)) {
+    DrawShading::Solids solids;
+    solids.any = hasSolids(view, look);
+    if (solids.any && look.occlusion > 0.0f) {
         p.targets->beginOcclusion();
         p.occlusion.draw(p.targets->colorTexture(), p.targets->depthTexture(), transforms, occlusionReach(view));
         p.targets->endOcclusion();
-        openness = {p.targets->opennessTexture(), look.occlusion};
+        solids.openness = p.targets->opennessTexture();
+        solids.occlusion = look.occlusion;
     }
     constexpr float kStepInRadii = 12.0f;          // a drop in depth of this many particles is an edge
     p.shading.draw(p.targets->colorTexture(), p.targets->depthTexture(), transforms, look.liquid.depthShading,
-                   std::max(kStepInRadii * view.liquid.radius, 1e-6f), openness);
+                   std::max(kStepInRadii * view.liquid.radius, 1e-6f), solids);
 
     Image image = p.targets->read();
     drawOverlay(view, look, p.font, image);

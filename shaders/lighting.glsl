@@ -14,6 +14,6 @@ vec3 lit(vec3 color, vec3 normal, vec3 towardsEye, float gloss)
     float sky = 0.5 + 0.5 * normal.y;
     float rim = pow(1.0 - clamp(dot(normal, towardsEye), 0.0, 1.0), 4.0);
     float shine = pow(max(dot(normal, normalize(kKeyLight + towardsEye)), 0.0), 24.0);
-    vec3 light = 0.72 * key * kKeyColor + 0.16 * fill * kKeyColor + (0.22 + 0.16 * sky) * kSkyColor;
+    vec3 light = 0.68 * key * kKeyColor + 0.16 * fill * kKeyColor + (0.28 + 0.16 * sky) * kSkyColor;
     return color * light + (0.25 * rim * (0.3 + 0.7 * sky)) * mix(color, vec3(1.0), 0.4) + gloss * 0.25 * shine;
 }

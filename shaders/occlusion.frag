@@ -50,5 +50,5 @@ void main()
         float rises = hollow(scale * (window - texelFetch(depths, a, 0).r)) + hollow(scale * (window - texelFetch(depths, b, 0).r));
         shut += max(rises, 0.0);
     }
-    fragment.r = exp(-1.6 * shut / float(kPairs));
+    fragment.r = mix(0.22, 1.0, exp(-1.9 * shut / float(kPairs)));
 }

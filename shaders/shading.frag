@@ -7,7 +7,8 @@
 uniform sampler2D colors;
 uniform sampler2D depths;        // window depth of the liquid, 1 where there is none
 uniform sampler2D openness;      // of solids, and distance from the eye [cm]
-uniform float occlusion;         // > 0: there are solids, pixels of alpha 0, and how much openness darkens them
+uniform bool hasSolids;          // pixels of alpha 0
+uniform float occlusion;         // how much openness darkens them
 uniform vec2 nearFar;            // [cm]
 uniform float strength;          // 0 = leave the colours as they are
 uniform float depthStep;         // [cm] that count as an edge
@@ -77,12 +78,12 @@ void main()
     vec4 color = texelFetch(colors, pixel, 0);
     float depth = depthAt(pixel);
     float shade = 1.0;
-    float solid = occlusion > 0.0 ? 1.0 - color.a : 0.0;
+    float solid = hasSolids ? 1.0 - color.a : 0.0;
     // What to leave out is told as a number of turns, because a software renderer skips loops but not branches.
-    bool isLiquid = depth < 1.0 && strength > 0.0 && solid < 0.99, isSolid = depth < 1.0 && solid > 0.0;
+    bool isLiquid = depth < 1.0 && strength > 0.0 && solid < 0.99, isSolid = depth < 1.0 && solid > 0.0 && occlusion > 0.0;
     float here = distanceFromEye(depth);
     float lightened = light(pixel, here, isLiquid ? kRings : 0), opened = open(pixel, here, isSolid ? 4 : 0);
     if (isLiquid) shade = mix(1.0, lightened, strength);
-    if (isSolid) shade = mix(shade, mix(1.0, opened, occlusion), solid);
+    shade = mix(shade, isSolid ? mix(1.0, opened, occlusion) : 1.0, solid);
     fragment = vec4(color.rgb * shade, 1.0);
 }

@@ -1,4 +1,4 @@
-// Times one picture of something made up: render_bench [dam_break|sheet|drape width height samples repeats file.png spacing]
+// Times one picture of something made up: render_bench [dam_break|sheet|weave|drape width height samples repeats file.png spacing]
 
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -62,8 +62,8 @@ int main(int argc, char** argv)
     }
     look.obstacles.style = render::ObstacleStyle::Solid;
     look.overlay.liquidBar = false;
-    if (std::getenv("NOAO")) look.occlusion = 0.0f;
     if (name == "sheet") timePictures(FakeSheet(100).view(), look, 32.0, repeats, file);
+    else if (name == "weave") timePictures(FakeSheet(16).view(), look, 40.0, repeats, file);
     else timePictures(FakeDrape(120).view(), look, 24.0, repeats, file);
     return 0;
 }

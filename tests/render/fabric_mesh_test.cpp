@@ -106,7 +106,7 @@ TEST(TubeMesh, IsCoarseWhereItIsSmallInThePicture)
     addTube(yarns.view(), 0, away, kBlack, far);
     EXPECT_FALSE(isThin(yarns.view(), 0, kNear));
     EXPECT_TRUE(isThin(yarns.view(), 0, away));
-    EXPECT_LT(8 * far.indices.size(), near.indices.size());
+    EXPECT_LT(5 * far.indices.size(), near.indices.size());
     EXPECT_TRUE(isClosed(far));
 }
 

@@ -116,8 +116,8 @@ struct FakeDrape {
     {
         const float s = std::hypot(u, v), turn = std::atan2(v, u), polar = std::min(s / ball, leave);
         const float hanging = std::max(0.0f, s - leave * ball);
-        const float fold = 0.34f * hanging / (1.0f + 0.25f * hanging) * (std::cos(8.0f * turn) + 0.3f * std::sin(5.0f * turn + 1.0f));
-        const float out = ball * std::sin(polar) + 0.22f * hanging * std::exp(-0.1f * hanging) + 0.3f * (1.0f - std::exp(-hanging)) + fold;
+        const float fold = 0.24f * hanging * hanging / (0.8f + hanging + 0.15f * hanging * hanging) * (std::cos(8.0f * turn) + 0.3f * std::sin(5.0f * turn + 1.0f));
+        const float out = ball * std::sin(polar) + 0.25f * hanging * std::exp(-0.1f * hanging) + 0.45f * (1.0f - std::exp(-1.5f * hanging)) + fold;
         return {out * std::cos(turn), ball * std::cos(polar) - 0.93f * hanging, out * std::sin(turn)};
     }
     render::FrameView::Cloth cloth() const { return {positions, triangles, thickness, materials, values}; }
