@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kThinPixels = 3.5f;                ///< radius below which yarns.frag has let the plies fade out
 
 /// Section of a tube at one place along it.
 struct Ring {
@@ -89,7 +90,7 @@ class Fineness {
         float nearest = std::numeric_limits<float>::infinity();
         for (int i = 0; i < strand.size(); ++i) nearest = std::min(nearest, (strand.x(i) - detail.eye).squaredNorm());
         radiusPixels_ = pixelsOf(std::max(strand.a(), strand.b()), std::sqrt(nearest));
-        const int enough = radiusPixels_ < 1.0f ? 4 : radiusPixels_ < 2.5f ? 5 : radiusPixels_ < 5.0f ? 6 : radiusPixels_ < 8.0f ? 8 : 64;
+        const int enough = radiusPixels_ < 1.0f ? 4 : radiusPixels_ < kThinPixels ? 5 : radiusPixels_ < 5.0f ? 6 : radiusPixels_ < 8.0f ? 8 : 64;
         sides_ = std::clamp(enough, 3, std::max(3, detail.sides));
     }
 
@@ -167,7 +168,6 @@ class RingWriter {
 
 bool isThin(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail)
 {
-    constexpr float kThinPixels = 3.5f;            // where yarns.frag lets the plies fade out
     const Strand strand(yarns, strandIndex);
     return Fineness(strand, detail).radiusPixels() < kThinPixels;
 }
