@@ -48,12 +48,11 @@ inline std::span<const Choice<FabricColorBy>> choicesOf(FabricColorBy)
 
 inline std::span<const Choice<ObstacleStyle>> choicesOf(ObstacleStyle)
 {
-    static constexpr Choice<ObstacleStyle> kAll[] = {
-        {"auto", ObstacleStyle::Auto},
-        {"wire", ObstacleStyle::Wire},
-        {"translucent", ObstacleStyle::Translucent},
-        {"solid", ObstacleStyle::Solid},
-        {"hidden", ObstacleStyle::Hidden}};
+    static constexpr Choice<ObstacleStyle> kAll[] = {{"auto", ObstacleStyle::Auto},
+                                                     {"wire", ObstacleStyle::Wire},
+                                                     {"translucent", ObstacleStyle::Translucent},
+                                                     {"solid", ObstacleStyle::Solid},
+                                                     {"hidden", ObstacleStyle::Hidden}};
     return kAll;
 }
 
@@ -118,7 +117,8 @@ void describeFabricLook(V& v, FabricLookSettings& f)
     constexpr std::array<double, 2> kSpeeds = {0.0, 100.0}, kStrains = {0.0, 0.1};
     const bool byMaterial = f.colorBy == FabricColorBy::Material;
     v.choice("color_by", f.colorBy, "What the colour shows; strain is the largest stretch of what meets at a vertex");
-    v.when(f.ownColor, [&](auto& w) { w.color("color", f.color, "Red, green, blue, 0 to 1; left out: one for each material"); });
+    v.when(f.ownColor,
+           [&](auto& w) { w.color("color", f.color, "Red, green, blue, 0 to 1; left out: one for each material"); });
     v.when(!byMaterial, [&](auto& w) {
         w.choice("colormap", f.colorMap, "Colours from low to high");
         w.whenReading([&](auto&) { f.range = f.colorBy == FabricColorBy::Strain ? kStrains : kSpeeds; });
@@ -131,7 +131,8 @@ void describeFabricLook(V& v, FabricLookSettings& f)
         f.ownColor = r.has("color");
         const bool isMapped = f.colorBy != FabricColorBy::Material;
         r.require(!isMapped || !r.has("color"), "color", "goes with color_by: material");
-        for (const char* key : {"colormap", "range"}) r.require(isMapped || !r.has(key), key, "goes with color_by: speed or strain");
+        for (const char* key : {"colormap", "range"})
+            r.require(isMapped || !r.has(key), key, "goes with color_by: speed or strain");
     });
 }
 
@@ -148,7 +149,8 @@ void describe(V& v, RenderSettings& r)
         w.integer("tube_sides", r.yarns.tubeSides, 3, 64, "Sides of yarns near the camera; distant ones have fewer");
     });
     v.group("obstacles", "", [&](auto& w) {
-        w.choice("style", r.obstacleStyle, "How obstacles are drawn; auto: solid where there is fabric, else translucent");
+        w.choice("style", r.obstacleStyle,
+                 "How obstacles are drawn; auto: solid where there is fabric, else translucent");
         w.number("opacity", r.obstacleOpacity, Quantity::None, Range::between(0.0, 1.0), "0 = invisible, 1 = solid");
     });
     v.flag("hud", r.hud, "Label and time stamp in the picture");

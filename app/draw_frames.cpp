@@ -16,20 +16,28 @@ const char* const kStrainTitle = "strain";
 render::ColorMap colorMapOf(ColorMap map)
 {
     switch (map) {
-        case ColorMap::Turbo: return render::ColorMap::Turbo;
-        case ColorMap::Viridis: return render::ColorMap::Viridis;
-        default: return render::ColorMap::Jet;
+        case ColorMap::Turbo:
+            return render::ColorMap::Turbo;
+        case ColorMap::Viridis:
+            return render::ColorMap::Viridis;
+        default:
+            return render::ColorMap::Jet;
     }
 }
 
 render::ObstacleStyle obstacleStyleOf(ObstacleStyle style, const SceneContents& contents)
 {
     switch (style) {
-        case ObstacleStyle::Auto: return contents.fabric() ? render::ObstacleStyle::Solid : render::ObstacleStyle::Translucent;
-        case ObstacleStyle::Solid: return render::ObstacleStyle::Solid;
-        case ObstacleStyle::Wire: return render::ObstacleStyle::Wire;
-        case ObstacleStyle::Hidden: return render::ObstacleStyle::Hidden;
-        default: return render::ObstacleStyle::Translucent;
+        case ObstacleStyle::Auto:
+            return contents.fabric() ? render::ObstacleStyle::Solid : render::ObstacleStyle::Translucent;
+        case ObstacleStyle::Solid:
+            return render::ObstacleStyle::Solid;
+        case ObstacleStyle::Wire:
+            return render::ObstacleStyle::Wire;
+        case ObstacleStyle::Hidden:
+            return render::ObstacleStyle::Hidden;
+        default:
+            return render::ObstacleStyle::Translucent;
     }
 }
 
@@ -55,7 +63,8 @@ render::Look lookOf(const PictureSettings& pictures, const std::string& label, b
     look.height = settings.height;
     look.background = settings.background;
     look.samples = settings.samples;
-    look.liquid.style = settings.liquidStyle == LiquidStyle::Points ? render::LiquidStyle::Points : render::LiquidStyle::Spheres;
+    look.liquid.style =
+        settings.liquidStyle == LiquidStyle::Points ? render::LiquidStyle::Points : render::LiquidStyle::Spheres;
     look.liquid.flat = settings.colorBy == ColorBy::Flat;
     look.liquid.colorMap = colorMapOf(settings.colorMap);
     look.liquid.range = toFloat(settings.range);
@@ -78,7 +87,8 @@ std::optional<render::ColorBar> sharedBar(const PictureSettings& pictures)
     const RenderSettings& settings = pictures.render;
     if (!settings.colorBar) return std::nullopt;
     if (pictures.contents.liquid && settings.colorBy == ColorBy::Speed)
-        return render::ColorBar{.map = colorMapOf(settings.colorMap), .range = toFloat(settings.range), .title = kSpeedTitle};
+        return render::ColorBar{
+            .map = colorMapOf(settings.colorMap), .range = toFloat(settings.range), .title = kSpeedTitle};
     const auto barOf = [](const FabricLookSettings& fabric) {
         render::FabricLook look;
         fillIn(fabric, look);
@@ -91,15 +101,18 @@ std::optional<render::ColorBar> sharedBar(const PictureSettings& pictures)
 
 /// Where the camera is at view.time.
 /// @param everything  box about the first frame [cm]
-render::Camera cameraAt(const CameraSettings& settings, double time, const Eigen::AlignedBox3d& everything, double aspect)
+render::Camera cameraAt(const CameraSettings& settings, double time, const Eigen::AlignedBox3d& everything,
+                        double aspect)
 {
     if (settings.orbit) {
-        auto camera = render::orbitCamera(settings.lookAt, settings.distance, settings.azimuthDegrees + time * settings.turnDegreesPerSecond,
+        auto camera = render::orbitCamera(settings.lookAt, settings.distance,
+                                          settings.azimuthDegrees + time * settings.turnDegreesPerSecond,
                                           settings.elevationDegrees, settings.fovDegrees);
         camera.up = settings.up;
         return camera;
     }
-    render::Camera camera = {.eye = settings.eye, .target = settings.lookAt, .up = settings.up, .fovDegrees = settings.fovDegrees};
+    render::Camera camera = {
+        .eye = settings.eye, .target = settings.lookAt, .up = settings.up, .fovDegrees = settings.fovDegrees};
     if (!settings.autoFrame) return camera;
     camera.eye = Eigen::Vector3d::UnitZ();
     camera.target = Eigen::Vector3d::Zero();
@@ -125,7 +138,8 @@ Picture pictureOf(render::Image&& image)
 DrawFrame startOffscreenRenderer(const SceneSetup& setup, bool asPanel)
 {
     const render::Look look = lookOf(setup.pictures, setup.label, asPanel);
-    return [drawer = std::make_shared<Drawer>(), look, settings = setup.pictures.render.camera](FrameSnapshot& snapshot) {
+    return [drawer = std::make_shared<Drawer>(), look,
+            settings = setup.pictures.render.camera](FrameSnapshot& snapshot) {
         const render::FrameView view = snapshot.view();
         if (!drawer->everything) drawer->everything = render::bounds(view);
         const double aspect = static_cast<double>(look.width) / look.height;

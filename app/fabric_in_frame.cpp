@@ -127,7 +127,8 @@ void takeCloth(const Fabric& fabric, const FabricState& state, FabricColorBy col
     if (count == 0) return;
 
     for (const Vec3& x : state.x) out.positions.push_back(x.cast<float>());
-    for (const double value : vertexValues(colorBy, fabric, state, clothStrain)) out.values.push_back(static_cast<float>(value));
+    for (const double value : vertexValues(colorBy, fabric, state, clothStrain))
+        out.values.push_back(static_cast<float>(value));
     for (std::size_t f = 0; f < fabric.faces.size(); ++f)
         for (const int v : fabric.faces.vertices[f]) {
             out.thickness[v] = std::max(out.thickness[v], static_cast<float>(fabric.faces.thickness[f]));

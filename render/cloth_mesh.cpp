@@ -71,7 +71,8 @@ std::vector<std::array<int, 2>> borderEdges(const std::vector<Vector3i>& triangl
     return border;
 }
 
-void addRim(const FrameView::Cloth& cloth, const std::vector<Vector3f>& normals, const std::array<int, 2>& edge, ClothMesh& mesh)
+void addRim(const FrameView::Cloth& cloth, const std::vector<Vector3f>& normals, const std::array<int, 2>& edge,
+            ClothMesh& mesh)
 {
     const Vector3f along = cloth.positions[edge[1]] - cloth.positions[edge[0]];
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());

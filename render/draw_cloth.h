@@ -24,7 +24,7 @@ class DrawCloth {
     VertexArray vertexArray_;
     Buffer vertices_, indices_;
     ColorMapTexture colorMap_;
-    ClothMesh mesh_;                               ///< kept for its storage
+    ClothMesh mesh_;  ///< kept for its storage
 };
 
 }  // namespace render

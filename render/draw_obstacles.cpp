@@ -40,7 +40,10 @@ std::vector<EdgeInstance> edgeInstances(const MeshEdges& outline)
     return instances;
 }
 
-bool isSolid(const FrameView::Mesh& mesh, const ObstacleLook& look) { return look.style == ObstacleStyle::Solid && !mesh.inside; }
+bool isSolid(const FrameView::Mesh& mesh, const ObstacleLook& look)
+{
+    return look.style == ObstacleStyle::Solid && !mesh.inside;
+}
 
 void setCommonUniforms(const Gl& gl, const Program& program, const ViewTransforms& transforms, const Vector3f& color)
 {
@@ -53,9 +56,14 @@ void setCommonUniforms(const Gl& gl, const Program& program, const ViewTransform
 }  // namespace
 
 DrawObstacles::DrawObstacles(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), faceProgram_(gl, shaderDir, "obstacle_faces"), edgeProgram_(gl, shaderDir, "obstacle_edges"),
+    : gl_(gl),
+      faceProgram_(gl, shaderDir, "obstacle_faces"),
+      edgeProgram_(gl, shaderDir, "obstacle_edges"),
       solidProgram_(gl, shaderDir, "obstacle_solid"),
-      faceVertices_(gl), edgeVertices_(gl), faces_(gl), edges_(gl)
+      faceVertices_(gl),
+      edgeVertices_(gl),
+      faces_(gl),
+      edges_(gl)
 {
     gl.BindVertexArray(faceVertices_.id());
     gl.BindBuffer(GL_ARRAY_BUFFER, faces_.id());
@@ -73,14 +81,15 @@ DrawObstacles::DrawObstacles(const Gl& gl, const std::filesystem::path& shaderDi
     for (GLuint index = 0; index < 5; ++index) gl.VertexAttribDivisor(index, 1);
 }
 
-void DrawObstacles::drawSolid(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms, const ObstacleLook& look)
+void DrawObstacles::drawSolid(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms,
+                              const ObstacleLook& look)
 {
     for (const FrameView::Mesh& mesh : meshes) {
         if (!isSolid(mesh, look) || mesh.triangles.empty()) continue;
         const std::vector<FaceVertex> vertices = faceVertices(mesh, meshEdges(mesh));
         setCommonUniforms(gl_, solidProgram_, transforms, look.solidColor);
         drawOpaque(gl_);
-        gl_.Disable(GL_CULL_FACE);                 // open meshes have two sides
+        gl_.Disable(GL_CULL_FACE);  // open meshes have two sides
         gl_.BindVertexArray(faceVertices_.id());
         upload(gl_, GL_ARRAY_BUFFER, faces_, vertices);
         gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));

@@ -9,9 +9,9 @@
 
 namespace render {
 
-/// Obstacles. Solid ones come before the liquid, with depth, and alpha 0: the picture's pixels that are shaded as solids.
-/// All others come over the finished liquid: faint faces and clean outlines. They are hidden by liquid in front of them and
-/// never write depth; of containers only the far walls are filled, so the liquid inside keeps its colours.
+/// Obstacles. Solid ones come before the liquid, with depth, and alpha 0: the picture's pixels that are shaded as
+/// solids. All others come over the finished liquid: faint faces and clean outlines. They are hidden by liquid in front
+/// of them and never write depth; of containers only the far walls are filled, so the liquid inside keeps its colours.
 class DrawObstacles {
  public:
     DrawObstacles(const Gl& gl, const std::filesystem::path& shaderDir);

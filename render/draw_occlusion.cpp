@@ -7,7 +7,8 @@ DrawOcclusion::DrawOcclusion(const Gl& gl, const std::filesystem::path& shaderDi
 {
 }
 
-void DrawOcclusion::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, const std::array<float, 2>& reach)
+void DrawOcclusion::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms,
+                         const std::array<float, 2>& reach)
 {
     program_.use();
     gl_.Uniform1i(program_["colors"], 0);

@@ -11,9 +11,10 @@ namespace render {
 class DrawShading {
  public:
     struct Solids {
-        bool any = false;                          ///< pixels of alpha 0
-        GLuint openness = 0;                       ///< the texture that DrawOcclusion filled
-        float occlusion = 0.0f;                    ///< how much it darkens them: 0 … 1
+        bool any = false;        ///< pixels of alpha 0 …
+        bool all = false;        ///< … and no liquid
+        GLuint openness = 0;     ///< the texture that DrawOcclusion filled
+        float occlusion = 0.0f;  ///< how much it darkens them: 0 … 1
     };
 
     DrawShading(const Gl& gl, const std::filesystem::path& shaderDir);
@@ -24,7 +25,7 @@ class DrawShading {
 
  private:
     const Gl& gl_;
-    Program program_;
+    Program liquidProgram_, solidsProgram_, mixedProgram_;  ///< a software renderer pays for what a shader leaves out
     VertexArray noVertices_;
 };
 

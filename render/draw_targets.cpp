@@ -27,8 +27,20 @@ void requireComplete(const Gl& gl, int width, int height)
 }  // namespace
 
 DrawTargets::DrawTargets(const Gl& gl, int width, int height, int samples)
-    : gl_(gl), width_(width), height_(height), samples_(samples), sceneColor_(gl), sceneDepth_(gl), pictureColor_(gl),
-      color_(gl), depth_(gl), openness_(gl), scene_(gl), resolved_(gl), occlusion_(gl), picture_(gl)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      samples_(samples),
+      sceneColor_(gl),
+      sceneDepth_(gl),
+      pictureColor_(gl),
+      color_(gl),
+      depth_(gl),
+      openness_(gl),
+      scene_(gl),
+      resolved_(gl),
+      occlusion_(gl),
+      picture_(gl)
 {
     const auto makeRenderbuffer = [&](GLuint id, GLenum format, int perPixel) {
         gl.BindRenderbuffer(GL_RENDERBUFFER, id);
@@ -92,7 +104,10 @@ void DrawTargets::beginOcclusion()
     hasOpenness_ = true;
 }
 
-void DrawTargets::endOcclusion() const { gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id()); }
+void DrawTargets::endOcclusion() const
+{
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
+}
 
 Image DrawTargets::read(const Framebuffer& framebuffer) const
 {

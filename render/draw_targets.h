@@ -19,8 +19,8 @@ class DrawTargets {
     void resolve() const;                          ///< scene → colour and depth textures; draw into `picture` next
     void beginOcclusion();                         ///< draw into the openness texture from here on …
     void endOcclusion() const;                     ///< … and into `picture` again
-    Image read() const { return read(picture_); }            ///< what `picture` holds, rows from the top
-    Image readResolved() const { return read(resolved_); }   ///< the same of the scene before shading
+    Image read() const { return read(picture_); }  ///< what `picture` holds, rows from the top
+    Image readResolved() const { return read(resolved_); }  ///< the same of the scene before shading
 
     GLuint colorTexture() const { return color_.id(); }
     GLuint depthTexture() const { return depth_.id(); }
@@ -34,7 +34,7 @@ class DrawTargets {
     Renderbuffer sceneColor_, sceneDepth_, pictureColor_;
     Texture color_, depth_, openness_;
     Framebuffer scene_, resolved_, occlusion_, picture_;
-    bool hasOpenness_ = false;                     ///< its texture is made when it is first needed
+    bool hasOpenness_ = false;  ///< its texture is made when it is first needed
 };
 
 }  // namespace render

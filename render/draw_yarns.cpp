@@ -12,7 +12,13 @@ constexpr std::size_t kVerticesPerBatch = 1 << 17;
 }  // namespace
 
 DrawYarns::DrawYarns(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), program_(gl, shaderDir, "yarns"), thinProgram_(gl, shaderDir, "thin_yarns"), vertexArray_(gl), vertices_(gl), indices_(gl), colorMap_(gl)
+    : gl_(gl),
+      program_(gl, shaderDir, "yarns"),
+      thinProgram_(gl, shaderDir, "thin_yarns"),
+      vertexArray_(gl),
+      vertices_(gl),
+      indices_(gl),
+      colorMap_(gl)
 {
     using Vertex = TubeMesh::Vertex;
     gl.BindVertexArray(vertexArray_.id());

@@ -9,8 +9,8 @@
 
 namespace render {
 
-/// Yarns as lit tubes whose plies show their twist. Those too thin for plies are lit at their vertices: in a software renderer
-/// small triangles cost what their pixels do.
+/// Yarns as lit tubes whose plies show their twist. Those too thin for plies are lit at their vertices: in a software
+/// renderer small triangles cost what their pixels do.
 class DrawYarns {
  public:
     DrawYarns(const Gl& gl, const std::filesystem::path& shaderDir);
@@ -20,7 +20,7 @@ class DrawYarns {
  private:
     struct Batch {
         const Program& program;
-        TubeMesh mesh;                             ///< kept for its storage
+        TubeMesh mesh;  ///< kept for its storage
     };
     void setUniforms(const Program& program, const ViewTransforms& transforms, const YarnLook& look) const;
     void drawMesh(Batch& batch);

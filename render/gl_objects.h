@@ -42,14 +42,17 @@ void upload(const Gl& gl, GLenum target, const Buffer& buffer, const std::vector
     gl.BufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
 }
 
-/// Set up for closed bodies that face outwards: nearest in front, backs left out. The caller disables GL_CULL_FACE afterwards.
+/// Set up for closed bodies that face outwards: nearest in front, backs left out. The caller disables GL_CULL_FACE
+/// afterwards.
 void drawOpaque(const Gl& gl);
 
 /// A linked pair of shaders, <name>.vert and <name>.frag of one folder, which may include others of it.
 class Program {
  public:
+    /// @param defined  a word that the shaders may ask for by #ifdef; empty: none
     /// Throws std::runtime_error with one line naming the file if it is missing or does not compile.
-    Program(const Gl& gl, const std::filesystem::path& shaderDir, const std::string& name);
+    Program(const Gl& gl, const std::filesystem::path& shaderDir, const std::string& name,
+            const std::string& defined = {});
     ~Program() { gl_->DeleteProgram(id_); }
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;

@@ -19,7 +19,7 @@ enum class Corner { TopLeft, TopCenter, TopRight };
 struct ColorBar {
     ColorMap map = ColorMap::Jet;
     std::array<float, 2> range = {0.0f, 200.0f};
-    std::string title = "speed [cm/s]";            ///< with the unit
+    std::string title = "speed [cm/s]";  ///< with the unit
 
     bool operator==(const ColorBar&) const = default;
 };
@@ -39,7 +39,8 @@ std::vector<double> niceTicks(double from, double to);
 /// Text in a corner. Returns the box of pixels that may have changed; empty text changes none.
 PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, Rgb ink);
 
-/// Upright bar at the right edge, or `inset` pixels from it, with title and ticks. Returns the box of the colours alone.
+/// Upright bar at the right edge, or `inset` pixels from it, with title and ticks. Returns the box of the colours
+/// alone.
 PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink, int inset = 0);
 
 /// Several upright bars from the right edge on.

@@ -18,8 +18,14 @@ namespace render {
 
 struct Renderer::Parts {
     Parts(GlContext& c, const std::filesystem::path& shaderDir)
-        : context(c), gl(c.gl()), liquid(gl, shaderDir), yarns(gl, shaderDir), cloth(gl, shaderDir), obstacles(gl, shaderDir),
-          occlusion(gl, shaderDir), shading(gl, shaderDir)
+        : context(c),
+          gl(c.gl()),
+          liquid(gl, shaderDir),
+          yarns(gl, shaderDir),
+          cloth(gl, shaderDir),
+          obstacles(gl, shaderDir),
+          occlusion(gl, shaderDir),
+          shading(gl, shaderDir)
     {
         gl.GetIntegerv(GL_MAX_SAMPLES, &maxSamples);
     }
@@ -34,7 +40,7 @@ struct Renderer::Parts {
     DrawShading shading;
     Font font;
     GLint maxSamples = 1;
-    std::optional<DrawTargets> targets;            ///< of the last picture's size
+    std::optional<DrawTargets> targets;  ///< of the last picture's size
 };
 
 namespace {
@@ -48,21 +54,33 @@ void requireConsistent(const FrameView::Yarns& yarns, const YarnLook& look)
 {
     if (yarns.begin.empty()) return;
     const std::size_t count = yarns.positions.size(), strands = yarns.begin.size() - 1;
-    require(yarns.begin.front() == 0 && yarns.begin.back() == static_cast<int>(count) && std::ranges::is_sorted(yarns.begin),
+    require(yarns.begin.front() == 0 && yarns.begin.back() == static_cast<int>(count) &&
+                std::ranges::is_sorted(yarns.begin),
             "picture: the strands must begin one behind the other and end with the last position");
-    require(yarns.directions.size() == count && yarns.along.size() == count, "picture: the yarns need one direction and length per position");
-    require(yarns.halfAxes.size() == strands && yarns.materials.size() == strands, "picture: the yarns need one section and material per strand");
-    require(yarns.values.size() == (look.byValue ? count : yarns.values.empty() ? 0 : count), "picture: the yarns need one value per position");
-    require(look.range[0] < look.range[1], "picture: the colour range of yarns must grow from its first to its second number");
+    require(yarns.directions.size() == count && yarns.along.size() == count,
+            "picture: the yarns need one direction and length per position");
+    require(yarns.halfAxes.size() == strands && yarns.materials.size() == strands,
+            "picture: the yarns need one section and material per strand");
+    require(yarns.values.size() == (look.byValue           ? count
+                                    : yarns.values.empty() ? 0
+                                                           : count),
+            "picture: the yarns need one value per position");
+    require(look.range[0] < look.range[1],
+            "picture: the colour range of yarns must grow from its first to its second number");
 }
 
 void requireConsistent(const FrameView::Cloth& cloth, const FabricLook& look)
 {
     if (cloth.triangles.empty()) return;
     const std::size_t count = cloth.positions.size();
-    require(cloth.thickness.size() == count && cloth.materials.size() == count, "picture: the cloth needs one thickness and material per position");
-    require(cloth.values.size() == (look.byValue ? count : cloth.values.empty() ? 0 : count), "picture: the cloth needs one value per position");
-    require(look.range[0] < look.range[1], "picture: the colour range of cloth must grow from its first to its second number");
+    require(cloth.thickness.size() == count && cloth.materials.size() == count,
+            "picture: the cloth needs one thickness and material per position");
+    require(cloth.values.size() == (look.byValue           ? count
+                                    : cloth.values.empty() ? 0
+                                                           : count),
+            "picture: the cloth needs one value per position");
+    require(look.range[0] < look.range[1],
+            "picture: the colour range of cloth must grow from its first to its second number");
 }
 
 void requireConsistent(const FrameView& view, const Look& look)
@@ -94,8 +112,8 @@ bool hasSolids(const FrameView& view, const Look& look)
     return solidObstacle || view.yarns.begin.size() > 1 || !view.cloth.triangles.empty();
 }
 
-/// From which distances solids darken each other [cm]: from what is next to the thickness of the fabric, or else small in
-/// the scene, up to what makes folds and contacts read.
+/// From which distances solids darken each other [cm]: from what is next to the thickness of the fabric, or else small
+/// in the scene, up to what makes folds and contacts read.
 std::array<float, 2> occlusionReach(const FrameView& view)
 {
     constexpr float kInner = 0.005f, kOuter = 0.06f;  // of the diagonal of everything
@@ -119,8 +137,13 @@ ViewTransforms transformsFor(const FrameView& view, const Camera& camera, const 
     }
     zFar = std::max(zFar, 1.001 * zNear);
     const double aspect = static_cast<double>(look.width) / look.height;
-    return {toEye.matrix().cast<float>(), projection(camera, aspect, zNear, zFar).cast<float>(),
-            camera.eye.cast<float>(), static_cast<float>(zNear), static_cast<float>(zFar), look.width, look.height};
+    return {toEye.matrix().cast<float>(),
+            projection(camera, aspect, zNear, zFar).cast<float>(),
+            camera.eye.cast<float>(),
+            static_cast<float>(zNear),
+            static_cast<float>(zFar),
+            look.width,
+            look.height};
 }
 
 void drawOverlay(const FrameView& view, const Look& look, const Font& font, Image& image)
@@ -136,8 +159,10 @@ void drawOverlay(const FrameView& view, const Look& look, const Font& font, Imag
         if (std::ranges::find(bars, bar) == bars.end()) bars.push_back(bar);
     };
     if (overlay.liquidBar && !look.liquid.flat) add({look.liquid.colorMap, look.liquid.range, overlay.colorBarTitle});
-    if (look.yarns.byValue && view.yarns.begin.size() > 1) add({look.yarns.colorMap, look.yarns.range, look.yarns.colorBarTitle});
-    if (look.cloth.byValue && !view.cloth.triangles.empty()) add({look.cloth.colorMap, look.cloth.range, look.cloth.colorBarTitle});
+    if (look.yarns.byValue && view.yarns.begin.size() > 1)
+        add({look.yarns.colorMap, look.yarns.range, look.yarns.colorBarTitle});
+    if (look.cloth.byValue && !view.cloth.triangles.empty())
+        add({look.cloth.colorMap, look.cloth.range, look.cloth.colorBarTitle});
     drawColorBars(image, font, bars, ink);
 }
 
@@ -152,7 +177,7 @@ Renderer::Renderer(GlContext& context, const std::filesystem::path& shaderDir)
 Renderer::~Renderer()
 {
     try {
-        parts_->context.makeCurrent();             // what is deleted belongs to this context
+        parts_->context.makeCurrent();  // what is deleted belongs to this context
     } catch (const std::exception&) {
         // A context that cannot be made current is gone, and its objects with it.
     }
@@ -180,6 +205,7 @@ Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& lo
     p.targets->resolve();
     DrawShading::Solids solids;
     solids.any = hasSolids(view, look);
+    solids.all = solids.any && view.liquid.positions.empty();
     if (solids.any && look.occlusion > 0.0f) {
         p.targets->beginOcclusion();
         p.occlusion.draw(p.targets->colorTexture(), p.targets->depthTexture(), transforms, occlusionReach(view));
@@ -187,7 +213,7 @@ Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& lo
         solids.openness = p.targets->opennessTexture();
         solids.occlusion = look.occlusion;
     }
-    constexpr float kStepInRadii = 12.0f;          // a drop in depth of this many particles is an edge
+    constexpr float kStepInRadii = 12.0f;  // a drop in depth of this many particles is an edge
     p.shading.draw(p.targets->colorTexture(), p.targets->depthTexture(), transforms, look.liquid.depthShading,
                    std::max(kStepInRadii * view.liquid.radius, 1e-6f), solids);
 

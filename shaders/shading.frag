@@ -7,8 +7,7 @@
 uniform sampler2D colors;
 uniform sampler2D depths;        // window depth of the liquid, 1 where there is none
 uniform sampler2D openness;      // of solids, and distance from the eye [cm]
-uniform bool hasSolids;          // pixels of alpha 0
-uniform float occlusion;         // how much openness darkens them
+uniform float occlusion;         // how much openness darkens solids, pixels of alpha 0
 uniform vec2 nearFar;            // [cm]
 uniform float strength;          // 0 = leave the colours as they are
 uniform float depthStep;         // [cm] that count as an edge
@@ -78,12 +77,19 @@ void main()
     vec4 color = texelFetch(colors, pixel, 0);
     float depth = depthAt(pixel);
     float shade = 1.0;
-    float solid = hasSolids ? 1.0 - color.a : 0.0;
+#ifdef ONLY_LIQUID
+    if (depth < 1.0 && strength > 0.0) shade = mix(1.0, light(pixel, distanceFromEye(depth), kRings), strength);
+#else
+    float solid = depth < 1.0 ? 1.0 - color.a : 0.0;
     // What to leave out is told as a number of turns, because a software renderer skips loops but not branches.
-    bool isLiquid = depth < 1.0 && strength > 0.0 && solid < 0.99, isSolid = depth < 1.0 && solid > 0.0 && occlusion > 0.0;
-    float here = distanceFromEye(depth);
-    float lightened = light(pixel, here, isLiquid ? kRings : 0), opened = open(pixel, here, isSolid ? 4 : 0);
+#ifndef ONLY_SOLIDS
+    bool isLiquid = depth < 1.0 && strength > 0.0 && solid < 0.99;
+    float lightened = light(pixel, distanceFromEye(depth), isLiquid ? kRings : 0);
     if (isLiquid) shade = mix(1.0, lightened, strength);
-    shade = mix(shade, isSolid ? mix(1.0, opened, occlusion) : 1.0, solid);
+#endif
+    bool isShut = solid > 0.0 && occlusion > 0.0;
+    float opened = open(pixel, distanceFromEye(depth), isShut ? 4 : 0);
+    shade = mix(shade, isShut ? mix(1.0, opened, occlusion) : 1.0, solid);
+#endif
     fragment = vec4(color.rgb * shade, 1.0);
 }

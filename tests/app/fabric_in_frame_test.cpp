@@ -10,8 +10,8 @@ namespace {
 using namespace app;
 using sim::Vec3;
 
-/// A yarn of three vertices along x, the last edge stretched by a fifth and turned by a quarter, and beside it one face,
-/// stretched by a half along y.
+/// A yarn of three vertices along x, the last edge stretched by a fifth and turned by a quarter, and beside it one
+/// face, stretched by a half along y.
 struct YarnAndFace {
     YarnAndFace()
     {
