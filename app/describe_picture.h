@@ -39,10 +39,20 @@ inline std::span<const Choice<ColorMap>> choicesOf(ColorMap)
     return kAll;
 }
 
+inline std::span<const Choice<FabricColorBy>> choicesOf(FabricColorBy)
+{
+    static constexpr Choice<FabricColorBy> kAll[] = {
+        {"material", FabricColorBy::Material}, {"speed", FabricColorBy::Speed}, {"strain", FabricColorBy::Strain}};
+    return kAll;
+}
+
 inline std::span<const Choice<ObstacleStyle>> choicesOf(ObstacleStyle)
 {
-    static constexpr Choice<ObstacleStyle> kAll[] = {
-        {"wire", ObstacleStyle::Wire}, {"translucent", ObstacleStyle::Translucent}, {"hidden", ObstacleStyle::Hidden}};
+    static constexpr Choice<ObstacleStyle> kAll[] = {{"auto", ObstacleStyle::Auto},
+                                                     {"wire", ObstacleStyle::Wire},
+                                                     {"translucent", ObstacleStyle::Translucent},
+                                                     {"solid", ObstacleStyle::Solid},
+                                                     {"hidden", ObstacleStyle::Hidden}};
     return kAll;
 }
 
@@ -102,21 +112,50 @@ void describeLiquidLook(V& v, RenderSettings& r)
 }
 
 template <class V>
+void describeFabricLook(V& v, FabricLookSettings& f)
+{
+    constexpr std::array<double, 2> kSpeeds = {0.0, 100.0}, kStrains = {0.0, 0.1};
+    const bool byMaterial = f.colorBy == FabricColorBy::Material;
+    v.choice("color_by", f.colorBy, "What the colour shows; strain is the largest stretch of what meets at a vertex");
+    v.when(f.ownColor,
+           [&](auto& w) { w.color("color", f.color, "Red, green, blue, 0 to 1; left out: one for each material"); });
+    v.when(!byMaterial, [&](auto& w) {
+        w.choice("colormap", f.colorMap, "Colours from low to high");
+        w.whenReading([&](auto&) { f.range = f.colorBy == FabricColorBy::Strain ? kStrains : kSpeeds; });
+        w.pair("range", f.range, f.colorBy == FabricColorBy::Strain ? Quantity::None : Quantity::Velocity, Range::any(),
+               "Values at the ends of the colours");
+        w.require(f.range[0] < f.range[1], "range", "must end above its beginning");
+    });
+    v.withoutEffect([&](auto& w) { w.color("wet_color", f.wetColor, "Colour of soaked fabric"); });
+    v.whenReading([&](auto& r) {
+        f.ownColor = r.has("color");
+        const bool isMapped = f.colorBy != FabricColorBy::Material;
+        r.require(!isMapped || !r.has("color"), "color", "goes with color_by: material");
+        for (const char* key : {"colormap", "range"})
+            r.require(isMapped || !r.has(key), key, "goes with color_by: speed or strain");
+    });
+}
+
+template <class V>
 void describe(V& v, RenderSettings& r)
 {
     v.pixels("size", r.width, r.height, 16, 16384, "Width and height of the picture in pixels");
     v.color("background", r.background, "Red, green, blue, 0 to 1");
     v.section("camera", r.camera, "");
     v.group("liquid", "", [&](auto& w) { describeLiquidLook(w, r); });
+    v.group("cloth", "", [&](auto& w) { describeFabricLook(w, r.cloth); });
+    v.group("yarns", "", [&](auto& w) {
+        describeFabricLook(w, r.yarns);
+        w.integer("tube_sides", r.yarns.tubeSides, 3, 64, "Sides of yarns near the camera; distant ones have fewer");
+    });
     v.group("obstacles", "", [&](auto& w) {
-        w.choice("style", r.obstacleStyle, "How obstacles are drawn");
+        w.choice("style", r.obstacleStyle,
+                 "How obstacles are drawn; auto: solid where there is fabric, else translucent");
         w.number("opacity", r.obstacleOpacity, Quantity::None, Range::between(0.0, 1.0), "0 = invisible, 1 = solid");
     });
     v.flag("hud", r.hud, "Label and time stamp in the picture");
     v.flag("colorbar", r.colorBar, "A bar that explains the colours");
     v.integer("samples", r.samples, 1, 16, "Samples per pixel and axis of smooth edges, 1 = off");
-    for (const char* key : {"cloth", "yarns"})
-        v.later(key, "this version draws liquid and obstacles only; remove the section");
 }
 
 inline bool isCodecName(const std::string& name)

@@ -11,12 +11,24 @@ namespace app {
 
 namespace {
 
+SceneContents contentsOf(const sim::Scene& scene)
+{
+    SceneContents contents;
+    for (const sim::FabricPiece& piece : scene.fabrics) {
+        contents.yarns = contents.yarns || !piece.strands.empty();
+        contents.cloth = contents.cloth || !piece.faces.empty();
+    }
+    contents.liquid = !scene.sources.empty() || !contents.fabric();
+    return contents;
+}
+
 SceneSetup loadScene(const SceneRequest& request)
 {
     const sim::SceneFile file = sim::loadSceneFile(request.file, {.variant = request.variant, .set = request.sets});
     SceneSetup setup;
     setup.scene = sim::readScene(file);
     setup.pictures = readPictureSettings(file);
+    setup.pictures.contents = contentsOf(setup.scene);
     const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);
     if (variant != setup.pictures.compare.variants.end()) {
         setup.variant = variant->name;
@@ -34,6 +46,7 @@ class RealSimulation : public Steppable {
  public:
     explicit RealSimulation(const sim::Scene& scene) : simulation_(scene) {}
     const sim::State& state() const override { return simulation_.state(); }
+    const sim::Fabric& fabric() const override { return simulation_.fabric(); }
     sim::StepReport step(double until) override { return simulation_.step(until); }
     sim::Energies energies() const override { return simulation_.energies(); }
     std::uint64_t stateHash() const override { return sim::stateHash(simulation_.state()); }

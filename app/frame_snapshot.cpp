@@ -9,7 +9,19 @@ render::FrameView FrameSnapshot::view()
         borrowedObstacles.push_back({.positions = mesh.positions, .triangles = mesh.triangles, .inside = mesh.inside});
     return {.time = time,
             .liquid = {.positions = positions, .values = speeds, .radius = radius},
-            .obstacles = borrowedObstacles};
+            .obstacles = borrowedObstacles,
+            .yarns = {.positions = yarns.positions,
+                      .directions = yarns.directions,
+                      .along = yarns.along,
+                      .begin = yarns.begin,
+                      .halfAxes = yarns.halfAxes,
+                      .materials = yarns.materials,
+                      .values = yarns.values},
+            .cloth = {.positions = cloth.positions,
+                      .triangles = cloth.triangles,
+                      .thickness = cloth.thickness,
+                      .materials = cloth.materials,
+                      .values = cloth.values}};
 }
 
 }  // namespace app

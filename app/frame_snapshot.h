@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,11 +19,26 @@ struct FrameSnapshot {
         bool inside = false;                      ///< a container, seen from within
     };
 
+    struct Yarns {
+        std::vector<Eigen::Vector3f> positions, directions;  ///< [cm], [-]
+        std::vector<float> along, values;         ///< [cm]; values empty where the colour is that of the material
+        std::vector<int> begin, materials;
+        std::vector<std::array<float, 2>> halfAxes;   ///< [cm]
+    };
+    struct Cloth {
+        std::vector<Eigen::Vector3f> positions;   ///< of all vertices of the fabric; empty without faces [cm]
+        std::vector<Eigen::Vector3i> triangles;
+        std::vector<float> thickness, values;     ///< [cm]; values as those of yarns
+        std::vector<int> materials;
+    };
+
     std::int64_t number = 0;                      ///< 0 is the initial state
     double time = 0.0;                            ///< [s]
     std::vector<Eigen::Vector3f> positions;       ///< of the particles [cm]
     std::vector<float> speeds;                    ///< one per position [cm/s]
     float radius = 0.0f;                          ///< of a particle [cm]
+    Yarns yarns;
+    Cloth cloth;
     std::vector<Mesh> obstacles;
     std::vector<render::FrameView::Mesh> borrowedObstacles;  ///< the same, as view() lends them
 

@@ -1,5 +1,6 @@
 #include "app/frame_view_from_state.h"
 
+#include "app/fabric_in_frame.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
@@ -20,7 +21,7 @@ float meanRadius(const sim::LiquidParticles& liquid, double density)
 
 }  // namespace
 
-void takeSnapshot(const sim::State& state, double density, FrameSnapshot& snapshot)
+void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, double density, const RenderSettings& look, FrameSnapshot& snapshot)
 {
     const sim::LiquidParticles& liquid = state.liquid;
     snapshot.time = state.time;
@@ -32,6 +33,8 @@ void takeSnapshot(const sim::State& state, double density, FrameSnapshot& snapsh
         snapshot.positions[p] = liquid.position(p).cast<float>();
         snapshot.speeds[p] = static_cast<float>(liquid.velocity(p).norm());
     });
+    takeYarns(fabric, state.fabric, look.yarns.colorBy, snapshot.yarns);
+    takeCloth(fabric, state.fabric, look.cloth.colorBy, snapshot.cloth);
 }
 
 }  // namespace app

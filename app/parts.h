@@ -17,6 +17,7 @@ class Steppable {
  public:
     virtual ~Steppable() = default;
     virtual const sim::State& state() const = 0;
+    virtual const sim::Fabric& fabric() const = 0;   ///< what state().fabric is the state of
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
     virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]

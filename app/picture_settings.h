@@ -25,7 +25,21 @@ struct CameraSettings {
 enum class LiquidStyle { Points, Spheres, Surface };
 enum class ColorBy { Speed, Flat };
 enum class ColorMap { Jet, Turbo, Viridis };
-enum class ObstacleStyle { Wire, Translucent, Hidden };
+enum class FabricColorBy { Material, Speed, Strain };
+enum class ObstacleStyle { Auto, Wire, Translucent, Solid, Hidden };
+
+struct FabricLookSettings {
+    FabricColorBy colorBy = FabricColorBy::Material;
+    bool ownColor = false;                  ///< color was given; else each material has one of a palette
+    Eigen::Vector3f color = {0.80f, 0.70f, 0.55f};
+    Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};
+    ColorMap colorMap = ColorMap::Viridis;
+    std::array<double, 2> range = {0.0, 100.0};  ///< of the colour bar [cm/s], or of the strain [-]
+};
+
+struct YarnLookSettings : FabricLookSettings {
+    int tubeSides = 10;                     ///< of tubes near the camera
+};
 
 struct RenderSettings {
     int width = 960, height = 540;          ///< [pixels]
@@ -35,7 +49,9 @@ struct RenderSettings {
     ColorBy colorBy = ColorBy::Speed;
     ColorMap colorMap = ColorMap::Jet;
     std::array<double, 2> range = {0.0, 200.0};  ///< of the colour bar [cm/s]
-    ObstacleStyle obstacleStyle = ObstacleStyle::Translucent;
+    FabricLookSettings cloth;
+    YarnLookSettings yarns;
+    ObstacleStyle obstacleStyle = ObstacleStyle::Auto;
     double obstacleOpacity = 0.15;
     bool hud = true;                        ///< label and time stamp in the picture
     bool colorBar = true;
@@ -68,7 +84,14 @@ struct CompareSettings {
     std::string reference;                  ///< label of the baseline, if any
 };
 
+/// What there is to draw in the scene that the settings belong to.
+struct SceneContents {
+    bool liquid = true, yarns = false, cloth = false;
+    bool fabric() const { return yarns || cloth; }
+};
+
 struct PictureSettings {
+    SceneContents contents;                 ///< not read from the sections, but told by who knows the whole scene
     RenderSettings render;
     OutputSettings output;
     CompareSettings compare;

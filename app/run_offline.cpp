@@ -22,12 +22,13 @@ class FrameSink {
         pipeline_.emplace([&setup, start = parts.startRenderer, panel = options.asPanel] { return start(setup, panel); },
                           options.out);
     }
-    void take(const sim::State& state, std::int64_t frame)
+    void take(const Steppable& simulation, std::int64_t frame)
     {
+        const sim::State& state = simulation.state();
         if (!pipeline_) return;
         auto snapshot = pipeline_->borrow();
         snapshot->number = frame;
-        takeSnapshot(state, setup_.scene.settings.liquid.density, *snapshot);
+        takeSnapshot(state, simulation.fabric(), setup_.scene.settings.liquid.density, setup_.pictures.render, *snapshot);
         placeObstacles_(state.time, snapshot->obstacles);
         pipeline_->submit(std::move(snapshot));
     }
@@ -65,10 +66,10 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, Steppable& si
     const double end = time.start + time.duration;
     Progress progress(stderr, setup.label, time.start, end, frames);
 
-    sink.take(simulation.state(), 0);
+    sink.take(simulation, 0);
     for (std::int64_t frame = 1; frame <= frames; ++frame) {
         stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress);
-        sink.take(simulation.state(), frame);
+        sink.take(simulation, frame);
         reports.frameDone();
         progress.frameDone();
         if (frame < frames && options.stopWanted()) return false;

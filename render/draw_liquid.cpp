@@ -46,7 +46,7 @@ void DrawLiquid::draw(const FrameView::Liquid& liquid, const ViewTransforms& tra
     const Eigen::Vector2f shift = known == pointShift_.end() ? Eigen::Vector2f(0.0f, 0.0f) : known->second;
     gl_.BindVertexArray(vertices_.id());
     upload(liquid, !look.flat);
-    useColorMap(look.colorMap);
+    colorMap_.bind(look.colorMap);
     program_.use();
     setUniforms(liquid, transforms, look, samples > 1, shift);
 
@@ -98,20 +98,6 @@ void DrawLiquid::upload(const FrameView::Liquid& liquid, bool withValues) const
     fillBuffer(values_, liquid.values);
     if (withValues) gl_.EnableVertexAttribArray(1);
     else gl_.DisableVertexAttribArray(1);
-}
-
-void DrawLiquid::useColorMap(ColorMap map)
-{
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, colorMap_.id());
-    if (uploadedMap_ == map) return;
-    const ColorTable table = colorTable(map);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, kColorMapSize, 1, 0, GL_RGB, GL_FLOAT, table.data());
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        gl_.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
-    uploadedMap_ = map;
 }
 
 void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,

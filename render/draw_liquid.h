@@ -1,12 +1,12 @@
 #pragma once
 
+#include "render/color_map_texture.h"
 #include "render/frame_view.h"
 #include "render/gl_objects.h"
 #include "render/look.h"
 #include "render/view_transforms.h"
 
 #include <map>
-#include <optional>
 
 namespace render {
 
@@ -23,7 +23,6 @@ class DrawLiquid {
 
  private:
     void upload(const FrameView::Liquid& liquid, bool withValues) const;
-    void useColorMap(ColorMap map);
     void setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,
                      bool smoothEdges, const Eigen::Vector2f& pointShift) const;
 
@@ -31,8 +30,7 @@ class DrawLiquid {
     Program program_;
     VertexArray vertices_;
     Buffer positions_, values_;
-    Texture colorMap_;
-    std::optional<ColorMap> uploadedMap_;
+    ColorMapTexture colorMap_;
     std::map<int, Eigen::Vector2f> pointShift_;    ///< by number of samples [pixels]
 };
 

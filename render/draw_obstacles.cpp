@@ -40,19 +40,9 @@ std::vector<EdgeInstance> edgeInstances(const MeshEdges& outline)
     return instances;
 }
 
-/// Describe attribute `index` as `count` floats of the struct in the bound buffer, `offset` bytes in.
-void describe(const Gl& gl, GLuint index, int count, std::size_t stride, std::size_t offset)
+bool isSolid(const FrameView::Mesh& mesh, const ObstacleLook& look)
 {
-    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                           reinterpret_cast<const void*>(offset));
-    gl.EnableVertexAttribArray(index);
-}
-
-template <class T>
-void upload(const Gl& gl, const Buffer& buffer, const std::vector<T>& data)
-{
-    gl.BindBuffer(GL_ARRAY_BUFFER, buffer.id());
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
+    return look.style == ObstacleStyle::Solid && !mesh.inside;
 }
 
 void setCommonUniforms(const Gl& gl, const Program& program, const ViewTransforms& transforms, const Vector3f& color)
@@ -66,23 +56,45 @@ void setCommonUniforms(const Gl& gl, const Program& program, const ViewTransform
 }  // namespace
 
 DrawObstacles::DrawObstacles(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), faceProgram_(gl, shaderDir, "obstacle_faces"), edgeProgram_(gl, shaderDir, "obstacle_edges"),
-      faceVertices_(gl), edgeVertices_(gl), faces_(gl), edges_(gl)
+    : gl_(gl),
+      faceProgram_(gl, shaderDir, "obstacle_faces"),
+      edgeProgram_(gl, shaderDir, "obstacle_edges"),
+      solidProgram_(gl, shaderDir, "obstacle_solid"),
+      faceVertices_(gl),
+      edgeVertices_(gl),
+      faces_(gl),
+      edges_(gl)
 {
     gl.BindVertexArray(faceVertices_.id());
     gl.BindBuffer(GL_ARRAY_BUFFER, faces_.id());
-    describe(gl, 0, 3, sizeof(FaceVertex), offsetof(FaceVertex, position));
-    describe(gl, 1, 3, sizeof(FaceVertex), offsetof(FaceVertex, normal));
-    describe(gl, 2, 1, sizeof(FaceVertex), offsetof(FaceVertex, bend));
+    describeAttribute(gl, 0, 3, sizeof(FaceVertex), offsetof(FaceVertex, position));
+    describeAttribute(gl, 1, 3, sizeof(FaceVertex), offsetof(FaceVertex, normal));
+    describeAttribute(gl, 2, 1, sizeof(FaceVertex), offsetof(FaceVertex, bend));
 
     gl.BindVertexArray(edgeVertices_.id());
     gl.BindBuffer(GL_ARRAY_BUFFER, edges_.id());
-    describe(gl, 0, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, a));
-    describe(gl, 1, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, b));
-    describe(gl, 2, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, normal0));
-    describe(gl, 3, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, normal1));
-    describe(gl, 4, 1, sizeof(EdgeInstance), offsetof(EdgeInstance, isSharp));
+    describeAttribute(gl, 0, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, a));
+    describeAttribute(gl, 1, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, b));
+    describeAttribute(gl, 2, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, normal0));
+    describeAttribute(gl, 3, 3, sizeof(EdgeInstance), offsetof(EdgeInstance, normal1));
+    describeAttribute(gl, 4, 1, sizeof(EdgeInstance), offsetof(EdgeInstance, isSharp));
     for (GLuint index = 0; index < 5; ++index) gl.VertexAttribDivisor(index, 1);
+}
+
+void DrawObstacles::drawSolid(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms,
+                              const ObstacleLook& look)
+{
+    for (const FrameView::Mesh& mesh : meshes) {
+        if (!isSolid(mesh, look) || mesh.triangles.empty()) continue;
+        const std::vector<FaceVertex> vertices = faceVertices(mesh, meshEdges(mesh));
+        setCommonUniforms(gl_, solidProgram_, transforms, look.solidColor);
+        drawOpaque(gl_);
+        gl_.Disable(GL_CULL_FACE);  // open meshes have two sides
+        gl_.BindVertexArray(faceVertices_.id());
+        upload(gl_, GL_ARRAY_BUFFER, faces_, vertices);
+        gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+    }
+    requireNoGlError(gl_, "drawing solid obstacles");
 }
 
 void DrawObstacles::draw(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms,
@@ -92,23 +104,25 @@ void DrawObstacles::draw(std::span<const FrameView::Mesh> meshes, const ViewTran
     gl_.Enable(GL_DEPTH_TEST);
     gl_.DepthFunc(GL_LEQUAL);
     gl_.DepthMask(GL_FALSE);
+    gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // glass leaves alpha to what is behind it
     gl_.Enable(GL_BLEND);
     gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     for (const FrameView::Mesh& mesh : meshes) {
-        if (mesh.triangles.empty()) continue;
+        if (isSolid(mesh, look) || mesh.triangles.empty()) continue;
         const MeshEdges outline = meshEdges(mesh);
         const std::vector<FaceVertex> vertices = faceVertices(mesh, outline);
         const std::vector<EdgeInstance> instances = edgeInstances(outline);
-        upload(gl_, faces_, vertices);
-        upload(gl_, edges_, instances);
+        upload(gl_, GL_ARRAY_BUFFER, faces_, vertices);
+        upload(gl_, GL_ARRAY_BUFFER, edges_, instances);
         const auto count = static_cast<GLsizei>(vertices.size());
-        if (look.style == ObstacleStyle::Translucent) {
+        if (look.style != ObstacleStyle::Wire) {
             drawFaces(GL_FRONT, count, transforms, look);
             if (!mesh.inside) drawFaces(GL_BACK, count, transforms, look);
         }
         drawEdges(static_cast<GLsizei>(instances.size()), transforms, look);
     }
     gl_.DepthMask(GL_TRUE);
+    gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl_.Disable(GL_BLEND);
     requireNoGlError(gl_, "drawing the obstacles");
 }

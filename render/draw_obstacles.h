@@ -9,11 +9,13 @@
 
 namespace render {
 
-/// Obstacles over the finished liquid: faint faces and clean outlines. They are hidden by liquid in front of them and
-/// never write depth; of containers only the far walls are filled, so the liquid inside keeps its colours.
+/// Obstacles. Solid ones come before the liquid, with depth, and alpha 0: the picture's pixels that are shaded as
+/// solids. All others come over the finished liquid: faint faces and clean outlines. They are hidden by liquid in front
+/// of them and never write depth; of containers only the far walls are filled, so the liquid inside keeps its colours.
 class DrawObstacles {
  public:
     DrawObstacles(const Gl& gl, const std::filesystem::path& shaderDir);
+    void drawSolid(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms, const ObstacleLook& look);
     void draw(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms, const ObstacleLook& look);
 
  private:
@@ -21,7 +23,7 @@ class DrawObstacles {
     void drawEdges(GLsizei edges, const ViewTransforms& transforms, const ObstacleLook& look) const;
 
     const Gl& gl_;
-    Program faceProgram_, edgeProgram_;
+    Program faceProgram_, edgeProgram_, solidProgram_;
     VertexArray faceVertices_, edgeVertices_;
     Buffer faces_, edges_;
 };

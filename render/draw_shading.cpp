@@ -3,21 +3,30 @@
 namespace render {
 
 DrawShading::DrawShading(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), program_(gl, shaderDir, "shading"), noVertices_(gl)
+    : gl_(gl),
+      liquidProgram_(gl, shaderDir, "shading", "ONLY_LIQUID"),
+      solidsProgram_(gl, shaderDir, "shading", "ONLY_SOLIDS"),
+      mixedProgram_(gl, shaderDir, "shading"),
+      noVertices_(gl)
 {
 }
 
 void DrawShading::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength,
-                       float step)
+                       float step, const Solids& solids)
 {
-    program_.use();
-    gl_.Uniform1i(program_["colors"], 0);
-    gl_.Uniform1i(program_["depths"], 1);
-    gl_.Uniform2f(program_["nearFar"], transforms.zNear, transforms.zFar);
-    gl_.Uniform1f(program_["strength"], strength);
-    gl_.Uniform1f(program_["depthStep"], step);
-    gl_.Uniform1f(program_["pixelsPerTangent"], transforms.pixelsPerTangent());
-    gl_.Uniform1f(program_["reach"], static_cast<float>(transforms.height) / 720.0f);
+    const Program& program = solids.all ? solidsProgram_ : solids.any ? mixedProgram_ : liquidProgram_;
+    program.use();
+    gl_.Uniform1i(program["colors"], 0);
+    gl_.Uniform1i(program["depths"], 1);
+    gl_.Uniform2f(program["nearFar"], transforms.zNear, transforms.zFar);
+    gl_.Uniform1f(program["strength"], strength);
+    gl_.Uniform1f(program["depthStep"], step);
+    gl_.Uniform1f(program["pixelsPerTangent"], transforms.pixelsPerTangent());
+    gl_.Uniform1f(program["reach"], static_cast<float>(transforms.height) / 720.0f);
+    gl_.Uniform1i(program["openness"], 2);
+    gl_.Uniform1f(program["occlusion"], solids.occlusion);
+    gl_.ActiveTexture(GL_TEXTURE2);
+    gl_.BindTexture(GL_TEXTURE_2D, solids.openness);
     gl_.ActiveTexture(GL_TEXTURE1);
     gl_.BindTexture(GL_TEXTURE_2D, depthTexture);
     gl_.ActiveTexture(GL_TEXTURE0);

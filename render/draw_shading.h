@@ -10,14 +10,22 @@ namespace render {
 /// Idea: Boucheny 2009, eye-dome lighting.
 class DrawShading {
  public:
+    struct Solids {
+        bool any = false;        ///< pixels of alpha 0 …
+        bool all = false;        ///< … and no liquid
+        GLuint openness = 0;     ///< the texture that DrawOcclusion filled
+        float occlusion = 0.0f;  ///< how much it darkens them: 0 … 1
+    };
+
     DrawShading(const Gl& gl, const std::filesystem::path& shaderDir);
     /// @param strength  0 = copy the colours as they are … 1 = dark
     /// @param step      drop in depth [cm] that counts as a full edge
-    void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength, float step);
+    void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength, float step,
+              const Solids& solids);
 
  private:
     const Gl& gl_;
-    Program program_;
+    Program liquidProgram_, solidsProgram_, mixedProgram_;  ///< a software renderer pays for what a shader leaves out
     VertexArray noVertices_;
 };
 

@@ -27,8 +27,20 @@ void requireComplete(const Gl& gl, int width, int height)
 }  // namespace
 
 DrawTargets::DrawTargets(const Gl& gl, int width, int height, int samples)
-    : gl_(gl), width_(width), height_(height), samples_(samples), sceneColor_(gl), sceneDepth_(gl), pictureColor_(gl),
-      color_(gl), depth_(gl), scene_(gl), resolved_(gl), picture_(gl)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      samples_(samples),
+      sceneColor_(gl),
+      sceneDepth_(gl),
+      pictureColor_(gl),
+      color_(gl),
+      depth_(gl),
+      openness_(gl),
+      scene_(gl),
+      resolved_(gl),
+      occlusion_(gl),
+      picture_(gl)
 {
     const auto makeRenderbuffer = [&](GLuint id, GLenum format, int perPixel) {
         gl.BindRenderbuffer(GL_RENDERBUFFER, id);
@@ -80,6 +92,21 @@ void DrawTargets::resolve() const
         gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
     gl_.Viewport(0, 0, width_, height_);
+}
+
+void DrawTargets::beginOcclusion()
+{
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, occlusion_.id());
+    if (hasOpenness_) return;
+    makeTexture(gl_, openness_.id(), width_, height_, GL_RG16F, GL_RG, GL_FLOAT);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, openness_.id(), 0);
+    requireComplete(gl_, width_, height_);
+    hasOpenness_ = true;
+}
+
+void DrawTargets::endOcclusion() const
+{
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
 }
 
 Image DrawTargets::read(const Framebuffer& framebuffer) const

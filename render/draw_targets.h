@@ -17,11 +17,14 @@ class DrawTargets {
     bool fits(int width, int height, int samples) const;
     void beginScene(const Eigen::Vector3f& background) const;  ///< clear `scene`, draw into it from here on
     void resolve() const;                          ///< scene → colour and depth textures; draw into `picture` next
-    Image read() const { return read(picture_); }            ///< what `picture` holds, rows from the top
-    Image readResolved() const { return read(resolved_); }   ///< the same of the scene before shading
+    void beginOcclusion();                         ///< draw into the openness texture from here on …
+    void endOcclusion() const;                     ///< … and into `picture` again
+    Image read() const { return read(picture_); }  ///< what `picture` holds, rows from the top
+    Image readResolved() const { return read(resolved_); }  ///< the same of the scene before shading
 
     GLuint colorTexture() const { return color_.id(); }
     GLuint depthTexture() const { return depth_.id(); }
+    GLuint opennessTexture() const { return openness_.id(); }
 
  private:
     Image read(const Framebuffer& framebuffer) const;
@@ -29,8 +32,9 @@ class DrawTargets {
     const Gl& gl_;
     int width_, height_, samples_;
     Renderbuffer sceneColor_, sceneDepth_, pictureColor_;
-    Texture color_, depth_;
-    Framebuffer scene_, resolved_, picture_;
+    Texture color_, depth_, openness_;
+    Framebuffer scene_, resolved_, occlusion_, picture_;
+    bool hasOpenness_ = false;  ///< its texture is made when it is first needed
 };
 
 }  // namespace render

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <span>
 
 namespace render {
@@ -14,6 +15,23 @@ struct FrameView {
         std::span<const float> values;             ///< one per position: what colours it, say the speed [cm/s]
         float radius = 0.0f;                       ///< of every sphere [cm]
     };
+    /// Strands of all yarns, their vertices one behind the other.
+    struct Yarns {
+        std::span<const Eigen::Vector3f> positions;
+        std::span<const Eigen::Vector3f> directions;   ///< per position: first axis m1 of the section, across the yarn
+        std::span<const float> along;              ///< per position: length of the yarn at rest up to here [cm]
+        std::span<const int> begin;                ///< of each strand in `positions`, and the end of the last
+        std::span<const std::array<float, 2>> halfAxes;  ///< per strand: of the section along m1 and across it [cm]
+        std::span<const int> materials;            ///< per strand: which colour of the look
+        std::span<const float> values;             ///< per position what colours it; needed by a look that says so
+    };
+    struct Cloth {
+        std::span<const Eigen::Vector3f> positions;    ///< those that no triangle names are not drawn
+        std::span<const Eigen::Vector3i> triangles;
+        std::span<const float> thickness;          ///< per position, of the whole cloth [cm]
+        std::span<const int> materials;            ///< per position: which colour of the look
+        std::span<const float> values;             ///< per position what colours it; needed by a look that says so
+    };
     struct Mesh {
         std::span<const Eigen::Vector3f> positions;
         std::span<const Eigen::Vector3i> triangles;
@@ -23,6 +41,8 @@ struct FrameView {
     double time = 0.0;                             ///< [s]
     Liquid liquid;
     std::span<const Mesh> obstacles;
+    Yarns yarns = {};
+    Cloth cloth = {};
 };
 
 }  // namespace render

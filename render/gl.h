@@ -19,6 +19,7 @@
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus) \
     X(PFNGLCLEARPROC, Clear)                                \
     X(PFNGLCLEARCOLORPROC, ClearColor)                      \
+    X(PFNGLCOLORMASKPROC, ColorMask)                        \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                \
     X(PFNGLCREATESHADERPROC, CreateShader)                  \
@@ -36,6 +37,7 @@
     X(PFNGLDISABLEVERTEXATTRIBARRAYPROC, DisableVertexAttribArray) \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                      \
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)    \
+    X(PFNGLDRAWELEMENTSPROC, DrawElements)                  \
     X(PFNGLENABLEPROC, Enable)                              \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \

@@ -23,6 +23,24 @@ std::string readText(const fs::path& path)
     return text.str();
 }
 
+/// The text of a shader, with other files of its folder in the place of lines `#include "lighting.glsl"`, and a word
+/// defined below its first line, which tells the version.
+std::string readShader(const fs::path& path, const std::string& defined)
+{
+    constexpr std::string_view kInclude = "#include \"";
+    std::istringstream lines(readText(path));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        const bool isInclude = line.starts_with(kInclude) && line.back() == '"';
+        text += isInclude
+                    ? readText(path.parent_path() / line.substr(kInclude.size(), line.size() - kInclude.size() - 1))
+                    : line;
+        text += '\n';
+        if (line.starts_with("#version") && !defined.empty()) text += "#define " + defined + "\n";
+    }
+    return text;
+}
+
 /// What the driver says, on one line.
 std::string oneLine(std::string log)
 {
@@ -34,9 +52,10 @@ std::string oneLine(std::string log)
 /// A shader object for as long as the program is linked.
 class Shader {
  public:
-    Shader(const Gl& gl, GLenum stage, const fs::path& path) : gl_(gl), id_(gl.CreateShader(stage))
+    Shader(const Gl& gl, GLenum stage, const fs::path& path, const std::string& defined)
+        : gl_(gl), id_(gl.CreateShader(stage))
     {
-        const std::string text = readText(path);
+        const std::string text = readShader(path, defined);
         const char* source = text.c_str();
         gl.ShaderSource(id_, 1, &source, nullptr);
         gl.CompileShader(id_);
@@ -60,10 +79,35 @@ class Shader {
 
 }  // namespace
 
-Program::Program(const Gl& gl, const fs::path& shaderDir, const std::string& name) : gl_(&gl)
+void describeAttribute(const Gl& gl, GLuint index, int count, std::size_t stride, std::size_t offset)
 {
-    const Shader vertex(gl, GL_VERTEX_SHADER, shaderDir / (name + ".vert"));
-    const Shader fragment(gl, GL_FRAGMENT_SHADER, shaderDir / (name + ".frag"));
+    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                           reinterpret_cast<const void*>(offset));
+    gl.EnableVertexAttribArray(index);
+}
+
+void describeColorAttribute(const Gl& gl, GLuint index, std::size_t stride, std::size_t offset)
+{
+    gl.VertexAttribPointer(index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride),
+                           reinterpret_cast<const void*>(offset));
+    gl.EnableVertexAttribArray(index);
+}
+
+void drawOpaque(const Gl& gl)
+{
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    gl.Disable(GL_BLEND);
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_BACK);
+}
+
+Program::Program(const Gl& gl, const fs::path& shaderDir, const std::string& name, const std::string& defined)
+    : gl_(&gl)
+{
+    const Shader vertex(gl, GL_VERTEX_SHADER, shaderDir / (name + ".vert"), defined);
+    const Shader fragment(gl, GL_FRAGMENT_SHADER, shaderDir / (name + ".frag"), defined);
     id_ = gl.CreateProgram();
     gl.AttachShader(id_, vertex.id());
     gl.AttachShader(id_, fragment.id());
@@ -96,7 +140,8 @@ fs::path findShaderDir(const fs::path& wanted)
         if (fs::exists(place / "liquid.vert", unreadable)) return place;
         looked += (looked.empty() ? "" : ", ") + place.string();
     }
-    throw std::runtime_error("no shaders in " + looked + " (set DRENCH_SHADER_DIR to the folder that holds liquid.vert)");
+    throw std::runtime_error("no shaders in " + looked +
+                             " (set DRENCH_SHADER_DIR to the folder that holds liquid.vert)");
 }
 
 }  // namespace render

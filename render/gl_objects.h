@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace render {
 
@@ -28,11 +29,30 @@ using Texture = GlName<&Gl::GenTextures, &Gl::DeleteTextures>;
 using Renderbuffer = GlName<&Gl::GenRenderbuffers, &Gl::DeleteRenderbuffers>;
 using Framebuffer = GlName<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;
 
-/// A linked pair of shaders, <name>.vert and <name>.frag of one folder.
+/// Describe attribute `index` as `count` floats of the struct in the bound buffer, `offset` bytes in.
+void describeAttribute(const Gl& gl, GLuint index, int count, std::size_t stride, std::size_t offset);
+/// The same of four bytes that the shader sees as 0 … 1.
+void describeColorAttribute(const Gl& gl, GLuint index, std::size_t stride, std::size_t offset);
+
+/// Fill the buffer, for one picture.
+template <class T>
+void upload(const Gl& gl, GLenum target, const Buffer& buffer, const std::vector<T>& data)
+{
+    gl.BindBuffer(target, buffer.id());
+    gl.BufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
+}
+
+/// Set up for closed bodies that face outwards: nearest in front, backs left out. The caller disables GL_CULL_FACE
+/// afterwards.
+void drawOpaque(const Gl& gl);
+
+/// A linked pair of shaders, <name>.vert and <name>.frag of one folder, which may include others of it.
 class Program {
  public:
+    /// @param defined  a word that the shaders may ask for by #ifdef; empty: none
     /// Throws std::runtime_error with one line naming the file if it is missing or does not compile.
-    Program(const Gl& gl, const std::filesystem::path& shaderDir, const std::string& name);
+    Program(const Gl& gl, const std::filesystem::path& shaderDir, const std::string& name,
+            const std::string& defined = {});
     ~Program() { gl_->DeleteProgram(id_); }
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;

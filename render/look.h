@@ -6,11 +6,12 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace render {
 
 enum class LiquidStyle { Spheres, Points };          ///< shaded balls, or plain dots of `pointPixels`
-enum class ObstacleStyle { Translucent, Wire, Hidden };
+enum class ObstacleStyle { Translucent, Wire, Hidden, Solid };  ///< of Solid ones containers are translucent
 
 struct LiquidLook {
     LiquidStyle style = LiquidStyle::Spheres;
@@ -23,17 +24,37 @@ struct LiquidLook {
     float depthShading = 1.0f;                     ///< how strongly its shape shades the liquid: 0 = pure colours … 1
 };
 
+/// Muted colours that are told apart, for one material after the other.
+inline const std::vector<Eigen::Vector3f> kFabricColors = {
+    {0.80f, 0.70f, 0.55f}, {0.30f, 0.47f, 0.66f}, {0.72f, 0.33f, 0.28f}, {0.42f, 0.58f, 0.38f},
+    {0.55f, 0.42f, 0.62f}, {0.84f, 0.56f, 0.25f}, {0.35f, 0.60f, 0.62f}, {0.72f, 0.50f, 0.58f}};
+
+struct FabricLook {
+    bool byValue = false;                          ///< colour map instead of one colour per material
+    std::vector<Eigen::Vector3f> colors = kFabricColors;  ///< by material, again from the first when they run out
+    ColorMap colorMap = ColorMap::Viridis;
+    std::array<float, 2> range = {0.0f, 1.0f};     ///< values at the ends of the colour map
+    std::string colorBarTitle = "strain";
+};
+
+struct YarnLook : FabricLook {
+    int tubeSides = 10;                            ///< of tubes near the eye; thin ones in the picture have fewer
+    float plies = 1.0f;                            ///< depth of the grooves between the plies: 0 = smooth … 1
+};
+
 struct ObstacleLook {
     ObstacleStyle style = ObstacleStyle::Translucent;
     Eigen::Vector3f color = {0.36f, 0.42f, 0.50f};
     float opacity = 0.15f;                         ///< of the faces, 0 … 1
+    Eigen::Vector3f solidColor = {0.70f, 0.72f, 0.75f};
 };
 
 /// What is written over the picture. An empty text is not drawn.
 struct OverlayLook {
     std::string label;                             ///< top left
     bool timeStamp = true;                         ///< top right: t = 0.124 s
-    bool colorBar = true;                          ///< right edge; never for flat liquid
+    bool colorBar = true;                          ///< right edge, for all that is coloured by value
+    bool liquidBar = true;                         ///< the liquid's is among them, unless it is flat
     std::string colorBarTitle = "speed [cm/s]";
 };
 
@@ -43,6 +64,9 @@ struct Look {
     Eigen::Vector3f background = Eigen::Vector3f::Ones();
     int samples = 4;                               ///< multisampling, 1 = off; at most what the context offers
     LiquidLook liquid;
+    YarnLook yarns;
+    FabricLook cloth;
+    float occlusion = 1.0f;                        ///< how dark fabric and solid obstacles are in folds and at contacts: 0 … 1
     ObstacleLook obstacles;
     OverlayLook overlay;
 };

@@ -40,6 +40,12 @@ void frame(Image& image, const PixelBox& box, Rgb ink)
     fill(image, {box.x + box.width, box.y, 1, box.height}, ink);
 }
 
+/// Of the letters beside an upright colour bar [pixels].
+float barTextSize(const Image& image)
+{
+    return 0.9f * textSize(image.width, image.height);
+}
+
 }  // namespace
 
 float textSize(int width, int height)
@@ -85,22 +91,22 @@ PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner
     return font.draw(image, text, x, margin + font.capHeight(size), size, ink);
 }
 
-PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink)
+PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink, int inset)
 {
     const ColorTable table = colorTable(bar.map);
-    const float size = 0.9f * textSize(image.width, image.height), cap = font.capHeight(size);
+    const float size = barTextSize(image), cap = font.capHeight(size);
     const std::vector<double> ticks = niceTicks(bar.range[0], bar.range[1]);
     float textWidth = 0.0f;
     for (const double tick : ticks) textWidth = std::max(textWidth, font.width(tickText(tick), size));
 
     const int height = rounded(0.42f * static_cast<float>(image.height)), width = std::max(4, rounded(0.65f * size));
-    const int right = image.width - rounded(0.8f * size);
+    const int right = image.width - inset - rounded(0.8f * size);
     const PixelBox box = {right - rounded(textWidth + 0.6f * size) - width, (image.height - height) / 2, width, height};
-    for (int i = 0; i < height; ++i)
-        fill(image, {box.x, box.y + height - 1 - i, width, 1}, barColor(table, i, height));
+    for (int i = 0; i < height; ++i) fill(image, {box.x, box.y + height - 1 - i, width, 1}, barColor(table, i, height));
     frame(image, box, ink);
     for (const double tick : ticks) {
-        const int y = box.y + height - rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(height));
+        const int y =
+            box.y + height - rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(height));
         fill(image, {box.x + width + 1, std::min(y, box.y + height), std::max(2, rounded(0.2f * size)), 1}, ink);
         font.draw(image, tickText(tick), static_cast<float>(box.x + width) + 0.5f * size,
                   static_cast<float>(y) + 0.5f * cap, size, ink);
@@ -110,6 +116,17 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
     return box;
 }
 
+void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink)
+{
+    int inset = 0;
+    for (const ColorBar& bar : bars) {
+        const PixelBox box = drawColorBar(image, font, bar, ink, inset);
+        const float size = barTextSize(image);
+        const int titleWidth = rounded(0.8f * size + font.width(bar.title, size));
+        inset = std::max(image.width - box.x, inset + titleWidth) + rounded(size);
+    }
+}
+
 PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size,
                            Rgb ink)
 {
@@ -117,7 +134,8 @@ PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, 
     const float cap = font.capHeight(size), titleWidth = font.width(bar.title, size);
     const float gap = bar.title.empty() ? 0.0f : 0.8f * size;
     const int height = std::max(4, rounded(0.6f * size));
-    const int width = std::max(16, std::min(rounded(16.0f * size), place.width - rounded(titleWidth + gap + 4.0f * size)));
+    const int width =
+        std::max(16, std::min(rounded(16.0f * size), place.width - rounded(titleWidth + gap + 4.0f * size)));
     const int left = place.x + rounded(0.5f * (static_cast<float>(place.width - width) - titleWidth - gap));
     const int top = place.y + rounded(0.5f * (static_cast<float>(place.height - height) - 1.5f * cap));
     const PixelBox box = {left + rounded(titleWidth + gap), top, width, height};
@@ -131,8 +149,8 @@ PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, 
         font.draw(image, text, static_cast<float>(x) - 0.5f * font.width(text, size),
                   static_cast<float>(box.y + height) + 0.35f * size + cap, size, ink);
     }
-    font.draw(image, bar.title, static_cast<float>(left), static_cast<float>(top) + 0.5f * (static_cast<float>(height) + cap),
-              size, ink);
+    font.draw(image, bar.title, static_cast<float>(left),
+              static_cast<float>(top) + 0.5f * (static_cast<float>(height) + cap), size, ink);
     return box;
 }
 

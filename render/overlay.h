@@ -5,6 +5,7 @@
 #include "render/image.h"
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,9 @@ enum class Corner { TopLeft, TopCenter, TopRight };
 struct ColorBar {
     ColorMap map = ColorMap::Jet;
     std::array<float, 2> range = {0.0f, 200.0f};
-    std::string title = "speed [cm/s]";            ///< with the unit
+    std::string title = "speed [cm/s]";  ///< with the unit
+
+    bool operator==(const ColorBar&) const = default;
 };
 
 /// Height of a line of text in pictures of this size [pixels]: one thirtieth of the height, legible from 11 up.
@@ -36,8 +39,12 @@ std::vector<double> niceTicks(double from, double to);
 /// Text in a corner. Returns the box of pixels that may have changed; empty text changes none.
 PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, Rgb ink);
 
-/// Upright bar at the right edge, with title and ticks. Returns the box of the colours alone.
-PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink);
+/// Upright bar at the right edge, or `inset` pixels from it, with title and ticks. Returns the box of the colours
+/// alone.
+PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink, int inset = 0);
+
+/// Several upright bars from the right edge on.
+void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink);
 
 /// Lying bar in the middle of `box`, title to its left, ticks below; letters of `size` pixels. Returns the box of the
 /// colours alone.

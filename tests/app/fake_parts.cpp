@@ -36,6 +36,7 @@ class ToySimulation : public Steppable {
         state_.ledger.emittedMass = 2.0;
     }
     const sim::State& state() const override { return state_; }
+    const sim::Fabric& fabric() const override { return fabric_; }
     sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0]}; }
     std::uint64_t stateHash() const override { return static_cast<std::uint64_t>(1.0e9 * state_.liquid.x[0][0]) + 1; }
 
@@ -60,6 +61,7 @@ class ToySimulation : public Steppable {
 
  private:
     const ToySettings toy_;
+    const sim::Fabric fabric_;
     sim::State state_;
 };
 

@@ -63,6 +63,33 @@ compare: {name: all, variants: {transfer.method: [pic, apic]}, layout: rows, pro
     EXPECT_EQ("pic", s.compare.reference);
 }
 
+TEST(PictureSettings, LooksOfFabricArrive)
+{
+    const app::RenderSettings r = read(R"(
+units: si
+render:
+  yarns: {color_by: speed, colormap: turbo, range: [0, 2], tube_sides: 12}
+  cloth: {color: [1, 0.5, 0], wet_color: [0, 0, 1]}
+  obstacles: {style: solid}
+)")
+                                      .render;
+    EXPECT_EQ(app::FabricColorBy::Speed, r.yarns.colorBy);
+    EXPECT_EQ(app::ColorMap::Turbo, r.yarns.colorMap);
+    EXPECT_EQ(200.0, r.yarns.range[1]);
+    EXPECT_EQ(12, r.yarns.tubeSides);
+    EXPECT_TRUE(r.cloth.ownColor);
+    EXPECT_EQ(0.5f, r.cloth.color[1]);
+    EXPECT_EQ(app::ObstacleStyle::Solid, r.obstacleStyle);
+}
+
+TEST(PictureSettings, StrainHasARangeOfItsOwnWithoutUnit)
+{
+    const app::RenderSettings r = read("units: si\nrender: {yarns: {color_by: strain}, cloth: {color_by: strain, range: [0, 0.5]}}\n").render;
+    EXPECT_EQ(0.1, r.yarns.range[1]);
+    EXPECT_EQ(0.5, r.cloth.range[1]);
+    EXPECT_FALSE(r.yarns.ownColor);
+}
+
 TEST(PictureSettings, OrbitIsACameraOfItsOwn)
 {
     const app::CameraSettings c =

@@ -3,12 +3,12 @@
 #include "render/renderer.h"
 #include "tests/render/drawing.h"
 #include "tests/render/fake_dam_break.h"
+#include "tests/render/fake_fabric.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 
 // Whole pictures against stored ones. DRENCH_ACCEPT_GOLDENS=1 stores the present ones instead.
 
@@ -66,26 +66,6 @@ TEST(Golden, DamBreakInItsTank)
     expectLikeGolden(drawing.renderer.draw(view, slantedView(view, 16.0 / 9.0), drawing.look), "dam_break");
 }
 
-/// A ball of `rings` rings of triangles.
-void addBall(const Eigen::Vector3f& center, float radius, int rings, std::vector<Eigen::Vector3f>& positions,
-             std::vector<Eigen::Vector3i>& triangles)
-{
-    const int sectors = 2 * rings;
-    const float pi = std::numbers::pi_v<float>;
-    for (int i = 0; i <= rings; ++i)
-        for (int j = 0; j <= sectors; ++j) {
-            const float polar = pi * static_cast<float>(i) / static_cast<float>(rings);
-            const float turn = 2.0f * pi * static_cast<float>(j % sectors) / static_cast<float>(sectors);
-            positions.push_back(center + radius * Eigen::Vector3f(std::sin(polar) * std::sin(turn), std::cos(polar),
-                                                                  std::sin(polar) * std::cos(turn)));
-        }
-    for (int i = 0; i < rings; ++i)
-        for (int j = 0; j < sectors; ++j) {
-            const int a = i * (sectors + 1) + j, b = a + sectors + 1;
-            triangles.insert(triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
-        }
-}
-
 TEST(Golden, ObstaclesOnDarkGround)
 {
     std::vector<Eigen::Vector3f> ball;
@@ -126,6 +106,30 @@ TEST(Golden, ComparisonOfThree)
     look.time = 0.124;
     look.colorBar = ColorBar{};
     expectLikeGolden(compose(panels, labels, Font(), look).image, "comparison");
+}
+
+TEST(Golden, WovenSheetUnderABall)
+{
+    const FakeSheet scene(24);
+    Drawing drawing;
+    drawing.look.samples = 4;
+    drawing.look.obstacles.style = ObstacleStyle::Solid;
+    drawing.camera = orbitCamera({0.0, -0.3, 0.0}, 4.4, 18.0, 35.0);
+    expectLikeGolden(drawing.renderer.draw(scene.view(), drawing.camera, drawing.look), "woven_sheet");
+}
+
+TEST(Golden, ClothOverABallByStrain)
+{
+    const FakeDrape scene(60);
+    Drawing drawing;
+    drawing.look.samples = 4;
+    drawing.look.obstacles.style = ObstacleStyle::Solid;
+    drawing.look.cloth.byValue = true;
+    drawing.look.cloth.range = {0.0f, 0.1f};
+    drawing.look.overlay.colorBar = true;
+    drawing.look.overlay.liquidBar = false;
+    drawing.camera = orbitCamera({0.0, -1.2, 0.0}, 14.0, 18.0, 20.0);
+    expectLikeGolden(drawing.renderer.draw(scene.view(), drawing.camera, drawing.look), "draped_cloth");
 }
 
 }  // namespace

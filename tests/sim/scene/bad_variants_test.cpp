@@ -39,7 +39,7 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {colour: 1}
 )",
-     "bad.yaml:3: unknown key \"colour\" in render (there is size, background, camera, liquid, obstacles, hud, colorbar, samples)"},
+     "bad.yaml:3: unknown key \"colour\" in render (there is size, background, camera, liquid, cloth, yarns, obstacles, hud, colorbar, samples)"},
     {"RenderSurface", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {liquid: {style: surface}}
@@ -47,9 +47,19 @@ render: {liquid: {style: surface}}
      "bad.yaml:3: render.liquid.style: surface does not run in this version; write points or spheres"},
     {"RenderYarns", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-render: {yarns: {tube_sides: 8}}
+render: {yarns: {tube_sides: 2}}
 )",
-     "bad.yaml:3: render.yarns: this version draws liquid and obstacles only; remove the section"},
+     "bad.yaml:3: render.yarns.tube_sides: 2 is out of range; must be 3 to 64"},
+    {"RenderYarnsColorBy", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {yarns: {color_by: stain}}
+)",
+     "bad.yaml:3: render.yarns.color_by: \"stain\" is unknown (did you mean \"strain\"?)"},
+    {"RenderClothColorAndStrain", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {cloth: {color_by: strain, color: [1, 0, 0]}}
+)",
+     "bad.yaml:3: render.cloth.color: goes with color_by: material"},
     {"RenderSize", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {size: [960]}
