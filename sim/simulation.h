@@ -17,7 +17,6 @@ class Simulation {
 
     const State& state() const { return state_; }
     const Scene& scene() const { return scene_; }
-    const Fabric& fabric() const { return fabric_; }
     const Workspace& workspace() const { return work_; }
     const Fabric& fabric() const { return fabric_; }
     /// Energies of the initial state; afterwards the step's report tells them.

@@ -3,27 +3,12 @@
 #include "sim/core/aligned_array.h"
 #include "sim/core/simd.h"
 #include "sim/core/types.h"
+#include "sim/fabric/triple.h"
 
 #include <array>
 #include <span>
 
 namespace sim::contact {
-
-/// A vector of three numbers, or of three packs: the distance kernels are written once for both.
-template <class T>
-struct Triple {
-    T x, y, z;
-
-    friend Triple operator+(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Triple operator*(const T& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
-    friend T dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-};
-
-inline Triple<double> triple(const Vec3& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
 
 /// Positions or displacements of all vertices [cm]: four doubles each, of which the last is 0, so that one load fetches a vertex.
 class Points {

@@ -13,8 +13,8 @@ double safeFraction(PairKind kind, const std::array<Vec3, 4>& x, const std::arra
     std::array<Triple<double>, 4> at, move;
     const Vec3 middle = 0.25 * (u[0] + u[1] + u[2] + u[3]);
     for (std::size_t c = 0; c < 4; ++c) {
-        at[c] = triple(x[c]);
-        move[c] = triple(u[c] - middle);
+        at[c] = toTriple(x[c]);
+        move[c] = toTriple(u[c] - middle);
     }
     const double length = relativeMotion(kind, move);
     if (length == 0.0) return 1.0;

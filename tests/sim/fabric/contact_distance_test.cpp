@@ -38,7 +38,7 @@ double searchedDistance(PairKind kind, const Corners& x)
 
 Closest<double> closestOf(PairKind kind, const Corners& x)
 {
-    return closestPoints<double>(kind, {triple(x[0]), triple(x[1]), triple(x[2]), triple(x[3])});
+    return closestPoints<double>(kind, {toTriple(x[0]), toTriple(x[1]), toTriple(x[2]), toTriple(x[3])});
 }
 
 void expectClosest(PairKind kind, const Corners& x, double tolerance)
@@ -139,7 +139,7 @@ TEST(RelativeMotion, BoundsTheChangeOfDistance)
             const Corners x = randomCorners(random), u = randomCorners(random, 0.5);
             Corners y;
             for (int c = 0; c < 4; ++c) y[c] = x[c] + u[c];
-            const double motion = relativeMotion(kind, {triple(u[0]), triple(u[1]), triple(u[2]), triple(u[3])});
+            const double motion = relativeMotion(kind, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2]), toTriple(u[3])});
             const auto distance = [&](const Corners& z) {
                 const Triple<double> s = closestOf(kind, z).separation;
                 return std::sqrt(dot(s, s));

@@ -146,7 +146,7 @@ struct NearPair {
 
 inline std::array<contact::Triple<double>, 4> cornersOf(const std::array<int, 4>& v, std::span<const Vec3> x)
 {
-    return {contact::triple(x[v[0]]), contact::triple(x[v[1]]), contact::triple(x[v[2]]), contact::triple(x[v[3]])};
+    return {contact::toTriple(x[v[0]]), contact::toTriple(x[v[1]]), contact::toTriple(x[v[2]]), contact::toTriple(x[v[3]])};
 }
 
 inline double distanceOf(const NearPair& pair, std::span<const Vec3> x)
