@@ -1,3 +1,4 @@
+#include "sim/fabric/contact/candidate_list.h"
 #include "sim/fabric/contact/contact.h"
 #include "tests/sim/fabric/contact_scenes.h"
 
@@ -135,6 +136,27 @@ void sheet(benchmark::State& state, bool hit)
 
 void contactOfSheetHit(benchmark::State& state) { sheet(state, true); }
 void contactOfSheetQuiet(benchmark::State& state) { sheet(state, false); }
+
+/// One pass over the distances of all candidates; the counter is per pair.
+void distances(benchmark::State& state)
+{
+    const Fabric fabric = wovenSheet(100);
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    contact::CandidateList list(fabric);
+    std::array<std::vector<Vec3>, 2> x = {fabric.rest, fabric.rest};
+    for (Vec3& v : x[1]) v.y() *= 1.001;
+    list.coverPlace(x[0]);
+    double passes = 0.0;
+    const std::clock_t before = std::clock();
+    for (auto _ : state) {
+        list.measure(x[static_cast<std::size_t>(passes) % 2]);
+        passes += 1.0;
+    }
+    const double seconds = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+    state.counters["pairs"] = static_cast<double>(list.size());
+    state.counters["ns_per_pair"] = 1.0e9 * seconds / (passes * static_cast<double>(list.size()));
+}
+BENCHMARK(distances)->Unit(benchmark::kMillisecond);
 
 BENCHMARK(contactOfSheetHit)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 BENCHMARK(contactOfSheetQuiet)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
