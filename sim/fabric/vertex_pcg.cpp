@@ -2,172 +2,262 @@
 #include "sim/fabric/vertex_system.h"
 
 #include <cmath>
+#include <numeric>
 
 // Conjugate gradients for A = S + K + C. The strands' S is never multiplied with: as z = S⁻¹ r, the product S p follows from the
-// recurrence of p itself (contact-design 3.3).
+// recurrence of p itself (contact-design 3.3). What strands do by themselves is done group by group in one pass.
 
 namespace sim {
 
 namespace {
 
-constexpr std::size_t kPacksPerTask = 256;
-
-const Pack* packs(const AlignedArray<double>& v) { return reinterpret_cast<const Pack*>(v.data()); }
 Pack* packs(AlignedArray<double>& v) { return reinterpret_cast<Pack*>(v.data()); }
 
-double dot(const AlignedArray<double>& a, const AlignedArray<double>& b)
-{
-    const Pack *x = packs(a), *y = packs(b);
-    return sumLanes(parallelReduce(
-        a.size() / kLanes, Pack{}, [&](std::size_t n) { return x[n] * y[n]; }, [](Pack u, Pack v) { return u + v; }));
-}
+/// A vertex' three numbers and a 0.
+HalfPack& quad(AlignedArray<double>& v, std::size_t n) { return *reinterpret_cast<HalfPack*>(v.data() + 4 * n); }
+HalfPack asQuad(const std::array<double, 4>& v) { return HalfPack{v[0], v[1], v[2], v[3]}; }
 
-Vec3 at(const double* vector, int slot) { return {vector[slot], vector[slot + kLanes], vector[slot + 2 * kLanes]}; }
-
-void add(double* vector, int slot, const Vec3& v)
+double dot(const HalfPack& a, const HalfPack& b)
 {
-    for (int a = 0; a < 3; ++a) vector[slot + a * kLanes] += v[a];
+    const HalfPack c = a * b;
+    return (c[0] + c[1]) + c[2];
 }
 
 /// H u of a pair.
-Vec3 timesContact(const ActiveContacts& c, std::size_t pair, const Vec3& u)
+HalfPack times(const HalfPack& normal, double stiffness, double across, const HalfPack& u)
 {
-    const double across = c.frictionStiffness[pair];
-    return across * u + ((c.stiffness[pair] - across) * c.normal[pair].dot(u)) * c.normal[pair];
+    return across * u + (stiffness * dot(normal, u)) * normal;
 }
+
+double sumOf(const std::vector<double>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
 
 }  // namespace
 
-void VertexSystem::precondition(const double* r, double* z) const
+/// p of the vertices that a group of strands owns, vertex by vertex.
+void VertexSystem::copyByVertex(const double* p, int g)
 {
     const StrandLayout& layout = rods_.layout();
-    parallelFor(layout.groups.size(), [&](std::size_t g) {
-        const std::size_t first = std::size_t(layout.groups[g].firstRow) * kLanes;
-        strands_.solve(layout.groups[g], reinterpret_cast<const Pack*>(r + first), reinterpret_cast<Pack*>(z + first));
-    });
-    if (shells_.empty()) return;
-    parallelFor(clothFactor_.parts(), [&](std::size_t part) {
-        const int begin = clothFactor_.partBegin(static_cast<int>(part)), end = clothFactor_.partBegin(static_cast<int>(part) + 1);
-        for (int row = begin; row < end; ++row) Eigen::Map<Vec3>(clothIn_.data() + 3 * row) = at(r, unknowns_.slot[shells_.vertices()[row]]);
-        clothFactor_.solve(static_cast<int>(part), clothIn_.data(), clothOut_.data());
-        for (int row = begin; row < end; ++row) {
-            if (ownsDiagonal_[row]) continue;
-            const int slot = unknowns_.slot[shells_.vertices()[row]];
-            for (int a = 0; a < 3; ++a) z[slot + a * kLanes] = clothOut_[3 * row + a];
+    const StrandLayout::Group& group = layout.groups[g];
+    for (int j = 0; j < group.vertices; ++j) {
+        const double* at = p + std::size_t(group.firstRow + 4 * j) * kLanes;
+        for (int l = 0; l < kLanes; ++l) {
+            const int v = layout.vertex[group.firstVertex + j][l];
+            if (v >= 0 && unknowns_.slot[v] == (group.firstRow + 4 * j) * kLanes + l)
+                quad(pOfVertex_, v) = HalfPack{at[l], at[kLanes + l], at[2 * kLanes + l], 0.0};
         }
-    });
+    }
 }
 
 /// C p of every pair, on either side.
-void VertexSystem::applyContacts(const double* p)
+void VertexSystem::applyPairs()
 {
-    const ActiveContacts& c = *contacts_;
-    parallelFor(c.size(), 512, [&](std::size_t n) {
-        std::array<Vec3, 2> moved = {Vec3::Zero(), Vec3::Zero()};
-        for (int k = 0; k < 4; ++k) moved[k < c.firstSide[n] ? 0 : 1] += c.weights[n][k] * at(p, unknowns_.slot[c.vertices[n][k]]);
-        const Vec3 both = moved[0] + moved[1];
-        for (int side = 0; side < 2; ++side) {
-            const Vec3 u = sideInStrands_[n][side] ? Vec3(both - moved[side]) : both;
-            pairForce_[n][side] = timesContact(c, n, u);
-        }
+    parallelFor(pairs_.size(), 512, [&](std::size_t n) {
+        const PairBlock& pair = pairs_[n];
+        HalfPack first{}, second{};
+        for (int k = 0; k < 4; ++k) (k < pair.firstSide ? first : second) += pair.weights[k] * quad(pOfVertex_, pair.vertices[k]);
+        const HalfPack both = first + second, normal = asQuad(pair.normal);
+        const HalfPack onFirst = pair.inStrands[0] ? second : both, onSecond = pair.inStrands[1] ? first : both;
+        quad(pairForce_, 2 * n) = times(normal, pair.stiffness, pair.across, onFirst);
+        quad(pairForce_, 2 * n + 1) = times(normal, pair.stiffness, pair.across, onSecond);
     });
 }
 
-/// q += (K + C) p.
-void VertexSystem::addOffStrand(const double* p, double* q) const
+/// q = S p + C p on strands; p·q of them.
+double VertexSystem::multiplyStrands()
 {
-    if (!shells_.empty()) {
-        const std::vector<int>& vertices = shells_.vertices();
-        parallelFor(vertices.size(), 512, [&](std::size_t row) { Eigen::Map<Vec3>(clothIn_.data() + 3 * row) = at(p, unknowns_.slot[vertices[row]]); });
-        parallelFor(vertices.size(), 128, [&](std::size_t n) {
-            const int row = static_cast<int>(n);
-            Vec3 sum = Vec3::Zero();
-            for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
-                if (ownsDiagonal_[row] && e == cloth_.diagonal(row)) continue;
-                const double *m = cloth_.block(e), *v = clothIn_.data() + 3 * cloth_.column(e);
-                for (int a = 0; a < 3; ++a) sum[a] += m[3 * a] * v[0] + m[3 * a + 1] * v[1] + m[3 * a + 2] * v[2];
-            }
-            add(q, unknowns_.slot[vertices[n]], sum);
-        });
-    }
-    if (contacts_ && !contacts_->empty()) {
-        parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
-            if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;
-            const bool isOnStrand = unknowns_.isOnStrand(static_cast<int>(v));
-            Vec3 sum = Vec3::Zero();
-            for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i) {
-                const int n = incidence_[i] / 4, k = incidence_[i] % 4, side = k < contacts_->firstSide[n] ? 0 : 1;
-                const double weight = contacts_->weights[n][k];
-                Vec3 force = pairForce_[n][side];
-                if (isOnStrand && !sideInStrands_[n][side])  // its own diagonal is in S
-                    force -= timesContact(*contacts_, n, weight * at(p, unknowns_.slot[v]));
-                sum += weight * force;
-            }
-            add(q, unknowns_.slot[v], sum);
-        });
+    const StrandLayout& layout = rods_.layout();
+    parallelFor(layout.groups.size(), [&](std::size_t g) {
+        const StrandLayout::Group& group = layout.groups[g];
+        const std::size_t first = group.firstRow;
+        const Pack *p = packs(p_) + first, *sp = packs(sp_) + first;
+        Pack* q = packs(q_) + first;
+        for (int r = 0; r < group.rows(); ++r) q[r] = sp[r];
+        if (!pairs_.empty())
+            for (int j = 0; j < group.vertices; ++j)
+                for (int l = 0; l < kLanes; ++l) {
+                    const int v = layout.vertex[group.firstVertex + j][l], slot = (group.firstRow + 4 * j) * kLanes + l;
+                    if (v < 0 || unknowns_.slot[v] != slot || fabric_.pinned[v]) continue;
+                    HalfPack sum{};
+                    for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
+                        sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);
+                    for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] += sum[a];
+                }
+        Pack product{};
+        for (int r = 0; r < group.rows(); ++r) product += p[r] * q[r];
+        partialDot_[g] = sumLanes(product);
+    });
+    return sumOf(partialDot_);
+}
+
+/// What shared vertices tie together, and takes back the diagonals of C that S has: added to q; their part of p·q.
+double VertexSystem::applyLinks()
+{
+    double product = 0.0;
+    for (const LooseVertex& loose : loose_) {
+        const PairBlock& pair = pairs_[loose.pair];
+        const HalfPack u = quad(pOfVertex_, loose.vertex);
+        const HalfPack force = (loose.weight * loose.weight) * times(asQuad(pair.normal), pair.stiffness, pair.across, u);
+        const int slot = unknowns_.slot[loose.vertex];
+        for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] -= force[a];
+        product -= dot(u, force);
     }
     for (const Link& link : links_) {
+        if (fabric_.pinned[link.vertex]) continue;
         const int owner = unknowns_.slot[link.vertex];
         for (int n = 0; n < 16; ++n) {
             if (link.slot[n] < 0) continue;
             for (int a = 0; a < 3; ++a) {
-                q[owner + a * kLanes] += link.coupling[a][n] * p[link.slot[n]];
-                q[link.slot[n]] += link.coupling[a][n] * p[owner + a * kLanes];
+                const double here = p_[owner + a * kLanes], there = p_[link.slot[n]], coupling = link.coupling[a][n];
+                q_[owner + a * kLanes] += coupling * there;
+                q_[link.slot[n]] += coupling * here;
+                product += 2.0 * coupling * here * there;
             }
         }
     }
-    for (int slot : heldSlots_) q[slot] = 0.0;
+    return product;
+}
+
+/// q of vertices on cloth; their part of p·q that is not counted yet.
+double VertexSystem::multiplyCloth()
+{
+    const std::vector<int>& vertices = shells_.vertices();
+    return parallelSum(vertices.size(), [&](std::size_t n) {
+        const int row = static_cast<int>(n), v = vertices[n], slot = unknowns_.slot[v];
+        if (fabric_.pinned[v]) return 0.0;
+        HalfPack sum{};
+        for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
+            if (ownsDiagonal_[row] && e == cloth_.diagonal(row)) continue;
+            const double* m = cloth_.block(e);
+            const HalfPack u = quad(pOfVertex_, vertices[cloth_.column(e)]);
+            sum += u[0] * HalfPack{m[0], m[3], m[6], 0.0} + u[1] * HalfPack{m[1], m[4], m[7], 0.0} + u[2] * HalfPack{m[2], m[5], m[8], 0.0};
+        }
+        if (!ownsDiagonal_[row] && !pairs_.empty())
+            for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
+                sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);
+        for (int a = 0; a < 3; ++a) {
+            double& q = q_[slot + a * kLanes];
+            q = (ownsDiagonal_[row] ? q : 0.0) + sum[a];
+        }
+        return dot(quad(pOfVertex_, v), sum);
+    });
+}
+
+/// q = A p; returns p·q.
+double VertexSystem::multiply()
+{
+    if (!pairs_.empty()) applyPairs();
+    double product = multiplyStrands();
+    if (!shells_.empty()) product += multiplyCloth();
+    product += applyLinks();
+    for (int slot : heldSlots_) q_[slot] = 0.0;
+    return product;
+}
+
+/// x += step p, r −= step q, z = the preconditioner's answer to r; returns r·z.
+double VertexSystem::precondition(double step)
+{
+    const StrandLayout& layout = rods_.layout();
+    const Pack by = broadcast(step);
+    parallelFor(layout.groups.size(), [&](std::size_t g) {
+        const StrandLayout::Group& group = layout.groups[g];
+        const std::size_t first = group.firstRow;
+        const Pack *p = packs(p_) + first, *q = packs(q_) + first;
+        Pack *x = packs(solution_) + first, *r = packs(residual_) + first, *z = packs(z_) + first;
+        for (int row = 0; row < group.rows(); ++row) {
+            x[row] += by * p[row];
+            r[row] -= by * q[row];
+        }
+        strands_.solve(group, r, z);
+        Pack product{};
+        for (int row = 0; row < group.rows(); ++row) product += r[row] * z[row];
+        partialDot_[g] = sumLanes(product);
+    });
+    double product = sumOf(partialDot_);
+    if (shells_.empty()) return product;
+    Pack *x = packs(solution_), *r = packs(residual_);
+    const Pack *p = packs(p_), *q = packs(q_);
+    for (int i = unknowns_.strandSize / kLanes; i < unknowns_.size / kLanes; ++i) {
+        x[i] += by * p[i];
+        r[i] -= by * q[i];
+    }
+    return product + preconditionCloth();
+}
+
+/// z of the vertices that are on cloth only; their r·z.
+double VertexSystem::preconditionCloth()
+{
+    const std::vector<int>& vertices = shells_.vertices();
+    std::array<double, 64> partial{};
+    parallelFor(clothFactor_.parts(), [&](std::size_t n) {
+        const int part = static_cast<int>(n), begin = clothFactor_.partBegin(part), end = clothFactor_.partBegin(part + 1);
+        for (int row = begin; row < end; ++row) {
+            const int slot = unknowns_.slot[vertices[row]];
+            for (int a = 0; a < 3; ++a) clothIn_[3 * row + a] = ownsDiagonal_[row] ? 0.0 : residual_[slot + a * kLanes];
+        }
+        clothFactor_.solve(part, clothIn_.data(), clothOut_.data());
+        double product = 0.0;
+        for (int row = begin; row < end; ++row) {
+            if (ownsDiagonal_[row]) continue;
+            const int slot = unknowns_.slot[vertices[row]];
+            const bool isHeld = fabric_.pinned[vertices[row]];
+            for (int a = 0; a < 3; ++a) {
+                z_[slot + a * kLanes] = isHeld ? 0.0 : clothOut_[3 * row + a];
+                product += z_[slot + a * kLanes] * clothIn_[3 * row + a];
+            }
+        }
+        partial[n] = product;
+    });
+    double sum = 0.0;
+    for (double product : partial) sum += product;
+    return sum;
+}
+
+/// p = z + ratio p and with it S p.
+void VertexSystem::nextDirection(double ratio)
+{
+    const StrandLayout& layout = rods_.layout();
+    const Pack by = broadcast(ratio);
+    parallelFor(layout.groups.size(), [&](std::size_t g) {
+        const std::size_t first = layout.groups[g].firstRow;
+        Pack *p = packs(p_) + first, *sp = packs(sp_) + first;
+        const Pack *z = packs(z_) + first, *r = packs(residual_) + first;
+        for (int row = 0; row < layout.groups[g].rows(); ++row) {
+            p[row] = z[row] + by * p[row];
+            sp[row] = r[row] + by * sp[row];
+        }
+        copyByVertex(p_.data(), static_cast<int>(g));
+    });
+    Pack* p = packs(p_);
+    const Pack* z = packs(z_);
+    for (int i = unknowns_.strandSize / kLanes; i < unknowns_.size / kLanes; ++i) p[i] = z[i] + by * p[i];
+    for (std::size_t row = 0; row < shells_.vertices().size(); ++row) {
+        if (ownsDiagonal_[row]) continue;
+        const int v = shells_.vertices()[row], slot = unknowns_.slot[v];
+        quad(pOfVertex_, v) = HalfPack{p_[slot], p_[slot + kLanes], p_[slot + 2 * kLanes], 0.0};
+    }
 }
 
 LinearReport VertexSystem::solve(double tolerance, double speedTolerance, double otherEnergy, int maxIterations)
 {
-    const std::size_t n = gradient_.size() / kLanes;
-    const auto forEach = [n](auto&& body) { parallelFor((n + kPacksPerTask - 1) / kPacksPerTask, [&](std::size_t task) {
-        for (std::size_t i = task * kPacksPerTask; i < std::min(n, (task + 1) * kPacksPerTask); ++i) body(i);
-    }); };
-    Pack *x = packs(solution_), *r = packs(residual_), *p = packs(p_), *sp = packs(sp_), *q = packs(q_);
-    const Pack *z = packs(z_), *g = packs(gradient_);
-    const std::size_t strandPacks = unknowns_.strandSize / kLanes;
-
-    forEach([&](std::size_t i) {
-        x[i] = Pack{};
-        r[i] = -g[i];
-    });
-    for (int slot : heldSlots_) residual_[slot] = 0.0;
-    precondition(residual_.data(), z_.data());
-    for (int slot : heldSlots_) z_[slot] = 0.0;
-    forEach([&](std::size_t i) {
-        p[i] = z[i];
-        sp[i] = i < strandPacks ? r[i] : Pack{};
-    });
+    solution_.fill(0.0);
+    p_.fill(0.0);
+    sp_.fill(0.0);
+    q_.fill(0.0);
+    for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
 
     LinearReport report;
-    double energy = dot(residual_, z_);
+    double energy = precondition(0.0);
+    nextDirection(0.0);
     report.firstEnergy = energy;
-    const double relative = std::max(energy, 0.0) * tolerance * tolerance;
-    const double other = otherEnergy * 0.09 * tolerance * tolerance, speed = totalMass_ * speedTolerance * speedTolerance;
-    const double enough = std::max({relative, other, speed});
+    const double share = tolerance * tolerance, speed = totalMass_ * speedTolerance * speedTolerance;
+    const double enough = std::max({share * energy, 0.09 * share * otherEnergy, speed});
     while (energy > enough && report.iterations < maxIterations) {
-        if (contacts_ && !contacts_->empty()) applyContacts(p_.data());
-        forEach([&](std::size_t i) { q[i] = sp[i]; });
-        addOffStrand(p_.data(), q_.data());
-        const double curvature = dot(p_, q_);
+        const double curvature = multiply();
         if (!(curvature > 0.0)) break;
-        const Pack step = broadcast(energy / curvature);
-        forEach([&](std::size_t i) {
-            x[i] += step * p[i];
-            r[i] -= step * q[i];
-        });
-        precondition(residual_.data(), z_.data());
-        for (int slot : heldSlots_) z_[slot] = 0.0;
-        ++report.iterations;
-        const double next = dot(residual_, z_);
-        const Pack ratio = broadcast(next / energy);
+        const double next = precondition(energy / curvature);
+        nextDirection(next / energy);
         energy = next;
-        forEach([&](std::size_t i) {
-            p[i] = z[i] + ratio * p[i];
-            if (i < strandPacks) sp[i] = r[i] + ratio * sp[i];
-        });
+        ++report.iterations;
     }
     report.speedError = totalMass_ > 0.0 ? std::sqrt(std::max(energy, 0.0) / totalMass_) : 0.0;
     return report;

@@ -9,19 +9,17 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kPacksPerTask = 64;
-
 /// Places of a side of a pair among its four vertices.
 struct Side {
     int begin, end;
 };
 Side sideOf(int firstSide, int which) { return which == 0 ? Side{0, firstSide} : Side{firstSide, 4}; }
 
-Mat3 contactBlock(const ActiveContacts& contacts, int pair)
+/// k n nᵀ + across · 1 of a pair.
+Mat3 blockOf(const std::array<double, 4>& normal, double stiffness, double across)
 {
-    const Vec3& n = contacts.normal[pair];
-    const double across = contacts.frictionStiffness[pair];
-    return (contacts.stiffness[pair] - across) * n * n.transpose() + across * Mat3::Identity();
+    const Vec3 n(normal[0], normal[1], normal[2]);
+    return stiffness * n * n.transpose() + across * Mat3::Identity();
 }
 
 }  // namespace
@@ -63,6 +61,8 @@ VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
     for (std::size_t row = 0; row < ownsDiagonal_.size(); ++row) ownsDiagonal_[row] = unknowns_.isOnStrand(shells_.vertices()[row]);
     if (!shells_.empty()) clothFactor_ = ClothPreconditioner(cloth_, ownsDiagonal_);
     for (AlignedArray<double>* v : {&gradient_, &solution_, &residual_, &z_, &p_, &sp_, &q_}) v->resize(unknowns_.size);
+    pOfVertex_.resize(4 * fabric.vertexCount());
+    partialDot_.resize(rods_.layout().groups.size());
     findLinks();
     clothExtra_.resize(shells_.vertices().size());
     clothIn_.resize(3 * shells_.vertices().size());
@@ -98,7 +98,7 @@ void VertexSystem::findLinks()
 
 void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
-    contacts_ = contacts;
+    copyPairs(contacts);
     gradient_.fill(0.0);
     if (!rods_.empty()) rods_.forces(at.state, at.h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
     if (!shells_.empty()) {
@@ -115,7 +115,7 @@ void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleConta
             }
     }
     addObstacles(obstacles);
-    if (contacts_ && !contacts_->empty()) addContacts();
+    if (!pairs_.empty()) addContacts(*contacts);
     holdPins();
 }
 
@@ -208,53 +208,73 @@ void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
 /// Each vertex's pairs, in the pairs' order.
 void VertexSystem::sortIncidence()
 {
-    const int pairs = static_cast<int>(contacts_->size());
     incidenceBegin_.assign(fabric_.vertexCount() + 1, 0);
-    for (int p = 0; p < pairs; ++p)
-        for (int v : contacts_->vertices[p]) ++incidenceBegin_[v + 1];
+    for (const PairBlock& pair : pairs_)
+        for (int v : pair.vertices) ++incidenceBegin_[v + 1];
     for (std::size_t v = 0; v < fabric_.vertexCount(); ++v) incidenceBegin_[v + 1] += incidenceBegin_[v];
-    incidence_.resize(std::size_t{4} * pairs);
+    incidence_.resize(4 * pairs_.size());
     cursor_.assign(incidenceBegin_.begin(), incidenceBegin_.end() - 1);
-    for (int p = 0; p < pairs; ++p)
-        for (int k = 0; k < 4; ++k) incidence_[cursor_[contacts_->vertices[p][k]]++] = 4 * p + k;
+    loose_.clear();
+    for (int n = 0; n < static_cast<int>(pairs_.size()); ++n) {
+        const PairBlock& pair = pairs_[n];
+        for (int k = 0; k < 4; ++k) {
+            const int v = pair.vertices[k], side = k < pair.firstSide ? 0 : 1;
+            incidence_[cursor_[v]++] = {2 * n + side, k, pair.weights[k]};
+            if (!pair.inStrands[side] && unknowns_.isOnStrand(v) && !fabric_.pinned[v]) loose_.push_back({v, n, pair.weights[k]});
+        }
+    }
+}
+
+/// What the solver reads of the pairs.
+void VertexSystem::copyPairs(const ActiveContacts* contacts)
+{
+    constexpr int kNextVertex = 4 * kLanes;  // how far the next vertex of a strand is in a vector
+    pairs_.resize(contacts ? contacts->size() : 0);
+    pairForce_.resize(8 * pairs_.size());
+    parallelFor(pairs_.size(), 1024, [&](std::size_t n) {
+        const ActiveContacts& c = *contacts;
+        const Vec3& normal = c.normal[n];
+        PairBlock& pair = pairs_[n];
+        pair = {{normal.x(), normal.y(), normal.z(), 0.0}, c.weights[n], c.vertices[n], c.stiffness[n] - c.frictionStiffness[n],
+                c.frictionStiffness[n], c.firstSide[n], {}};
+        for (int which = 0; which < 2; ++which) {
+            const Side side = sideOf(pair.firstSide, which);
+            const int first = pair.vertices[side.begin], last = pair.vertices[side.end - 1];
+            const int apart = std::abs(unknowns_.slot[first] - unknowns_.slot[last]), size = side.end - side.begin;
+            pair.inStrands[which] =
+                unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) && (size == 1 || (size == 2 && apart == kNextVertex));
+        }
+    });
 }
 
 /// Gradient, and what S or the preconditioner of the cloth takes of the matrix.
-void VertexSystem::addContacts()
+void VertexSystem::addContacts(const ActiveContacts& c)
 {
-    const ActiveContacts& c = *contacts_;
+    constexpr int kNextVertex = 4 * kLanes;
     sortIncidence();
-    sideInStrands_.resize(c.size());
-    pairForce_.resize(c.size());
-    constexpr int kNextVertex = 4 * kLanes;  // how far the next vertex of a strand is in a vector
-    parallelFor(c.size(), 1024, [&](std::size_t p) {
-        for (int which = 0; which < 2; ++which) {
-            const Side side = sideOf(c.firstSide[p], which);
-            const int first = c.vertices[p][side.begin], last = c.vertices[p][side.end - 1];
-            const int apart = std::abs(unknowns_.slot[first] - unknowns_.slot[last]);
-            sideInStrands_[p][which] = unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) &&
-                                       (side.end - side.begin == 1 || (side.end - side.begin == 2 && apart == kNextVertex));
-        }
-    });
     parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
         if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;
         const int slot = unknowns_.slot[v];
         Vec3 gradient = Vec3::Zero();
         Mat3 own = Mat3::Zero(), before = Mat3::Zero();
+        bool hasBefore = false;
         for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i) {
-            const int p = incidence_[i] / 4, k = incidence_[i] % 4, which = k < c.firstSide[p] ? 0 : 1;
-            const double weight = c.weights[p][k];
-            gradient += weight * c.force[p];
-            const Mat3 block = contactBlock(c, p);
+            const auto [pairSide, place, weight] = incidence_[i];
+            const PairBlock& pair = pairs_[pairSide / 2];
+            gradient += weight * c.force[pairSide / 2];
+            const Mat3 block = blockOf(pair.normal, pair.stiffness, pair.across);
             own += weight * weight * block;
-            if (!sideInStrands_[p][which]) continue;
-            const Side side = sideOf(c.firstSide[p], which);
+            if (!pair.inStrands[pairSide % 2]) continue;
+            const Side side = sideOf(pair.firstSide, pairSide % 2);
             for (int other = side.begin; other < side.end; ++other)
-                if (unknowns_.slot[c.vertices[p][other]] == slot - kNextVertex) before += weight * c.weights[p][other] * block;
+                if (unknowns_.slot[pair.vertices[other]] == slot - kNextVertex) {
+                    before += weight * pair.weights[other] * block;
+                    hasBefore = true;
+                }
         }
         for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += gradient[a];
         addToDiagonal(static_cast<int>(v), own);
-        if (before.isZero(0.0)) return;
+        if (!hasBefore) return;
         const int row = unknowns_.row(static_cast<int>(v)), lane = unknowns_.lane(static_cast<int>(v));
         for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b) strands_.at(row + a, 4 + a - b, lane) += before(a, b);

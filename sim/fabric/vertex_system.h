@@ -41,7 +41,7 @@ class VertexSystem {
     Shells& shells() { return shells_; }
     const VertexUnknowns& unknowns() const { return unknowns_; }
 
-    /// Gradient and matrix at a point. The contacts must live until the solve is done.
+    /// Gradient and matrix at a point.
     void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void factor();
     /// Newton's move. Stops when rᵀz has fallen below (tolerance)² of its first value, (0.3 tolerance)² of `otherEnergy` (that of the
@@ -65,12 +65,19 @@ class VertexSystem {
     void emptySharedRows();
     void addToDiagonal(int vertex, const Mat3& block);
     void addObstacles(std::span<const ObstacleContact> obstacles);
-    void addContacts();
+    void copyPairs(const ActiveContacts* contacts);
+    void addContacts(const ActiveContacts& contacts);
     void sortIncidence();
     void holdPins();
-    void applyContacts(const double* p);
-    void addOffStrand(const double* p, double* q) const;
-    void precondition(const double* r, double* z) const;
+    void copyByVertex(const double* p, int group);
+    void applyPairs();
+    double multiply();
+    double multiplyStrands();
+    double multiplyCloth();
+    double applyLinks();
+    double precondition(double step);
+    double preconditionCloth();
+    void nextDirection(double ratio);
 
     const Fabric& fabric_;
     Rods rods_;
@@ -86,12 +93,35 @@ class VertexSystem {
     std::vector<Link> links_;
     double totalMass_ = 0.0;
 
-    const ActiveContacts* contacts_ = nullptr;
-    std::vector<int> incidenceBegin_, incidence_, cursor_;  ///< of each vertex: 4 · pair + place, ascending
-    std::vector<std::array<char, 2>> sideInStrands_;   ///< of each pair: S holds all of the side's own part, else only the diagonals of its vertices on strands
-    std::vector<std::array<Vec3, 2>> pairForce_;       ///< C p on either side of each pair
+    /// A pair's part of C as the solver reads it; vectors have a fourth component, 0.
+    struct PairBlock {
+        std::array<double, 4> normal;
+        std::array<double, 4> weights;
+        std::array<int, 4> vertices;
+        double stiffness, across;            ///< k_n − k_t and k_t [dyn/cm]
+        std::uint8_t firstSide;              ///< vertices of the first side
+        std::array<bool, 2> inStrands;       ///< S holds all of the side's own part, else only the diagonals of its vertices on strands
+    };
+    struct Incidence {
+        int pairSide;                        ///< 2 · pair + side
+        int place;                           ///< among the pair's vertices
+        double weight;
+    };
+    /// A vertex on a strand whose side of a pair is not in S but for its own diagonal.
+    struct LooseVertex {
+        int vertex, pair;
+        double weight;
+    };
+
+    std::vector<PairBlock> pairs_;
+    std::vector<int> incidenceBegin_, cursor_;
+    std::vector<Incidence> incidence_;       ///< of each vertex, in the order of the pairs
+    std::vector<LooseVertex> loose_;
+    AlignedArray<double> pairForce_;         ///< C p on either side of each pair, 4 numbers each
+    AlignedArray<double> pOfVertex_;         ///< p of each vertex, 4 numbers each
     std::vector<int> heldSlots_;                       ///< unknowns that are pinned
 
+    std::vector<double> partialDot_;                   ///< of each group of strands
     AlignedArray<double> gradient_, solution_, residual_, z_, p_, sp_, q_;
 };
 
