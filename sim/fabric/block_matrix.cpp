@@ -15,7 +15,7 @@ BlockMatrix::BlockMatrix(const std::vector<std::vector<int>>& columns)
         column_.insert(column_.end(), columns[row].begin(), columns[row].end());
         begin_.push_back(static_cast<int>(column_.size()));
     }
-    values_.resize(9 * column_.size());
+    values_.resize(9 * column_.size() + 1);
 }
 
 int BlockMatrix::find(int row, int column) const

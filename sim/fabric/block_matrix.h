@@ -7,7 +7,8 @@
 
 namespace sim {
 
-/// A symmetric matrix of 3x3 blocks with a fixed pattern, rows of all blocks stored (block CSR). Blocks are row-major.
+/// A symmetric matrix of 3x3 blocks with a fixed pattern, rows of all blocks stored (block CSR). Blocks are
+/// column-major; behind the last one number more may be read.
 class BlockMatrix {
  public:
     BlockMatrix() = default;

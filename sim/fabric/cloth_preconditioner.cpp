@@ -11,28 +11,34 @@ namespace sim {
 
 namespace {
 
-using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using Block = Mat3;
 using BlockRef = Eigen::Map<Block>;
 using ConstBlockRef = Eigen::Map<const Block>;
 
 constexpr int kParts = 16;
+constexpr double kLeastPivot = 0.05;  ///< of a row's own diagonal block [-]
 
 }  // namespace
 
-ClothPreconditioner::ClothPreconditioner(const BlockMatrix& pattern, const std::vector<char>& isSkipped) : skipped_(isSkipped)
+ClothPreconditioner::ClothPreconditioner(const BlockMatrix& matrix, const std::vector<std::vector<int>>& pattern,
+                                         const std::vector<char>& isSkipped)
+    : skipped_(isSkipped)
 {
-    const int rows = pattern.rows(), parts = std::min(kParts, std::max(1, rows / 64));
+    const int rows = matrix.rows(), parts = std::min(kParts, std::max(1, rows / 64));
     for (int part = 0; part <= parts; ++part) partBegin_.push_back(static_cast<int>(static_cast<long>(rows) * part / parts));
     begin_.push_back(0);
+    droppedBegin_.push_back(0);
     for (int part = 0; part < parts; ++part)
         for (int row = partBegin_[part]; row < partBegin_[part + 1]; ++row) {
-            for (int e = pattern.begin(row); e < pattern.diagonal(row) && !skipped_[row]; ++e) {
-                const int column = pattern.column(e);
-                if (column < partBegin_[part] || skipped_[column]) continue;
+            for (int column : pattern[row]) {
+                if (column < partBegin_[part] || column >= row || skipped_[column] || skipped_[row]) continue;
                 column_.push_back(column);
-                source_.push_back(e);
+                source_.push_back(matrix.find(row, column));
             }
             begin_.push_back(static_cast<int>(column_.size()));
+            for (int e = matrix.begin(row); e < matrix.begin(row + 1); ++e)
+                if (!std::ranges::binary_search(pattern[row], matrix.column(e))) dropped_.push_back(e);
+            droppedBegin_.push_back(static_cast<int>(dropped_.size()));
         }
     lower_.resize(9 * column_.size());
     inverse_.resize(std::size_t{9} * rows);
@@ -43,7 +49,11 @@ void ClothPreconditioner::factor(const BlockMatrix& matrix, const std::vector<Ma
     parallelFor(parts(), [&](std::size_t part) {
         for (int row = partBegin_[part]; row < partBegin_[part + 1]; ++row) {
             if (skipped_[row]) continue;
-            const Mat3 own = ConstBlockRef(matrix.block(matrix.diagonal(row))) + extra[row];
+            Mat3 own = ConstBlockRef(matrix.block(matrix.diagonal(row))) + extra[row];
+            for (int d = droppedBegin_[row]; d < droppedBegin_[row + 1]; ++d) {
+                const ConstBlockRef block(matrix.block(dropped_[d]));
+                own += 0.5 * (block + block.transpose());
+            }
             Mat3 pivot = own;
             // Up-looking: U(row, c) = A(row, c) − Σ U(row, k) L(c, k)ᵀ over the columns k that both rows have; L = U D⁻¹.
             for (int e = begin_[row]; e < begin_[row + 1]; ++e) {
@@ -62,11 +72,9 @@ void ClothPreconditioner::factor(const BlockMatrix& matrix, const std::vector<Ma
                 l.noalias() = u * BlockRef(inverse_.data() + 9 * column_[e]);
                 pivot.noalias() -= l * u.transpose();
             }
-            Eigen::LLT<Mat3> cholesky(pivot);
-            constexpr double kLeastPivot = 1.0e-3;  // of the row's own diagonal; below it the dropped fill has spoilt the pivot
-            const bool isGood = cholesky.info() == Eigen::Success && cholesky.matrixL().toDenseMatrix().diagonal().minCoeff() >
-                                                                        std::sqrt(kLeastPivot * own.diagonal().minCoeff());
-            BlockRef(inverse_.data() + 9 * row) = isGood ? Mat3(cholesky.solve(Mat3::Identity())) : Mat3(own.inverse());
+            // Where too little is left of a pivot, the dropped fill has spoilt it, and L would grow from row to row.
+            const bool isGood = Eigen::LLT<Mat3>(pivot - kLeastPivot * own).info() == Eigen::Success;
+            BlockRef(inverse_.data() + 9 * row) = (isGood ? pivot : own).inverse();
         }
     });
 }

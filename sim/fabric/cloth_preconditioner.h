@@ -8,13 +8,14 @@
 
 namespace sim {
 
-/// Incomplete block Cholesky factors without fill, of each of a fixed number of ranges of rows by itself, so that they can be worked on
-/// side by side: the result does not depend on the number of threads.
+/// Incomplete block Cholesky factors with a given pattern, of each of a fixed number of ranges of rows by itself, so that they can be
+/// worked on side by side: the result does not depend on the number of threads.
 class ClothPreconditioner {
  public:
     ClothPreconditioner() = default;
-    /// `isSkipped` rows are left out.
-    ClothPreconditioner(const BlockMatrix& pattern, const std::vector<char>& isSkipped);
+    /// `pattern`: columns of each row, ascending, all of them in the matrix; what the matrix has beside them is added to the
+    /// diagonal. `isSkipped` rows are left out.
+    ClothPreconditioner(const BlockMatrix& matrix, const std::vector<std::vector<int>>& pattern, const std::vector<char>& isSkipped);
 
     /// Factors `matrix` with `extra` (one symmetric block per row) added to its diagonal. A row whose pivot is not positive definite is
     /// scaled by its own diagonal block alone.
@@ -28,6 +29,7 @@ class ClothPreconditioner {
     std::vector<int> partBegin_;
     std::vector<char> skipped_;
     std::vector<int> begin_, column_, source_;   ///< strictly lower blocks by row: column, and where the block stands in the matrix
+    std::vector<int> droppedBegin_, dropped_;    ///< blocks of the matrix that are not in the pattern, by row
     AlignedArray<double> lower_;                 ///< L, 9 per block
     AlignedArray<double> inverse_;               ///< D⁻¹, 9 per row
 };

@@ -15,6 +15,8 @@ Pack* packs(AlignedArray<double>& v) { return reinterpret_cast<Pack*>(v.data());
 
 /// A vertex' three numbers and a 0.
 HalfPack& quad(AlignedArray<double>& v, std::size_t n) { return *reinterpret_cast<HalfPack*>(v.data() + 4 * n); }
+/// Three numbers of a column, and whatever is behind them.
+const HalfPack& column(const double* m) { return *reinterpret_cast<const HalfPack*>(m); }
 HalfPack asQuad(const std::array<double, 4>& v) { return HalfPack{v[0], v[1], v[2], v[3]}; }
 
 double dot(const HalfPack& a, const HalfPack& b)
@@ -129,7 +131,7 @@ double VertexSystem::multiplyCloth()
             if (ownsDiagonal_[row] && e == cloth_.diagonal(row)) continue;
             const double* m = cloth_.block(e);
             const HalfPack u = quad(pOfVertex_, vertices[cloth_.column(e)]);
-            sum += u[0] * HalfPack{m[0], m[3], m[6], 0.0} + u[1] * HalfPack{m[1], m[4], m[7], 0.0} + u[2] * HalfPack{m[2], m[5], m[8], 0.0};
+            sum += u[0] * column(m) + u[1] * column(m + 3) + u[2] * column(m + 6);
         }
         if (!ownsDiagonal_[row] && !pairs_.empty())
             for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)

@@ -59,7 +59,7 @@ VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
     strands_.resize(rods_.layout());
     ownsDiagonal_.resize(shells_.vertices().size());
     for (std::size_t row = 0; row < ownsDiagonal_.size(); ++row) ownsDiagonal_[row] = unknowns_.isOnStrand(shells_.vertices()[row]);
-    if (!shells_.empty()) clothFactor_ = ClothPreconditioner(cloth_, ownsDiagonal_);
+    if (!shells_.empty()) clothFactor_ = ClothPreconditioner(cloth_, shells_.neighbors(), ownsDiagonal_);
     for (AlignedArray<double>* v : {&gradient_, &solution_, &residual_, &z_, &p_, &sp_, &q_}) v->resize(unknowns_.size);
     pOfVertex_.resize(4 * fabric.vertexCount());
     partialDot_.resize(rods_.layout().groups.size());

@@ -84,14 +84,21 @@ Shells::Shells(const Fabric& fabric, const FabricSettings& settings) : settings_
         }
         return six;
     };
-    for (std::size_t f = 0; f < faces.size(); ++f)
-        for (int i : sixOf(f))
-            for (int j : sixOf(f))
-                if (i >= 0 && j >= 0) pattern_[i].push_back(j);
-    for (std::vector<int>& columns : pattern_) {
-        std::ranges::sort(columns);
-        columns.erase(std::ranges::unique(columns).begin(), columns.end());
+    neighbors_.resize(vertices_.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const std::array<int, kShellVertices> six = sixOf(f);
+        for (int i = 0; i < kShellVertices; ++i)
+            for (int j = 0; j < kShellVertices; ++j) {
+                if (six[i] < 0 || six[j] < 0) continue;
+                pattern_[six[i]].push_back(six[j]);
+                if (i < 3 && j < 3) neighbors_[six[i]].push_back(six[j]);
+            }
     }
+    for (auto* rows : {&pattern_, &neighbors_})
+        for (std::vector<int>& columns : *rows) {
+            std::ranges::sort(columns);
+            columns.erase(std::ranges::unique(columns).begin(), columns.end());
+        }
 
     const BlockMatrix pattern(pattern_);
     colorBegin_.push_back(0);
@@ -264,11 +271,11 @@ void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, st
             for (int l = 0; l < kLanes; ++l) {
                 if (batch.entry[n][l] < 0) continue;
                 double* at = matrix->block(batch.entry[n][l]);
-                for (int e = 0; e < 9; ++e) at[e] += block[e][l];
+                for (int a = 0; a < 3; ++a)
+                    for (int b = 0; b < 3; ++b) at[3 * b + a] += block[3 * a + b][l];
                 if (batch.mirrored[n][l] < 0) continue;
                 double* mirror = matrix->block(batch.mirrored[n][l]);
-                for (int a = 0; a < 3; ++a)
-                    for (int b = 0; b < 3; ++b) mirror[3 * b + a] += block[3 * a + b][l];
+                for (int e = 0; e < 9; ++e) mirror[e] += block[e][l];
             }
         }
     }

@@ -23,6 +23,8 @@ class Shells {
     const std::vector<int>& vertices() const { return vertices_; }
     /// A matrix with the pattern of the Hessian, all zero.
     BlockMatrix matrix() const { return BlockMatrix(pattern_); }
+    /// Rows of each row's vertex and of those that share a face with it, ascending: a part of the Hessian's pattern.
+    const std::vector<std::vector<int>>& neighbors() const { return neighbors_; }
 
     /// Notes strains and angles. To be called before the first move of a step if anything is damped.
     void startStep(std::span<const Vec3> x);
@@ -62,7 +64,7 @@ class Shells {
     FabricSettings settings_;
     std::vector<int> vertices_, row_;               ///< row of each vertex of the fabric; −1 for those without cloth
     std::vector<std::array<int, 3>> across_;        ///< of each face: vertices across its edges; −1 on the boundary
-    std::vector<std::vector<int>> pattern_;
+    std::vector<std::vector<int>> pattern_, neighbors_;
     std::vector<Batch> batches_;
     std::vector<int> colorBegin_;                   ///< in `batches_`
     bool damped_ = false;
