@@ -131,6 +131,7 @@ std::uint64_t stateHash(const State& state)
     const FabricState& fabric = state.fabric;
     for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference}) add(v->data(), v->size() * sizeof(Vec3));
     for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist}) add(v->data(), v->size() * sizeof(double));
+    add(&fabric.lastFraction, sizeof fabric.lastFraction);
     add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
     add(&state.unrelaxed, sizeof state.unrelaxed);
     add(&state.uncorrected, sizeof state.uncorrected);

@@ -73,6 +73,7 @@ struct FabricState {
     std::vector<double> omega;            ///< its rate [1/s]
     std::vector<Vec3> tangent;            ///< of each yarn edge, when its reference frame was last transported [-]
     std::vector<Vec3> reference;          ///< first axis u of the reference frame, across the tangent [-]
+    double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step; solver vertex [-]
     std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 };
 

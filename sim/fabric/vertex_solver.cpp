@@ -13,7 +13,7 @@ constexpr double kSpeedTolerance = 1.0e-2;    ///< rms error of the speed at whi
 constexpr double kQuietMove = 3.0;            ///< largest move per time after which no further Newton iteration is made [cm/s]
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
-constexpr int kMaxListBuilds = 6;             ///< per attempt; more ask for halves
+constexpr int kMaxListBuilds = 12;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 300;
 
 }  // namespace
@@ -42,6 +42,7 @@ void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, F
 {
     if (attempt(t, h, gravity, level >= settings_.maxHalvings, state, report, clock)) return;
     ++report.halvings;
+    start_.lastFraction = state.lastFraction;
     state = start_;
     advance(t, 0.5 * h, level + 1, gravity, state, report, clock);
     advance(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
@@ -151,9 +152,9 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     }
 
     const double fraction = wanted > 0.0 ? taken / wanted : 1.0;
-    const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && lastFraction_ < kFractionTwice) ||
+    const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
                          limits_.listBuilds > kMaxListBuilds;
-    lastFraction_ = fraction;
+    state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     if (isShort) ++report.shortened;
     report.takenFraction = std::min(report.takenFraction, fraction);

@@ -41,7 +41,6 @@ class VertexSolver {
     FabricObstacles obstacles_;
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
-    double lastFraction_ = 1.0;                  ///< of the moves of the attempt before
     LimitReport limits_;                         ///< of the attempt under way
     FabricState start_;                          ///< of the attempt under way, to go back to
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
