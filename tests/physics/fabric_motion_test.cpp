@@ -67,7 +67,7 @@ void stir(FabricRun& run, double speed)
 TEST(FlyingFabric, KeepsItsMomentumThroughContact)
 {
     FabricSettings settings;
-    settings.tolerance = 1.0e-12;
+    settings.tolerance = 1.0e-13;
     FabricRun run(Collision().pieces, settings);
     run.gravity.setZero();
     stir(run, 5.0);
@@ -76,9 +76,10 @@ TEST(FlyingFabric, KeepsItsMomentumThroughContact)
     const Vec3 spin = run.angularMomentum();
     std::size_t contacts = 0;
     int scalings = 0;
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 60; ++i) {
         const Vec3 before = run.momentum();
-        const FabricReport report = run.step(1.0e-3);
+        // A fifth of the usual step: with it conjugate gradients come as far as this within their 300 iterations.
+        const FabricReport report = run.step(2.0e-4);
         contacts = std::max(contacts, report.contacts);
         scalings += report.scalings;
         worst = std::max(worst, (run.momentum() - before).norm() / scale);

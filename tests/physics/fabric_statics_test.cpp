@@ -23,10 +23,10 @@ struct Catenary {
 TEST(HangingChain, FollowsTheCatenary)
 {
     constexpr double kLength = 10.0;
-    constexpr int kEdges = 80;
+    constexpr int kEdges = 40;
     // Newton's only iteration in a quiet step starts from where gravity alone would lead, gh² away: what that stretches an edge must be
     // small beside the strain of the chain, 1e-4.
-    constexpr double kStep = 5.0e-4;
+    constexpr double kStep = 3.0e-4;
     for (const Catenary& exact : {Catenary{8.0, 3.38202, 2.65438}, Catenary{5.0, 1.14820, 3.98194}}) {
         FabricPiece piece = chain(strand(Vec3::Zero(), Vec3(kLength, 0.0, 0.0), kEdges));
         Motion draw;
@@ -35,7 +35,7 @@ TEST(HangingChain, FollowsTheCatenary)
         FabricSettings settings = withoutContact();
         settings.tolerance = 1.0e-8;
         FabricRun run(piece, settings);
-        run.steps(2000, kStep);
+        run.steps(3400, kStep);
         ASSERT_TRUE(run.settle(kStep, 15.0, 1.0e-4, 12000));
 
         const auto height = [&](double x) { return exact.a * (std::cosh((x - 0.5 * exact.span) / exact.a) - std::cosh(0.5 * exact.span / exact.a)); };
@@ -47,7 +47,7 @@ TEST(HangingChain, FollowsTheCatenary)
         const double weight = lineDensity(piece) * kEarthGravity;
         const Vec3 pull = run.tension(0) * (run.state.x[1] - run.state.x[0]).normalized();
         const double ownHalf = 0.5 * weight * kLength / kEdges;  // what hangs on the pin itself
-        EXPECT_NEAR(-pull.y() + ownHalf, 0.5 * weight * kLength, 0.0005 * weight * kLength);
+        EXPECT_NEAR(-pull.y() + ownHalf, 0.5 * weight * kLength, 0.001 * weight * kLength);
         EXPECT_NEAR(pull.x(), weight * exact.a, 0.005 * weight * exact.a);
         RecordProperty("span" + std::to_string(int(exact.span)),
                        std::to_string(-run.state.x[kEdges / 2].y()) + " worst " + std::to_string(worst / exact.sag) + " H " +
