@@ -144,14 +144,14 @@ struct NearPair {
     contact::PairRange range;
 };
 
-inline std::array<contact::Triple<double>, 4> cornersOf(const std::array<int, 4>& v, std::span<const Vec3> x)
+inline std::array<Triple<double>, 4> cornersOf(const std::array<int, 4>& v, std::span<const Vec3> x)
 {
-    return {contact::toTriple(x[v[0]]), contact::toTriple(x[v[1]]), contact::toTriple(x[v[2]]), contact::toTriple(x[v[3]])};
+    return {toTriple(x[v[0]]), toTriple(x[v[1]]), toTriple(x[v[2]]), toTriple(x[v[3]])};
 }
 
 inline double distanceOf(const NearPair& pair, std::span<const Vec3> x)
 {
-    const contact::Triple<double> s = contact::closestPoints(pair.kind, cornersOf(pair.vertices, x)).separation;
+    const Triple<double> s = contact::closestPoints(pair.kind, cornersOf(pair.vertices, x)).separation;
     return std::sqrt(dot(s, s));
 }
 
