@@ -22,7 +22,8 @@ struct SegmentPair {
 inline SegmentPair closestOfSegments(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1)
 {
     const Vec3 d1 = a1 - a0, d2 = b1 - b0, r = a0 - b0;
-    const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), b = d1.dot(d2), c = d1.dot(r), denominator = a * e - b * b;
+    const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), b = d1.dot(d2), c = d1.dot(r),
+                 denominator = a * e - b * b;
     SegmentPair p;
     p.s = denominator > 1.0e-12 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
     p.t = (b * p.s + f) / e;
@@ -34,13 +35,14 @@ inline SegmentPair closestOfSegments(const Vec3& a0, const Vec3& a1, const Vec3&
     return p;
 }
 
-/// Boxes of elements in a hash grid: body(i, j), i < j, for every two whose boxes, grown by half of `reach`, overlap. `cell` should be about
-/// the size of an element.
+/// Boxes of elements in a hash grid: body(i, j), i < j, for every two whose boxes, grown by half of `reach`, overlap.
+/// `cell` should be about the size of an element.
 template <class Box, class Body>
 void forEachNearPair(int count, double cell, double reach, Box&& box, Body&& body)
 {
     const auto key = [](int i, int j, int k) {
-        return (std::uint64_t(i + (1 << 20)) << 42) ^ (std::uint64_t(j + (1 << 20)) << 21) ^ std::uint64_t(k + (1 << 20));
+        return (std::uint64_t(i + (1 << 20)) << 42) ^ (std::uint64_t(j + (1 << 20)) << 21) ^
+               std::uint64_t(k + (1 << 20));
     };
     std::unordered_map<std::uint64_t, std::vector<int>> cells;
     std::vector<int> seen(count, -1);
@@ -86,11 +88,11 @@ class Crossings {
     }
 
     struct Count {
-        int flipped = 0;     ///< the yarn above has come below
-        int undecided = 0;   ///< the yarns run nearly alongside each other there: no sign
+        int flipped = 0;    ///< the yarn above has come below
+        int undecided = 0;  ///< the yarns run nearly alongside each other there: no sign
     };
-    /// Over and under at every crossing: within a few edges of where it was, where the two yarns come nearest, by the sign of their
-    /// distance along the normal of both.
+    /// Over and under at every crossing: within a few edges of where it was, where the two yarns come nearest, by the
+    /// sign of their distance along the normal of both.
     Count count(std::span<const Vec3> x) const
     {
         Count n;
@@ -105,15 +107,18 @@ class Crossings {
                     nearest = p.distance;
                     side = sideOf(i, j, p, x);
                 }
-            if (std::abs(side) < 0.1) ++n.undecided;
-            else if (side * c.side < 0.0) ++n.flipped;
+            if (std::abs(side) < 0.1)
+                ++n.undecided;
+            else if (side * c.side < 0.0)
+                ++n.flipped;
         }
         return n;
     }
     std::size_t size() const { return all_.size(); }
 
-    /// The least of d − allowed over all pairs of yarn edges that are no neighbours (contact-design 5): allowed is half the thickness, or
-    /// 0.6 of the distance at rest for pairs that are nearer then [cm]. The smallest d / (r_A + r_B) too.
+    /// The least of d − allowed over all pairs of yarn edges that are no neighbours (contact-design 5): allowed is half
+    /// the thickness, or 0.6 of the distance at rest for pairs that are nearer then [cm]. The smallest d / (r_A + r_B)
+    /// too.
     struct Nearness {
         double spare = std::numeric_limits<double>::infinity(), relative = std::numeric_limits<double>::infinity();
     };
@@ -136,7 +141,7 @@ class Crossings {
 
  private:
     struct Crossing {
-        int first, second;   ///< yarn edges
+        int first, second;  ///< yarn edges
         double side;
     };
 
@@ -154,8 +159,8 @@ class Crossings {
         const Vec2i &a = fabric_.edges.vertices[i], &b = fabric_.edges.vertices[j];
         return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
     }
-    /// Distance of the first above the second along the normal of both directions, in parts of their distance and times the sine between
-    /// them: small where they are parallel.
+    /// Distance of the first above the second along the normal of both directions, in parts of their distance and times
+    /// the sine between them: small where they are parallel.
     double sideOf(int i, int j, const SegmentPair& p, std::span<const Vec3> x) const
     {
         const Vec2i &a = fabric_.edges.vertices[i], &b = fabric_.edges.vertices[j];
@@ -187,9 +192,12 @@ inline int piercedFaces(const Fabric& fabric, std::span<const Vec3> x)
     for (const Vec3i& f : fabric.faces.vertices) size = std::max(size, (fabric.rest[f[1]] - fabric.rest[f[0]]).norm());
     const auto corner = [&](int f, int k) -> const Vec3& { return x[fabric.faces.vertices[f][k % 3]]; };
     const auto box = [&](int f) {
-        return std::pair<Vec3, Vec3>(corner(f, 0).cwiseMin(corner(f, 1)).cwiseMin(corner(f, 2)), corner(f, 0).cwiseMax(corner(f, 1)).cwiseMax(corner(f, 2)));
+        return std::pair<Vec3, Vec3>(corner(f, 0).cwiseMin(corner(f, 1)).cwiseMin(corner(f, 2)),
+                                     corner(f, 0).cwiseMax(corner(f, 1)).cwiseMax(corner(f, 2)));
     };
-    const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); };
+    const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+        return (b - a).cross(c - a).dot(d - a);
+    };
     const auto pierces = [&](const Vec3& p, const Vec3& q, int f) {
         const Vec3 &a = corner(f, 0), &b = corner(f, 1), &c = corner(f, 2);
         if (volume(a, b, c, p) * volume(a, b, c, q) >= 0.0) return false;

@@ -31,7 +31,8 @@ struct Incline {
         grid.origin = Vec3(0.0, 1.25 * 0.05, 0.0);  // where contact begins
         FabricPiece piece = pieceOf(clothGrid(grid), testing::wool(), {0.05, 0.05});
         piece.material.frictionAngle = std::atan(friction);
-        // The usual 2e-2 is of a first residual that gravity into the plane's stiff penalty makes large: friction would be lost in it.
+        // The usual 2e-2 is of a first residual that gravity into the plane's stiff penalty makes large: friction would
+        // be lost in it.
         FabricSettings settings;
         settings.tolerance = 1.0e-4;
         run.emplace(piece, settings, std::vector{obstacle(Shape::box(Vec3(0.0, -2.0, 0.0), Vec3(50.0, 2.0, 50.0)))});
@@ -47,8 +48,8 @@ struct Incline {
     std::optional<FabricRun> run;
 };
 
-/// Friction is smoothed: below the friction angle cloth creeps at less than the smoothing speed of 1 cm/s. Steps are short, because friction
-/// is taken at the speed that gravity alone would lead to: late by g h sin α, 0.025 cm/s here.
+/// Friction is smoothed: below the friction angle cloth creeps at less than the smoothing speed of 1 cm/s. Steps are
+/// short, because friction is taken at the speed that gravity alone would lead to: late by g h sin α, 0.025 cm/s here.
 TEST(Incline, RestsBelowTheFrictionAngleAndSlidesAboveIt)
 {
     constexpr double kAngle = 30.0, h = 5.0e-5;
@@ -63,9 +64,11 @@ TEST(Incline, RestsBelowTheFrictionAngleAndSlidesAboveIt)
     above.run->steps(200, h);
     const double first = above.speed();
     above.run->steps(2000, h);
-    const double a = (kAngle + 1.0) * kPi180, exact = kEarthGravity * (std::sin(a) - std::tan(kAngle * kPi180) * std::cos(a));
+    const double a = (kAngle + 1.0) * kPi180,
+                 exact = kEarthGravity * (std::sin(a) - std::tan(kAngle * kPi180) * std::cos(a));
     EXPECT_NEAR((above.speed() - first) / (2000 * h), exact, 0.02 * exact);
-    RecordProperty("creep", std::to_string(below.speed()) + " above " + std::to_string((above.speed() - first) / (2000 * h) / exact));
+    RecordProperty("creep", std::to_string(below.speed()) + " above " +
+                                std::to_string((above.speed() - first) / (2000 * h) / exact));
 }
 
 /// g (sin α − μ cos α) = 235.6 cm/s² at 30 degrees, μ = 0.3.
@@ -88,7 +91,8 @@ TEST(Capstan, HoldsByTheExponentialOfItsAngle)
     std::vector<Vec3> path;
     const int legs = 30, arc = static_cast<int>(std::lround(kPi * around / kEdge));
     for (int i = legs; i > 0; --i) path.emplace_back(-around, -kEdge * i, 0.0);
-    for (int i = 0; i <= arc; ++i) path.emplace_back(-around * std::cos(kPi * i / arc), around * std::sin(kPi * i / arc), 0.0);
+    for (int i = 0; i <= arc; ++i)
+        path.emplace_back(-around * std::cos(kPi * i / arc), around * std::sin(kPi * i / arc), 0.0);
     for (int i = 1; i <= legs; ++i) path.emplace_back(around, -kEdge * i, 0.0);
     FabricPiece piece = pieceOf(strand(path), solidFibre(1.0e7), {kYarn, kYarn});
     piece.material.frictionAngle = std::atan(kFriction);
@@ -108,7 +112,8 @@ TEST(Capstan, HoldsByTheExponentialOfItsAngle)
         after += run.tension(last - 3);
     }
     EXPECT_NEAR(after / before, std::exp(kFriction * kPi), 0.03 * std::exp(kFriction * kPi));
-    RecordProperty("ratio", std::to_string(after / before) + " T1/mg " + std::to_string(before / 200 / (hung * kEarthGravity)));
+    RecordProperty("ratio",
+                   std::to_string(after / before) + " T1/mg " + std::to_string(before / 200 / (hung * kEarthGravity)));
 }
 
 /// Cloth dropped on a ball comes to lie on it, deeper than its thickness nowhere by more than contact's reach.
@@ -129,7 +134,8 @@ TEST(ClothOnABall, RestsWithinTheReachOfContact)
             deepest = std::max(deepest, run.solver.deepestInObstacles(run.state));
         }
         EXPECT_LT(deepest, 0.25 * 0.03) << friction;
-        RecordProperty("deepest" + std::to_string(friction), std::to_string(deepest) + " middle " + std::to_string(run.state.x[kNodes * kNodes / 2].y()));
+        RecordProperty("deepest" + std::to_string(friction),
+                       std::to_string(deepest) + " middle " + std::to_string(run.state.x[kNodes * kNodes / 2].y()));
     }
 }
 

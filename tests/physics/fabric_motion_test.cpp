@@ -106,7 +106,8 @@ TEST(FlyingFabric, FallsExactlyAsAPointWould)
         x += 1.0e-3 * v;
     }
     double worst = 0.0;
-    for (std::size_t i = 0; i < run.state.x.size(); ++i) worst = std::max(worst, (run.state.x[i] - run.fabric.rest[i] - x).norm());
+    for (std::size_t i = 0; i < run.state.x.size(); ++i)
+        worst = std::max(worst, (run.state.x[i] - run.fabric.rest[i] - x).norm());
     EXPECT_LT(worst, 1.0e-11);  // round-off of 30 cm in 100 steps, times the stiffness of the cloth in a step
     RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
 }
@@ -131,7 +132,8 @@ double lossOf(const FabricPiece& piece, double h, double duration, bool& onlyFal
         if (now > before + 1.0e-9 * start) onlyFalls = false;
         before = now;
     }
-    // Gravity's share is known: a falling point loses ½ m g² h t as well, which is no loss of fabric but of the scheme; taken out.
+    // Gravity's share is known: a falling point loses ½ m g² h t as well, which is no loss of fabric but of the scheme;
+    // taken out.
     double mass = 0.0;
     for (double m : run.fabric.mass) mass += m;
     return (first - before - 0.5 * mass * run.gravity.squaredNorm() * h * duration) / start;
@@ -143,14 +145,16 @@ TEST(FlyingFabric, LosesEnergyOnlyToTheStepAndInProportionToIt)
     grid.nodes = Vec2i(9, 9);
     grid.spacing = {0.25, 0.25};
     FabricMaterial soft = solidFibre(3.0e4, 0.3);
-    for (const FabricPiece& piece : {pieceOf(clothGrid(grid), soft, {0.05, 0.05}), pieceOf(strand(Vec3::Zero(), Vec3(2.0, 0.0, 0.5), 12), soft, {0.1, 0.1})}) {
+    for (const FabricPiece& piece : {pieceOf(clothGrid(grid), soft, {0.05, 0.05}),
+                                     pieceOf(strand(Vec3::Zero(), Vec3(2.0, 0.0, 0.5), 12), soft, {0.1, 0.1})}) {
         bool onlyFalls = true;
         std::vector<double> loss;
         for (double h : {4.0e-5, 2.0e-5, 1.0e-5}) loss.push_back(lossOf(piece, h, 0.02, onlyFalls));
         EXPECT_TRUE(onlyFalls);
         EXPECT_NEAR(loss[0] / loss[1], 2.0, 0.2);
         EXPECT_NEAR(loss[1] / loss[2], 2.0, 0.1);
-        RecordProperty(piece.faces.empty() ? "yarn" : "cloth", std::to_string(loss[0]) + " " + std::to_string(loss[1]) + " " + std::to_string(loss[2]));
+        RecordProperty(piece.faces.empty() ? "yarn" : "cloth",
+                       std::to_string(loss[0]) + " " + std::to_string(loss[1]) + " " + std::to_string(loss[2]));
     }
 }
 
@@ -159,8 +163,8 @@ bool sameBits(const FabricState& a, const FabricState& b)
     const auto same = [](const auto& u, const auto& v) {
         return u.size() == v.size() && std::memcmp(u.data(), v.data(), u.size() * sizeof(u[0])) == 0;
     };
-    return same(a.x, b.x) && same(a.v, b.v) && same(a.theta, b.theta) && same(a.omega, b.omega) && same(a.tangent, b.tangent) &&
-           same(a.reference, b.reference) && same(a.referenceTwist, b.referenceTwist);
+    return same(a.x, b.x) && same(a.v, b.v) && same(a.theta, b.theta) && same(a.omega, b.omega) &&
+           same(a.tangent, b.tangent) && same(a.reference, b.reference) && same(a.referenceTwist, b.referenceTwist);
 }
 
 std::vector<ObstacleSettings> ballBelow()

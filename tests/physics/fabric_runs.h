@@ -36,13 +36,17 @@ class FabricRun {
  public:
     using Change = std::function<void(Fabric&)>;
 
-    explicit FabricRun(std::vector<FabricPiece> p, const FabricSettings& s = withoutContact(), std::vector<ObstacleSettings> o = {},
-                       const Change& change = {})
-        : fabric(changed(assembleFabric(p), change)), state(initialState(fabric, p)), solver(fabric, s, o), pieces(std::move(p)), settings(s)
+    explicit FabricRun(std::vector<FabricPiece> p, const FabricSettings& s = withoutContact(),
+                       std::vector<ObstacleSettings> o = {}, const Change& change = {})
+        : fabric(changed(assembleFabric(p), change)),
+          state(initialState(fabric, p)),
+          solver(fabric, s, o),
+          pieces(std::move(p)),
+          settings(s)
     {
     }
-    explicit FabricRun(const FabricPiece& piece, const FabricSettings& s = withoutContact(), std::vector<ObstacleSettings> o = {},
-                       const Change& change = {})
+    explicit FabricRun(const FabricPiece& piece, const FabricSettings& s = withoutContact(),
+                       std::vector<ObstacleSettings> o = {}, const Change& change = {})
         : FabricRun(std::vector<FabricPiece>{piece}, s, std::move(o), change)
     {
     }
@@ -61,8 +65,8 @@ class FabricRun {
     {
         for (int i = 0; i < n; ++i) step(h);
     }
-    /// Runs, slowed down at a rate of `drag` [1/s], until no vertex is faster than `speed` [cm/s]; false if that takes more than
-    /// `most` steps. Where it comes to rest does not depend on the drag.
+    /// Runs, slowed down at a rate of `drag` [1/s], until no vertex is faster than `speed` [cm/s]; false if that takes
+    /// more than `most` steps. Where it comes to rest does not depend on the drag.
     [[nodiscard]] bool settle(double h, double drag, double speed = 1.0e-4, int most = 3000)
     {
         for (int i = 0; i < most; ++i) {
@@ -144,22 +148,31 @@ inline double bendingStiffness(const FabricPiece& p)
 {
     return p.material.packing() * p.material.young * 0.25 * kPi * std::pow(p.radius[0], 4);
 }
-inline double torsionStiffness(const FabricPiece& p) { return bendingStiffness(p) / (1.0 + p.material.poisson); }
+inline double torsionStiffness(const FabricPiece& p)
+{
+    return bendingStiffness(p) / (1.0 + p.material.poisson);
+}
 /// Mass of a yarn per length [g/cm].
-inline double lineDensity(const FabricPiece& p) { return p.material.envelopeDensity() * kPi * p.radius[0] * p.radius[1]; }
+inline double lineDensity(const FabricPiece& p)
+{
+    return p.material.envelopeDensity() * kPi * p.radius[0] * p.radius[1];
+}
 
 /// A straight round yarn along x of n free edges of length l, and one more before them, clamped.
 /// A clamped edge bends like a clamp half an edge inside it: the yarn is as long as n + ½ edges (model-fabric T5).
 struct Cantilever {
     Cantilever(int n, double l, double radius, double young, const Vec3& along = Vec3::UnitX())
-        : effectiveLength((n + 0.5) * l), tip(n + 1), clamp(0.5 * l * along),
+        : effectiveLength((n + 0.5) * l),
+          tip(n + 1),
+          clamp(0.5 * l * along),
           piece(testing::pieceOf(strand(Vec3::Zero(), (n + 1) * l * along, n + 1), solidFibre(young), {radius, radius}))
     {
-        piece.pins = {pinned({0}, true), pinned({1})};  // of vertex 1 the edge behind it would be held from turning, too
+        piece.pins = {pinned({0}, true),
+                      pinned({1})};  // of vertex 1 the edge behind it would be held from turning, too
     }
-    double effectiveLength;   ///< [cm]
-    int tip;                  ///< vertex
-    Vec3 clamp;               ///< where it is effectively clamped [cm]
+    double effectiveLength;  ///< [cm]
+    int tip;                 ///< vertex
+    Vec3 clamp;              ///< where it is effectively clamped [cm]
     FabricPiece piece;
 };
 

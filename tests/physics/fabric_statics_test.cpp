@@ -24,8 +24,8 @@ TEST(HangingChain, FollowsTheCatenary)
 {
     constexpr double kLength = 10.0;
     constexpr int kEdges = 40;
-    // Newton's only iteration in a quiet step starts from where gravity alone would lead, gh² away: what that stretches an edge must be
-    // small beside the strain of the chain, 1e-4.
+    // Newton's only iteration in a quiet step starts from where gravity alone would lead, gh² away: what that stretches
+    // an edge must be small beside the strain of the chain, 1e-4.
     constexpr double kStep = 3.0e-4;
     for (const Catenary& exact : {Catenary{8.0, 3.38202, 2.65438}, Catenary{5.0, 1.14820, 3.98194}}) {
         FabricPiece piece = chain(strand(Vec3::Zero(), Vec3(kLength, 0.0, 0.0), kEdges));
@@ -38,7 +38,9 @@ TEST(HangingChain, FollowsTheCatenary)
         run.steps(3400, kStep);
         ASSERT_TRUE(run.settle(kStep, 15.0, 1.0e-4, 12000));
 
-        const auto height = [&](double x) { return exact.a * (std::cosh((x - 0.5 * exact.span) / exact.a) - std::cosh(0.5 * exact.span / exact.a)); };
+        const auto height = [&](double x) {
+            return exact.a * (std::cosh((x - 0.5 * exact.span) / exact.a) - std::cosh(0.5 * exact.span / exact.a));
+        };
         double worst = 0.0;
         for (const Vec3& x : run.state.x) worst = std::max(worst, std::abs(x.y() - height(x.x())));
         EXPECT_LT(worst, 0.005 * exact.sag) << "span " << exact.span;
@@ -50,8 +52,8 @@ TEST(HangingChain, FollowsTheCatenary)
         EXPECT_NEAR(-pull.y() + ownHalf, 0.5 * weight * kLength, 0.001 * weight * kLength);
         EXPECT_NEAR(pull.x(), weight * exact.a, 0.005 * weight * exact.a);
         RecordProperty("span" + std::to_string(int(exact.span)),
-                       std::to_string(-run.state.x[kEdges / 2].y()) + " worst " + std::to_string(worst / exact.sag) + " H " +
-                           std::to_string(pull.x() / (weight * exact.a)));
+                       std::to_string(-run.state.x[kEdges / 2].y()) + " worst " + std::to_string(worst / exact.sag) +
+                           " H " + std::to_string(pull.x() / (weight * exact.a)));
     }
 }
 
@@ -60,7 +62,8 @@ TEST(HangingYarn, StretchesByItsWeight)
 {
     constexpr double kLength = 14.256;
     constexpr int kEdges = 30;
-    FabricPiece piece = pieceOf(strand(Vec3::Zero(), Vec3(0.0, -kLength, 0.0), kEdges), testing::wool(), {0.048, 0.048});
+    FabricPiece piece =
+        pieceOf(strand(Vec3::Zero(), Vec3(0.0, -kLength, 0.0), kEdges), testing::wool(), {0.048, 0.048});
     piece.pins.push_back(pinned({0}));
     FabricRun run(piece);
     ASSERT_TRUE(run.settle(0.002, 100.0, 1.0e-9));
@@ -68,11 +71,13 @@ TEST(HangingYarn, StretchesByItsWeight)
     const FabricMaterial& m = piece.material;
     const double exact = m.envelopeDensity() * kEarthGravity * kLength / (2.0 * m.young * m.packing());
     EXPECT_NEAR(exact, 3.50e-4, 0.005e-4);
-    EXPECT_NEAR(stretch, exact, 1.0e-5 * exact);  // each edge carries what hangs at its middle: exact but for the solver
+    EXPECT_NEAR(stretch, exact,
+                1.0e-5 * exact);  // each edge carries what hangs at its middle: exact but for the solver
     RecordProperty("stretch", std::to_string(stretch * 1.0e4));
 }
 
-/// A strip pulled by a heavy lower edge, its sides free: force of the St. Venant-Kirchhoff membrane, and how it gets narrower.
+/// A strip pulled by a heavy lower edge, its sides free: force of the St. Venant-Kirchhoff membrane, and how it gets
+/// narrower.
 TEST(HangingCloth, PullsAndNarrowsAsTheMembraneDoes)
 {
     constexpr int kAcross = 9, kAlong = 33;
@@ -106,7 +111,8 @@ TEST(HangingCloth, PullsAndNarrowsAsTheMembraneDoes)
     // What the clamped end holds has died out to a few thousandths here.
     EXPECT_NEAR(kYoung * kThickness * kWidth * stretch * green, force, 0.005 * force);
     EXPECT_NEAR(greenAcross, -kPoisson * green, 0.01 * kPoisson * green);
-    RecordProperty("force", std::to_string(kYoung * kThickness * kWidth * stretch * green / force) + " at " + std::to_string(stretch));
+    RecordProperty("force", std::to_string(kYoung * kThickness * kWidth * stretch * green / force) + " at " +
+                                std::to_string(stretch));
     RecordProperty("poisson", std::to_string(-greenAcross / green));
 }
 
@@ -139,7 +145,8 @@ TEST(YarnCantilever, VibratesAtItsFrequency)
         const double s = (run.state.x[v].x() - beam.clamp.x()) / beam.effectiveLength;
         run.state.v[v] = Vec3(0.0, 5.0 * s * s, 0.0);  // nearly the first mode; others die out faster
     }
-    const double found = frequency(run, 1.0 / (600.0 * exact), 0.6 / exact, 4.2 / exact, [&] { return run.state.x[beam.tip].y(); });
+    const double found =
+        frequency(run, 1.0 / (600.0 * exact), 0.6 / exact, 4.2 / exact, [&] { return run.state.x[beam.tip].y(); });
     EXPECT_NEAR(found, exact, 0.02 * exact);
     RecordProperty("ratio", std::to_string(found / exact));
 }
@@ -153,7 +160,8 @@ TEST(HangingChain, SwingsAtItsFrequency)
     FabricRun run(piece);
     for (int v = 1; v <= kEdges; ++v) run.state.v[v] = Vec3(0.5 * std::pow(v / double(kEdges), 2), 0.0, 0.0);
     const double exact = 1.2024 * std::sqrt(kEarthGravity / kLength) / (2.0 * kPi);
-    const double found = frequency(run, 1.0 / (600.0 * exact), 1.1 / exact, 5.2 / exact, [&] { return run.state.x[kEdges].x(); });
+    const double found =
+        frequency(run, 1.0 / (600.0 * exact), 1.1 / exact, 5.2 / exact, [&] { return run.state.x[kEdges].x(); });
     EXPECT_NEAR(found, exact, 0.02 * exact);
     RecordProperty("ratio", std::to_string(found / exact));
 }

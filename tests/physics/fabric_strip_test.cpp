@@ -26,13 +26,16 @@ FabricGeometry bias(int cells, int rows)
     FabricGeometry mesh;
     const int n = cells + 1;
     for (int j = 0; j <= rows; ++j)
-        for (int i = 0; i < n; ++i) mesh.points.emplace_back(kCell * (i - (j % 2 == 0 ? 0.0 : 0.5)), 0.0, 0.5 * kCell * j);
+        for (int i = 0; i < n; ++i)
+            mesh.points.emplace_back(kCell * (i - (j % 2 == 0 ? 0.0 : 0.5)), 0.0, 0.5 * kCell * j);
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < cells; ++i) {
             const int a = j * n + i, b = a + n;
             mesh.faces.emplace_back(a, a + 1, j % 2 == 0 ? b + 1 : b);
-            if (j % 2 == 0) mesh.faces.emplace_back(b, a, b + 1);
-            else mesh.faces.emplace_back(a + 1, b + 1, b);
+            if (j % 2 == 0)
+                mesh.faces.emplace_back(b, a, b + 1);
+            else
+                mesh.faces.emplace_back(a + 1, b + 1, b);
         }
     return mesh;
 }
@@ -51,8 +54,8 @@ Bent bent(const FabricGeometry& mesh, const FabricMaterial& material, double cur
     return {Shells(fabric, settings).energies(x)[1], area};
 }
 
-/// How many times stiffer than a plate of D = E t³/12 (no Poisson's effect) the mesh is when bent to a cylinder. The borders, where triangles
-/// lack folds, drop out of the difference between meshes of twice the length and width.
+/// How many times stiffer than a plate of D = E t³/12 (no Poisson's effect) the mesh is when bent to a cylinder. The
+/// borders, where triangles lack folds, drop out of the difference between meshes of twice the length and width.
 template <class Make>
 double stiffness(Make&& make, const FabricSettings& settings)
 {

@@ -18,7 +18,8 @@ struct TwistedYarn {
     }
     void hold(const Motion& ofLast)
     {
-        piece.pins = {pinned({0}, true), pinned({1}), pinned({edges - 1}, false, ofLast), pinned({edges}, true, ofLast)};
+        piece.pins = {pinned({0}, true), pinned({1}), pinned({edges - 1}, false, ofLast),
+                      pinned({edges}, true, ofLast)};
     }
     static constexpr double kEdge = 0.2;
     int edges;
@@ -53,7 +54,8 @@ TEST(TwistedYarn, SpreadsItsTwistEvenly)
         worst = std::max(worst, std::abs(twist - turn / (yarn.edges - 1)));
     }
     EXPECT_LT(worst, 1.0e-13 * turn);
-    const double torque = 2.0 * run.energies().twisting / turn, exact = torsionStiffness(yarn.piece) * turn / yarn.bentLength();
+    const double torque = 2.0 * run.energies().twisting / turn,
+                 exact = torsionStiffness(yarn.piece) * turn / yarn.bentLength();
     EXPECT_NEAR(torque, exact, 1.0e-12 * exact);
     RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
     RecordProperty("torque", std::to_string((torque / exact - 1.0) * 1e15) + "e-15");
@@ -73,8 +75,8 @@ void shake(FabricRun& run, double size)
         if (!run.fabric.pinned[v]) run.state.x[v] += size * noise.vector();
 }
 
-/// How much a slight disturbance of a twisted straight yarn grows from one while to the next. Steps are short beside the slowest
-/// vibration: with a single Newton iteration longer ones would make even a stable yarn restless.
+/// How much a slight disturbance of a twisted straight yarn grows from one while to the next. Steps are short beside
+/// the slowest vibration: with a single Newton iteration longer ones would make even a stable yarn restless.
 double growthAtTwist(double moment)  // in units of EI/L
 {
     TwistedYarn yarn(61);
@@ -119,8 +121,8 @@ TEST(UprightYarn, BucklesUnderItsWeight)
     RecordProperty("growth", std::to_string(below) + " " + std::to_string(above));
 }
 
-/// A naturally straight yarn of n edges closed to a ring with Θ of twist: its last edge, clamped, lies on its first. Holding one edge only
-/// takes away the ring's rigid motions.
+/// A naturally straight yarn of n edges closed to a ring with Θ of twist: its last edge, clamped, lies on its first.
+/// Holding one edge only takes away the ring's rigid motions.
 struct MichellRing {
     MichellRing(int n, double thetaTotal) : edges(n), yarn(n + 1, closing(n, thetaTotal)), run(yarn.piece)
     {
@@ -174,7 +176,7 @@ struct MichellRing {
 };
 
 struct RingGrowth {
-    double growth, ofMode2;   ///< [-]
+    double growth, ofMode2;  ///< [-]
 };
 
 RingGrowth growthOfRing(int n, double twist)
@@ -185,22 +187,26 @@ RingGrowth growthOfRing(int n, double twist)
     const double radius = n * TwistedYarn::kEdge / (2.0 * kPi);
     const double time = radius * radius * std::sqrt(lineDensity(ring.yarn.piece) / bendingStiffness(ring.yarn.piece));
     const auto off = [&] { return ring.offPlane(); };
-    const double before = ring.run.largestIn(2000, 0.02 * time, off), after = ring.run.largestIn(2000, 0.02 * time, off);
+    const double before = ring.run.largestIn(2000, 0.02 * time, off),
+                 after = ring.run.largestIn(2000, 0.02 * time, off);
     return {after / before, ring.shareOfMode2()};
 }
 
-/// Θ = 2π√3 EI/GJ, and the discrete ring's threshold is 1.081 times that with 20 edges, 1.035 times with 30 (model-fabric T11).
+/// Θ = 2π√3 EI/GJ, and the discrete ring's threshold is 1.081 times that with 20 edges, 1.035 times with 30
+/// (model-fabric T11).
 TEST(MichellRing, BucklesAtTheThresholdOfItsDiscreteEnergies)
 {
     const TwistedYarn yarn(10);
     const double continuum = 2.0 * kPi * std::sqrt(3.0) * bendingStiffness(yarn.piece) / torsionStiffness(yarn.piece);
     EXPECT_NEAR(continuum, 14.69, 0.005);
     for (const auto& [n, factor] : {std::pair(20, 1.081), std::pair(30, 1.035)}) {
-        const RingGrowth below = growthOfRing(n, 0.99 * factor * continuum), above = growthOfRing(n, 1.01 * factor * continuum);
+        const RingGrowth below = growthOfRing(n, 0.99 * factor * continuum),
+                         above = growthOfRing(n, 1.01 * factor * continuum);
         EXPECT_LT(below.growth, 1.0) << n;
         EXPECT_GT(above.growth, 2.0) << n;
         EXPECT_GT(above.ofMode2, 0.95) << n;
-        RecordProperty("growth" + std::to_string(n), std::to_string(below.growth) + " " + std::to_string(above.growth) + " " + std::to_string(above.ofMode2));
+        RecordProperty("growth" + std::to_string(n), std::to_string(below.growth) + " " + std::to_string(above.growth) +
+                                                         " " + std::to_string(above.ofMode2));
     }
 }
 

@@ -87,12 +87,14 @@ TEST(Weave, NoYarnPassesAnotherWhenABallStrikes)
         EXPECT_GE(near.spare, 0.0) << "step " << i;
         undecided = std::max(undecided, count.undecided);
         halvings += report.halvings, scalings += report.scalings, shortened += report.shortened;
-        spare = std::min(spare, near.spare), nearest = std::min(nearest, near.relative), fastest = std::max(fastest, run.fastest());
+        spare = std::min(spare, near.spare), nearest = std::min(nearest, near.relative),
+        fastest = std::max(fastest, run.fastest());
         deepest = std::max(deepest, run.solver.deepestInObstacles(run.state));
     }
     EXPECT_GT(fastest, 250.0);  // it was struck
-    RecordProperty("weave", "undecided " + std::to_string(undecided) + " halvings " + std::to_string(halvings) + " scalings " + std::to_string(scalings) +
-                                " shortened " + std::to_string(shortened) + " spare " + std::to_string(spare) + " nearest " + std::to_string(nearest) +
+    RecordProperty("weave", "undecided " + std::to_string(undecided) + " halvings " + std::to_string(halvings) +
+                                " scalings " + std::to_string(scalings) + " shortened " + std::to_string(shortened) +
+                                " spare " + std::to_string(spare) + " nearest " + std::to_string(nearest) +
                                 " deepest " + std::to_string(deepest));
 }
 
