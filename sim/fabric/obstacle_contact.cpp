@@ -52,9 +52,12 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
                 const double stiffness = kStiffness * mass[v] / (h * h), push = stiffness * overlap;
                 const Vec3 n = body.pose.normal(x[v]);
                 ObstacleContact contact{static_cast<int>(v), -push * n, stiffness * n * n.transpose()};
-                const Vec3 moved = x[v] - start[v] - h * body.pose.velocity(x[v]), slip = moved - moved.dot(n) * n;
+                const Vec3 carried = start[v] + h * body.pose.velocity(x[v]);
+                const Vec3 moved = x[v] - carried, slip = moved - moved.dot(n) * n;
+                // Pressed as at the end of the step before: where Newton begins, a step of free fall inside, it would be pressed far too hard.
+                const double pressed = stiffness * std::max(0.0, activation + fabric.radius[v] - body.pose.distance(carried));
                 const double friction =
-                    body.friction[fabric.vertexMaterial[v]] * push * frictionPerSlip(slip.norm(), h * kSmoothingSpeed);
+                    body.friction[fabric.vertexMaterial[v]] * pressed * frictionPerSlip(slip.norm(), h * kSmoothingSpeed);
                 contact.gradient += friction * slip;
                 contact.stiffness += friction * (Mat3::Identity() - n * n.transpose());
                 out.push_back(contact);
