@@ -34,21 +34,21 @@ Mat3 frameOf(const Vec3& t0, const Vec3& t1)
 double energy(const ContactModuli& m, const Vec3& r)
 {
     const double pressed = 1.0 - r[2];
-    if (pressed <= 0.0) return 0.0;
+    if (pressed < kLeastCompression) return 0.0;
     return m.normal() / 3.0 * pressed * pressed * pressed + 0.5 * m.shear * (r[0] * r[0] + r[1] * r[1]);
 }
 
 Vec3 stress(const ContactModuli& m, const Vec3& r)
 {
     const double pressed = 1.0 - r[2];
-    if (pressed <= 0.0) return Vec3::Zero();
+    if (pressed < kLeastCompression) return Vec3::Zero();
     return {m.shear * r[0], m.shear * r[1], -m.normal() * pressed * pressed};
 }
 
 Vec3 stiffness(const ContactModuli& m, const Vec3& r)
 {
     const double pressed = 1.0 - r[2];
-    if (pressed <= 0.0) return Vec3::Zero();
+    if (pressed < kLeastCompression) return Vec3::Zero();
     return {m.shear, m.shear, 2.0 * m.normal() * pressed};
 }
 
@@ -115,7 +115,7 @@ double energy(const ContactModuli& m, const Strain& r)
 {
     const Vector2d log = logs(Section(r.bottomRows<2>()).sigma);
     const double sum = log.sum();
-    if (sum > 0.0) return 0.0;
+    if (sum > -kLeastCompression) return 0.0;
     return m.shear * log.squaredNorm() + 0.5 * m.lame * sum * sum + 0.5 * m.shear * r.row(0).squaredNorm();
 }
 
@@ -124,7 +124,7 @@ Strain stress(const ContactModuli& m, const Strain& r)
     Strain p = Strain::Zero();
     const Section section(r.bottomRows<2>());
     const Vector2d log = logs(section.sigma);
-    if (log.sum() > 0.0) return p;
+    if (log.sum() > -kLeastCompression) return p;
     p.row(0) = m.shear * r.row(0);
     p.bottomRows<2>() = section.u * principal(m, log).asDiagonal() * section.vt;
     return p;
@@ -136,7 +136,7 @@ bool stiffness(const ContactModuli& m, const Strain& r, SectionStiffness& k)
     const Vector2d log = logs(section.sigma);
     const double sum = log.sum();
     k.setZero();
-    if (sum > 0.0) return false;
+    if (sum > -kLeastCompression) return false;
     const Vector2d sigma(std::exp(log[0]), std::exp(log[1])), p = principal(m, log);
     const auto own = [&](int n) { return (2.0 * m.shear * (1.0 - log[n]) + m.lame * (1.0 - sum)) / (sigma[n] * sigma[n]); };
     const double a = own(0), b = own(1), c = m.lame / (sigma[0] * sigma[1]);

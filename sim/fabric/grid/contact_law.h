@@ -26,6 +26,10 @@ struct ContactModuli {
 /// What is at least left of a thickness: strains of what was turned inside out come back to it [-].
 inline constexpr double kLeastThickness = 0.05;
 
+/// Compression below which there is none: after separation round-off is left, and a stiffness that acts both ways would hold together what
+/// parts [-].
+inline constexpr double kLeastCompression = 1.0e-9;
+
 /// Contact across a sheet, of r = (r13, r23, r33) = Qᵀ d3. r33 has the sign of the side of the face that d3 is on, so that d3 is pushed
 /// back from the wrong one.
 namespace sheet {
@@ -62,7 +66,7 @@ struct Section {
 
 double energy(const ContactModuli& m, const Strain& r);
 Strain stress(const ContactModuli& m, const Strain& r);
-/// ∂²ψ/∂B² with its negative eigenvalues set to 0; that by row 0 is `m.shear` where this is not zero. False without compression.
+/// ∂²ψ/∂B² with its negative eigenvalues set to 0; that by row 0 is `m.shear` where this is not zero. False, and 0, without compression.
 bool stiffness(const ContactModuli& m, const Strain& r, SectionStiffness& k);
 Strain returned(const ContactModuli& m, const Strain& r);
 

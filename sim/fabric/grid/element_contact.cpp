@@ -112,7 +112,7 @@ ElementContact::Local ElementContact::localOf(std::size_t e, const FabricState& 
     const double area = t0.cross(t1).norm();
     at.reciprocal = {t1.cross(n) / area, n.cross(t0) / area};
     at.energy = volume * sheet::energy(m, r);
-    at.isActive = r[2] < 1.0;
+    at.isActive = 1.0 - r[2] >= kLeastCompression;
     at.stress[0] = volume * (at.q * sheet::stress(m, r));
     at.stiffness.topLeftCorner<3, 3>() = volume * (at.q * sheet::stiffness(m, r).asDiagonal() * at.q.transpose());
     return at;
