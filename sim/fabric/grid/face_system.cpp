@@ -69,7 +69,19 @@ void FaceSystem::findActiveRows()
     leastMass_ = faces > 0 ? kLeastMass * sum / static_cast<double>(faces) : 1.0;
 }
 
-/// body(entries of FaceVectors, packs of faces from i on, or of twist) is called as body(isFace, i).
+/// Points gather whole rows of faces: those without mass must be 0.
+void FaceSystem::clearInactive(BlockArray<double, 3>& u) const
+{
+    std::size_t next = 0;
+    double* data = u.block(0);
+    for (int row : rows_) {
+        std::fill(data + next, data + row, 0.0);
+        next = static_cast<std::size_t>(row) + kLanes;
+    }
+    std::fill(data + next, data + u.size(), 0.0);
+}
+
+/// body(isFace, i) for the packs at i of faces with mass, and of twist.
 template <class Body>
 void FaceSystem::forEachPack(Body&& body) const
 {
@@ -247,16 +259,7 @@ FaceSolveReport FaceSystem::solve(double tolerance, int maxIterations, FaceVecto
         *at(residual_, isFace, i) = *at(q_, isFace, i) + (m * *at(v, isFace, i) - *at(z_, isFace, i));
         *at(p_, isFace, i) = *at(inverse_, isFace, i) * *at(residual_, isFace, i);
     });
-    // p_ is gathered with the rows around it: those without mass must be 0 in all of them.
-    for (FaceVector* direction : {&p_}) {
-        std::size_t next = 0;
-        double* data = direction->faces.block(0);
-        for (int row : rows_) {
-            std::fill(data + next, data + row, 0.0);
-            next = static_cast<std::size_t>(row) + kLanes;
-        }
-        std::fill(data + next, data + direction->faces.size(), 0.0);
-    }
+    clearInactive(p_.faces);
     const auto speedError = [&] {
         const std::size_t n = rows_.size() + inertia_.size() / kLanes;
         return parallelMax(n, [&](std::size_t r) {

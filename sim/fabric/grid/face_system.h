@@ -56,6 +56,7 @@ class FaceSystem {
 
  private:
     void findActiveRows();
+    void clearInactive(BlockArray<double, 3>& u) const;
     void findMissing();
     void findDiagonal();
     void gatherPoints(const BlockArray<double, 3>& u, bool all);

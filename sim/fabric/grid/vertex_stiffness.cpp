@@ -120,15 +120,16 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
 
 void VertexStiffness::diagonal(AlignedArray<double>& out) const
 {
-    out.fill(0.0);
-    for (int row = 0; row < rods_.layout().rows; ++row)
-        for (int l = 0; l < kLanes; ++l) out[row * kLanes + l] = strands_.at(row, 0, l);
+    std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
+    parallelFor(rods_.layout().rows, 512, [&](std::size_t row) {
+        for (int l = 0; l < kLanes; ++l) out[row * kLanes + l] = strands_.at(static_cast<int>(row), 0, l);
+    });
     addToOwners(out);
     const std::vector<int>& vertices = shells_.vertices();
-    for (std::size_t row = 0; row < vertices.size(); ++row) {
+    parallelFor(vertices.size(), 512, [&](std::size_t row) {
         const double* m = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
         add(out, vertices[row], Vec3(m[0], m[4], m[8]));
-    }
+    });
     for (const Spring& s : springs_) add(out, s.vertex, s.stiffness.diagonal());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) out[unknowns_.twistSlot[heldEdges_[i]]] += heldStiffness_[i];
 }
