@@ -15,22 +15,21 @@ namespace {
 
 }  // namespace
 
-PointWeights::PointWeights(const Vec3& inCell, const Vec3i& cell)
+PointWeights::PointWeights(const PointPlace& place)
 {
-    for (int kind = 0; kind < 2; ++kind)
+    constexpr HalfPack kA = {0.5, -1.0, 0.5, 0.0}, kB = {-0.5, 0.0, 0.5, 0.0}, kC = {0.125, 0.75, 0.125, 0.0}, kNode = {-1.0, 0.0, 1.0, 0.0};
+    for (int kind = 0; kind < 2; ++kind) {
         for (int a = 0; a < kAxes; ++a) {
-            const bool upper = kind == 1 && inCell[a] >= 0.5;
-            const double r = inCell[a] - (kind == 0 ? 0.5 : upper ? 1.0 : 0.0);
-            const double weight[3] = {0.5 * (0.5 - r) * (0.5 - r), 0.75 - r * r, 0.5 * (0.5 + r) * (0.5 + r)};
-            offset[kind][a] = r;
-            node[kind][a] = cell[a] - 1 + (upper ? 1 : 0);
-            if (a == 0) {
-                x[kind] = HalfPack{weight[0], weight[1], weight[2], 0.0};
-                zx[kind] = x[kind] * HalfPack{-1.0 - r, -r, 1.0 - r, 0.0};
-            } else {
-                std::copy_n(weight, 3, a == 1 ? y[kind] : z[kind]);
-            }
+            const bool upper = kind == 1 && place.inCell[a] >= 0.5;
+            offset[kind][a] = place.inCell[a] - (kind == 0 ? 0.5 : upper ? 1.0 : 0.0);
+            node[kind][a] = place.cell[a] - 1 + (upper ? 1 : 0);
         }
+        const auto weights = [&](double r) { return (kA * r + kB) * r + kC; };
+        x[kind] = weights(offset[kind][0]);
+        y[kind] = weights(offset[kind][1]);
+        z[kind] = weights(offset[kind][2]);
+        zx[kind] = x[kind] * (kNode - offset[kind][0]);
+    }
 }
 
 PointWeights PointWeights::squared() const
@@ -38,10 +37,8 @@ PointWeights PointWeights::squared() const
     PointWeights w = *this;
     for (int kind = 0; kind < 2; ++kind) {
         w.x[kind] *= x[kind];
-        for (int n = 0; n < 3; ++n) {
-            w.y[kind][n] *= y[kind][n];
-            w.z[kind][n] *= z[kind][n];
-        }
+        w.y[kind] *= y[kind];
+        w.z[kind] *= z[kind];
     }
     return w;
 }
@@ -50,14 +47,15 @@ void BlockPoints::clear()
 {
     begin.assign(1, 0);
     id.clear();
-    weights.clear();
+    place.clear();
 }
 
 Vec3 interpolate(const FaceTile& tile, const PointWeights& w)
 {
     Vec3 u;
     for (int a = 0; a < kAxes; ++a) {
-        const double *from = tile.v[a] + w.first(a), *wy = w.y[a == 1], *wz = w.z[a == 2];
+        const double* from = tile.v[a] + w.first(a);
+        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
         HalfPack rows{};
         for (int k = 0; k < 3; ++k)
             for (int j = 0; j < 3; ++j) rows += (wy[j] * wz[k]) * load(from + j * kTileStrideY + k * kTileStrideZ);
@@ -70,7 +68,7 @@ void distribute(const PointWeights& w, const Vec3& f, FaceTile& tile)
 {
     for (int a = 0; a < kAxes; ++a) {
         double* to = tile.v[a] + w.first(a);
-        const double *wy = w.y[a == 1], *wz = w.z[a == 2];
+        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
         const HalfPack row = f[a] * w.x[a == 0];
         for (int k = 0; k < 3; ++k)
             for (int j = 0; j < 3; ++j) {
@@ -85,7 +83,8 @@ Mat3 gradientAt(const FaceTile& tile, const PointWeights& w)
 {
     Mat3 g;
     for (int a = 0; a < kAxes; ++a) {
-        const double *from = tile.v[a] + w.first(a), *wy = w.y[a == 1], *wz = w.z[a == 2];
+        const double* from = tile.v[a] + w.first(a);
+        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
         const double ry = w.offset[a == 1][1], rz = w.offset[a == 2][2];
         HalfPack rows{}, rowsY{}, rowsZ{};
         for (int k = 0; k < 3; ++k)
@@ -107,7 +106,7 @@ void distributeGradient(const PointWeights& w, const Mat3& t, FaceTile& tile)
 {
     for (int a = 0; a < kAxes; ++a) {
         double* to = tile.v[a] + w.first(a);
-        const double *wy = w.y[a == 1], *wz = w.z[a == 2];
+        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
         const double ry = w.offset[a == 1][1], rz = w.offset[a == 2][2];
         const HalfPack alongX = (4.0 * t(a, 0)) * w.zx[a == 0], wx = 4.0 * w.x[a == 0];
         for (int k = 0; k < 3; ++k)
@@ -123,7 +122,7 @@ void distributeSquare(const PointWeights& w, int axis, const Mat3& b, FaceTile& 
 {
     const int a = axis;
     double* to = tile.v[a] + w.first(a);
-    const double *wy = w.y[a == 1], *wz = w.z[a == 2];
+    const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
     const HalfPack wx = w.x[a == 0], zx = w.zx[a == 0];
     for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j) {

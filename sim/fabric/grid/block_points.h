@@ -13,12 +13,16 @@
 
 namespace sim {
 
+/// Where a point is in its block. Small: products with the system's matrix are bound by memory, weights are cheap to compute anew.
+struct PointPlace {
+    Vec3 inCell;                                 ///< position in its cell, in cells, 0..1
+    std::array<int, 3> cell;                     ///< the cell in its block, 0..7
+};
+
 /// Quadratic B-spline weights of one point on the three face grids, as products of one-dimensional ones. Along each axis a face grid is
 /// either that axis' own (index 1: faces at the cell's sides) or stands at the cells' middles (index 0).
 struct PointWeights {
-    PointWeights() = default;
-    /// @param inCell  position in its cell, in cells, 0..1;  cell  the cell in its block, 0..7
-    PointWeights(const Vec3& inCell, const Vec3i& cell);
+    explicit PointWeights(const PointPlace& place);
 
     /// All of them squared: those of the diagonal of Wᵀ K W.
     PointWeights squared() const;
@@ -26,7 +30,8 @@ struct PointWeights {
     int first(int axis) const { return tileIndex(node[axis == 0][0], node[axis == 1][1], node[axis == 2][2]); }
 
     HalfPack x[2], zx[2];                        ///< along x: weights, and weights times (node − point); the fourth lane is 0
-    double y[2][3], z[2][3], offset[2][3];       ///< along y and z: weights; point − middle node along each axis [cells]
+    HalfPack y[2], z[2];                         ///< along y and z: weights
+    double offset[2][3];                         ///< point − middle node along each axis [cells]
     int node[2][3];                              ///< first node along each axis, in the block
 };
 
@@ -36,11 +41,11 @@ struct BlockPoints {
     /// Points of block order.occupied[n] are [begin[n], begin[n + 1]).
     std::vector<int> begin;
     std::vector<int> id;                         ///< number of the vertex or element
-    std::vector<PointWeights> weights;
+    std::vector<PointPlace> place;
 
     void clear();
     std::span<const int> idsOf(std::size_t n) const { return std::span(id).subspan(begin[n], begin[n + 1] - begin[n]); }
-    const PointWeights* weightsOf(std::size_t n) const { return weights.data() + begin[n]; }
+    const PointPlace* placesOf(std::size_t n) const { return place.data() + begin[n]; }
 };
 
 /// Values on the faces around one block.

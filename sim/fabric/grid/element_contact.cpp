@@ -60,6 +60,7 @@ ElementContact::ElementContact(const Fabric& fabric) : edges_(fabric.edges.size(
         for (int k = 0; k < 3; ++k)
             if (corners_[e][k] >= 0) incidence_[next[corners_[e][k]]++] = 3 * static_cast<int>(e) + k;
     local_.resize(corners_.size());
+    stress_.resize(corners_.size());
 }
 
 std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
@@ -76,60 +77,62 @@ std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
     return across;
 }
 
-ElementContact::Local ElementContact::localOf(std::size_t e, const FabricState& state) const
+ElementContact::Stress ElementContact::assemble(std::size_t e, const FabricState& state, Local& at) const
 {
     const ContactModuli& m = moduli_[material_[e]];
     const double volume = volume_[e];
     const Vec3& x0 = state.x[corners_[e][0]];
     const Vec3 t0 = state.x[corners_[e][1]] - x0;
-    Local at;
+    Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
     at.d = {state.across[direction(e)], Vec3::Zero()};
-    at.stress = at.reciprocal = {Vec3::Zero(), Vec3::Zero()};
-    at.stiffness.setZero();
+    for (Mat3& k : at.stiffness) k.setZero();
     if (isEdge(e)) {
         at.d[1] = state.across[direction(e) + 1];
-        at.q = yarn::frameOf(t0, at.d[0]);
-        at.reciprocal[0] = at.q.col(0) / t0.norm();
-        const yarn::Strain r = yarnStrain(at.q, at.d), p = yarn::stress(m, r);
+        const Mat3 q = yarn::frameOf(t0, at.d[0]);
+        at.reciprocal = {q.col(0) / t0.norm(), Vec3::Zero()};
+        at.normal.setZero();
+        const yarn::Strain r = yarnStrain(q, at.d), p = yarn::stress(m, r);
         yarn::SectionStiffness k;
-        at.isActive = yarn::stiffness(m, r, k);
-        at.energy = volume * yarn::energy(m, r);
-        if (!at.isActive) return at;
-        Eigen::Matrix<double, 6, 6> local = Eigen::Matrix<double, 6, 6>::Zero();
-        for (int column = 0; column < 2; ++column) {
-            at.stress[column] = volume * (at.q * p.col(column));
-            local(3 * column, 3 * column) = m.shear;
-            for (int other = 0; other < 2; ++other) local.block<2, 2>(3 * column + 1, 3 * other + 1) = k.block<2, 2>(2 * column, 2 * other);
+        found.isActive = yarn::stiffness(m, r, k);
+        if (!found.isActive) return found;
+        found.energy = volume * yarn::energy(m, r);
+        for (int n = 0; n < 3; ++n) {
+            const int column = n / 2, other = (n + 1) / 2;
+            Mat3 local = Mat3::Zero();
+            if (column == other) {
+                found.stress[column] = volume * (q * p.col(column));
+                local(0, 0) = m.shear;
+            }
+            local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
+            at.stiffness[n] = volume * (q * local * q.transpose());
         }
-        for (int i = 0; i < 2; ++i)
-            for (int j = 0; j < 2; ++j)
-                at.stiffness.block<3, 3>(3 * i, 3 * j) = volume * (at.q * local.block<3, 3>(3 * i, 3 * j) * at.q.transpose());
-        return at;
+        return found;
     }
     const Vec3 t1 = state.x[corners_[e][2]] - x0;
-    at.q = sheet::frameOf(t0, t1);
-    const Vec3 n = at.q.col(2), r = at.q.transpose() * at.d[0];
+    const Mat3 q = sheet::frameOf(t0, t1);
+    const Vec3 r = q.transpose() * at.d[0];
     const double area = t0.cross(t1).norm();
-    at.reciprocal = {t1.cross(n) / area, n.cross(t0) / area};
-    at.energy = volume * sheet::energy(m, r);
-    at.isActive = 1.0 - r[2] >= kLeastCompression;
-    at.stress[0] = volume * (at.q * sheet::stress(m, r));
-    at.stiffness.topLeftCorner<3, 3>() = volume * (at.q * sheet::stiffness(m, r).asDiagonal() * at.q.transpose());
-    return at;
+    at.normal = q.col(2);
+    at.reciprocal = {t1.cross(at.normal) / area, at.normal.cross(t0) / area};
+    found.energy = volume * sheet::energy(m, r);
+    found.isActive = 1.0 - r[2] >= kLeastCompression;
+    found.stress[0] = volume * (q * sheet::stress(m, r));
+    at.stiffness[0] = volume * (q * sheet::stiffness(m, r).asDiagonal() * q.transpose());
+    return found;
 }
 
 void ElementContact::assemble(const FabricState& state)
 {
-    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { local_[e] = localOf(e, state); });
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assemble(e, state, local_[e]); });
     active_.clear();
     for (std::size_t e = 0; e < size(); ++e)
-        if (local_[e].isActive) active_.push_back(static_cast<int>(e));
+        if (stress_[e].isActive) active_.push_back(static_cast<int>(e));
 }
 
 double ElementContact::energy() const
 {
     double sum = 0.0;
-    for (int e : active_) sum += local_[e].energy;
+    for (int e : active_) sum += stress_[e].energy;
     return sum;
 }
 
@@ -138,7 +141,7 @@ Vec3 ElementContact::turnOf(const Local& at, std::size_t e, const std::array<Vec
 {
     const Vec3 first = u[1] - u[0];
     if (isEdge(e)) return at.reciprocal[0].cross(first);
-    const Vec3 n = at.q.col(2), second = u[2] - u[0];
+    const Vec3 &n = at.normal, second = u[2] - u[0];
     return -n.cross(n.dot(first) * at.reciprocal[0] + n.dot(second) * at.reciprocal[1]);
 }
 
@@ -151,7 +154,7 @@ ElementContact::Push ElementContact::pushOf(const Local& at, std::size_t e, cons
     if (isEdge(e)) {
         push.onCorners[1] = moment.cross(at.reciprocal[0]);
     } else {
-        const Vec3 n = at.q.col(2), lever = moment.cross(n);
+        const Vec3 &n = at.normal, lever = moment.cross(n);
         push.onCorners[1] = -lever.dot(at.reciprocal[0]) * n;
         push.onCorners[2] = -lever.dot(at.reciprocal[1]) * n;
     }
@@ -159,24 +162,25 @@ ElementContact::Push ElementContact::pushOf(const Local& at, std::size_t e, cons
     return push;
 }
 
-ElementContact::Push ElementContact::gradient(std::size_t e) const { return pushOf(local_[e], e, local_[e].stress); }
+ElementContact::Push ElementContact::gradient(std::size_t e) const { return pushOf(local_[e], e, stress_[e].stress); }
 
 ElementContact::Push ElementContact::hessian(std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u) const
 {
     const Local& at = local_[e];
     const Vec3 turn = turnOf(at, e, u);
-    Eigen::Matrix<double, 6, 1> moved;
-    for (int k = 0; k < 2; ++k) moved.segment<3>(3 * k) = g * at.d[k] - turn.cross(at.d[k]);
-    const Eigen::Matrix<double, 6, 1> y = at.stiffness * moved;
-    return pushOf(at, e, {y.head<3>(), y.tail<3>()});
+    const std::array<Mat3, 3>& k = at.stiffness;
+    const Vec3 first = g * at.d[0] - turn.cross(at.d[0]);
+    if (!isEdge(e)) return pushOf(at, e, {k[0] * first, Vec3::Zero()});
+    const Vec3 second = g * at.d[1] - turn.cross(at.d[1]);
+    return pushOf(at, e, {k[0] * first + k[1] * second, k[1].transpose() * first + k[2] * second});
 }
 
 Mat3 ElementContact::diagonalForm(std::size_t e, int a) const
 {
     const Local& at = local_[e];
     const Mat3 mixed = at.d[0] * at.d[1].transpose();
-    return at.stiffness(a, a) * at.d[0] * at.d[0].transpose() + at.stiffness(a, 3 + a) * (mixed + mixed.transpose()) +
-           at.stiffness(3 + a, 3 + a) * at.d[1] * at.d[1].transpose();
+    const auto& [k00, k01, k11] = at.stiffness;
+    return k00(a, a) * at.d[0] * at.d[0].transpose() + k01(a, a) * (mixed + mixed.transpose()) + k11(a, a) * at.d[1] * at.d[1].transpose();
 }
 
 void ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const

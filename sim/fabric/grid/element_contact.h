@@ -67,17 +67,20 @@ class ElementContact {
  private:
     /// First of an element's directions in FabricState::across.
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
-    /// An element at one place: frame, directions, and how turning the mesh shows.
+    /// An element at one place: directions, and how turning the mesh shows. Products with the Hessian read it from memory again and again:
+    /// it holds nothing else.
     struct Local {
-        Mat3 q;
         std::array<Vec3, 2> d;                   ///< the second of yarns only
-        std::array<Vec3, 2> stress;              ///< ∂E/∂d [erg]
         std::array<Vec3, 2> reciprocal;          ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
-        Eigen::Matrix<double, 6, 6> stiffness;   ///< ∂²E/∂d², faces: of the first three [erg]
-        double energy;
+        Vec3 normal;                             ///< of faces
+        std::array<Mat3, 3> stiffness;           ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
+    };
+    struct Stress {
+        std::array<Vec3, 2> stress;              ///< ∂E/∂d [erg]
+        double energy;                           ///< [erg]
         bool isActive;
     };
-    Local localOf(std::size_t e, const FabricState& state) const;
+    Stress assemble(std::size_t e, const FabricState& state, Local& at) const;
     Vec3 turnOf(const Local& at, std::size_t e, const std::array<Vec3, 3>& u) const;
     Push pushOf(const Local& at, std::size_t e, const std::array<Vec3, 2>& y) const;
 
@@ -89,6 +92,7 @@ class ElementContact {
     std::vector<int> material_;                  ///< of each element
     std::vector<double> volume_;                 ///< packing factor times rest envelope volume [cm^3]
     std::vector<Local> local_;
+    std::vector<Stress> stress_;
     std::vector<int> active_;
 };
 

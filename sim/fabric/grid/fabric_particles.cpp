@@ -46,7 +46,7 @@ void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> e
     });
 }
 
-/// Weights of all points, block by block in the order of the sort.
+/// Places of all points, block by block in the order of the sort.
 void FabricParticles::findPoints(std::size_t vertexCount)
 {
     vertices_.clear();
@@ -66,21 +66,18 @@ void FabricParticles::findPoints(std::size_t vertexCount)
         vertices_.begin.push_back(static_cast<int>(vertices_.id.size()));
         elements_.begin.push_back(static_cast<int>(elements_.id.size()));
     }
-    const auto weigh = [&](const std::vector<int>& row, BlockPoints& points) {
-        points.weights.resize(row.size());
+    const auto place = [&](const std::vector<int>& row, BlockPoints& points) {
+        points.place.resize(row.size());
         parallelFor(row.size(), 512, [&](std::size_t i) {
-            Vec3 inCell;
-            Vec3i cell;
             for (int a = 0; a < kAxes; ++a) {
                 const double inCells = (particles_.x[a][row[i]] - grid_.origin[a]) * (1.0 / grid_.dx), lower = std::floor(inCells);
-                inCell[a] = inCells - lower;
-                cell[a] = static_cast<int>(lower) & (kBlockEdge - 1);
+                points.place[i].inCell[a] = inCells - lower;
+                points.place[i].cell[a] = static_cast<int>(lower) & (kBlockEdge - 1);
             }
-            points.weights[i] = PointWeights(inCell, cell);
         });
     };
-    weigh(vertexRow, vertices_);
-    weigh(elementRow, elements_);
+    place(vertexRow, vertices_);
+    place(elementRow, elements_);
 }
 
 void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)

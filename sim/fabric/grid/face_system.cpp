@@ -117,12 +117,12 @@ void FaceSystem::gatherPoints(const BlockArray<double, 3>& u, bool all)
 {
     const BlockPoints &vertices = particles_->vertices(), &elements = particles_->elements();
     forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
-        const PointWeights* w = vertices.weightsOf(n);
-        for (int v : vertices.idsOf(n)) stiffness_.set(in_, v, interpolate(tile, *w++));
-        w = elements.weightsOf(n);
+        const PointPlace* at = vertices.placesOf(n);
+        for (int v : vertices.idsOf(n)) stiffness_.set(in_, v, interpolate(tile, PointWeights(*at++)));
+        at = elements.placesOf(n);
         for (int e : elements.idsOf(n)) {
-            if (all || isActive_[e]) raw_[e] = gradientAt(tile, *w);
-            ++w;
+            if (all || isActive_[e]) raw_[e] = gradientAt(tile, PointWeights(*at));
+            ++at;
         }
     });
 }
@@ -171,12 +171,12 @@ void FaceSystem::spread(FaceVector& q)
     });
     const BlockPoints &vertices = particles_->vertices(), &elements = particles_->elements();
     sumOverBlocks(particles_->order(), *grid_, q.faces, [&](std::size_t n, FaceTile& tile) {
-        const PointWeights* w = vertices.weightsOf(n);
-        for (int v : vertices.idsOf(n)) distribute(*w++, stiffness_.at(out_, v), tile);
-        w = elements.weightsOf(n);
+        const PointPlace* at = vertices.placesOf(n);
+        for (int v : vertices.idsOf(n)) distribute(PointWeights(*at++), stiffness_.at(out_, v), tile);
+        at = elements.placesOf(n);
         for (int e : elements.idsOf(n)) {
-            if (isActive_[e]) distributeGradient(*w, raw_[e], tile);
-            ++w;
+            if (isActive_[e]) distributeGradient(PointWeights(*at), raw_[e], tile);
+            ++at;
         }
     });
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
@@ -229,13 +229,13 @@ void FaceSystem::findDiagonal()
     const BlockPoints &vertices = particles_->vertices(), &elements = particles_->elements();
     const double perCell2 = 1.0 / (grid_->dx * grid_->dx), h2 = h_ * h_;
     sumOverBlocks(particles_->order(), *grid_, inverse_.faces, [&](std::size_t n, FaceTile& tile) {
-        const PointWeights* w = vertices.weightsOf(n);
-        for (int v : vertices.idsOf(n)) distribute((w++)->squared(), stiffness_.at(out_, v), tile);
-        w = elements.weightsOf(n);
+        const PointPlace* at = vertices.placesOf(n);
+        for (int v : vertices.idsOf(n)) distribute(PointWeights(*at++).squared(), stiffness_.at(out_, v), tile);
+        at = elements.placesOf(n);
         for (int e : elements.idsOf(n)) {
             if (isActive_[e])
-                for (int a = 0; a < kAxes; ++a) distributeSquare(*w, a, perCell2 * contact_.diagonalForm(e, a), tile);
-            ++w;
+                for (int a = 0; a < kAxes; ++a) distributeSquare(PointWeights(*at), a, perCell2 * contact_.diagonalForm(e, a), tile);
+            ++at;
         }
     });
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;

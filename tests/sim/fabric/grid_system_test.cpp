@@ -48,8 +48,8 @@ double relativeErrorOfSystem(std::vector<FabricPiece> pieces, double pressed)
     std::vector<Vec3> u(start.x.size(), Vec3::Zero());
     const BlockPoints& points = parts.particles.vertices();
     forEachBlock(parts.particles.order(), parts.particles.grid(), p.faces, [&](std::size_t n, const FaceTile& tile) {
-        const PointWeights* w = points.weightsOf(n);
-        for (int v : points.idsOf(n)) u[v] = interpolate(tile, *w++);
+        const PointPlace* place = points.placesOf(n);
+        for (int v : points.idsOf(n)) u[v] = interpolate(tile, PointWeights(*place++));
     });
     const auto impulsesAt = [&](double step, FaceVector& out) {
         parts.state = start;
