@@ -7,6 +7,7 @@
 namespace sim {
 
 /// Kinetic, potential and elastic energies (model-fabric 6.6); what contact and pins hold is not among them.
-FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const Rods& rods, const Shells& shells, const Vec3& gravity);
+FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const Rods& rods, const Shells& shells,
+                              const Vec3& gravity);
 
 }  // namespace sim

@@ -19,7 +19,8 @@ std::vector<Vec3> pinTargets(const Fabric& fabric, double t)
     return targets;
 }
 
-double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state, int edge)
+double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state,
+                 int edge)
 {
     for (int v : fabric.edges.vertices[edge]) {
         const auto pin = std::ranges::lower_bound(fabric.pins.vertex, v);

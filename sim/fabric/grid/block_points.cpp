@@ -11,13 +11,17 @@ namespace {
     return v;
 }
 
-[[gnu::always_inline]] inline double sum(HalfPack v) { return (v[0] + v[1]) + (v[2] + v[3]); }
+[[gnu::always_inline]] inline double sum(HalfPack v)
+{
+    return (v[0] + v[1]) + (v[2] + v[3]);
+}
 
 }  // namespace
 
 PointWeights::PointWeights(const PointPlace& place)
 {
-    constexpr HalfPack kA = {0.5, -1.0, 0.5, 0.0}, kB = {-0.5, 0.0, 0.5, 0.0}, kC = {0.125, 0.75, 0.125, 0.0}, kNode = {-1.0, 0.0, 1.0, 0.0};
+    constexpr HalfPack kA = {0.5, -1.0, 0.5, 0.0}, kB = {-0.5, 0.0, 0.5, 0.0}, kC = {0.125, 0.75, 0.125, 0.0},
+                       kNode = {-1.0, 0.0, 1.0, 0.0};
     for (int kind = 0; kind < 2; ++kind) {
         for (int a = 0; a < kAxes; ++a) {
             const bool upper = kind == 1 && place.inCell[a] >= 0.5;
@@ -112,7 +116,8 @@ void distributeGradient(const PointWeights& w, const Mat3& t, FaceTile& tile)
         for (int k = 0; k < 3; ++k)
             for (int j = 0; j < 3; ++j) {
                 double* at = to + j * kTileStrideY + k * kTileStrideZ;
-                const HalfPack v = load(at) + (wy[j] * wz[k]) * (alongX + (t(a, 1) * (j - 1 - ry) + t(a, 2) * (k - 1 - rz)) * wx);
+                const HalfPack v =
+                    load(at) + (wy[j] * wz[k]) * (alongX + (t(a, 1) * (j - 1 - ry) + t(a, 2) * (k - 1 - rz)) * wx);
                 std::memcpy(at, &v, sizeof v);
             }
     }
@@ -127,7 +132,8 @@ void distributeSquare(const PointWeights& w, int axis, const Mat3& b, FaceTile& 
     for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j) {
             const double y = j - 1 - w.offset[a == 1][1], z = k - 1 - w.offset[a == 2][2], weight = 4.0 * wy[j] * wz[k];
-            const double mixed = 2.0 * (b(0, 1) * y + b(0, 2) * z), rest = b(1, 1) * y * y + 2.0 * b(1, 2) * y * z + b(2, 2) * z * z;
+            const double mixed = 2.0 * (b(0, 1) * y + b(0, 2) * z),
+                         rest = b(1, 1) * y * y + 2.0 * b(1, 2) * y * z + b(2, 2) * z * z;
             double* at = to + j * kTileStrideY + k * kTileStrideZ;
             const HalfPack v = load(at) + (weight * weight) * (b(0, 0) * zx * zx + mixed * zx * wx + rest * wx * wx);
             std::memcpy(at, &v, sizeof v);

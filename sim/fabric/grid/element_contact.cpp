@@ -162,7 +162,10 @@ ElementContact::Push ElementContact::pushOf(const Local& at, std::size_t e, cons
     return push;
 }
 
-ElementContact::Push ElementContact::gradient(std::size_t e) const { return pushOf(local_[e], e, stress_[e].stress); }
+ElementContact::Push ElementContact::gradient(std::size_t e) const
+{
+    return pushOf(local_[e], e, stress_[e].stress);
+}
 
 ElementContact::Push ElementContact::hessian(std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u) const
 {
@@ -180,7 +183,8 @@ Mat3 ElementContact::diagonalForm(std::size_t e, int a) const
     const Local& at = local_[e];
     const Mat3 mixed = at.d[0] * at.d[1].transpose();
     const auto& [k00, k01, k11] = at.stiffness;
-    return k00(a, a) * at.d[0] * at.d[0].transpose() + k01(a, a) * (mixed + mixed.transpose()) + k11(a, a) * at.d[1] * at.d[1].transpose();
+    return k00(a, a) * at.d[0] * at.d[0].transpose() + k01(a, a) * (mixed + mixed.transpose()) +
+           k11(a, a) * at.d[1] * at.d[1].transpose();
 }
 
 void ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const

@@ -9,10 +9,10 @@
 
 namespace sim {
 
-/// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (model-fabric 3). An element's material directions
-/// across the fabric are carried by the velocity gradient on the grid, its directions in the mesh by the vertices. Both are in the gradient
-/// and in the Hessian: since the energy does not change when all directions turn together, what turns the mesh acts as the opposite turn of
-/// the directions across.
+/// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (model-fabric 3). An
+/// element's material directions across the fabric are carried by the velocity gradient on the grid, its directions in
+/// the mesh by the vertices. Both are in the gradient and in the Hessian: since the energy does not change when all
+/// directions turn together, what turns the mesh acts as the opposite turn of the directions across.
 class ElementContact {
  public:
     ElementContact() = default;
@@ -28,13 +28,13 @@ class ElementContact {
     void assemble(const FabricState& state);
     /// Elements that are pressed, ascending.
     const std::vector<int>& active() const { return active_; }
-    double energy() const;                       ///< [erg], of the last assemble
+    double energy() const;  ///< [erg], of the last assemble
 
-    /// What acts on an element's surroundings: `onGrid` through the velocity gradient, with rows by the component of the force, and on
-    /// its corners.
+    /// What acts on an element's surroundings: `onGrid` through the velocity gradient, with rows by the component of
+    /// the force, and on its corners.
     struct Push {
-        Mat3 onGrid;                             ///< [erg], [erg/s] …
-        std::array<Vec3, 3> onCorners;           ///< [dyn], …
+        Mat3 onGrid;                    ///< [erg], [erg/s] …
+        std::array<Vec3, 3> onCorners;  ///< [dyn], …
     };
     /// Energy gradient: by G (dimensionless) and by the corners' positions.
     Push gradient(std::size_t e) const;
@@ -67,17 +67,17 @@ class ElementContact {
  private:
     /// First of an element's directions in FabricState::across.
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
-    /// An element at one place: directions, and how turning the mesh shows. Products with the Hessian read it from memory again and again:
-    /// it holds nothing else.
+    /// An element at one place: directions, and how turning the mesh shows. Products with the Hessian read it from
+    /// memory again and again: it holds nothing else.
     struct Local {
-        std::array<Vec3, 2> d;                   ///< the second of yarns only
-        std::array<Vec3, 2> reciprocal;          ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
-        Vec3 normal;                             ///< of faces
-        std::array<Mat3, 3> stiffness;           ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
+        std::array<Vec3, 2> d;           ///< the second of yarns only
+        std::array<Vec3, 2> reciprocal;  ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
+        Vec3 normal;                     ///< of faces
+        std::array<Mat3, 3> stiffness;   ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
     };
     struct Stress {
-        std::array<Vec3, 2> stress;              ///< ∂E/∂d [erg]
-        double energy;                           ///< [erg]
+        std::array<Vec3, 2> stress;  ///< ∂E/∂d [erg]
+        double energy;               ///< [erg]
         bool isActive;
     };
     Stress assemble(std::size_t e, const FabricState& state, Local& at) const;
@@ -88,9 +88,9 @@ class ElementContact {
     std::vector<std::array<int, 3>> corners_;
     std::vector<std::array<double, 3>> shares_;
     std::vector<int> incidenceBegin_, incidence_;
-    std::vector<ContactModuli> moduli_;          ///< of each material
-    std::vector<int> material_;                  ///< of each element
-    std::vector<double> volume_;                 ///< packing factor times rest envelope volume [cm^3]
+    std::vector<ContactModuli> moduli_;  ///< of each material
+    std::vector<int> material_;          ///< of each element
+    std::vector<double> volume_;         ///< packing factor times rest envelope volume [cm^3]
     std::vector<Local> local_;
     std::vector<Stress> stress_;
     std::vector<int> active_;

@@ -9,11 +9,15 @@
 namespace sim {
 
 FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
-    : transfer_(settings.fabricTransfer), keepDt_(settings.transfer.keepDt), keepPerStep_(settings.transfer.keepPerStep),
+    : transfer_(settings.fabricTransfer),
+      keepDt_(settings.transfer.keepDt),
+      keepPerStep_(settings.transfer.keepPerStep),
       dampModes_(settings.transfer.dampModes)
 {
     if (transfer_.method == TransferMethod::Flip) transfer_.method = TransferMethod::Apic;
-    modes_ = transfer_.method == TransferMethod::Pic ? 1 : transfer_.method == TransferMethod::Apic ? 4 : transfer_.modes;
+    modes_ = transfer_.method == TransferMethod::Pic    ? 1
+             : transfer_.method == TransferMethod::Apic ? 4
+                                                        : transfer_.modes;
     particles_.modeCount = storedModes(modes_);
     grid_.dx = settings.cell;
     particles_.resize(fabric.vertexCount());
@@ -70,7 +74,8 @@ void FabricParticles::findPoints(std::size_t vertexCount)
         points.place.resize(row.size());
         parallelFor(row.size(), 512, [&](std::size_t i) {
             for (int a = 0; a < kAxes; ++a) {
-                const double inCells = (particles_.x[a][row[i]] - grid_.origin[a]) * (1.0 / grid_.dx), lower = std::floor(inCells);
+                const double inCells = (particles_.x[a][row[i]] - grid_.origin[a]) * (1.0 / grid_.dx),
+                             lower = std::floor(inCells);
                 points.place[i].inCell[a] = inCells - lower;
                 points.place[i].cell[a] = static_cast<int>(lower) & (kBlockEdge - 1);
             }
@@ -85,21 +90,24 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     load(mass, elements, state);
     sortParticles(particles_, grid_, nullptr, order_, ledger_);
     findPoints(state.x.size());
-    if (differsFromTranslation(transfer_.xi, modes_)) particlesToFacesAffine(particles_, order_, grid_, transfer_.xi, state.sinceGather, faces_);
-    else particlesToFaces(particles_, order_, grid_, scatter_, faces_);
+    if (differsFromTranslation(transfer_.xi, modes_))
+        particlesToFacesAffine(particles_, order_, grid_, transfer_.xi, state.sinceGather, faces_);
+    else
+        particlesToFaces(particles_, order_, grid_, scatter_, faces_);
     faces_.velocity.resize(grid_.count());
     parallelFor(grid_.count(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = faces_.sums.block(block, FaceFields::kMass + a), *p = faces_.sums.block(block, FaceFields::kMomentum + a);
+            const double *m = faces_.sums.block(block, FaceFields::kMass + a),
+                         *p = faces_.sums.block(block, FaceFields::kMomentum + a);
             double* v = faces_.velocity.block(block, a);
             for (int c = 0; c < kBlockCells; ++c) v[c] = m[c] > 0.0 ? p[c] / m[c] : 0.0;
         }
     });
 }
 
-/// Model-fabric 3.6: the gradient's symmetric and antisymmetric part and the velocity by factors of their own. Modes beyond the linear
-/// ones are deformation: they fade with the symmetric part.
+/// Model-fabric 3.6: the gradient's symmetric and antisymmetric part and the velocity by factors of their own. Modes
+/// beyond the linear ones are deformation: they fade with the symmetric part.
 void FabricParticles::damp(double h, std::size_t v, FabricState& state) const
 {
     if (rows() > 1 && (modes_ <= 4 || dampModes_)) {

@@ -11,17 +11,18 @@
 
 namespace sim {
 
-/// The fabric on the MAC grid: vertices as particles with the liquid's modes and transfers (model-fabric 3.6). Elements come along
-/// without mass, so that the grid has the faces around them.
+/// The fabric on the MAC grid: vertices as particles with the liquid's modes and transfers (model-fabric 3.6). Elements
+/// come along without mass, so that the grid has the faces around them.
 class FabricParticles {
  public:
     FabricParticles(const Fabric& fabric, const Settings& settings);
 
-    /// P2G of the vertices with their modes, at the state's positions. The modes of a state that has none become its velocities; a
-    /// velocity that was changed since the last gather shifts them.
+    /// P2G of the vertices with their modes, at the state's positions. The modes of a state that has none become its
+    /// velocities; a velocity that was changed since the last gather shifts them.
     /// @param elements  quadrature points [cm]
     void toFaces(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state);
-    /// G2P of the faces' velocities to modes and velocities of the vertices, damped as over a step of h [s]. Positions stay.
+    /// G2P of the faces' velocities to modes and velocities of the vertices, damped as over a step of h [s]. Positions
+    /// stay.
     void toVertices(double h, FabricState& state);
     /// What a velocity keeps over a step of h [-].
     double keptVelocity(double h) const { return keptOver(transfer_.keepVelocity, h); }
@@ -45,14 +46,14 @@ class FabricParticles {
     void damp(double h, std::size_t v, FabricState& state) const;
 
     FabricTransferSettings transfer_;
-    int modes_;                                  ///< N_r gathered
-    double keepDt_;                              ///< [s]
+    int modes_;      ///< N_r gathered
+    double keepDt_;  ///< [s]
     bool keepPerStep_, dampModes_;
 
     LiquidParticles particles_;
     BlockGrid grid_;
     ParticleOrder order_;
-    Ledger ledger_;                              ///< of particles outside the domain; there is none
+    Ledger ledger_;  ///< of particles outside the domain; there is none
     FaceFields faces_;
     ScatterScratch scatter_;
     GatherScratch gather_;

@@ -69,49 +69,6 @@ void FaceSystem::findActiveRows()
     leastMass_ = faces > 0 ? kLeastMass * sum / static_cast<double>(faces) : 1.0;
 }
 
-/// Points gather whole rows of faces: those without mass must be 0.
-void FaceSystem::clearInactive(BlockArray<double, 3>& u) const
-{
-    std::size_t next = 0;
-    double* data = u.block(0);
-    for (int row : rows_) {
-        std::fill(data + next, data + row, 0.0);
-        next = static_cast<std::size_t>(row) + kLanes;
-    }
-    std::fill(data + next, data + u.size(), 0.0);
-}
-
-/// body(isFace, i) for the packs at i of faces with mass, and of twist.
-template <class Body>
-void FaceSystem::forEachPack(Body&& body) const
-{
-    constexpr std::size_t kPacksPerTask = 256;
-    const std::size_t n = rows_.size() + inertia_.size() / kLanes;
-    parallelFor(n, kPacksPerTask, [&](std::size_t r) {
-        if (r < rows_.size()) body(true, static_cast<std::size_t>(rows_[r]));
-        else body(false, (r - rows_.size()) * kLanes);
-    });
-}
-
-template <class F>
-double FaceSystem::sumOverPacks(F&& f) const
-{
-    const std::size_t n = rows_.size() + inertia_.size() / kLanes;
-    return parallelSum(n, [&](std::size_t r) {
-        return r < rows_.size() ? sumLanes(f(true, static_cast<std::size_t>(rows_[r]))) : sumLanes(f(false, (r - rows_.size()) * kLanes));
-    });
-}
-
-namespace {
-
-Pack* at(FaceVector& v, bool isFace, std::size_t i) { return reinterpret_cast<Pack*>((isFace ? v.faces.block(0) : v.twist.data()) + i); }
-const Pack* at(const FaceVector& v, bool isFace, std::size_t i)
-{
-    return reinterpret_cast<const Pack*>((isFace ? v.faces.block(0) : v.twist.data()) + i);
-}
-
-}  // namespace
-
 /// Velocities of the vertices into in_, gradients of active elements (or all) into raw_.
 void FaceSystem::gatherPoints(const BlockArray<double, 3>& u, bool all)
 {
@@ -132,11 +89,13 @@ void FaceSystem::findMissing()
     work_.resize(blocks());
     const double* mass = mass_.block(0);
     parallelFor(mass_.size() / kBlockCells, 8, [&](std::size_t c) {
-        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) work_.block(0)[i] = mass[i] > 0.0 ? 1.0 : 0.0;
+        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i)
+            work_.block(0)[i] = mass[i] > 0.0 ? 1.0 : 0.0;
     });
     gatherPoints(work_, true);
     constexpr double kRoundOff = 1.0e-12;
-    for (std::size_t e = 0; e < missing_.size(); ++e) missing_[e] = raw_[e].cwiseAbs().maxCoeff() > kRoundOff ? raw_[e] : Mat3(Mat3::Zero());
+    for (std::size_t e = 0; e < missing_.size(); ++e)
+        missing_[e] = raw_[e].cwiseAbs().maxCoeff() > kRoundOff ? raw_[e] : Mat3(Mat3::Zero());
 }
 
 /// Gathered gradient of an element, faces without mass moving like the mean of its corners [1/s].
@@ -202,8 +161,8 @@ void FaceSystem::multiply(const FaceVector& p, FaceVector& q)
     const double* mass = mass_.block(0);
     forEachPack([&](bool isFace, std::size_t i) {
         const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
-        Pack& out = *at(q, isFace, i);
-        out = select(m > 0.0, m * *at(p, isFace, i) + h2 * out, broadcast(0.0));
+        Pack& out = q.pack(isFace, i);
+        out = select(m > 0.0, m * p.pack(isFace, i) + h2 * out, broadcast(0.0));
     });
 }
 
@@ -217,7 +176,7 @@ void FaceSystem::impulses(FaceVector& q)
     const double* mass = mass_.block(0);
     forEachPack([&](bool isFace, std::size_t i) {
         const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
-        Pack& out = *at(q, isFace, i);
+        Pack& out = q.pack(isFace, i);
         out = select(m > 0.0, h_ * out, broadcast(0.0));
     });
 }
@@ -234,7 +193,8 @@ void FaceSystem::findDiagonal()
         at = elements.placesOf(n);
         for (int e : elements.idsOf(n)) {
             if (isActive_[e])
-                for (int a = 0; a < kAxes; ++a) distributeSquare(PointWeights(*at), a, perCell2 * contact_.diagonalForm(e, a), tile);
+                for (int a = 0; a < kAxes; ++a)
+                    distributeSquare(PointWeights(*at), a, perCell2 * contact_.diagonalForm(e, a), tile);
             ++at;
         }
     });
@@ -243,57 +203,9 @@ void FaceSystem::findDiagonal()
     const double* mass = mass_.block(0);
     forEachPack([&](bool isFace, std::size_t i) {
         const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
-        Pack& out = *at(inverse_, isFace, i);
+        Pack& out = inverse_.pack(isFace, i);
         out = select(m > 0.0, 1.0 / (m + h2 * out), broadcast(0.0));
     });
-}
-
-FaceSolveReport FaceSystem::solve(double tolerance, int maxIterations, FaceVector& v)
-{
-    FaceSolveReport report;
-    impulses(q_);
-    multiply(v, z_);
-    const double* mass = mass_.block(0);
-    forEachPack([&](bool isFace, std::size_t i) {
-        const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
-        *at(residual_, isFace, i) = *at(q_, isFace, i) + (m * *at(v, isFace, i) - *at(z_, isFace, i));
-        *at(p_, isFace, i) = *at(inverse_, isFace, i) * *at(residual_, isFace, i);
-    });
-    clearInactive(p_.faces);
-    const auto speedError = [&] {
-        const std::size_t n = rows_.size() + inertia_.size() / kLanes;
-        return parallelMax(n, [&](std::size_t r) {
-            const bool isFace = r < rows_.size();
-            const std::size_t i = isFace ? static_cast<std::size_t>(rows_[r]) : (r - rows_.size()) * kLanes;
-            const Pack weight = isFace ? 1.0 / maxPack(loadPack(mass + i), broadcast(leastMass_)) : loadPack(perTwistSpeed_.data() + i);
-            const Pack error = absPack(*at(residual_, isFace, i)) * weight;
-            double largest = 0.0;
-            for (int l = 0; l < kLanes; ++l) largest = error[l] > largest || error[l] != error[l] ? error[l] : largest;
-            return largest;
-        });
-    };
-    const auto energyOf = [&](const FaceVector& a, const FaceVector& b) {
-        return sumOverPacks([&](bool isFace, std::size_t i) { return *at(a, isFace, i) * *at(b, isFace, i); });
-    };
-    double energy = energyOf(residual_, p_);
-    report.speedError = speedError();
-    while (report.speedError > tolerance && report.iterations < maxIterations) {
-        multiply(p_, q_);
-        const double curvature = energyOf(p_, q_);
-        if (!(curvature > 0.0)) break;
-        const double step = energy / curvature;
-        forEachPack([&](bool isFace, std::size_t i) {
-            *at(v, isFace, i) += step * *at(p_, isFace, i);
-            *at(residual_, isFace, i) -= step * *at(q_, isFace, i);
-            *at(z_, isFace, i) = *at(inverse_, isFace, i) * *at(residual_, isFace, i);
-        });
-        ++report.iterations;
-        report.speedError = speedError();
-        const double next = energyOf(residual_, z_), ratio = next / energy;
-        energy = next;
-        forEachPack([&](bool isFace, std::size_t i) { *at(p_, isFace, i) = *at(z_, isFace, i) + ratio * *at(p_, isFace, i); });
-    }
-    return report;
 }
 
 void FaceSystem::elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients)

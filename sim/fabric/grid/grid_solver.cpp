@@ -7,13 +7,18 @@ namespace sim {
 
 namespace {
 
-constexpr double kSpeedTolerance = 1.0e-3;    ///< of the linear solve (model-fabric 13.7) [cm/s]
+constexpr double kSpeedTolerance = 1.0e-3;  ///< of the linear solve (model-fabric 13.7) [cm/s]
 constexpr int kMaxIterations = 200;
 
 }  // namespace
 
-GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles)
-    : fabric_(fabric), settings_(settings.fabric), stiffness_(fabric, settings.fabric), contact_(fabric), particles_(fabric, settings),
+GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& settings,
+                                   std::span<const ObstacleSettings> obstacles)
+    : fabric_(fabric),
+      settings_(settings.fabric),
+      stiffness_(fabric, settings.fabric),
+      contact_(fabric),
+      particles_(fabric, settings),
       system_(fabric, stiffness_, contact_)
 {
     if (settings_.contact) obstacles_ = FabricObstacles(fabric, obstacles);
@@ -29,7 +34,8 @@ void GridFabricSolver::begin(FabricState& state)
 }
 
 /// Contacts with obstacles where the vertices would be at the end of the step.
-std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
+std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
+                                                                  const FabricState& state)
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
         predicted_[v] = state.v[v] + h * gravity;

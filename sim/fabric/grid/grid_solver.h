@@ -9,10 +9,10 @@
 
 namespace sim {
 
-/// `fabric.solver: grid`: fabric as the PolyPIC paper solves for it (model-fabric 3 and 4, without the defects of section 10). The vertices
-/// are particles of a MAC grid whose face velocities are the unknowns of one linearised backward Euler step; contact is a continuum that
-/// the grid resolves to a cell, so that nothing keeps yarns from crossing within one. Contact is implicit and acts on the mesh too, and
-/// twist angles are unknowns of their own.
+/// `fabric.solver: grid`: fabric as the PolyPIC paper solves for it (model-fabric 3 and 4, without the defects of
+/// section 10). The vertices are particles of a MAC grid whose face velocities are the unknowns of one linearised
+/// backward Euler step; contact is a continuum that the grid resolves to a cell, so that nothing keeps yarns from
+/// crossing within one. Contact is implicit and acts on the mesh too, and twist angles are unknowns of their own.
 class GridFabricSolver {
  public:
     GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles);
@@ -38,9 +38,10 @@ class GridFabricSolver {
     FaceSystem system_;
     FabricObstacles obstacles_;
     FaceVector velocity_;
-    std::vector<Vec3> points_;                   ///< quadrature points of the elements [cm]
-    std::vector<Vec3> predicted_, reached_;      ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
-    std::vector<Mat3> gradients_;                ///< of each element [1/s]
+    std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
+    std::vector<Vec3> predicted_,
+        reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
+    std::vector<Mat3> gradients_;  ///< of each element [1/s]
 };
 
 }  // namespace sim

@@ -8,8 +8,12 @@
 namespace sim {
 
 VertexStiffness::VertexStiffness(const Fabric& fabric, const FabricSettings& settings)
-    : fabric_(fabric), rods_(fabric, restState(fabric), settings), shells_(fabric, settings), unknowns_(fabric, rods_.layout(), shells_),
-      cloth_(shells_.matrix()), restReference_(restState(fabric).reference)
+    : fabric_(fabric),
+      rods_(fabric, restState(fabric), settings),
+      shells_(fabric, settings),
+      unknowns_(fabric, rods_.layout(), shells_),
+      cloth_(shells_.matrix()),
+      restReference_(restState(fabric).reference)
 {
     strands_.resize(rods_.layout());
     gradient_.resize(unknowns_.size);
@@ -40,7 +44,8 @@ void VertexStiffness::findPinStiffness(const Fabric& fabric)
         const FabricMaterial& m = fabric.materials[fabric.strands.material[strand]];
         const auto [a, b] = fabric.strands.radius[strand];
         heldEdges_.push_back(static_cast<int>(e));
-        heldStiffness_.push_back(m.shear() * m.pinStiffness * 0.25 * kPi * a * b * (a * a + b * b) / fabric.edges.restLength[e]);
+        heldStiffness_.push_back(m.shear() * m.pinStiffness * 0.25 * kPi * a * b * (a * a + b * b) /
+                                 fabric.edges.restLength[e]);
     }
 }
 
@@ -97,7 +102,8 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     parallelFor(layout.groups.size(), [&](std::size_t g) {
         const StrandLayout::Group& group = layout.groups[g];
         const std::size_t first = static_cast<std::size_t>(group.firstRow) * kLanes;
-        strands_.multiply(group, reinterpret_cast<const Pack*>(in.data() + first), reinterpret_cast<Pack*>(out.data() + first));
+        strands_.multiply(group, reinterpret_cast<const Pack*>(in.data() + first),
+                          reinterpret_cast<Pack*>(out.data() + first));
     });
     std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
     addToOwners(out);
@@ -107,7 +113,8 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
         double sum[3] = {};
         for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
             const double *m = cloth_.block(e), *v = in.data() + unknowns_.slot[vertices[cloth_.column(e)]];
-            for (int a = 0; a < kAxes; ++a) sum[a] += m[3 * a] * v[0] + m[3 * a + 1] * v[kLanes] + m[3 * a + 2] * v[2 * kLanes];
+            for (int a = 0; a < kAxes; ++a)
+                sum[a] += m[3 * a] * v[0] + m[3 * a + 1] * v[kLanes] + m[3 * a + 2] * v[2 * kLanes];
         }
         add(out, vertices[n], Vec3(sum[0], sum[1], sum[2]));
     });

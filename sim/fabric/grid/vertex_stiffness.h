@@ -10,9 +10,9 @@
 
 namespace sim {
 
-/// Forces on the vertices and twist angles at the start of a step and their Gauss-Newton derivatives K: rods, shells, the springs of pins
-/// (model-fabric 6.1) and obstacles. Vectors are laid out by VertexUnknowns; what shared vertices have in strands that do not own them
-/// is filled in by multiply.
+/// Forces on the vertices and twist angles at the start of a step and their Gauss-Newton derivatives K: rods, shells,
+/// the springs of pins (model-fabric 6.1) and obstacles. Vectors are laid out by VertexUnknowns; what shared vertices
+/// have in strands that do not own them is filled in by multiply.
 class VertexStiffness {
  public:
     VertexStiffness(const Fabric& fabric, const FabricSettings& settings);
@@ -21,9 +21,10 @@ class VertexStiffness {
     const Shells& shells() const { return shells_; }
     const VertexUnknowns& unknowns() const { return unknowns_; }
 
-    /// Elastic and viscous forces at the state, which is that at the start of the step, and pins where they are at time t + h [s]. The
-    /// contacts with obstacles must be those of positions x + h v of the `predicted` velocities [cm/s].
-    void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles, std::span<const Vec3> predicted);
+    /// Elastic and viscous forces at the state, which is that at the start of the step, and pins where they are at time
+    /// t + h [s]. The contacts with obstacles must be those of positions x + h v of the `predicted` velocities [cm/s].
+    void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
+                  std::span<const Vec3> predicted);
 
     /// Energy gradient [dyn, dyn cm].
     const AlignedArray<double>& gradient() const { return gradient_; }
@@ -52,7 +53,7 @@ class VertexStiffness {
     /// What acts on single vertices and angles.
     struct Spring {
         int vertex;
-        Mat3 stiffness;                  ///< [dyn/cm]
+        Mat3 stiffness;  ///< [dyn/cm]
     };
     void findShared();
     void findPinStiffness(const Fabric& fabric);
@@ -67,10 +68,10 @@ class VertexStiffness {
     BlockMatrix cloth_;
     std::vector<Shared> shared_;
     std::vector<Spring> springs_;
-    std::vector<Vec3> restReference_;            ///< of each yarn edge
-    std::vector<double> pinStiffness_;           ///< of each pin [dyn/cm]
+    std::vector<Vec3> restReference_;   ///< of each yarn edge
+    std::vector<double> pinStiffness_;  ///< of each pin [dyn/cm]
     std::vector<int> heldEdges_;
-    std::vector<double> heldStiffness_;          ///< of each held edge [dyn cm]
+    std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm]
     AlignedArray<double> gradient_;
 };
 

@@ -3,10 +3,10 @@
 #include "sim/fabric/grid/element_contact.h"
 #include "tests/sim/fabric/pieces.h"
 
+#include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <gtest/gtest.h>
 
 namespace sim::testing {
 namespace {
@@ -38,12 +38,14 @@ TEST(GridContactLaw, StressesAreTheSlopesOfTheEnergy)
         const yarn::Strain s = squeezed(noise);
         for (int i = 0; i < 3; ++i) {
             const Vec3 by = kStep * Vec3::Unit(i);
-            EXPECT_NEAR((sheet::energy(m, r + by) - sheet::energy(m, r - by)) / (2.0 * kStep), sheet::stress(m, r)[i], 1e-8);
+            EXPECT_NEAR((sheet::energy(m, r + by) - sheet::energy(m, r - by)) / (2.0 * kStep), sheet::stress(m, r)[i],
+                        1e-8);
         }
         for (int i = 0; i < 6; ++i) {
             yarn::Strain by = yarn::Strain::Zero();
             by(i % 3, i / 3) = kStep;
-            EXPECT_NEAR((yarn::energy(m, s + by) - yarn::energy(m, s - by)) / (2.0 * kStep), yarn::stress(m, s)(i % 3, i / 3), 1e-7);
+            EXPECT_NEAR((yarn::energy(m, s + by) - yarn::energy(m, s - by)) / (2.0 * kStep),
+                        yarn::stress(m, s)(i % 3, i / 3), 1e-7);
         }
     }
 }
@@ -91,7 +93,8 @@ TEST(GridContactLaw, YarnStiffnessIsThePositivePartOfTheSlopeOfTheStress)
             slope.col(i) << change(1, 0), change(2, 0), change(1, 1), change(2, 1);
         }
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(0.5 * (slope + slope.transpose()));
-        const Eigen::Matrix4d positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+        const Eigen::Matrix4d positive =
+            eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
         EXPECT_LT((k - positive).cwiseAbs().maxCoeff(), 1e-5);
         EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(k).eigenvalues().minCoeff(), -1e-12);
     }
@@ -183,8 +186,9 @@ TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
 /// Moves of the corners and of the directions by a gradient.
 TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
 {
-    std::vector<FabricPiece> pieces = {pieceOf(clothGrid({{3, 3}, {0.144, 0.13}}), wool(), {0.017, 0.017}),
-                                       pieceOf(strand(Vec3(1.0, 0.0, 0.0), Vec3(1.5, 0.2, 0.3), 3), wool(), {0.05, 0.04})};
+    std::vector<FabricPiece> pieces = {
+        pieceOf(clothGrid({{3, 3}, {0.144, 0.13}}), wool(), {0.017, 0.017}),
+        pieceOf(strand(Vec3(1.0, 0.0, 0.0), Vec3(1.5, 0.2, 0.3), 3), wool(), {0.05, 0.04})};
     const Fabric fabric = assembleFabric(pieces);
     FabricState rest = restState(fabric);
     ElementContact contact(fabric);

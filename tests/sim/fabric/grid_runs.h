@@ -69,8 +69,12 @@ struct GridRun {
 /// The parts of the solver by themselves, put together at a state.
 struct GridParts {
     GridParts(const std::vector<FabricPiece>& pieces, const Settings& settings)
-        : fabric(assembleFabric(pieces)), state(initialState(fabric, pieces)), stiffness(fabric, settings.fabric), contact(fabric),
-          particles(fabric, settings), system(fabric, stiffness, contact)
+        : fabric(assembleFabric(pieces)),
+          state(initialState(fabric, pieces)),
+          stiffness(fabric, settings.fabric),
+          contact(fabric),
+          particles(fabric, settings),
+          system(fabric, stiffness, contact)
     {
         state.across = contact.unstrained(state);
     }
@@ -98,7 +102,8 @@ struct GridParts {
         FaceVector v;
         v.resize(system.blocks(), system.edges());
         v.twist.fill(0.0);
-        for (std::size_t i = 0; i < v.faces.size(); ++i) v.faces.block(0)[i] = system.mass().block(0)[i] > 0.0 ? noise() : 0.0;
+        for (std::size_t i = 0; i < v.faces.size(); ++i)
+            v.faces.block(0)[i] = system.mass().block(0)[i] > 0.0 ? noise() : 0.0;
         for (std::size_t e = 0; e < system.edges(); ++e) v.twist[e] = 10.0 * noise();
         return v;
     }

@@ -10,7 +10,10 @@ namespace {
 
 constexpr double kStep = 2.0e-4;
 
-std::vector<FabricPiece> allKinds() { return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))}; }
+std::vector<FabricPiece> allKinds()
+{
+    return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))};
+}
 
 TEST(GridFabricSystem, IsSymmetricAndPositive)
 {
@@ -89,7 +92,8 @@ TEST(GridFabricSystem, IsTheSlopeOfTheForcesAtRest)
     EXPECT_LT(relativeErrorOfSystem({cloth(6)}, 0.0), 1e-5);
 }
 
-/// What stretches and bends is weak here, so that contact shows. Its Hessian leaves out the stress's own turning, of relative size 1e-3.
+/// What stretches and bends is weak here, so that contact shows. Its Hessian leaves out the stress's own turning, of
+/// relative size 1e-3.
 TEST(GridFabricSystem, HasTheSlopeOfContact)
 {
     for (FabricPiece piece : {weave(6), cloth(6)}) {
@@ -120,7 +124,10 @@ double errorAfterRoundTrip(const std::vector<FabricPiece>& pieces, int modes, F&
     return worst;
 }
 
-double affine(int axis, const Vec3& x) { return 1.0 + axis + (0.3 + axis) * x[0] - 0.7 * x[1] + (0.2 * axis - 1.0) * x[2]; }
+double affine(int axis, const Vec3& x)
+{
+    return 1.0 + axis + (0.3 + axis) * x[0] - 0.7 * x[1] + (0.2 * axis - 1.0) * x[2];
+}
 
 TEST(GridFabricTransfer, AffineFieldsComeBack)
 {
@@ -130,7 +137,8 @@ TEST(GridFabricTransfer, AffineFieldsComeBack)
 TEST(GridFabricTransfer, MultilinearFieldsComeBackWithEightModes)
 {
     const auto field = [](int axis, const Vec3& x) {
-        return affine(axis, x) + 2.0 * x[0] * x[1] - (1.0 + axis) * x[0] * x[2] + 3.0 * x[1] * x[2] + 1.5 * x[0] * x[1] * x[2];
+        return affine(axis, x) + 2.0 * x[0] * x[1] - (1.0 + axis) * x[0] * x[2] + 3.0 * x[1] * x[2] +
+               1.5 * x[0] * x[1] * x[2];
     };
     for (int modes : {8, 27}) EXPECT_LT(errorAfterRoundTrip(allKinds(), modes, field), 1e-12) << modes << " modes";
     EXPECT_GT(errorAfterRoundTrip(allKinds(), 4, field), 1e-3);
@@ -138,8 +146,11 @@ TEST(GridFabricTransfer, MultilinearFieldsComeBackWithEightModes)
 
 TEST(GridFabricTransfer, LoneVertexGivesBackAnythingWithTwentySevenModes)
 {
-    const std::vector<FabricPiece> far = {pieceOf(strand(Vec3(0.1, 0.05, 0.2), Vec3(3.1, 1.2, 2.2), 1), wool(), {0.05, 0.05})};
-    const auto noise = [](int axis, const Vec3& x) { return std::sin(100.0 * x[0] + 37.0 * x[1] * x[2] + 11.0 * axis); };
+    const std::vector<FabricPiece> far = {
+        pieceOf(strand(Vec3(0.1, 0.05, 0.2), Vec3(3.1, 1.2, 2.2), 1), wool(), {0.05, 0.05})};
+    const auto noise = [](int axis, const Vec3& x) {
+        return std::sin(100.0 * x[0] + 37.0 * x[1] * x[2] + 11.0 * axis);
+    };
     EXPECT_LT(errorAfterRoundTrip(far, 27, noise), 1e-12);
     EXPECT_GT(errorAfterRoundTrip(far, 8, noise), 1e-3);
 }
