@@ -72,12 +72,15 @@ void Simulation::prepareWorkspace()
     work_.packing = packingOfSources(scene_);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
         work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
+    if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
+        work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles);
 }
 
 Energies Simulation::energies() const
 {
     Energies energies = liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity);
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
+    if (work_.gridFabric) energies.fabric = work_.gridFabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
 }
 
@@ -129,8 +132,11 @@ std::uint64_t stateHash(const State& state)
         add(state.pressure.block(b), kBlockCells * sizeof(double));
     }
     const FabricState& fabric = state.fabric;
-    for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference}) add(v->data(), v->size() * sizeof(Vec3));
-    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist}) add(v->data(), v->size() * sizeof(double));
+    for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference, &fabric.across})
+        add(v->data(), v->size() * sizeof(Vec3));
+    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist, &fabric.modes})
+        add(v->data(), v->size() * sizeof(double));
+    add(&fabric.sinceGather, sizeof fabric.sinceGather);
     add(&fabric.lastFraction, sizeof fabric.lastFraction);
     add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
     add(&state.unrelaxed, sizeof state.unrelaxed);

@@ -154,7 +154,8 @@ void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, St
     if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
 }
 
-void stepFabric(State& state, const Settings& settings, VertexSolver& solver, double dt, StepReport& report, StageClock& clock)
+template <class Solver>
+void stepFabric(State& state, const Settings& settings, Solver& solver, double dt, StepReport& report, StageClock& clock)
 {
     report.fabric = solver.step(state.time, dt, settings.gravity, state.fabric, clock);
     report.energies.fabric = solver.energies(state.fabric, settings.gravity);
@@ -177,6 +178,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     }
     if (hasLiquid(state)) stepLiquid(state, scene, work, dt, report, clock);
     if (work.fabric) stepFabric(state, scene.settings, *work.fabric, dt, report, clock);
+    if (work.gridFabric) stepFabric(state, scene.settings, *work.gridFabric, dt, report, clock);
 
     state.time += dt;
     ++state.step;
@@ -192,10 +194,16 @@ double cflNumber(const Settings& settings, double maxSpeed, double dt)
 double chooseTimeStep(const Settings& settings, const State& state, double maxSpeed)
 {
     const TimeSettings& time = settings.time;
-    if (!hasLiquid(state)) return time.dt;
+    double dt = time.dt;
+    if (settings.fabric.solver == FabricSolver::Grid) {
+        const std::vector<Vec3>& v = state.fabric.v;
+        const double fastest = std::sqrt(parallelMax(v.size(), [&](std::size_t i) { return v[i].squaredNorm(); }));
+        if (fastest > 0.0) dt = std::min(dt, time.maxCflFabric * settings.cell / fastest);
+    }
+    if (!hasLiquid(state)) return dt;
     const double perCfl = 1.0 / cflNumber(settings, maxSpeed, 1.0);
     const double bound = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(time.cfl, time.maxCflLiquid);
-    return std::min(time.dt, bound * perCfl);
+    return std::min(dt, bound * perCfl);
 }
 
 }  // namespace sim

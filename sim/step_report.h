@@ -24,12 +24,15 @@ enum class Stage {
     FabricContact,     ///< contact forces, and making moves safe
     FabricElastic,     ///< elastic forces, their derivatives, factors of the preconditioner
     FabricSolve,       ///< the linear solves
+    FabricToGrid,      ///< vertices to faces …
+    GridToFabric,      ///< … and back, solver grid only
+    FabricStrain,      ///< strains of contact on the grid, with separation and friction
     Count
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
     "emit", "sort", "obstacles", "relax", "particles_to_grid", "cells", "pressure", "volume", "walls", "grid_to_particles",
-    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve"};
+    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain"};
 
 /// What an iterative solve did.
 struct SolveReport {

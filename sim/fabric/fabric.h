@@ -75,6 +75,11 @@ struct FabricState {
     std::vector<Vec3> reference;          ///< first axis u of the reference frame, across the tangent [-]
     double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step; solver vertex [-]
     std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
+
+    // Of solver grid only; empty until its first step.
+    std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
+    std::vector<double> modes;            ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as LiquidParticles has them [cm/s]
+    double sinceGather = 0.0;             ///< for how long the vertices have moved since their modes were gathered [s]
 };
 
 /// Puts the pieces together. Throws InputError for a strand of one vertex, edges or faces without extent, indices out of range.

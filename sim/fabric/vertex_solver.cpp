@@ -1,6 +1,8 @@
 #include "sim/fabric/vertex_solver.h"
 
 #include "sim/core/parallel.h"
+#include "sim/fabric/energies.h"
+#include "sim/fabric/pins.h"
 
 #include <cmath>
 
@@ -56,11 +58,10 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
         move_[v] = h * state.v[v] + fall;
         free_[v] = state.x[v] + move_[v];
     });
-    std::vector<Eigen::Isometry3d> pose;
-    for (const Motion& motion : fabric_.pins.motions) pose.push_back(motion.transform(t + h));
-    for (std::size_t i = 0; i < fabric_.pins.vertex.size(); ++i) {
+    const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
-        free_[v] = pose[fabric_.pins.motion[i]] * fabric_.rest[v];
+        free_[v] = targets[i];
         move_[v] = free_[v] - state.x[v];
     }
     for (std::size_t e = 0; e < freeAngle_.size(); ++e) freeAngle_[e] = state.theta[e] + h * state.omega[e];
@@ -88,18 +89,8 @@ void VertexSolver::commit(FabricState& state, StageClock& clock)
 /// Material frames of held edges follow their pins' rotation.
 void VertexSolver::turnHeldEdges(double t, FabricState& state) const
 {
-    for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
-        if (!fabric_.edges.twistHeld[e]) continue;
-        for (int v : fabric_.edges.vertices[e]) {
-            const auto pin = std::ranges::lower_bound(fabric_.pins.vertex, v);
-            if (pin == fabric_.pins.vertex.end() || *pin != v) continue;
-            const Motion& motion = fabric_.pins.motions[fabric_.pins.motion[pin - fabric_.pins.vertex.begin()]];
-            const Vec3 target = motion.transform(t).linear() * restReference_[e], &u = state.reference[e], &tangent = state.tangent[e];
-            const double angle = std::atan2(tangent.dot(u.cross(target)), u.dot(target));
-            state.theta[e] += std::remainder(angle - state.theta[e], 2.0 * kPi);
-            break;
-        }
-    }
+    for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
+        if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t, state, static_cast<int>(e));
 }
 
 bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
@@ -166,15 +157,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
 FabricEnergies VertexSolver::energies(const FabricState& state, const Vec3& gravity) const
 {
-    FabricEnergies e;
-    e.kinetic = parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return 0.5 * fabric_.mass[v] * state.v[v].squaredNorm(); });
-    e.kinetic += parallelSum(fabric_.edges.size(), [&](std::size_t n) { return 0.5 * fabric_.edges.twistInertia[n] * state.omega[n] * state.omega[n]; });
-    e.potential = -parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * gravity.dot(state.x[v]); });
-    const auto [stretching, bending, twisting] = system_.rods().energies(state);
-    const auto [membrane, shellBending] = system_.shells().energies(state.x);
-    e.stretching = stretching, e.bending = bending, e.twisting = twisting;
-    e.membrane = membrane, e.shellBending = shellBending;
-    return e;
+    return fabricEnergies(fabric_, state, system_.rods(), system_.shells(), gravity);
 }
 
 double VertexSolver::leastDistance() const { return contact_ ? contact_->leastDistance() : std::numeric_limits<double>::infinity(); }

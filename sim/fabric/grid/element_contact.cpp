@@ -1,0 +1,210 @@
+#include "sim/fabric/grid/element_contact.h"
+
+#include "sim/core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr std::size_t kElementsPerTask = 256;
+
+/// Interior angle at `at` over π.
+double angleShare(const Vec3& at, const Vec3& b, const Vec3& c)
+{
+    const Vec3 u = b - at, v = c - at;
+    return std::atan2(u.cross(v).norm(), u.dot(v)) / kPi;
+}
+
+yarn::Strain yarnStrain(const Mat3& q, const std::array<Vec3, 2>& d)
+{
+    yarn::Strain r;
+    for (int k = 0; k < 2; ++k) r.col(k) = q.transpose() * d[k];
+    return r;
+}
+
+}  // namespace
+
+ElementContact::ElementContact(const Fabric& fabric) : edges_(fabric.edges.size())
+{
+    for (const FabricMaterial& m : fabric.materials) moduli_.emplace_back(m);
+    for (std::size_t e = 0; e < fabric.edges.size(); ++e) {
+        const int strand = fabric.edges.strand[e];
+        const auto [a, b] = fabric.strands.radius[strand];
+        corners_.push_back({fabric.edges.vertices[e][0], fabric.edges.vertices[e][1], -1});
+        shares_.push_back({0.5, 0.5, 0.0});
+        material_.push_back(fabric.strands.material[strand]);
+        volume_.push_back(fabric.materials[material_.back()].packing() * kPi * a * b * fabric.edges.restLength[e]);
+    }
+    for (std::size_t f = 0; f < fabric.faces.size(); ++f) {
+        const Vec3i& c = fabric.faces.vertices[f];
+        const Vec3 &x0 = fabric.rest[c[0]], &x1 = fabric.rest[c[1]], &x2 = fabric.rest[c[2]];
+        corners_.push_back({c[0], c[1], c[2]});
+        shares_.push_back({angleShare(x0, x1, x2), angleShare(x1, x2, x0), angleShare(x2, x0, x1)});
+        material_.push_back(fabric.faces.material[f]);
+        const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
+        volume_.push_back(fabric.materials[material_.back()].packing() * area * fabric.faces.thickness[f]);
+    }
+
+    incidenceBegin_.assign(fabric.vertexCount() + 1, 0);
+    for (const std::array<int, 3>& c : corners_)
+        for (int v : c)
+            if (v >= 0) ++incidenceBegin_[v + 1];
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) incidenceBegin_[v + 1] += incidenceBegin_[v];
+    incidence_.resize(incidenceBegin_.back());
+    std::vector<int> next(incidenceBegin_.begin(), incidenceBegin_.end() - 1);
+    for (std::size_t e = 0; e < corners_.size(); ++e)
+        for (int k = 0; k < 3; ++k)
+            if (corners_[e][k] >= 0) incidence_[next[corners_[e][k]]++] = 3 * static_cast<int>(e) + k;
+    local_.resize(corners_.size());
+    stress_.resize(corners_.size());
+}
+
+std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
+{
+    std::vector<Vec3> across;
+    for (std::size_t e = 0; e < edges_; ++e) {
+        across.push_back(state.reference[e]);
+        across.push_back(state.tangent[e].cross(state.reference[e]));
+    }
+    for (std::size_t e = edges_; e < size(); ++e) {
+        const Vec3& x0 = state.x[corners_[e][0]];
+        across.push_back(sheet::frameOf(state.x[corners_[e][1]] - x0, state.x[corners_[e][2]] - x0).col(2));
+    }
+    return across;
+}
+
+ElementContact::Stress ElementContact::assemble(std::size_t e, const FabricState& state, Local& at) const
+{
+    const ContactModuli& m = moduli_[material_[e]];
+    const double volume = volume_[e];
+    const Vec3& x0 = state.x[corners_[e][0]];
+    const Vec3 t0 = state.x[corners_[e][1]] - x0;
+    Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
+    at.d = {state.across[direction(e)], Vec3::Zero()};
+    for (Mat3& k : at.stiffness) k.setZero();
+    if (isEdge(e)) {
+        at.d[1] = state.across[direction(e) + 1];
+        const Mat3 q = yarn::frameOf(t0, at.d[0]);
+        at.reciprocal = {q.col(0) / t0.norm(), Vec3::Zero()};
+        at.normal.setZero();
+        const yarn::Strain r = yarnStrain(q, at.d), p = yarn::stress(m, r);
+        yarn::SectionStiffness k;
+        found.isActive = yarn::stiffness(m, r, k);
+        if (!found.isActive) return found;
+        found.energy = volume * yarn::energy(m, r);
+        for (int n = 0; n < 3; ++n) {
+            const int column = n / 2, other = (n + 1) / 2;
+            Mat3 local = Mat3::Zero();
+            if (column == other) {
+                found.stress[column] = volume * (q * p.col(column));
+                local(0, 0) = m.shear;
+            }
+            local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
+            at.stiffness[n] = volume * (q * local * q.transpose());
+        }
+        return found;
+    }
+    const Vec3 t1 = state.x[corners_[e][2]] - x0;
+    const Mat3 q = sheet::frameOf(t0, t1);
+    const Vec3 r = q.transpose() * at.d[0];
+    const double area = t0.cross(t1).norm();
+    at.normal = q.col(2);
+    at.reciprocal = {t1.cross(at.normal) / area, at.normal.cross(t0) / area};
+    found.energy = volume * sheet::energy(m, r);
+    found.isActive = 1.0 - r[2] >= kLeastCompression;
+    found.stress[0] = volume * (q * sheet::stress(m, r));
+    at.stiffness[0] = volume * (q * sheet::stiffness(m, r).asDiagonal() * q.transpose());
+    return found;
+}
+
+void ElementContact::assemble(const FabricState& state)
+{
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assemble(e, state, local_[e]); });
+    active_.clear();
+    for (std::size_t e = 0; e < size(); ++e)
+        if (stress_[e].isActive) active_.push_back(static_cast<int>(e));
+}
+
+double ElementContact::energy() const
+{
+    double sum = 0.0;
+    for (int e : active_) sum += stress_[e].energy;
+    return sum;
+}
+
+/// By which small rotation the mesh directions turn.
+Vec3 ElementContact::turnOf(const Local& at, std::size_t e, const std::array<Vec3, 3>& u) const
+{
+    const Vec3 first = u[1] - u[0];
+    if (isEdge(e)) return at.reciprocal[0].cross(first);
+    const Vec3 &n = at.normal, second = u[2] - u[0];
+    return -n.cross(n.dot(first) * at.reciprocal[0] + n.dot(second) * at.reciprocal[1]);
+}
+
+/// Transpose of (G, u) → G d_k − turn × d_k, applied to y_k.
+ElementContact::Push ElementContact::pushOf(const Local& at, std::size_t e, const std::array<Vec3, 2>& y) const
+{
+    const Mat3 onGrid = y[0] * at.d[0].transpose() + y[1] * at.d[1].transpose();
+    const Vec3 moment = -(at.d[0].cross(y[0]) + at.d[1].cross(y[1]));
+    Push push{onGrid, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
+    if (isEdge(e)) {
+        push.onCorners[1] = moment.cross(at.reciprocal[0]);
+    } else {
+        const Vec3 &n = at.normal, lever = moment.cross(n);
+        push.onCorners[1] = -lever.dot(at.reciprocal[0]) * n;
+        push.onCorners[2] = -lever.dot(at.reciprocal[1]) * n;
+    }
+    push.onCorners[0] = -(push.onCorners[1] + push.onCorners[2]);
+    return push;
+}
+
+ElementContact::Push ElementContact::gradient(std::size_t e) const
+{
+    return pushOf(local_[e], e, stress_[e].stress);
+}
+
+ElementContact::Push ElementContact::hessian(std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u) const
+{
+    const Local& at = local_[e];
+    const Vec3 turn = turnOf(at, e, u);
+    const std::array<Mat3, 3>& k = at.stiffness;
+    const Vec3 first = g * at.d[0] - turn.cross(at.d[0]);
+    if (!isEdge(e)) return pushOf(at, e, {k[0] * first, Vec3::Zero()});
+    const Vec3 second = g * at.d[1] - turn.cross(at.d[1]);
+    return pushOf(at, e, {k[0] * first + k[1] * second, k[1].transpose() * first + k[2] * second});
+}
+
+Mat3 ElementContact::diagonalForm(std::size_t e, int a) const
+{
+    const Local& at = local_[e];
+    const Mat3 mixed = at.d[0] * at.d[1].transpose();
+    const auto& [k00, k01, k11] = at.stiffness;
+    return k00(a, a) * at.d[0] * at.d[0].transpose() + k01(a, a) * (mixed + mixed.transpose()) +
+           k11(a, a) * at.d[1] * at.d[1].transpose();
+}
+
+void ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const
+{
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
+        const ContactModuli& m = moduli_[material_[e]];
+        const Mat3 step = h * g[e], carried = Mat3::Identity() + step + 0.5 * (step * step);
+        const Vec3& x0 = state.x[corners_[e][0]];
+        const Vec3 t0 = state.x[corners_[e][1]] - x0;
+        Vec3* d = state.across.data() + direction(e);
+        if (isEdge(e)) {
+            const std::array<Vec3, 2> moved = {carried * d[0], carried * d[1]};
+            const Mat3 q = yarn::frameOf(t0, moved[0]);
+            const yarn::Strain r = yarn::returned(m, yarnStrain(q, moved));
+            for (int k = 0; k < 2; ++k) d[k] = q * r.col(k);
+        } else {
+            const Mat3 q = sheet::frameOf(t0, state.x[corners_[e][2]] - x0);
+            d[0] = q * sheet::returned(m, q.transpose() * (carried * d[0]));
+        }
+    });
+}
+
+}  // namespace sim

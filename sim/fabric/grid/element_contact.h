@@ -1,0 +1,99 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/grid/contact_law.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (model-fabric 3). An
+/// element's material directions across the fabric are carried by the velocity gradient on the grid, its directions in
+/// the mesh by the vertices. Both are in the gradient and in the Hessian: since the energy does not change when all
+/// directions turn together, what turns the mesh acts as the opposite turn of the directions across.
+class ElementContact {
+ public:
+    ElementContact() = default;
+    explicit ElementContact(const Fabric& fabric);
+
+    std::size_t size() const { return corners_.size(); }
+    /// Directions of all elements at positions x, free of stress (FabricState::across).
+    std::vector<Vec3> unstrained(const FabricState& state) const;
+    /// Quadrature point of an element [cm].
+    Vec3 position(std::size_t e, std::span<const Vec3> x) const { return mean(e, x); }
+
+    /// Energies, stresses and stiffnesses at the present directions and positions.
+    void assemble(const FabricState& state);
+    /// Elements that are pressed, ascending.
+    const std::vector<int>& active() const { return active_; }
+    double energy() const;  ///< [erg], of the last assemble
+
+    /// What acts on an element's surroundings: `onGrid` through the velocity gradient, with rows by the component of
+    /// the force, and on its corners.
+    struct Push {
+        Mat3 onGrid;                    ///< [erg], [erg/s] …
+        std::array<Vec3, 3> onCorners;  ///< [dyn], …
+    };
+    /// Energy gradient: by G (dimensionless) and by the corners' positions.
+    Push gradient(std::size_t e) const;
+    /// Its Hessian times a move with gradient g and the corners' moves u.
+    Push hessian(std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u) const;
+    /// B such that a face normal to axis a whose weight has the gradient z has zᵀ B z of the Hessian on its diagonal.
+    Mat3 diagonalForm(std::size_t e, int a) const;
+
+    /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (model-fabric 3.3, 3.5).
+    /// @param g  velocity gradient of each element [1/s]; x of the state is already that of the end of the step
+    void carry(std::span<const Mat3> g, double h, FabricState& state) const;
+
+    /// Corners of an element; −1 for the third of an edge.
+    const std::array<int, 3>& corners(std::size_t e) const { return corners_[e]; }
+    const std::array<double, 3>& shares(std::size_t e) const { return shares_[e]; }
+    /// Elements around each vertex: 3 · element + corner, of vertex v from incidenceBegin()[v] on.
+    const std::vector<int>& incidenceBegin() const { return incidenceBegin_; }
+    const std::vector<int>& incidence() const { return incidence_; }
+    bool isEdge(std::size_t e) const { return e < edges_; }
+
+    /// Σ shares · values at the corners.
+    Vec3 mean(std::size_t e, std::span<const Vec3> values) const
+    {
+        Vec3 sum = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+            if (corners_[e][k] >= 0) sum += shares_[e][k] * values[corners_[e][k]];
+        return sum;
+    }
+
+ private:
+    /// First of an element's directions in FabricState::across.
+    std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
+    /// An element at one place: directions, and how turning the mesh shows. Products with the Hessian read it from
+    /// memory again and again: it holds nothing else.
+    struct Local {
+        std::array<Vec3, 2> d;           ///< the second of yarns only
+        std::array<Vec3, 2> reciprocal;  ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
+        Vec3 normal;                     ///< of faces
+        std::array<Mat3, 3> stiffness;   ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
+    };
+    struct Stress {
+        std::array<Vec3, 2> stress;  ///< ∂E/∂d [erg]
+        double energy;               ///< [erg]
+        bool isActive;
+    };
+    Stress assemble(std::size_t e, const FabricState& state, Local& at) const;
+    Vec3 turnOf(const Local& at, std::size_t e, const std::array<Vec3, 3>& u) const;
+    Push pushOf(const Local& at, std::size_t e, const std::array<Vec3, 2>& y) const;
+
+    std::size_t edges_ = 0;
+    std::vector<std::array<int, 3>> corners_;
+    std::vector<std::array<double, 3>> shares_;
+    std::vector<int> incidenceBegin_, incidence_;
+    std::vector<ContactModuli> moduli_;  ///< of each material
+    std::vector<int> material_;          ///< of each element
+    std::vector<double> volume_;         ///< packing factor times rest envelope volume [cm^3]
+    std::vector<Local> local_;
+    std::vector<Stress> stress_;
+    std::vector<int> active_;
+};
+
+}  // namespace sim

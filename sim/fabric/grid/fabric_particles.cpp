@@ -1,0 +1,153 @@
+#include "sim/fabric/grid/fabric_particles.h"
+
+#include "sim/core/parallel.h"
+#include "sim/transfer/modes.h"
+#include "sim/transfer/scatter_affine.h"
+
+#include <cmath>
+
+namespace sim {
+
+FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
+    : transfer_(settings.fabricTransfer),
+      keepDt_(settings.transfer.keepDt),
+      keepPerStep_(settings.transfer.keepPerStep),
+      dampModes_(settings.transfer.dampModes)
+{
+    if (transfer_.method == TransferMethod::Flip) transfer_.method = TransferMethod::Apic;
+    modes_ = transfer_.method == TransferMethod::Pic    ? 1
+             : transfer_.method == TransferMethod::Apic ? 4
+                                                        : transfer_.modes;
+    particles_.modeCount = storedModes(modes_);
+    grid_.dx = settings.cell;
+    particles_.resize(fabric.vertexCount());
+}
+
+double FabricParticles::keptOver(double factor, double h) const
+{
+    return keepPerStep_ || factor == 1.0 ? factor : std::pow(factor, h / keepDt_);
+}
+
+void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
+{
+    const std::size_t n = state.x.size();
+    if (state.modes.size() != kAxes * rows() * n) state.modes.assign(kAxes * rows() * n, 0.0);
+    particles_.resize(n + elements.size());
+    parallelFor(n + elements.size(), 1024, [&](std::size_t p) {
+        const Vec3& x = p < n ? state.x[p] : elements[p - n];
+        particles_.id[p] = static_cast<std::uint32_t>(p);
+        particles_.mass[p] = p < n ? mass[p] : 0.0;
+        for (int a = 0; a < kAxes; ++a) {
+            particles_.x[a][p] = x[a];
+            double mean = 0.0;
+            for (int r = 0; r < rows(); ++r) {
+                const double c = p < n ? modeOf(state, a, r, p) : 0.0;
+                particles_.mode(a, r)[p] = c;
+                mean += kMeanOfMode[r] * c;
+            }
+            if (p < n) particles_.mode(a, 0)[p] += state.v[p][a] - mean;
+        }
+    });
+}
+
+/// Places of all points, block by block in the order of the sort.
+void FabricParticles::findPoints(std::size_t vertexCount)
+{
+    vertices_.clear();
+    elements_.clear();
+    std::vector<int> vertexRow, elementRow;
+    for (int block : order_.occupied) {
+        for (int s = order_.begin(block); s < order_.end(block); ++s) {
+            const std::size_t id = particles_.id[s];
+            if (id < vertexCount) {
+                vertices_.id.push_back(static_cast<int>(id));
+                vertexRow.push_back(s);
+            } else {
+                elements_.id.push_back(static_cast<int>(id - vertexCount));
+                elementRow.push_back(s);
+            }
+        }
+        vertices_.begin.push_back(static_cast<int>(vertices_.id.size()));
+        elements_.begin.push_back(static_cast<int>(elements_.id.size()));
+    }
+    const auto place = [&](const std::vector<int>& row, BlockPoints& points) {
+        points.place.resize(row.size());
+        parallelFor(row.size(), 512, [&](std::size_t i) {
+            for (int a = 0; a < kAxes; ++a) {
+                const double inCells = (particles_.x[a][row[i]] - grid_.origin[a]) * (1.0 / grid_.dx),
+                             lower = std::floor(inCells);
+                points.place[i].inCell[a] = inCells - lower;
+                points.place[i].cell[a] = static_cast<int>(lower) & (kBlockEdge - 1);
+            }
+        });
+    };
+    place(vertexRow, vertices_);
+    place(elementRow, elements_);
+}
+
+void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
+{
+    load(mass, elements, state);
+    sortParticles(particles_, grid_, nullptr, order_, ledger_);
+    findPoints(state.x.size());
+    if (differsFromTranslation(transfer_.xi, modes_))
+        particlesToFacesAffine(particles_, order_, grid_, transfer_.xi, state.sinceGather, faces_);
+    else
+        particlesToFaces(particles_, order_, grid_, scatter_, faces_);
+    faces_.velocity.resize(grid_.count());
+    parallelFor(grid_.count(), 8, [&](std::size_t b) {
+        const int block = static_cast<int>(b);
+        for (int a = 0; a < kAxes; ++a) {
+            const double *m = faces_.sums.block(block, FaceFields::kMass + a),
+                         *p = faces_.sums.block(block, FaceFields::kMomentum + a);
+            double* v = faces_.velocity.block(block, a);
+            for (int c = 0; c < kBlockCells; ++c) v[c] = m[c] > 0.0 ? p[c] / m[c] : 0.0;
+        }
+    });
+}
+
+/// Model-fabric 3.6: the gradient's symmetric and antisymmetric part and the velocity by factors of their own. Modes
+/// beyond the linear ones are deformation: they fade with the symmetric part.
+void FabricParticles::damp(double h, std::size_t v, FabricState& state) const
+{
+    if (rows() > 1 && (modes_ <= 4 || dampModes_)) {
+        const double stretch = keptOver(transfer_.keepStretch, h), rotation = keptOver(transfer_.keepRotation, h);
+        for (int a = 0; a < kAxes; ++a)
+            for (int b = 0; b <= a; ++b) {
+                double &one = modeOf(state, a, 1 + b, v), &other = modeOf(state, b, 1 + a, v);
+                const double even = 0.5 * stretch * (one + other), odd = 0.5 * rotation * (one - other);
+                one = even + odd;
+                other = even - odd;
+            }
+        for (int a = 0; a < kAxes; ++a)
+            for (int r = 4; r < rows(); ++r) {
+                double& c = modeOf(state, a, r, v);
+                modeOf(state, a, 0, v) += (1.0 - stretch) * kMeanOfMode[r] * c;
+                c *= stretch;
+            }
+    }
+    const double lost = 1.0 - keptVelocity(h);
+    for (int a = 0; a < kAxes; ++a) {
+        double mean = 0.0;
+        for (int r = 0; r < rows(); ++r) mean += kMeanOfMode[r] * modeOf(state, a, r, v);
+        modeOf(state, a, 0, v) -= lost * mean;
+        state.v[v][a] = 0.0;
+        for (int r = 0; r < rows(); ++r) state.v[v][a] += kMeanOfMode[r] * modeOf(state, a, r, v);
+    }
+}
+
+void FabricParticles::toVertices(double h, FabricState& state)
+{
+    GatherSettings settings;
+    settings.modes = modes_;
+    facesToParticles(faces_, order_, grid_, settings, gather_, particles_);
+    parallelFor(particles_.count, 1024, [&](std::size_t s) {
+        const std::size_t v = particles_.id[s];
+        if (v >= state.x.size()) return;
+        for (int a = 0; a < kAxes; ++a)
+            for (int r = 0; r < rows(); ++r) modeOf(state, a, r, v) = particles_.mode(a, r)[s];
+        damp(h, v, state);
+    });
+}
+
+}  // namespace sim

@@ -1,0 +1,132 @@
+#pragma once
+
+#include "sim/core/parallel.h"
+#include "sim/core/simd.h"
+#include "sim/fabric/grid/element_contact.h"
+#include "sim/fabric/grid/fabric_particles.h"
+#include "sim/fabric/grid/vertex_stiffness.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Unknowns of the implicit step: velocities of the faces that have mass [cm/s], rates of the twist angles [1/s].
+struct FaceVector {
+    BlockArray<double, 3> faces;
+    AlignedArray<double> twist;  ///< of each yarn edge, up to a whole pack
+
+    void resize(int blocks, std::size_t edges)
+    {
+        faces.resize(blocks);
+        twist.resize((edges + kLanes - 1) / kLanes * kLanes);
+    }
+    /// The pack of faces, or of twist angles, that begins at entry i.
+    Pack& pack(bool isFace, std::size_t i)
+    {
+        return *reinterpret_cast<Pack*>((isFace ? faces.block(0) : twist.data()) + i);
+    }
+    const Pack& pack(bool isFace, std::size_t i) const
+    {
+        return *reinterpret_cast<const Pack*>((isFace ? faces.block(0) : twist.data()) + i);
+    }
+};
+
+/// A linear solve on the faces.
+struct FaceSolveReport {
+    int iterations = 0;
+    double speedError = 0.0;  ///< largest |residual| / mass of a face [cm/s]
+};
+
+/// The linear system of one implicit step on the grid (model-fabric 4.2, 13.5): A = M + h² (Wᵀ K W + Gᵀ H G), with K
+/// the stiffness of the vertices and H that of contact at the elements, W and G the interpolation of velocities and
+/// their gradients, matrix-free. Faces that elements reach but no vertex does have no mass; elements take them to move
+/// as they do themselves.
+class FaceSystem {
+ public:
+    FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, const ElementContact& contact);
+
+    /// Takes masses and weights from what toFaces left. Stiffness and contact must be assembled, and stay until the
+    /// solve is done.
+    void assemble(const FabricParticles& particles, double h);
+
+    std::size_t edges() const { return fabric_.edges.size(); }
+    int blocks() const { return grid_->count(); }
+    const BlockArray<double, 3>& mass() const { return mass_; }
+
+    /// q = A p. Entries of p at faces without mass must be 0.
+    void multiply(const FaceVector& p, FaceVector& q);
+    /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
+    void impulses(FaceVector& q);
+    /// A v = M v0 + impulses by conjugate gradients, preconditioned by A's diagonal, from v = v0 on. Stops when the
+    /// largest |residual| / mass is below `tolerance` [cm/s]; faces with little mass count as if they had kLeastMass of
+    /// the mean.
+    FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
+
+    /// ∇u of all elements, those without full stencils as in multiply [1/s].
+    void elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
+
+    static constexpr double kLeastMass = 1.0e-2;  ///< [-]
+
+ private:
+    void findActiveRows();
+    void clearInactive(BlockArray<double, 3>& u) const;
+    void findMissing();
+    void findDiagonal();
+    void gatherPoints(const BlockArray<double, 3>& u, bool all);
+    Mat3 relative(std::size_t e) const;
+    void pushCorners(std::size_t e, const ElementContact::Push& push, double sign);
+    void spread(FaceVector& q);
+    template <class Body>
+    void forEachPack(Body&& body) const;
+    template <class F>
+    double sumOverPacks(F&& f) const;
+
+    const Fabric& fabric_;
+    const VertexStiffness& stiffness_;
+    const ElementContact& contact_;
+    const FabricParticles* particles_ = nullptr;
+    const BlockGrid* grid_ = nullptr;
+    double h_ = 0.0;  ///< [s]
+
+    BlockArray<double, 3> mass_;          ///< of each face [g]
+    AlignedArray<double> inertia_;        ///< of each twist angle; 1 in unused lanes [g cm^2]
+    AlignedArray<double> perTwistSpeed_;  ///< of each edge: residual to speed of its surface [1/(g cm)]
+    std::vector<int> rows_;               ///< packs of faces with mass, as multiples of kLanes
+    double leastMass_ = 0.0;              ///< [g]
+
+    std::vector<char> isActive_;  ///< of each element
+    std::vector<Mat3> missing_;   ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
+    std::vector<Mat3> raw_;   ///< of each element: gathered gradient times the cell size; then what it gives to faces
+    std::vector<Vec3> mean_;  ///< of each element: of its corners
+    std::vector<std::array<Vec3, 3>> push_;  ///< of each element, on its corners
+    mutable AlignedArray<double> in_, out_;  ///< by vertex unknowns
+    BlockArray<double, 3> work_;
+    FaceVector residual_, z_, p_, q_, inverse_;  ///< of the solve; inverse of A's diagonal
+};
+
+/// body(isFace, i) for the packs at i of faces with mass, and of twist.
+template <class Body>
+void FaceSystem::forEachPack(Body&& body) const
+{
+    constexpr std::size_t kPacksPerTask = 256;
+    const std::size_t n = rows_.size() + inertia_.size() / kLanes;
+    parallelFor(n, kPacksPerTask, [&](std::size_t r) {
+        if (r < rows_.size())
+            body(true, static_cast<std::size_t>(rows_[r]));
+        else
+            body(false, (r - rows_.size()) * kLanes);
+    });
+}
+
+template <class F>
+double FaceSystem::sumOverPacks(F&& f) const
+{
+    const std::size_t n = rows_.size() + inertia_.size() / kLanes;
+    return parallelSum(n, [&](std::size_t r) {
+        return r < rows_.size() ? sumLanes(f(true, static_cast<std::size_t>(rows_[r])))
+                                : sumLanes(f(false, (r - rows_.size()) * kLanes));
+    });
+}
+
+}  // namespace sim

@@ -1,0 +1,118 @@
+#include "sim/fabric/grid/grid_solver.h"
+
+#include "sim/core/parallel.h"
+#include "sim/fabric/energies.h"
+
+namespace sim {
+
+namespace {
+
+constexpr double kSpeedTolerance = 1.0e-3;  ///< of the linear solve (model-fabric 13.7) [cm/s]
+constexpr int kMaxIterations = 200;
+
+}  // namespace
+
+GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& settings,
+                                   std::span<const ObstacleSettings> obstacles)
+    : fabric_(fabric),
+      settings_(settings.fabric),
+      stiffness_(fabric, settings.fabric),
+      contact_(fabric),
+      particles_(fabric, settings),
+      system_(fabric, stiffness_, contact_)
+{
+    if (settings_.contact) obstacles_ = FabricObstacles(fabric, obstacles);
+    points_.resize(contact_.size());
+    predicted_.resize(fabric.vertexCount());
+    reached_.resize(fabric.vertexCount());
+}
+
+/// Gives a state that comes from elsewhere what this solver keeps in it.
+void GridFabricSolver::begin(FabricState& state)
+{
+    if (state.across.empty()) state.across = contact_.unstrained(state);
+}
+
+/// Contacts with obstacles where the vertices would be at the end of the step.
+std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
+                                                                  const FabricState& state)
+{
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        predicted_[v] = state.v[v] + h * gravity;
+        reached_[v] = state.x[v] + h * predicted_[v];
+    });
+    obstacles_.moveTo(t, t + h);
+    if (obstacles_.empty()) return {};
+    return obstacles_.at(fabric_, reached_, state.x, fabric_.mass, h);
+}
+
+/// v0: what P2G gave, fallen for h; the twist goes on as it did.
+void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const FabricState& state)
+{
+    velocity_.resize(system_.blocks(), system_.edges());
+    const BlockArray<double, 3>&mass = system_.mass(), &velocity = particles_.velocity();
+    parallelFor(system_.blocks(), 8, [&](std::size_t b) {
+        const int block = static_cast<int>(b);
+        for (int a = 0; a < kAxes; ++a) {
+            const double *m = mass.block(block, a), *from = velocity.block(block, a);
+            double* to = velocity_.faces.block(block, a);
+            for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? from[c] + h * gravity[a] : 0.0;
+        }
+    });
+    velocity_.twist.fill(0.0);
+    std::ranges::copy(state.omega, velocity_.twist.begin());
+}
+
+FabricReport GridFabricSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
+{
+    FabricReport report;
+    begin(state);
+
+    clock.start(Stage::FabricToGrid);
+    parallelFor(contact_.size(), 1024, [&](std::size_t e) { points_[e] = contact_.position(e, state.x); });
+    particles_.toFaces(fabric_.mass, points_, state);
+
+    clock.start(Stage::FabricContact);
+    const std::span<const ObstacleContact> touching = touchObstacles(t, h, gravity, state);
+    if (settings_.contact) contact_.assemble(state);
+
+    clock.start(Stage::FabricElastic);
+    stiffness_.assemble(state, t, h, touching, predicted_);
+    system_.assemble(particles_, h);
+
+    clock.start(Stage::FabricSolve);
+    startVelocities(h, gravity, state);
+    const FaceSolveReport solve =
+        system_.solve(settings_.tolerance > 0.0 ? settings_.tolerance : kSpeedTolerance, kMaxIterations, velocity_);
+    report.newton = 1;
+    report.iterations = solve.iterations;
+    report.speedError = solve.speedError;
+    report.contacts = contact_.active().size();
+    report.obstacleContacts = touching.size();
+
+    clock.start(Stage::GridToFabric);
+    particles_.velocity().swap(velocity_.faces);
+    particles_.toVertices(h, state);
+    const double kept = particles_.keptVelocity(h);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += h * state.v[v]; });
+    for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
+        state.omega[e] = kept * velocity_.twist[e];
+        state.theta[e] += h * state.omega[e];
+    }
+    state.sinceGather = h;
+    stiffness_.rods().transportFrames(state);
+
+    clock.start(Stage::FabricStrain);
+    if (settings_.contact) {
+        system_.elementGradients(particles_.velocity(), gradients_);
+        contact_.carry(gradients_, h, state);
+    }
+    return report;
+}
+
+FabricEnergies GridFabricSolver::energies(const FabricState& state, const Vec3& gravity) const
+{
+    return fabricEnergies(fabric_, state, stiffness_.rods(), stiffness_.shells(), gravity);
+}
+
+}  // namespace sim

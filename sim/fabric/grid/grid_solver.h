@@ -1,0 +1,47 @@
+#pragma once
+
+#include "sim/fabric/grid/face_system.h"
+#include "sim/fabric/obstacle_contact.h"
+#include "sim/scene/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// `fabric.solver: grid`: fabric as the PolyPIC paper solves for it (model-fabric 3 and 4, without the defects of
+/// section 10). The vertices are particles of a MAC grid whose face velocities are the unknowns of one linearised
+/// backward Euler step; contact is a continuum that the grid resolves to a cell, so that nothing keeps yarns from
+/// crossing within one. Contact is implicit and acts on the mesh too, and twist angles are unknowns of their own.
+class GridFabricSolver {
+ public:
+    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles);
+
+    /// From t to t + h [s]. h must keep within time.maxCflFabric (chooseTimeStep in step.h).
+    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock);
+    FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
+    /// Energy that contact on the grid held at the start of the last step [erg].
+    double contactEnergy() const { return contact_.energy(); }
+    /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
+    double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
+
+ private:
+    void begin(FabricState& state);
+    std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
+    void startVelocities(double h, const Vec3& gravity, const FabricState& state);
+
+    const Fabric& fabric_;
+    FabricSettings settings_;
+    VertexStiffness stiffness_;
+    ElementContact contact_;
+    FabricParticles particles_;
+    FaceSystem system_;
+    FabricObstacles obstacles_;
+    FaceVector velocity_;
+    std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
+    std::vector<Vec3> predicted_,
+        reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
+    std::vector<Mat3> gradients_;  ///< of each element [1/s]
+};
+
+}  // namespace sim

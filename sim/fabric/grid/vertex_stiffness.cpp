@@ -1,0 +1,144 @@
+#include "sim/fabric/grid/vertex_stiffness.h"
+
+#include "sim/core/parallel.h"
+#include "sim/fabric/pins.h"
+
+#include <cmath>
+
+namespace sim {
+
+VertexStiffness::VertexStiffness(const Fabric& fabric, const FabricSettings& settings)
+    : fabric_(fabric),
+      rods_(fabric, restState(fabric), settings),
+      shells_(fabric, settings),
+      unknowns_(fabric, rods_.layout(), shells_),
+      cloth_(shells_.matrix()),
+      restReference_(restState(fabric).reference)
+{
+    strands_.resize(rods_.layout());
+    gradient_.resize(unknowns_.size);
+    findShared();
+    findPinStiffness(fabric);
+}
+
+void VertexStiffness::findShared()
+{
+    const StrandLayout& layout = rods_.layout();
+    for (const StrandLayout::Group& group : layout.groups)
+        for (int j = 0; j < group.vertices; ++j)
+            for (int l = 0; l < kLanes; ++l) {
+                const int v = layout.vertex[group.firstVertex + j][l], slot = (group.firstRow + 4 * j) * kLanes + l;
+                if (v >= 0 && unknowns_.slot[v] != slot) shared_.push_back({slot, unknowns_.slot[v]});
+            }
+}
+
+void VertexStiffness::findPinStiffness(const Fabric& fabric)
+{
+    for (int v : fabric.pins.vertex) {
+        const FabricMaterial& m = fabric.materials[fabric.vertexMaterial[v]];
+        pinStiffness_.push_back(m.young * m.pinStiffness * std::cbrt(fabric.volume[v]));
+    }
+    for (std::size_t e = 0; e < fabric.edges.size(); ++e) {
+        if (!fabric.edges.twistHeld[e]) continue;
+        const int strand = fabric.edges.strand[e];
+        const FabricMaterial& m = fabric.materials[fabric.strands.material[strand]];
+        const auto [a, b] = fabric.strands.radius[strand];
+        heldEdges_.push_back(static_cast<int>(e));
+        heldStiffness_.push_back(m.shear() * m.pinStiffness * 0.25 * kPi * a * b * (a * a + b * b) /
+                                 fabric.edges.restLength[e]);
+    }
+}
+
+/// What shared vertices have in other strands goes to where they are at home.
+void VertexStiffness::addToOwners(AlignedArray<double>& u) const
+{
+    for (const Shared& s : shared_)
+        for (int a = 0; a < kAxes; ++a) {
+            u[s.ownerSlot + a * kLanes] += u[s.slot + a * kLanes];
+            u[s.slot + a * kLanes] = 0.0;
+        }
+}
+
+void VertexStiffness::addPins(const FabricState& state, double end)
+{
+    const std::vector<Vec3> targets = pinTargets(fabric_, end);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const int v = fabric_.pins.vertex[i];
+        springs_.push_back({v, pinStiffness_[i] * Mat3::Identity()});
+        add(gradient_, v, pinStiffness_[i] * (state.x[v] - targets[i]));
+    }
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
+        const int e = heldEdges_[i], slot = unknowns_.twistSlot[e];
+        gradient_[slot] += heldStiffness_[i] * (state.theta[e] - heldAngle(fabric_, restReference_, end, state, e));
+    }
+}
+
+void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
+                               std::span<const Vec3> predicted)
+{
+    gradient_.fill(0.0);
+    springs_.clear();
+    rods_.startStep(state);
+    shells_.startStep(state.x);
+    if (!rods_.empty()) rods_.forces(state, h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
+    if (!shells_.empty()) {
+        cloth_.clear();
+        shells_.forces(state.x, h, unknowns_.slot, gradient_.data(), &cloth_);
+    }
+    addToOwners(gradient_);
+    addPins(state, t + h);
+    for (const ObstacleContact& contact : obstacles) {
+        springs_.push_back({contact.vertex, contact.stiffness});
+        // Known at the predicted position; by its derivative, at the present one.
+        add(gradient_, contact.vertex, contact.gradient - contact.stiffness * (h * predicted[contact.vertex]));
+    }
+}
+
+void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& out) const
+{
+    for (const Shared& s : shared_)
+        for (int a = 0; a < kAxes; ++a) in[s.slot + a * kLanes] = in[s.ownerSlot + a * kLanes];
+    const StrandLayout& layout = rods_.layout();
+    parallelFor(layout.groups.size(), [&](std::size_t g) {
+        const StrandLayout::Group& group = layout.groups[g];
+        const std::size_t first = static_cast<std::size_t>(group.firstRow) * kLanes;
+        strands_.multiply(group, reinterpret_cast<const Pack*>(in.data() + first),
+                          reinterpret_cast<Pack*>(out.data() + first));
+    });
+    std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
+    addToOwners(out);
+    const std::vector<int>& vertices = shells_.vertices();
+    parallelFor(vertices.size(), 128, [&](std::size_t n) {
+        const int row = static_cast<int>(n);
+        double sum[3] = {};
+        for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
+            const double *m = cloth_.block(e), *v = in.data() + unknowns_.slot[vertices[cloth_.column(e)]];
+            for (int a = 0; a < kAxes; ++a)
+                sum[a] += m[3 * a] * v[0] + m[3 * a + 1] * v[kLanes] + m[3 * a + 2] * v[2 * kLanes];
+        }
+        add(out, vertices[n], Vec3(sum[0], sum[1], sum[2]));
+    });
+    for (const Spring& s : springs_) add(out, s.vertex, s.stiffness * at(in, s.vertex));
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
+        const int slot = unknowns_.twistSlot[heldEdges_[i]];
+        out[slot] += heldStiffness_[i] * in[slot];
+    }
+}
+
+void VertexStiffness::diagonal(AlignedArray<double>& out) const
+{
+    std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
+    parallelFor(rods_.layout().rows, 512, [&](std::size_t row) {
+        for (int l = 0; l < kLanes; ++l) out[row * kLanes + l] = strands_.at(static_cast<int>(row), 0, l);
+    });
+    addToOwners(out);
+    const std::vector<int>& vertices = shells_.vertices();
+    parallelFor(vertices.size(), 512, [&](std::size_t row) {
+        const double* m = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
+        add(out, vertices[row], Vec3(m[0], m[4], m[8]));
+    });
+    for (const Spring& s : springs_) add(out, s.vertex, s.stiffness.diagonal());
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) out[unknowns_.twistSlot[heldEdges_[i]]] += heldStiffness_[i];
+}
+
+}  // namespace sim

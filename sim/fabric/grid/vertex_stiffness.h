@@ -1,0 +1,78 @@
+#pragma once
+
+#include "sim/fabric/obstacle_contact.h"
+#include "sim/fabric/rods/rods.h"
+#include "sim/fabric/shells/shells.h"
+#include "sim/fabric/vertex_unknowns.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Forces on the vertices and twist angles at the start of a step and their Gauss-Newton derivatives K: rods, shells,
+/// the springs of pins (model-fabric 6.1) and obstacles. Vectors are laid out by VertexUnknowns; what shared vertices
+/// have in strands that do not own them is filled in by multiply.
+class VertexStiffness {
+ public:
+    VertexStiffness(const Fabric& fabric, const FabricSettings& settings);
+
+    const Rods& rods() const { return rods_; }
+    const Shells& shells() const { return shells_; }
+    const VertexUnknowns& unknowns() const { return unknowns_; }
+
+    /// Elastic and viscous forces at the state, which is that at the start of the step, and pins where they are at time
+    /// t + h [s]. The contacts with obstacles must be those of positions x + h v of the `predicted` velocities [cm/s].
+    void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
+                  std::span<const Vec3> predicted);
+
+    /// Energy gradient [dyn, dyn cm].
+    const AlignedArray<double>& gradient() const { return gradient_; }
+    /// out = K in, forces per displacement. `in` is completed for shared vertices.
+    void multiply(AlignedArray<double>& in, AlignedArray<double>& out) const;
+    /// Diagonal of K.
+    void diagonal(AlignedArray<double>& out) const;
+
+    Vec3 at(const AlignedArray<double>& u, int vertex) const
+    {
+        const double* p = u.data() + unknowns_.slot[vertex];
+        return {p[0], p[kLanes], p[2 * kLanes]};
+    }
+    void set(AlignedArray<double>& u, int vertex, const Vec3& value) const
+    {
+        double* p = u.data() + unknowns_.slot[vertex];
+        p[0] = value[0], p[kLanes] = value[1], p[2 * kLanes] = value[2];
+    }
+    void add(AlignedArray<double>& u, int vertex, const Vec3& value) const { set(u, vertex, at(u, vertex) + value); }
+
+ private:
+    /// A vertex in a strand that does not own it.
+    struct Shared {
+        int slot, ownerSlot;
+    };
+    /// What acts on single vertices and angles.
+    struct Spring {
+        int vertex;
+        Mat3 stiffness;  ///< [dyn/cm]
+    };
+    void findShared();
+    void findPinStiffness(const Fabric& fabric);
+    void addToOwners(AlignedArray<double>& u) const;
+    void addPins(const FabricState& state, double end);
+
+    const Fabric& fabric_;
+    Rods rods_;
+    Shells shells_;
+    VertexUnknowns unknowns_;
+    StrandMatrix strands_;
+    BlockMatrix cloth_;
+    std::vector<Shared> shared_;
+    std::vector<Spring> springs_;
+    std::vector<Vec3> restReference_;   ///< of each yarn edge
+    std::vector<double> pinStiffness_;  ///< of each pin [dyn/cm]
+    std::vector<int> heldEdges_;
+    std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm]
+    AlignedArray<double> gradient_;
+};
+
+}  // namespace sim

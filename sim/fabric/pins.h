@@ -1,0 +1,19 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Where the pins' motions have each pinned vertex at time t [s], in the order of fabric.pins [cm].
+std::vector<Vec3> pinTargets(const Fabric& fabric, double t);
+
+/// The twist angle that a held edge has at time t, when its material frame follows the rotation of its pin; of the
+/// angles that differ by full turns the one nearest to the present [rad].
+/// @param restReference  first axes of the reference frames at rest, of each yarn edge
+double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state,
+                 int edge);
+
+}  // namespace sim

@@ -1,0 +1,223 @@
+// Contact of fabric on the grid: energies, stresses, return mapping (model-fabric 3.4, 3.5, 13.5; T17 of 9).
+#include "sim/fabric/grid/contact_law.h"
+#include "sim/fabric/grid/element_contact.h"
+#include "tests/sim/fabric/pieces.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace sim::testing {
+namespace {
+
+constexpr double kStep = 1.0e-6;
+
+FabricMaterial material()
+{
+    FabricMaterial m = wool();
+    m.contactStiffness = 1.0;
+    m.young = 1.0;
+    m.poisson = 0.3;
+    return m;
+}
+
+yarn::Strain squeezed(Noise& noise)
+{
+    yarn::Strain r;
+    r << 0.2 * noise(), 0.2 * noise(), 0.75 + 0.2 * noise(), 0.2 * noise(), 0.0, 0.75 + 0.2 * noise();
+    return r;
+}
+
+TEST(GridContactLaw, StressesAreTheSlopesOfTheEnergy)
+{
+    const ContactModuli m(material());
+    Noise noise(1);
+    for (int n = 0; n < 200; ++n) {
+        const Vec3 r(0.3 * noise(), 0.3 * noise(), 0.5 + 0.45 * noise());
+        const yarn::Strain s = squeezed(noise);
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 by = kStep * Vec3::Unit(i);
+            EXPECT_NEAR((sheet::energy(m, r + by) - sheet::energy(m, r - by)) / (2.0 * kStep), sheet::stress(m, r)[i],
+                        1e-8);
+        }
+        for (int i = 0; i < 6; ++i) {
+            yarn::Strain by = yarn::Strain::Zero();
+            by(i % 3, i / 3) = kStep;
+            EXPECT_NEAR((yarn::energy(m, s + by) - yarn::energy(m, s - by)) / (2.0 * kStep),
+                        yarn::stress(m, s)(i % 3, i / 3), 1e-7);
+        }
+    }
+}
+
+/// The chain rule of model-fabric 3.4 for the energy as a function of all directions.
+TEST(GridContactLaw, ChainRuleThroughQrGivesTheSameStress)
+{
+    const ContactModuli m(material());
+    Noise noise(2);
+    for (int n = 0; n < 50; ++n) {
+        Mat3 d;
+        d << 1.1, 0.1 * noise(), 0.1 * noise(), 0.1 * noise(), 0.8, 0.1 * noise(), 0.1 * noise(), 0.1 * noise(), 0.8;
+        const Mat3 q = yarn::frameOf(d.col(0), d.col(1)), r = q.transpose() * d;
+        const auto energyOf = [&](const Mat3& x) {
+            const Mat3 frame = yarn::frameOf(x.col(0), x.col(1));
+            return yarn::energy(m, (frame.transpose() * x).rightCols<2>());
+        };
+        Mat3 p = Mat3::Zero();
+        p.rightCols<2>() = yarn::stress(m, r.rightCols<2>());
+        p(2, 1) = 0.0;
+        const Mat3 k = p * r.transpose();
+        Mat3 tau = k.triangularView<Eigen::Upper>();
+        tau = Mat3(tau + tau.transpose()) - Mat3(k.diagonal().asDiagonal());
+        const Mat3 expected = q * tau * r.transpose().inverse();
+        for (int i = 0; i < 9; ++i) {
+            Mat3 by = Mat3::Zero();
+            by(i % 3, i / 3) = kStep;
+            EXPECT_NEAR((energyOf(d + by) - energyOf(d - by)) / (2.0 * kStep), expected(i % 3, i / 3), 1e-7);
+        }
+    }
+}
+
+TEST(GridContactLaw, YarnStiffnessIsThePositivePartOfTheSlopeOfTheStress)
+{
+    const ContactModuli m(material());
+    Noise noise(3);
+    for (int n = 0; n < 200; ++n) {
+        const yarn::Strain r = squeezed(noise);
+        yarn::SectionStiffness k, slope;
+        ASSERT_TRUE(yarn::stiffness(m, r, k));
+        for (int i = 0; i < 4; ++i) {
+            yarn::Strain by = yarn::Strain::Zero();
+            by(1 + i % 2, i / 2) = kStep;
+            const yarn::Strain change = (yarn::stress(m, r + by) - yarn::stress(m, r - by)) / (2.0 * kStep);
+            slope.col(i) << change(1, 0), change(2, 0), change(1, 1), change(2, 1);
+        }
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(0.5 * (slope + slope.transpose()));
+        const Eigen::Matrix4d positive =
+            eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+        EXPECT_LT((k - positive).cwiseAbs().maxCoeff(), 1e-5);
+        EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(k).eigenvalues().minCoeff(), -1e-12);
+    }
+}
+
+TEST(GridContactLaw, SheetStiffnessIsTheSlopeOfTheStress)
+{
+    const ContactModuli m(material());
+    Noise noise(4);
+    for (int n = 0; n < 100; ++n) {
+        const Vec3 r(0.3 * noise(), 0.3 * noise(), 0.5 + 0.45 * noise()), k = sheet::stiffness(m, r);
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 by = kStep * Vec3::Unit(i);
+            const Vec3 slope = (sheet::stress(m, r + by) - sheet::stress(m, r - by)) / (2.0 * kStep);
+            EXPECT_NEAR((slope - k[i] * Vec3::Unit(i)).norm(), 0.0, 1e-8);
+            EXPECT_GE(k[i], 0.0);
+        }
+    }
+}
+
+TEST(GridContactLaw, FrictionIsBoundedByThePressure)
+{
+    const ContactModuli m(material());
+    Noise noise(5);
+    for (int n = 0; n < 500; ++n) {
+        const Vec3 r = sheet::returned(m, {noise(), noise(), 1.2 * noise()}), t = sheet::stress(m, r);
+        EXPECT_LE(t.head<2>().norm(), m.coulomb * -t[2] * (1.0 + 1e-12));
+        yarn::Strain s;
+        s << noise(), noise(), 0.8 + 0.5 * noise(), 0.3 * noise(), 0.3 * noise(), 0.8 + 0.5 * noise();
+        const yarn::Strain kept = yarn::returned(m, s);
+        const yarn::Section section(kept.bottomRows<2>());
+        const Eigen::Vector2d log = section.sigma.array().log();
+        if (log.sum() > -1e-12) continue;
+        const Eigen::Vector2d p = ((2.0 * m.shear * log.array() + m.lame * log.sum()) / section.sigma.array()).matrix();
+        EXPECT_LE(m.shear * kept.row(0).norm(), m.coulomb * 0.5 * p.norm() * (1.0 + 1e-9));
+        const double deviator = std::abs(log[0] - log[1]) / std::sqrt(2.0);
+        EXPECT_LE(deviator, -(m.lame + m.shear) / m.shear * log.sum() * m.cone + 1e-12);
+    }
+}
+
+TEST(GridContactLaw, SeparationLeavesNoStress)
+{
+    const ContactModuli m(material());
+    EXPECT_EQ(sheet::returned(m, {0.3, -0.2, 1.01}), Vec3::UnitZ());
+    EXPECT_EQ(sheet::stress(m, sheet::returned(m, {0.3, -0.2, 1.01})).norm(), 0.0);
+    yarn::Strain r;
+    r << 0.1, 0.2, 1.3, 0.1, 0.0, 0.9;
+    EXPECT_LT(yarn::stress(m, yarn::returned(m, r)).norm(), 1e-12);
+}
+
+TEST(GridContactLaw, IsotropicCompressionIsKept)
+{
+    for (double angle : {0.0, 0.5}) {
+        FabricMaterial frictional = material();
+        frictional.frictionAngle = angle;
+        const ContactModuli m(frictional);
+        yarn::Strain r;
+        r << 0.0, 0.0, 0.8, 0.0, 0.0, 0.8;
+        EXPECT_LT((yarn::returned(m, r) - r).norm(), 1e-14);
+    }
+}
+
+TEST(GridContactLaw, SheetTurnedInsideOutIsPushedBack)
+{
+    const ContactModuli m(material());
+    EXPECT_LT(sheet::stress(m, {0.0, 0.0, -0.3})[2], sheet::stress(m, {0.0, 0.0, 0.3})[2]);
+    EXPECT_EQ(sheet::returned(m, {0.0, 0.0, -0.3})[2], kLeastThickness);
+}
+
+TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
+{
+    FabricPiece piece = pieceOf(clothGrid({{3, 3}, {0.144, 0.144}}), wool(), {0.017, 0.017});
+    const Fabric fabric = fabricOf(piece);
+    FabricState state = restState(fabric);
+    ElementContact contact(fabric);
+    state.across = contact.unstrained(state);
+    const double r33 = 0.8;
+    for (Vec3& d : state.across) d *= r33;
+    contact.assemble(state);
+    const ContactModuli m(piece.material);
+    const double volume = 0.5 * 0.144 * 0.144 * 0.034;
+    for (std::size_t e = 0; e < contact.size(); ++e) {
+        const Vec3 n = state.across[e] / r33;
+        const double pressure = -n.dot(contact.gradient(e).onGrid * n) / (volume * r33);
+        EXPECT_NEAR(pressure, piece.material.packing() * m.normal() * 0.2 * 0.2, 1e-9 * pressure);
+    }
+}
+
+/// Moves of the corners and of the directions by a gradient.
+TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
+{
+    std::vector<FabricPiece> pieces = {
+        pieceOf(clothGrid({{3, 3}, {0.144, 0.13}}), wool(), {0.017, 0.017}),
+        pieceOf(strand(Vec3(1.0, 0.0, 0.0), Vec3(1.5, 0.2, 0.3), 3), wool(), {0.05, 0.04})};
+    const Fabric fabric = assembleFabric(pieces);
+    FabricState rest = restState(fabric);
+    ElementContact contact(fabric);
+    rest.across = contact.unstrained(rest);
+    Noise noise(6);
+    for (Vec3& x : rest.x) x += 0.02 * noise.vector();
+    for (Vec3& d : rest.across) d = 0.8 * (d + 0.1 * noise.vector());
+    contact.assemble(rest);
+    ASSERT_EQ(contact.active().size(), contact.size());
+    std::vector<Vec3> move;
+    for (std::size_t v = 0; v < rest.x.size(); ++v) move.push_back(noise.vector());
+    Mat3 g;
+    for (int i = 0; i < 9; ++i) g(i / 3, i % 3) = noise();
+    double slope = 0.0;
+    for (std::size_t e = 0; e < contact.size(); ++e) {
+        const ElementContact::Push push = contact.gradient(e);
+        slope += push.onGrid.cwiseProduct(g).sum();
+        for (int k = 0; k < 3; ++k)
+            if (contact.corners(e)[k] >= 0) slope += push.onCorners[k].dot(move[contact.corners(e)[k]]);
+    }
+    const auto energyAt = [&](double step) {
+        FabricState moved = rest;
+        for (std::size_t v = 0; v < move.size(); ++v) moved.x[v] += step * move[v];
+        for (Vec3& d : moved.across) d += step * (g * d);
+        contact.assemble(moved);
+        return contact.energy();
+    };
+    EXPECT_NEAR((energyAt(kStep) - energyAt(-kStep)) / (2.0 * kStep), slope, 1e-6 * std::abs(slope));
+}
+
+}  // namespace
+}  // namespace sim::testing
