@@ -36,7 +36,7 @@ void FabricObstacles::moveTo(double t0, double t1)
 }
 
 const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, std::span<const Vec3> start,
-                                                        std::span<const double> mass, double h)
+                                                        std::span<const Vec3> velocity, std::span<const double> mass, double h)
 {
     const Chunks chunks(x.size());
     ofChunk_.resize(chunks.count());
@@ -52,12 +52,15 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
                 const double stiffness = kStiffness * mass[v] / (h * h), push = stiffness * overlap;
                 const Vec3 n = body.pose.normal(x[v]);
                 ObstacleContact contact{static_cast<int>(v), -push * n, stiffness * n * n.transpose()};
-                const Vec3 carried = start[v] + h * body.pose.velocity(x[v]);
-                const Vec3 moved = x[v] - carried, slip = moved - moved.dot(n) * n;
-                // Pressed as at the end of the step before: where Newton begins, a step of free fall inside, it would be pressed far too hard.
-                const double pressed = stiffness * std::max(0.0, activation + fabric.radius[v] - body.pose.distance(carried));
+                const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
+                const Vec3 carriedBy = h * body.pose.velocity(x[v]), slip = along(x[v] - start[v] - carriedBy);
+                double pressed = push, usualSlip = slip.norm();
+                if (!velocity.empty()) {
+                    pressed = stiffness * std::max(0.0, activation + fabric.radius[v] - body.pose.distance(start[v] + carriedBy));
+                    usualSlip = along(h * velocity[v] - carriedBy).norm();
+                }
                 const double friction =
-                    body.friction[fabric.vertexMaterial[v]] * pressed * frictionPerSlip(slip.norm(), h * kSmoothingSpeed);
+                    body.friction[fabric.vertexMaterial[v]] * pressed * frictionPerSlip(usualSlip, h * kSmoothingSpeed);
                 contact.gradient += friction * slip;
                 contact.stiffness += friction * (Mat3::Identity() - n * n.transpose());
                 out.push_back(contact);

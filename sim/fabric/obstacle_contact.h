@@ -30,8 +30,10 @@ class FabricObstacles {
     /// Poses and motion of a step from t0 to t1 [s].
     void moveTo(double t0, double t1);
     /// Contacts at x, by vertex and then by obstacle. `start`: positions at the start of the step [cm]; mass [g]; h [s].
+    /// `velocity`: given where x is a prediction, a step of free fall ahead, which presses far too hard and slides too fast: force and
+    /// speed of friction then are those at the start of the step [cm/s]. Without, they are those at x.
     const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, std::span<const Vec3> start,
-                                           std::span<const double> mass, double h);
+                                           std::span<const Vec3> velocity, std::span<const double> mass, double h);
     /// Deepest that a vertex's ball of its radius reaches into an obstacle [cm]; negative: the least gap.
     double deepest(const Fabric& fabric, std::span<const Vec3> x) const;
 

@@ -117,7 +117,8 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
         std::span<const ObstacleContact> touching;
         if (!obstacles_.empty()) {
             clock.start(Stage::FabricContact);
-            touching = obstacles_.at(fabric_, state.x, start_.x, fabric_.mass, h);
+            const std::span<const Vec3> velocity = k == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
+            touching = obstacles_.at(fabric_, state.x, start_.x, velocity, fabric_.mass, h);
         }
         clock.start(Stage::FabricElastic);
         system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);

@@ -43,7 +43,7 @@ std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, doub
     });
     obstacles_.moveTo(t, t + h);
     if (obstacles_.empty()) return {};
-    return obstacles_.at(fabric_, reached_, state.x, fabric_.mass, h);
+    return obstacles_.at(fabric_, reached_, state.x, state.v, fabric_.mass, h);
 }
 
 /// v0: what P2G gave, fallen for h; the twist goes on as it did.

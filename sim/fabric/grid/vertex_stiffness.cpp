@@ -114,7 +114,7 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
         for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
             const double *m = cloth_.block(e), *v = in.data() + unknowns_.slot[vertices[cloth_.column(e)]];
             for (int a = 0; a < kAxes; ++a)
-                sum[a] += m[3 * a] * v[0] + m[3 * a + 1] * v[kLanes] + m[3 * a + 2] * v[2 * kLanes];
+                sum[a] += m[a] * v[0] + m[3 + a] * v[kLanes] + m[6 + a] * v[2 * kLanes];
         }
         add(out, vertices[n], Vec3(sum[0], sum[1], sum[2]));
     });
