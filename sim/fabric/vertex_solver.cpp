@@ -15,7 +15,7 @@ constexpr double kSpeedTolerance = 1.0e-2;    ///< rms error of the speed at whi
 constexpr double kQuietMove = 3.0;            ///< largest move per time after which no further Newton iteration is made [cm/s]
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
-constexpr int kMaxListBuilds = 12;            ///< per attempt; more ask for halves
+constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 300;
 
 }  // namespace
