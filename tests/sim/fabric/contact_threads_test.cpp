@@ -21,6 +21,11 @@ void* operator new(std::size_t bytes)
     if (void* p = std::malloc(bytes > 0 ? bytes : 1)) return p;
     throw std::bad_alloc();
 }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept  // of std::stable_sort's buffer
+{
+    ++allocations;
+    return std::malloc(bytes > 0 ? bytes : 1);
+}
 void* operator new(std::size_t bytes, std::align_val_t alignment)
 {
     ++allocations;
@@ -32,6 +37,10 @@ void operator delete(void* p) noexcept
     std::free(p);
 }
 void operator delete(void* p, std::size_t) noexcept
+{
+    std::free(p);
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept
 {
     std::free(p);
 }
