@@ -1,5 +1,6 @@
 #include "sim/core/check.h"
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/rods/rod_kernel.h"
 
 #include <Eigen/Geometry>
 
@@ -167,14 +168,11 @@ Vec3 anyAcross(const Vec3& t)
     return (e - e.dot(t) * t).normalized();
 }
 
-/// The vector u carried along by the smallest rotation that takes the unit vector `from` to `to` (model-fabric 1.1).
-/// They must not point in opposite directions.
-Vec3 transported(const Vec3& u, const Vec3& from, const Vec3& to)
+/// The reference axis u of one edge, for the next: parallel transport (model-fabric 1.1).
+Vec3 carriedAcross(const Vec3& u, const Vec3& from, const Vec3& to)
 {
-    const Vec3 b = from.cross(to);
-    const double c = from.dot(to);
-    const Vec3 carried = c * u + b.cross(u) + b * (b.dot(u) / (1.0 + c));
-    return (carried - carried.dot(to) * to).normalized();
+    const Triple<double> t = toTriple(to);
+    return toVec3(unitAcross(transported(toTriple(u), toTriple(from), t), t));
 }
 
 }  // namespace
@@ -203,7 +201,7 @@ FabricState restState(const Fabric& fabric)
         state.tangent[e] = (fabric.rest[edge[1]] - fabric.rest[edge[0]]).normalized();
         const bool isFirst = e == 0 || fabric.edges.strand[e] != fabric.edges.strand[e - 1];
         state.reference[e] = isFirst ? anyAcross(state.tangent[e])
-                                     : transported(state.reference[e - 1], state.tangent[e - 1], state.tangent[e]);
+                                     : carriedAcross(state.reference[e - 1], state.tangent[e - 1], state.tangent[e]);
     }
     return state;
 }
