@@ -38,9 +38,10 @@ DrawLiquid::DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir)
     gl.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
-void DrawLiquid::draw(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,
+void DrawLiquid::draw(const FrameView::Liquid& all, const ViewTransforms& transforms, const LiquidLook& look,
                       int samples)
 {
+    const FrameView::Liquid liquid = visible_.of(all, transforms, look, samples);
     if (liquid.positions.empty()) return;
     const auto known = pointShift_.find(samples);
     const Eigen::Vector2f shift = known == pointShift_.end() ? Eigen::Vector2f(0.0f, 0.0f) : known->second;

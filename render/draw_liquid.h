@@ -5,6 +5,7 @@
 #include "render/gl_objects.h"
 #include "render/look.h"
 #include "render/view_transforms.h"
+#include "render/visible_particles.h"
 
 #include <map>
 
@@ -15,7 +16,7 @@ class DrawLiquid {
  public:
     DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir);
     /// Draws with depth test and depth write. `samples` > 1: edges of spheres are blended between samples.
-    void draw(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look, int samples);
+    void draw(const FrameView::Liquid& all, const ViewTransforms& transforms, const LiquidLook& look, int samples);
 
     /// Draw one dot and see where it lands: llvmpipe (seen in Mesa 22.3) puts multisampled points half a pixel off.
     /// Later draws with so many samples are corrected by what was found. Leaves other framebuffers bound.
@@ -31,6 +32,7 @@ class DrawLiquid {
     VertexArray vertices_;
     Buffer positions_, values_;
     ColorMapTexture colorMap_;
+    VisibleParticles visible_;
     std::map<int, Eigen::Vector2f> pointShift_;    ///< by number of samples [pixels]
 };
 
