@@ -1,7 +1,7 @@
 // Contact of fabric on the grid: energies, stresses, return mapping (model-fabric 3.4, 3.5, 13.5; T17 of 9).
 #include "sim/fabric/grid/contact_law.h"
 #include "sim/fabric/grid/element_contact.h"
-#include "tests/sim/fabric/pieces.h"
+#include "tests/sim/fabric/grid_runs.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
@@ -178,7 +178,7 @@ TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
     const double volume = 0.5 * 0.144 * 0.144 * 0.034;
     for (std::size_t e = 0; e < contact.size(); ++e) {
         const Vec3 n = state.across[e] / r33;
-        const double pressure = -n.dot(contact.gradient(e).onGrid * n) / (volume * r33);
+        const double pressure = -n.dot(gradientOf(contact, e).onGrid * n) / (volume * r33);
         EXPECT_NEAR(pressure, piece.material.packing() * m.normal() * 0.2 * 0.2, 1e-9 * pressure);
     }
 }
@@ -204,7 +204,7 @@ TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
     for (int i = 0; i < 9; ++i) g(i / 3, i % 3) = noise();
     double slope = 0.0;
     for (std::size_t e = 0; e < contact.size(); ++e) {
-        const ElementContact::Push push = contact.gradient(e);
+        const PlainPush push = gradientOf(contact, e);
         slope += push.onGrid.cwiseProduct(g).sum();
         for (int k = 0; k < 3; ++k)
             if (contact.corners(e)[k] >= 0) slope += push.onCorners[k].dot(move[contact.corners(e)[k]]);
