@@ -91,11 +91,13 @@ ElementContact::Stress ElementContact::assemble(std::size_t e, const FabricState
         const Mat3 q = yarn::frameOf(t0, at.d[0]);
         at.reciprocal = {q.col(0) / t0.norm(), Vec3::Zero()};
         at.normal.setZero();
-        const yarn::Strain r = yarnStrain(q, at.d), p = yarn::stress(m, r);
+        const yarn::Strain r = yarnStrain(q, at.d);
+        const yarn::Section section = yarn::sectionOf(r);
         yarn::SectionStiffness k;
-        found.isActive = yarn::stiffness(m, r, k);
+        found.isActive = yarn::stiffness(m, section, k);
         if (!found.isActive) return found;
-        found.energy = volume * yarn::energy(m, r);
+        const yarn::Strain p = yarn::stress(m, r, section);
+        found.energy = volume * yarn::energy(m, r, section);
         for (int n = 0; n < 3; ++n) {
             const int column = n / 2, other = (n + 1) / 2;
             Mat3 local = Mat3::Zero();

@@ -53,10 +53,10 @@ void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> e
 /// Places of all points, in the order of the sort.
 void FabricParticles::findPoints(std::size_t vertexCount)
 {
-    for (BlockPoints* points : {&vertices_, &elements_}) {
-        points->clear();
-        for (AlignedArray<double>& x : points->inCell) x.resize(particles_.count + kLanes);
-    }
+    vertices_.clear();
+    elements_.clear();
+    vertexRow_.clear();
+    elementRow_.clear();
     for (int block : order_.occupied) {
         const int* cells = order_.cells(block);
         for (int rank = 0; rank < kBlockCells; ++rank) {
@@ -66,12 +66,9 @@ void FabricParticles::findPoints(std::size_t vertexCount)
             const std::size_t vertices = vertices_.size(), elements = elements_.size();
             for (int s = cells[rank]; s < cells[rank + 1]; ++s) {
                 const std::size_t id = particles_.id[s];
-                BlockPoints& points = id < vertexCount ? vertices_ : elements_;
-                for (int a = 0; a < kAxes; ++a) {
-                    const double inCells = (particles_.x[a][s] - grid_.origin[a]) * (1.0 / grid_.dx);
-                    points.inCell[a][points.size()] = inCells - std::floor(inCells);
-                }
-                points.id.push_back(static_cast<int>(id < vertexCount ? id : id - vertexCount));
+                const bool isVertex = id < vertexCount;
+                (isVertex ? vertices_ : elements_).id.push_back(static_cast<int>(isVertex ? id : id - vertexCount));
+                (isVertex ? vertexRow_ : elementRow_).push_back(s);
             }
             if (vertices_.size() > vertices) vertices_.cells.push_back({corner, static_cast<int>(vertices)});
             if (elements_.size() > elements) elements_.cells.push_back({corner, static_cast<int>(elements)});
@@ -79,7 +76,22 @@ void FabricParticles::findPoints(std::size_t vertexCount)
         vertices_.blockBegin.push_back(static_cast<int>(vertices_.cells.size()));
         elements_.blockBegin.push_back(static_cast<int>(elements_.cells.size()));
     }
-    for (BlockPoints* points : {&vertices_, &elements_}) points->cells.push_back({0, static_cast<int>(points->size())});
+    place(vertexRow_, vertices_);
+    place(elementRow_, elements_);
+}
+
+/// Ends the list of points and says where they are.
+/// @param row  of each point: among the sorted particles
+void FabricParticles::place(const std::vector<int>& row, BlockPoints& points) const
+{
+    points.cells.push_back({0, static_cast<int>(points.size())});
+    for (AlignedArray<double>& x : points.inCell) x.resize(points.size() + kLanes);
+    parallelFor(row.size(), 1024, [&](std::size_t i) {
+        for (int a = 0; a < kAxes; ++a) {
+            const double inCells = (particles_.x[a][row[i]] - grid_.origin[a]) * (1.0 / grid_.dx);
+            points.inCell[a][i] = inCells - std::floor(inCells);
+        }
+    });
 }
 
 void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)

@@ -8,7 +8,7 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kElementsPerTask = 256;
+constexpr std::size_t kElementsPerTask = 256, kEdgesPerTask = 4096;
 
 }  // namespace
 
@@ -140,14 +140,14 @@ void FaceSystem::spread(FaceVector& q)
         scatterGradients(pressedFaces_.points(), n, pressedFaces_.onGrid(), tile);
     });
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    for (std::size_t e = 0; e < edges(); ++e) q.twist[e] = out_[twistSlot[e]];
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { q.twist[e] = out_[twistSlot[e]]; });
 }
 
 /// q = A p; returns p·q.
 double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
 {
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    for (std::size_t e = 0; e < edges(); ++e) in_[twistSlot[e]] = p.twist[e];
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = p.twist[e]; });
     gather(p.faces);
     stiffness_.multiply(in_, out_);
     pressedEdges_.multiply(in_, pushes_);
