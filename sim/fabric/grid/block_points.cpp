@@ -17,9 +17,8 @@ template <class Set, class Store>
         const int corner = points.cells[c].corner, end = points.cells[c + 1].begin;
         for (int s = points.cells[c].begin; s < end; s += kLanes) {
             Operators<Set::kFactors> op[kAxes];
-            unroll<kAxes>([&](auto a) {
-                setOperators<Set::kFactors, false>(loadPack(points.inCell[a].data() + s), op[a]);
-            });
+            unroll<kAxes>(
+                [&](auto a) { setOperators<Set::kFactors, false>(loadPack(points.inCell[a].data() + s), op[a]); });
             unroll<kAxes>([&](auto a) {
                 Coefficients<Set::kFactors> found;
                 contract<a, Set>(tile.v[a] + corner, op, found);
@@ -72,7 +71,7 @@ struct AlongZ {
     {
         Operators<1> op;
         setOperators<1, false>(z, op);
-        const auto set = [&](Pack (&to)[kTerms], Pack weight, Pack distance) {
+        const auto set = [&](Pack(&to)[kTerms], Pack weight, Pack distance) {
             to[0] = kSquared ? weight * weight : weight;
             for (int d = 1; d < kTerms; ++d) to[d] = to[d - 1] * distance;
         };

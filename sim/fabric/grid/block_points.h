@@ -111,8 +111,8 @@ void forEachBlock(const ParticleOrder& order, const BlockGrid& grid, const Block
 
 /// The packs of faces that have mass, in the arrays of the faces.
 struct FaceRows {
-    std::vector<int> first;      ///< of each: its first face
-    std::vector<char> hasMass;   ///< of each pack of faces
+    std::vector<int> first;     ///< of each: its first face
+    std::vector<char> hasMass;  ///< of each pack of faces
 
     void find(const BlockArray<double, 3>& mass);
 };

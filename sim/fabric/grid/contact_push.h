@@ -52,8 +52,8 @@ struct Symmetric {
 template <class T>
 Symmetric<T> mixed(const Triple<T>& a, const Triple<T>& b)
 {
-    return {2.0 * a.x * b.x, 2.0 * a.y * b.y, 2.0 * a.z * b.z, a.x * b.y + a.y * b.x, a.y * b.z + a.z * b.y,
-            a.z * b.x + a.x * b.z};
+    return {2.0 * a.x * b.x,       2.0 * a.y * b.y,       2.0 * a.z * b.z,
+            a.x * b.y + a.y * b.x, a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z};
 }
 
 /// What acts on an element's surroundings: through the velocity gradient, with rows by the component of the force
@@ -72,8 +72,8 @@ struct EdgeContact {
     using Push = ContactPush<T, kCorners>;
 
     std::array<Triple<T>, 2> d;
-    Triple<T> reciprocal;    ///< direction of the edge over its length [1/cm]
-    Symmetric<T> k00, k11;   ///< ∂²E/∂d² [erg]
+    Triple<T> reciprocal;   ///< direction of the edge over its length [1/cm]
+    Symmetric<T> k00, k11;  ///< ∂²E/∂d² [erg]
     Rows<T> k01;
 
     /// Change of the stress when the surroundings move: d by G and the corners by u.
@@ -111,8 +111,7 @@ struct FaceContact {
 
     Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
     {
-        const Triple<T> tilt =
-            dot(normal, u[1] - u[0]) * reciprocal[0] + dot(normal, u[2] - u[0]) * reciprocal[1];
+        const Triple<T> tilt = dot(normal, u[1] - u[0]) * reciprocal[0] + dot(normal, u[2] - u[0]) * reciprocal[1];
         return k * (g * d + cross(cross(normal, tilt), d));
     }
     Symmetric<T> diagonalForm(int a) const { return T(0.5 * k.diagonal(a)) * mixed(d, d); }

@@ -17,7 +17,7 @@ void FaceSystem::clearInactive(BlockArray<double, 3>& u) const
 double FaceSystem::Sums::largestLane() const
 {
     double found = 0.0;
-    for (int l = 0; l < kLanes; ++l) found = largest[l] <= found ? found : largest[l];
+    for (int l = 0; l < kLanes; ++l) found = largest[l] > found || largest[l] != largest[l] ? largest[l] : found;
     return found;
 }
 

@@ -82,7 +82,8 @@ class FaceSystem {
     struct Sums {
         Pack product{}, largest{};
 
-        void take(Pack error) { largest = select(error <= largest, largest, error); }  // and keep a NaN
+        /// A NaN among them stays a NaN.
+        void take(Pack error) { largest = select((error > largest) | (error != error), error, largest); }
         double largestLane() const;
     };
     double multiplyAndDot(const FaceVector& p, FaceVector& q);
@@ -102,17 +103,17 @@ class FaceSystem {
     AlignedArray<double> inertia_;        ///< of each twist angle; 1 in unused lanes [g cm^2]
     AlignedArray<double> perTwistSpeed_;  ///< of each edge: residual to speed of its surface [1/(g cm)]
     FaceRows rows_;
-    double leastMass_ = 0.0;              ///< [g]
+    double leastMass_ = 0.0;  ///< [g]
 
-    std::vector<Mat3> missing_;   ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
+    std::vector<Mat3> missing_;  ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
     PressedElements<EdgeContact<Pack>> pressedEdges_;
     PressedElements<FaceContact<Pack>> pressedFaces_;
-    std::vector<Vec3> pushes_;            ///< of the pressed elements on their corners
-    std::vector<int> pushBegin_, pushOf_; ///< on each vertex in the order of the blocks: in pushes_
-    PointArray<3> onVertices_;   ///< of each vertex, in the order of the blocks
+    std::vector<Vec3> pushes_;             ///< of the pressed elements on their corners
+    std::vector<int> pushBegin_, pushOf_;  ///< on each vertex in the order of the blocks: in pushes_
+    PointArray<3> onVertices_;             ///< of each vertex, in the order of the blocks
     PointArray<9> onElements_;
     PointArray<18> edgeForms_, faceForms_;
-    std::vector<int> first_;     ///< of each element: its first push
+    std::vector<int> first_;         ///< of each element: its first push
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
     FaceVector residual_, p_, q_, inverse_;  ///< of the solve; inverse of A's diagonal

@@ -8,7 +8,10 @@ namespace {
 
 constexpr std::size_t kPacksPerTask = 32;
 
-std::size_t packsOf(std::size_t n) { return (n + kLanes - 1) / kLanes; }
+std::size_t packsOf(std::size_t n)
+{
+    return (n + kLanes - 1) / kLanes;
+}
 
 void setLane(Symmetric<Pack>& to, int lane, const Mat3& m)
 {
@@ -60,9 +63,7 @@ void PressedElements<Contact>::assemble(const ElementContact& contact, const Ver
 {
     perCell_ = 1.0 / dx;
     firstPush_ = firstPush;
-    points_.select(elements, [&](int e) {
-        return contact.isEdge(e) == (kCorners == 2) && contact.stress(e).isActive;
-    });
+    points_.select(elements, [&](int e) { return contact.isEdge(e) == (kCorners == 2) && contact.stress(e).isActive; });
     onGrid_.resize(points_.size());
     const std::size_t packs = packsOf(points_.size());
     contact_.resize(packs);

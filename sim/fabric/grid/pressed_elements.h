@@ -54,10 +54,10 @@ class PressedElements {
     int firstPush_ = 0;
     BlockPoints points_;
     PointArray<9> onGrid_;
-    std::vector<Contact> contact_;  ///< of each pack
+    std::vector<Contact> contact_;                       ///< of each pack
     std::vector<std::array<int, kCorners>> cornerSlot_;  ///< of each element: in a vector of VertexUnknowns
-    std::vector<int> loose_;  ///< of each element: in looseElements_, or −1
-    std::vector<char> anyLoose_;  ///< of each pack
+    std::vector<int> loose_;                             ///< of each element: in looseElements_, or −1
+    std::vector<char> anyLoose_;                         ///< of each pack
     std::vector<Loose> looseElements_;
 };
 

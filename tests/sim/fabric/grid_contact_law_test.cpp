@@ -11,8 +11,14 @@
 namespace sim::testing {
 namespace {
 
-double yarnEnergy(const ContactModuli& m, const yarn::Strain& r) { return yarn::energy(m, r, yarn::sectionOf(r)); }
-yarn::Strain yarnStress(const ContactModuli& m, const yarn::Strain& r) { return yarn::stress(m, r, yarn::sectionOf(r)); }
+double yarnEnergy(const ContactModuli& m, const yarn::Strain& r)
+{
+    return yarn::energy(m, r, yarn::sectionOf(r));
+}
+yarn::Strain yarnStress(const ContactModuli& m, const yarn::Strain& r)
+{
+    return yarn::stress(m, r, yarn::sectionOf(r));
+}
 
 constexpr double kStep = 1.0e-6;
 
@@ -47,8 +53,8 @@ TEST(GridContactLaw, StressesAreTheSlopesOfTheEnergy)
         for (int i = 0; i < 6; ++i) {
             yarn::Strain by = yarn::Strain::Zero();
             by(i % 3, i / 3) = kStep;
-            EXPECT_NEAR((yarnEnergy(m, s + by) - yarnEnergy(m, s - by)) / (2.0 * kStep),
-                        yarnStress(m, s)(i % 3, i / 3), 1e-7);
+            EXPECT_NEAR((yarnEnergy(m, s + by) - yarnEnergy(m, s - by)) / (2.0 * kStep), yarnStress(m, s)(i % 3, i / 3),
+                        1e-7);
         }
     }
 }

@@ -61,8 +61,7 @@ struct PlainSystem {
             u.push_back(at(p, parts.state.x[v]));
             parts.stiffness.set(in, static_cast<int>(v), u[v]);
         }
-        for (std::size_t e = 0; e < parts.system.edges(); ++e)
-            in[parts.stiffness.unknowns().twistSlot[e]] = p.twist[e];
+        for (std::size_t e = 0; e < parts.system.edges(); ++e) in[parts.stiffness.unknowns().twistSlot[e]] = p.twist[e];
         parts.stiffness.multiply(in, out);
         for (std::size_t v = 0; v < vertices; ++v) force.push_back(parts.stiffness.at(out, static_cast<int>(v)));
 
@@ -110,7 +109,10 @@ struct PlainSystem {
     std::vector<Face> faces;
 };
 
-std::vector<FabricPiece> allKinds() { return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))}; }
+std::vector<FabricPiece> allKinds()
+{
+    return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))};
+}
 
 /// Some elements pressed, some not; some reach faces without mass.
 void assemble(GridParts& parts)
@@ -137,8 +139,7 @@ TEST(GridFabricProduct, EqualsPlainLoops)
     const double size = std::sqrt(GridParts::dot(expected, expected));
     for (const PlainSystem::Face& f : plain.faces)
         ASSERT_NEAR(PlainSystem::of(found, f), PlainSystem::of(expected, f), 1e-12 * size);
-    for (std::size_t e = 0; e < parts.system.edges(); ++e)
-        ASSERT_NEAR(found.twist[e], expected.twist[e], 1e-12 * size);
+    for (std::size_t e = 0; e < parts.system.edges(); ++e) ASSERT_NEAR(found.twist[e], expected.twist[e], 1e-12 * size);
 }
 
 TEST(GridFabricProduct, SolutionSatisfiesTheEquations)

@@ -132,14 +132,19 @@ inline EdgeContact<double> edgeOf(const ElementContact& contact, std::size_t e)
     };
     Rows<double> mixed;
     for (int a = 0; a < 3; ++a) mixed[a] = toTriple(at.stiffness[1].row(a));
-    return {{toTriple(at.d[0]), toTriple(at.d[1])}, toTriple(at.reciprocal[0]), symmetric(at.stiffness[0]),
-            symmetric(at.stiffness[2]), mixed};
+    return {{toTriple(at.d[0]), toTriple(at.d[1])},
+            toTriple(at.reciprocal[0]),
+            symmetric(at.stiffness[0]),
+            symmetric(at.stiffness[2]),
+            mixed};
 }
 inline FaceContact<double> faceOf(const ElementContact& contact, std::size_t e)
 {
     const ElementContact::Local& at = contact.local(e);
     const Mat3& m = at.stiffness[0];
-    return {toTriple(at.d[0]), toTriple(at.normal), {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])},
+    return {toTriple(at.d[0]),
+            toTriple(at.normal),
+            {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])},
             {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}};
 }
 
