@@ -1,143 +1,229 @@
 #include "sim/fabric/grid/block_points.h"
 
+#include "sim/transfer/contraction.h"
+
+// Gathering works on 8 points of a cell at once. Scattering takes them one by one, with the nodes of one plane as lanes
+// and all planes of a cell in registers, so that points of one cell do not wait for each other's sums.
+
 namespace sim {
 
 namespace {
 
-[[gnu::always_inline]] inline HalfPack load(const double* p)
+/// store(s, n, coefficients of each axis) for packs of n ≤ kLanes points from s on.
+template <class Set, class Store>
+[[gnu::always_inline]] inline void gather(const FaceTile& tile, const BlockPoints& points, std::size_t n, Store&& store)
 {
-    HalfPack v;
-    std::memcpy(&v, p, sizeof v);
-    return v;
+    for (int c = points.blockBegin[n]; c < points.blockBegin[n + 1]; ++c) {
+        const int corner = points.cells[c].corner, end = points.cells[c + 1].begin;
+        for (int s = points.cells[c].begin; s < end; s += kLanes) {
+            Operators<Set::kFactors> op[kAxes];
+            unroll<kAxes>(
+                [&](auto a) { setOperators<Set::kFactors, false>(loadPack(points.inCell[a].data() + s), op[a]); });
+            unroll<kAxes>([&](auto a) {
+                Coefficients<Set::kFactors> found;
+                contract<a, Set>(tile.v[a] + corner, op, found);
+                store(a, s, std::min(kLanes, end - s), found);
+            });
+        }
+    }
 }
 
-[[gnu::always_inline]] inline double sum(HalfPack v)
+/// Quadratic B-spline weights of the nodes of a 4x4 plane, lane x + 4 y: rows y = 0, 1 in one pack and 2, 3 in another.
+/// Polynomials (A r + B) r + C of the offset r. Kind 0: nodes at the middles of cells, the first three of four; 1 and
+/// 2: at their sides, the first or the last three.
+struct PlaneTables {
+    struct Row {
+        Pack a, b, c;
+        [[gnu::always_inline]] Pack operator()(double r) const { return (a * r + b) * r + c; }
+    };
+    Row x[3], y[3][2];
+    Pack nodeX[2], nodeY[2][2];  ///< of middles or sides: position of the node relative to the cell, in cells
+
+    PlaneTables()
+    {
+        for (int lane = 0; lane < kLanes; ++lane)
+            for (int kind = 0; kind < 3; ++kind) {
+                const int shift = kind == 2 ? 1 : 0, isSide = kind > 0;
+                setLane(x[kind], lane, (lane & 3) - shift);
+                nodeX[isSide][lane] = (lane & 3) - (isSide ? 1.0 : 0.5);
+                for (int half = 0; half < 2; ++half) {
+                    setLane(y[kind][half], lane, (lane >> 2) + 2 * half - shift);
+                    nodeY[isSide][half][lane] = (lane >> 2) + 2 * half - (isSide ? 1.0 : 0.5);
+                }
+            }
+    }
+    static void setLane(Row& row, int lane, int node)
+    {
+        constexpr double kA[3] = {0.5, -1.0, 0.5}, kB[3] = {-0.5, 0.0, 0.5}, kC[3] = {0.125, 0.75, 0.125};
+        const bool isInside = node >= 0 && node < 3;
+        row.a[lane] = isInside ? kA[node] : 0.0;
+        row.b[lane] = isInside ? kB[node] : 0.0;
+        row.c[lane] = isInside ? kC[node] : 0.0;
+    }
+};
+
+/// w (node − point)^d of up to 8 points for the nodes along z, squared weights if asked for.
+template <int kTerms, bool kSquared>
+struct AlongZ {
+    Pack of[2][4][kTerms];  ///< by middles (three) or sides (four)
+
+    [[gnu::always_inline]] explicit AlongZ(Pack z)
+    {
+        Operators<1> op;
+        setOperators<1, false>(z, op);
+        const auto set = [&](Pack(&to)[kTerms], Pack weight, Pack distance) {
+            to[0] = kSquared ? weight * weight : weight;
+            for (int d = 1; d < kTerms; ++d) to[d] = to[d - 1] * distance;
+        };
+        for (int n = 0; n < 3; ++n) set(of[0][n], op.center[n][0], (n - 0.5) - z);
+        for (int n = 0; n < 4; ++n) set(of[1][n], op.face[n][0], (n - 1.0) - z);
+    }
+};
+
+[[gnu::always_inline]] inline void addPlane(const Pack (&plane)[2], int rows, double* tile)
 {
-    return (v[0] + v[1]) + (v[2] + v[3]);
+    for (int row = 0; row < rows; ++row) {
+        HalfPack part, sum;
+        std::memcpy(&part, reinterpret_cast<const char*>(&plane[row / 2]) + (row % 2) * sizeof part, sizeof part);
+        std::memcpy(&sum, tile + row * kTileStrideY, sizeof sum);
+        sum += part;
+        std::memcpy(tile + row * kTileStrideY, &sum, sizeof sum);
+    }
 }
+
+/// Adds w Σ_d c_d (node − point)_z^d to the faces normal to kAxis, where form(kAxis, s, x, y, c) sets the c_d of point
+/// s at nodes that are at (x, y) from it; with w² for w if kSquared.
+template <int kAxis, int kTerms, bool kSquared, class Form>
+[[gnu::noinline, gnu::flatten]] void scatterAxis(const PlaneTables& tables, const BlockPoints& points, std::size_t n,
+                                                 const Form& form, double* tile)
+{
+    constexpr int kPlanes = kAxis == 2 ? 4 : 3, kRows = kAxis == 1 ? 4 : 3;
+    const auto kindAndOffset = [](bool isSide, double at, int& kind) {
+        kind = !isSide ? 0 : at >= 0.5 ? 2 : 1;
+        return at - (!isSide ? 0.5 : at >= 0.5 ? 1.0 : 0.0);
+    };
+    for (int c = points.blockBegin[n]; c < points.blockBegin[n + 1]; ++c) {
+        const int begin = points.cells[c].begin, end = points.cells[c + 1].begin;
+        Pack sum[kPlanes][2] = {};
+        for (int first = begin; first < end; first += kLanes) {
+            const AlongZ<kTerms, kSquared> z(loadPack(points.inCell[2].data() + first));
+            for (int s = first; s < std::min(end, first + kLanes); ++s) {
+                const double atX = points.inCell[0][s], atY = points.inCell[1][s];
+                int kindX, kindY;
+                const double rx = kindAndOffset(kAxis == 0, atX, kindX), ry = kindAndOffset(kAxis == 1, atY, kindY);
+                const Pack wx = tables.x[kindX](rx), x = tables.nodeX[kAxis == 0] - atX;
+                unroll<2>([&](auto half) {
+                    Pack weight = wx * tables.y[kindY][half](ry);
+                    if constexpr (kSquared) weight *= weight;
+                    Pack terms[kTerms];
+                    const Pack y = tables.nodeY[kAxis == 1][half] - atY;
+                    form(kAxis, s, x, y, terms);
+                    unroll<kTerms>([&](auto d) {
+                        const Pack value = weight * terms[d];
+                        unroll<kPlanes>([&](auto k) { sum[k][half] += z.of[kAxis == 2][k][d][s - first] * value; });
+                    });
+                });
+            }
+        }
+        unroll<kPlanes>([&](auto k) { addPlane(sum[k], kRows, tile + points.cells[c].corner + k * kTileStrideZ); });
+    }
+}
+
+/// scatterAxis for each axis.
+template <int kTerms, bool kSquared, class Form>
+void scatter(const BlockPoints& points, std::size_t n, const Form& form, FaceTile& tile)
+{
+    const PlaneTables tables;
+    scatterAxis<0, kTerms, kSquared>(tables, points, n, form, tile.v[0]);
+    scatterAxis<1, kTerms, kSquared>(tables, points, n, form, tile.v[1]);
+    scatterAxis<2, kTerms, kSquared>(tables, points, n, form, tile.v[2]);
+}
+
+/// What points give, as polynomials of the place of the node: numbers of their own …
+struct ValueTerms {
+    const PointArray<3>& f;
+    [[gnu::always_inline]] void operator()(int a, int s, Pack, Pack, Pack* c) const { c[0] = broadcast(f.of[a][s]); }
+};
+
+/// … linear ones …
+struct GradientTerms {
+    const PointArray<9>& t;
+    [[gnu::always_inline]] void operator()(int a, int s, Pack x, Pack y, Pack* c) const
+    {
+        c[0] = (4.0 * t.of[3 * a][s]) * x + (4.0 * t.of[3 * a + 1][s]) * y;
+        c[1] = broadcast(4.0 * t.of[3 * a + 2][s]);
+    }
+};
+
+/// … and quadratic forms.
+struct SquareTerms {
+    const PointArray<18>& b;
+    [[gnu::always_inline]] void operator()(int a, int s, Pack x, Pack y, Pack* c) const
+    {
+        const auto form = [&](int i) { return 16.0 * b.of[6 * a + i][s]; };
+        c[0] = (form(0) * x + (2.0 * form(3)) * y) * x + form(1) * (y * y);
+        c[1] = (2.0 * form(5)) * x + (2.0 * form(4)) * y;
+        c[2] = broadcast(form(2));
+    }
+};
 
 }  // namespace
 
-PointWeights::PointWeights(const PointPlace& place)
+void FaceRows::find(const BlockArray<double, 3>& mass)
 {
-    constexpr HalfPack kA = {0.5, -1.0, 0.5, 0.0}, kB = {-0.5, 0.0, 0.5, 0.0}, kC = {0.125, 0.75, 0.125, 0.0},
-                       kNode = {-1.0, 0.0, 1.0, 0.0};
-    for (int kind = 0; kind < 2; ++kind) {
-        for (int a = 0; a < kAxes; ++a) {
-            const bool upper = kind == 1 && place.inCell[a] >= 0.5;
-            offset[kind][a] = place.inCell[a] - (kind == 0 ? 0.5 : upper ? 1.0 : 0.0);
-            node[kind][a] = place.cell[a] - 1 + (upper ? 1 : 0);
-        }
-        const auto weights = [&](double r) { return (kA * r + kB) * r + kC; };
-        x[kind] = weights(offset[kind][0]);
-        y[kind] = weights(offset[kind][1]);
-        z[kind] = weights(offset[kind][2]);
-        zx[kind] = x[kind] * (kNode - offset[kind][0]);
+    first.clear();
+    hasMass.resize(mass.size() / kLanes);
+    const double* m = mass.block(0);
+    for (std::size_t row = 0; row < hasMass.size(); ++row) {
+        double largest = 0.0;
+        for (int l = 0; l < kLanes; ++l) largest = std::max(largest, m[row * kLanes + l]);
+        hasMass[row] = largest > 0.0;
+        if (hasMass[row]) first.push_back(static_cast<int>(row * kLanes));
     }
-}
-
-PointWeights PointWeights::squared() const
-{
-    PointWeights w = *this;
-    for (int kind = 0; kind < 2; ++kind) {
-        w.x[kind] *= x[kind];
-        w.y[kind] *= y[kind];
-        w.z[kind] *= z[kind];
-    }
-    return w;
 }
 
 void BlockPoints::clear()
 {
-    begin.assign(1, 0);
+    blockBegin.assign(1, 0);
+    cells.clear();
     id.clear();
-    place.clear();
 }
 
-Vec3 interpolate(const FaceTile& tile, const PointWeights& w)
+[[gnu::flatten]] void gatherValues(const FaceTile& tile, const BlockPoints& points, std::size_t n, PointArray<3>& u)
 {
-    Vec3 u;
-    for (int a = 0; a < kAxes; ++a) {
-        const double* from = tile.v[a] + w.first(a);
-        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
-        HalfPack rows{};
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) rows += (wy[j] * wz[k]) * load(from + j * kTileStrideY + k * kTileStrideZ);
-        u[a] = sum(rows * w.x[a == 0]);
-    }
-    return u;
+    gather<ModeSet<1>>(tile, points, n, [&](int a, int s, int count, const Coefficients<1>& found) {
+        storeFirst(u.of[a].data() + s, found[0][0][0], count);
+    });
 }
 
-void distribute(const PointWeights& w, const Vec3& f, FaceTile& tile)
+[[gnu::flatten]] void gatherGradients(const FaceTile& tile, const BlockPoints& points, std::size_t n,
+                                      PointArray<9>& gradient)
 {
-    for (int a = 0; a < kAxes; ++a) {
-        double* to = tile.v[a] + w.first(a);
-        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
-        const HalfPack row = f[a] * w.x[a == 0];
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) {
-                double* at = to + j * kTileStrideY + k * kTileStrideZ;
-                const HalfPack v = load(at) + (wy[j] * wz[k]) * row;
-                std::memcpy(at, &v, sizeof v);
-            }
-    }
+    gather<ModeSet<4>>(tile, points, n, [&](int a, int s, int count, const Coefficients<2>& found) {
+        storeFirst(gradient.of[3 * a].data() + s, found[1][0][0], count);
+        storeFirst(gradient.of[3 * a + 1].data() + s, found[0][1][0], count);
+        storeFirst(gradient.of[3 * a + 2].data() + s, found[0][0][1], count);
+    });
 }
 
-Mat3 gradientAt(const FaceTile& tile, const PointWeights& w)
+void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>& f, FaceTile& tile)
 {
-    Mat3 g;
-    for (int a = 0; a < kAxes; ++a) {
-        const double* from = tile.v[a] + w.first(a);
-        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
-        const double ry = w.offset[a == 1][1], rz = w.offset[a == 2][2];
-        HalfPack rows{}, rowsY{}, rowsZ{};
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) {
-                const HalfPack row = (wy[j] * wz[k]) * load(from + j * kTileStrideY + k * kTileStrideZ);
-                rows += row;
-                rowsY += (j - 1 - ry) * row;
-                rowsZ += (k - 1 - rz) * row;
-            }
-        const HalfPack& wx = w.x[a == 0];
-        g(a, 0) = 4.0 * sum(rows * w.zx[a == 0]);
-        g(a, 1) = 4.0 * sum(rowsY * wx);
-        g(a, 2) = 4.0 * sum(rowsZ * wx);
-    }
-    return g;
+    scatter<1, false>(points, n, ValueTerms{f}, tile);
 }
 
-void distributeGradient(const PointWeights& w, const Mat3& t, FaceTile& tile)
+void scatterGradients(const BlockPoints& points, std::size_t n, const PointArray<9>& t, FaceTile& tile)
 {
-    for (int a = 0; a < kAxes; ++a) {
-        double* to = tile.v[a] + w.first(a);
-        const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
-        const double ry = w.offset[a == 1][1], rz = w.offset[a == 2][2];
-        const HalfPack alongX = (4.0 * t(a, 0)) * w.zx[a == 0], wx = 4.0 * w.x[a == 0];
-        for (int k = 0; k < 3; ++k)
-            for (int j = 0; j < 3; ++j) {
-                double* at = to + j * kTileStrideY + k * kTileStrideZ;
-                const HalfPack v =
-                    load(at) + (wy[j] * wz[k]) * (alongX + (t(a, 1) * (j - 1 - ry) + t(a, 2) * (k - 1 - rz)) * wx);
-                std::memcpy(at, &v, sizeof v);
-            }
-    }
+    scatter<2, false>(points, n, GradientTerms{t}, tile);
 }
 
-void distributeSquare(const PointWeights& w, int axis, const Mat3& b, FaceTile& tile)
+void scatterSquaredValues(const BlockPoints& points, std::size_t n, const PointArray<3>& k, FaceTile& tile)
 {
-    const int a = axis;
-    double* to = tile.v[a] + w.first(a);
-    const HalfPack wy = w.y[a == 1], wz = w.z[a == 2];
-    const HalfPack wx = w.x[a == 0], zx = w.zx[a == 0];
-    for (int k = 0; k < 3; ++k)
-        for (int j = 0; j < 3; ++j) {
-            const double y = j - 1 - w.offset[a == 1][1], z = k - 1 - w.offset[a == 2][2], weight = 4.0 * wy[j] * wz[k];
-            const double mixed = 2.0 * (b(0, 1) * y + b(0, 2) * z),
-                         rest = b(1, 1) * y * y + 2.0 * b(1, 2) * y * z + b(2, 2) * z * z;
-            double* at = to + j * kTileStrideY + k * kTileStrideZ;
-            const HalfPack v = load(at) + (weight * weight) * (b(0, 0) * zx * zx + mixed * zx * wx + rest * wx * wx);
-            std::memcpy(at, &v, sizeof v);
-        }
+    scatter<1, true>(points, n, ValueTerms{k}, tile);
+}
+
+void scatterSquaredGradients(const BlockPoints& points, std::size_t n, const PointArray<18>& b, FaceTile& tile)
+{
+    scatter<3, true>(points, n, SquareTerms{b}, tile);
 }
 
 }  // namespace sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/core/aligned_array.h"
 #include "sim/core/parallel.h"
 #include "sim/core/simd.h"
 #include "sim/grid/block_grid.h"
@@ -8,46 +9,41 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <vector>
 
 namespace sim {
 
-/// Where a point is in its block. Small: products with the system's matrix are bound by memory, weights are cheap to
-/// compute anew.
-struct PointPlace {
-    Vec3 inCell;              ///< position in its cell, in cells, 0..1
-    std::array<int, 3> cell;  ///< the cell in its block, 0..7
-};
-
-/// Quadratic B-spline weights of one point on the three face grids, as products of one-dimensional ones. Along each
-/// axis a face grid is either that axis' own (index 1: faces at the cell's sides) or stands at the cells' middles
-/// (index 0).
-struct PointWeights {
-    explicit PointWeights(const PointPlace& place);
-
-    /// All of them squared: those of the diagonal of Wᵀ K W.
-    PointWeights squared() const;
-    /// Index in a tile of the first of the 27 faces normal to `axis`.
-    int first(int axis) const { return tileIndex(node[axis == 0][0], node[axis == 1][1], node[axis == 2][2]); }
-
-    HalfPack x[2], zx[2];  ///< along x: weights, and weights times (node − point); the fourth lane is 0
-    HalfPack y[2], z[2];   ///< along y and z: weights
-    double offset[2][3];   ///< point − middle node along each axis [cells]
-    int node[2][3];        ///< first node along each axis, in the block
-};
-
-/// Which part of the matrix-free interpolation a point takes part in, sorted by block: vertices carry velocities,
-/// elements velocity gradients.
+/// Points that take part in the matrix-free interpolation, sorted by block and in it by cell: vertices, which carry
+/// velocities, or elements, which carry velocity gradients. Weights are computed anew wherever they are needed:
+/// products with the system's matrix are bound by memory.
 struct BlockPoints {
-    /// Points of block order.occupied[n] are [begin[n], begin[n + 1]).
-    std::vector<int> begin;
-    std::vector<int> id;  ///< number of the vertex or element
-    std::vector<PointPlace> place;
+    struct Cell {
+        int corner;  ///< in a tile: the lowest node that the cell's points reach
+        int begin;   ///< its first point
+    };
+    std::vector<int> blockBegin;  ///< cells of block order.occupied[n] are [blockBegin[n], blockBegin[n + 1])
+    std::vector<Cell> cells;      ///< and one behind the last, where the points end
+    std::vector<int> id;          ///< of each point: number of the vertex or element
+    std::array<AlignedArray<double>, kAxes> inCell;  ///< of each point: position in its cell, in cells, 0..1
 
     void clear();
-    std::span<const int> idsOf(std::size_t n) const { return std::span(id).subspan(begin[n], begin[n + 1] - begin[n]); }
-    const PointPlace* placesOf(std::size_t n) const { return place.data() + begin[n]; }
+    std::size_t size() const { return id.size(); }
+    /// Points of block order.occupied[n] are [begin(n), end(n)).
+    int begin(std::size_t n) const { return cells[blockBegin[n]].begin; }
+    int end(std::size_t n) const { return cells[blockBegin[n + 1]].begin; }
+    /// Makes this the points of `all` whose id `isKept`.
+    void select(const BlockPoints& all, auto&& isKept);
+};
+
+/// Some numbers of each point, one array per component, which may be read up to kLanes behind the last.
+template <int kComponents>
+struct PointArray {
+    std::array<AlignedArray<double>, kComponents> of;
+
+    void resize(std::size_t points)
+    {
+        for (AlignedArray<double>& component : of) component.resize(points + 2 * kLanes);
+    }
 };
 
 /// Values on the faces around one block.
@@ -55,20 +51,42 @@ struct FaceTile {
     alignas(64) double v[kAxes][kTileSize];
 };
 
-/// W: u at a point.
-Vec3 interpolate(const FaceTile& tile, const PointWeights& w);
+/// W: u at the points of block order.occupied[n].
+void gatherValues(const FaceTile& tile, const BlockPoints& points, std::size_t n, PointArray<3>& u);
+/// G: ∇u there times the cell size, by the APIC identity: component 3 a + b is 4 Σ w (node − point)_b u_a.
+void gatherGradients(const FaceTile& tile, const BlockPoints& points, std::size_t n, PointArray<9>& gradient);
+
 /// Wᵀ: f given to the faces around.
-void distribute(const PointWeights& w, const Vec3& f, FaceTile& tile);
-/// G = ∇u at a point times the cell size, by the APIC identity: row a is 4 Σ w (node − point) u_a.
-Mat3 gradientAt(const FaceTile& tile, const PointWeights& w);
-/// Transpose of gradientAt.
-void distributeGradient(const PointWeights& w, const Mat3& t, FaceTile& tile);
+void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>& f, FaceTile& tile);
+/// Transpose of gatherGradients.
+void scatterGradients(const BlockPoints& points, std::size_t n, const PointArray<9>& t, FaceTile& tile);
 
-/// Diagonal of what distributeGradient ∘ (T = H G) ∘ gradientAt does to faces normal to `axis`: zᵀ B z with z = 4 w
-/// (node − point).
-void distributeSquare(const PointWeights& w, int axis, const Mat3& b, FaceTile& tile);
+/// Diagonal of Wᵀ K W from that of K.
+void scatterSquaredValues(const BlockPoints& points, std::size_t n, const PointArray<3>& k, FaceTile& tile);
+/// Diagonal of Gᵀ H G: zᵀ B z on faces normal to a, with z = 4 w (node − point) and B = B(a) of six components each,
+/// xx, yy, zz, xy, yz, zx.
+void scatterSquaredGradients(const BlockPoints& points, std::size_t n, const PointArray<18>& b, FaceTile& tile);
 
-/// Makes what the stencils of the box's points reach 0, with the node behind it that they load with weight 0.
+void BlockPoints::select(const BlockPoints& all, auto&& isKept)
+{
+    clear();
+    for (AlignedArray<double>& x : inCell) x.resize(all.size() + kLanes);
+    for (std::size_t n = 0; n + 1 < all.blockBegin.size(); ++n) {
+        for (int c = all.blockBegin[n]; c < all.blockBegin[n + 1]; ++c) {
+            const int begin = static_cast<int>(size());
+            for (int s = all.cells[c].begin; s < all.cells[c + 1].begin; ++s) {
+                if (!isKept(all.id[s])) continue;
+                for (int a = 0; a < kAxes; ++a) inCell[a][size()] = all.inCell[a][s];
+                id.push_back(all.id[s]);
+            }
+            if (static_cast<int>(size()) > begin) cells.push_back({all.cells[c].corner, begin});
+        }
+        blockBegin.push_back(static_cast<int>(cells.size()));
+    }
+    cells.push_back({0, static_cast<int>(size())});
+}
+
+/// Makes what the stencils of the box's points reach 0.
 inline void clearTile(const OccupiedBox& box, FaceTile& tile)
 {
     for (auto& field : tile.v)
@@ -82,10 +100,8 @@ void forEachBlock(const ParticleOrder& order, const BlockGrid& grid, const Block
 {
     parallelFor(order.occupied.size(), [&](std::size_t n) {
         const int block = order.occupied[n];
-        const OccupiedBox box(order.cells(block));
         FaceTile tile;
-        clearTile(box, tile);
-        forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
+        forEachTileRow(grid, block, OccupiedBox(order.cells(block)), [&](int piece, int cell, int node, auto length) {
             for (int a = 0; a < kAxes; ++a)
                 std::copy_n(u.block(piece, a) + cell, static_cast<int>(length), tile.v[a] + node);
         });
@@ -93,11 +109,20 @@ void forEachBlock(const ParticleOrder& order, const BlockGrid& grid, const Block
     });
 }
 
-/// For every occupied block: fill(n, empty tile), then adds the tile to u, which is cleared first; blocks of one colour
-/// share no face.
-void sumOverBlocks(const ParticleOrder& order, const BlockGrid& grid, BlockArray<double, 3>& u, auto&& fill)
+/// The packs of faces that have mass, in the arrays of the faces.
+struct FaceRows {
+    std::vector<int> first;     ///< of each: its first face
+    std::vector<char> hasMass;  ///< of each pack of faces
+
+    void find(const BlockArray<double, 3>& mass);
+};
+
+/// For every occupied block: fill(n, empty tile), then adds the tile to u on rows with mass, which are cleared first;
+/// blocks of one colour share no face.
+void sumOverBlocks(const ParticleOrder& order, const BlockGrid& grid, const FaceRows& rows, BlockArray<double, 3>& u,
+                   auto&& fill)
 {
-    parallelFor(grid.count(), 4, [&](std::size_t b) { std::fill_n(u.block(static_cast<int>(b)), u.kStride, 0.0); });
+    parallelFor(rows.first.size(), 1024, [&](std::size_t r) { std::fill_n(u.block(0) + rows.first[r], kLanes, 0.0); });
     for (const std::vector<int>& color : order.byColor)
         parallelFor(color.size(), [&](std::size_t c) {
             const int block = color[c];
@@ -109,6 +134,7 @@ void sumOverBlocks(const ParticleOrder& order, const BlockGrid& grid, BlockArray
             forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
                 for (int a = 0; a < kAxes; ++a) {
                     double* to = u.block(piece, a) + cell;
+                    if (!rows.hasMass[(to - u.block(0)) / kLanes]) continue;
                     for (int i = 0; i < length; ++i) to[i] += tile.v[a][node + i];
                 }
             });

@@ -117,31 +117,30 @@ Section::Section(const Matrix2d& b)
     const double sum = std::atan2(g, f), difference = std::atan2(h, e);
     u = rotation(0.5 * (difference + sum));
     vt = rotation(0.5 * (difference - sum));
+    log = logs(sigma);
 }
 
-double energy(const ContactModuli& m, const Strain& r)
+double energy(const ContactModuli& m, const Strain& r, const Section& section)
 {
-    const Vector2d log = logs(Section(r.bottomRows<2>()).sigma);
+    const Vector2d& log = section.log;
     const double sum = log.sum();
     if (sum > -kLeastCompression) return 0.0;
     return m.shear * log.squaredNorm() + 0.5 * m.lame * sum * sum + 0.5 * m.shear * r.row(0).squaredNorm();
 }
 
-Strain stress(const ContactModuli& m, const Strain& r)
+Strain stress(const ContactModuli& m, const Strain& r, const Section& section)
 {
     Strain p = Strain::Zero();
-    const Section section(r.bottomRows<2>());
-    const Vector2d log = logs(section.sigma);
+    const Vector2d& log = section.log;
     if (log.sum() > -kLeastCompression) return p;
     p.row(0) = m.shear * r.row(0);
     p.bottomRows<2>() = section.u * principal(m, log).asDiagonal() * section.vt;
     return p;
 }
 
-bool stiffness(const ContactModuli& m, const Strain& r, SectionStiffness& k)
+bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness& k)
 {
-    const Section section(r.bottomRows<2>());
-    const Vector2d log = logs(section.sigma);
+    const Vector2d& log = section.log;
     const double sum = log.sum();
     k.setZero();
     if (sum > -kLeastCompression) return false;
@@ -175,7 +174,7 @@ bool stiffness(const ContactModuli& m, const Strain& r, SectionStiffness& k)
 Strain returned(const ContactModuli& m, const Strain& r)
 {
     const Section section(r.bottomRows<2>());
-    Vector2d log = logs(section.sigma);
+    Vector2d log = section.log;
     const double sum = log.sum();
     Strain kept = Strain::Zero();
     if (sum >= 0.0) {

@@ -63,13 +63,19 @@ struct Section {
     explicit Section(const Eigen::Matrix2d& b);
     Eigen::Matrix2d u, vt;
     Eigen::Vector2d sigma;
+    Eigen::Vector2d log;  ///< of σ, which counts as kLeastThickness if it is less
 };
+inline Section sectionOf(const Strain& r)
+{
+    return Section(r.bottomRows<2>());
+}
 
-double energy(const ContactModuli& m, const Strain& r);
-Strain stress(const ContactModuli& m, const Strain& r);
+// Of R with its section, which is most of the work.
+double energy(const ContactModuli& m, const Strain& r, const Section& section);
+Strain stress(const ContactModuli& m, const Strain& r, const Section& section);
 /// ∂²ψ/∂B² with its negative eigenvalues set to 0; that by row 0 is `m.shear` where this is not zero. False, and 0,
 /// without compression.
-bool stiffness(const ContactModuli& m, const Strain& r, SectionStiffness& k);
+bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness& k);
 Strain returned(const ContactModuli& m, const Strain& r);
 
 }  // namespace yarn

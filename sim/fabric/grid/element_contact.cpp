@@ -91,11 +91,13 @@ ElementContact::Stress ElementContact::assemble(std::size_t e, const FabricState
         const Mat3 q = yarn::frameOf(t0, at.d[0]);
         at.reciprocal = {q.col(0) / t0.norm(), Vec3::Zero()};
         at.normal.setZero();
-        const yarn::Strain r = yarnStrain(q, at.d), p = yarn::stress(m, r);
+        const yarn::Strain r = yarnStrain(q, at.d);
+        const yarn::Section section = yarn::sectionOf(r);
         yarn::SectionStiffness k;
-        found.isActive = yarn::stiffness(m, r, k);
+        found.isActive = yarn::stiffness(m, section, k);
         if (!found.isActive) return found;
-        found.energy = volume * yarn::energy(m, r);
+        const yarn::Strain p = yarn::stress(m, r, section);
+        found.energy = volume * yarn::energy(m, r, section);
         for (int n = 0; n < 3; ++n) {
             const int column = n / 2, other = (n + 1) / 2;
             Mat3 local = Mat3::Zero();
@@ -134,57 +136,6 @@ double ElementContact::energy() const
     double sum = 0.0;
     for (int e : active_) sum += stress_[e].energy;
     return sum;
-}
-
-/// By which small rotation the mesh directions turn.
-Vec3 ElementContact::turnOf(const Local& at, std::size_t e, const std::array<Vec3, 3>& u) const
-{
-    const Vec3 first = u[1] - u[0];
-    if (isEdge(e)) return at.reciprocal[0].cross(first);
-    const Vec3 &n = at.normal, second = u[2] - u[0];
-    return -n.cross(n.dot(first) * at.reciprocal[0] + n.dot(second) * at.reciprocal[1]);
-}
-
-/// Transpose of (G, u) → G d_k − turn × d_k, applied to y_k.
-ElementContact::Push ElementContact::pushOf(const Local& at, std::size_t e, const std::array<Vec3, 2>& y) const
-{
-    const Mat3 onGrid = y[0] * at.d[0].transpose() + y[1] * at.d[1].transpose();
-    const Vec3 moment = -(at.d[0].cross(y[0]) + at.d[1].cross(y[1]));
-    Push push{onGrid, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
-    if (isEdge(e)) {
-        push.onCorners[1] = moment.cross(at.reciprocal[0]);
-    } else {
-        const Vec3 &n = at.normal, lever = moment.cross(n);
-        push.onCorners[1] = -lever.dot(at.reciprocal[0]) * n;
-        push.onCorners[2] = -lever.dot(at.reciprocal[1]) * n;
-    }
-    push.onCorners[0] = -(push.onCorners[1] + push.onCorners[2]);
-    return push;
-}
-
-ElementContact::Push ElementContact::gradient(std::size_t e) const
-{
-    return pushOf(local_[e], e, stress_[e].stress);
-}
-
-ElementContact::Push ElementContact::hessian(std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u) const
-{
-    const Local& at = local_[e];
-    const Vec3 turn = turnOf(at, e, u);
-    const std::array<Mat3, 3>& k = at.stiffness;
-    const Vec3 first = g * at.d[0] - turn.cross(at.d[0]);
-    if (!isEdge(e)) return pushOf(at, e, {k[0] * first, Vec3::Zero()});
-    const Vec3 second = g * at.d[1] - turn.cross(at.d[1]);
-    return pushOf(at, e, {k[0] * first + k[1] * second, k[1].transpose() * first + k[2] * second});
-}
-
-Mat3 ElementContact::diagonalForm(std::size_t e, int a) const
-{
-    const Local& at = local_[e];
-    const Mat3 mixed = at.d[0] * at.d[1].transpose();
-    const auto& [k00, k01, k11] = at.stiffness;
-    return k00(a, a) * at.d[0] * at.d[0].transpose() + k01(a, a) * (mixed + mixed.transpose()) +
-           k11(a, a) * at.d[1] * at.d[1].transpose();
 }
 
 void ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const

@@ -30,19 +30,20 @@ class ElementContact {
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble
 
-    /// What acts on an element's surroundings: `onGrid` through the velocity gradient, with rows by the component of
-    /// the force, and on its corners.
-    struct Push {
-        Mat3 onGrid;                    ///< [erg], [erg/s] …
-        std::array<Vec3, 3> onCorners;  ///< [dyn], …
+    /// An element at one place: directions, how turning the mesh shows, and stiffness.
+    struct Local {
+        std::array<Vec3, 2> d;           ///< the second of yarns only
+        std::array<Vec3, 2> reciprocal;  ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
+        Vec3 normal;                     ///< of faces
+        std::array<Mat3, 3> stiffness;   ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
     };
-    /// Energy gradient: by G (dimensionless) and by the corners' positions.
-    Push gradient(std::size_t e) const;
-    /// Its Hessian times a move with gradient g and the corners' moves u.
-    Push hessian(std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u) const;
-    /// B such that a face normal to axis a whose weight has the gradient z has zᵀ B z of the Hessian on its diagonal.
-    Mat3 diagonalForm(std::size_t e, int a) const;
-
+    struct Stress {
+        std::array<Vec3, 2> stress;  ///< ∂E/∂d [erg]
+        double energy;               ///< [erg]
+        bool isActive;
+    };
+    const Local& local(std::size_t e) const { return local_[e]; }
+    const Stress& stress(std::size_t e) const { return stress_[e]; }
     /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (model-fabric 3.3, 3.5).
     /// @param g  velocity gradient of each element [1/s]; x of the state is already that of the end of the step
     void carry(std::span<const Mat3> g, double h, FabricState& state) const;
@@ -67,22 +68,7 @@ class ElementContact {
  private:
     /// First of an element's directions in FabricState::across.
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
-    /// An element at one place: directions, and how turning the mesh shows. Products with the Hessian read it from
-    /// memory again and again: it holds nothing else.
-    struct Local {
-        std::array<Vec3, 2> d;           ///< the second of yarns only
-        std::array<Vec3, 2> reciprocal;  ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
-        Vec3 normal;                     ///< of faces
-        std::array<Mat3, 3> stiffness;   ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
-    };
-    struct Stress {
-        std::array<Vec3, 2> stress;  ///< ∂E/∂d [erg]
-        double energy;               ///< [erg]
-        bool isActive;
-    };
     Stress assemble(std::size_t e, const FabricState& state, Local& at) const;
-    Vec3 turnOf(const Local& at, std::size_t e, const std::array<Vec3, 3>& u) const;
-    Push pushOf(const Local& at, std::size_t e, const std::array<Vec3, 2>& y) const;
 
     std::size_t edges_ = 0;
     std::vector<std::array<int, 3>> corners_;

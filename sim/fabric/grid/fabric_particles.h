@@ -43,6 +43,7 @@ class FabricParticles {
     }
     void load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state);
     void findPoints(std::size_t vertexCount);
+    void place(const std::vector<int>& row, BlockPoints& points) const;
     void damp(double h, std::size_t v, FabricState& state) const;
 
     FabricTransferSettings transfer_;
@@ -58,6 +59,7 @@ class FabricParticles {
     ScatterScratch scatter_;
     GatherScratch gather_;
     BlockPoints vertices_, elements_;
+    std::vector<int> vertexRow_, elementRow_;  ///< of their points: among the sorted particles
 };
 
 }  // namespace sim

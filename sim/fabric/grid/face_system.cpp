@@ -8,7 +8,7 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kElementsPerTask = 256, kVerticesPerTask = 512;
+constexpr std::size_t kElementsPerTask = 256, kEdgesPerTask = 4096;
 
 }  // namespace
 
@@ -26,11 +26,6 @@ FaceSystem::FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, c
     }
     in_.resize(stiffness.unknowns().size);
     out_.resize(stiffness.unknowns().size);
-    isActive_.resize(contact.size());
-    missing_.resize(contact.size());
-    raw_.resize(contact.size());
-    mean_.resize(contact.size());
-    push_.resize(contact.size());
 }
 
 void FaceSystem::assemble(const FabricParticles& particles, double h)
@@ -43,44 +38,38 @@ void FaceSystem::assemble(const FabricParticles& particles, double h)
         const int block = static_cast<int>(b);
         std::copy_n(particles.faces().sums.block(block, FaceFields::kMass), kAxes * kBlockCells, mass_.block(block));
     });
-    std::ranges::fill(isActive_, 0);
-    for (int e : contact_.active()) isActive_[e] = 1;
-    for (FaceVector* v : {&residual_, &z_, &p_, &q_, &inverse_}) v->resize(blocks(), edges());
-    findActiveRows();
+    for (FaceVector* v : {&residual_, &p_, &q_, &inverse_}) v->resize(blocks(), edges());
+    rows_.find(mass_);
+    findLeastMass();
     findMissing();
+    findPushes();
+    onVertices_.resize(particles.vertices().size());
     findDiagonal();
 }
 
-void FaceSystem::findActiveRows()
+void FaceSystem::findLeastMass()
 {
-    rows_.clear();
-    const double* mass = mass_.block(0);
     std::size_t faces = 0;
     double sum = 0.0;
-    for (std::size_t i = 0; i < mass_.size(); i += kLanes) {
-        bool any = false;
+    for (int row : rows_.first)
         for (int l = 0; l < kLanes; ++l) {
-            any = any || mass[i + l] > 0.0;
-            faces += mass[i + l] > 0.0;
-            sum += mass[i + l];
+            const double m = mass_.block(0)[row + l];
+            faces += m > 0.0;
+            sum += m;
         }
-        if (any) rows_.push_back(static_cast<int>(i));
-    }
     leastMass_ = faces > 0 ? kLeastMass * sum / static_cast<double>(faces) : 1.0;
 }
 
-/// Velocities of the vertices into in_, gradients of active elements (or all) into raw_.
-void FaceSystem::gatherPoints(const BlockArray<double, 3>& u, bool all)
+/// ∇u of all elements times the cell size.
+void FaceSystem::gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients)
 {
-    const BlockPoints &vertices = particles_->vertices(), &elements = particles_->elements();
+    const BlockPoints& elements = particles_->elements();
+    onElements_.resize(elements.size());
+    gradients.resize(contact_.size());
     forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
-        const PointPlace* at = vertices.placesOf(n);
-        for (int v : vertices.idsOf(n)) stiffness_.set(in_, v, interpolate(tile, PointWeights(*at++)));
-        at = elements.placesOf(n);
-        for (int e : elements.idsOf(n)) {
-            if (all || isActive_[e]) raw_[e] = gradientAt(tile, PointWeights(*at));
-            ++at;
-        }
+        gatherGradients(tile, elements, n, onElements_);
+        for (int s = elements.begin(n); s < elements.end(n); ++s)
+            for (int i = 0; i < 9; ++i) gradients[elements.id[s]](i / 3, i % 3) = onElements_.of[i][s];
     });
 }
 
@@ -92,78 +81,86 @@ void FaceSystem::findMissing()
         for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i)
             work_.block(0)[i] = mass[i] > 0.0 ? 1.0 : 0.0;
     });
-    gatherPoints(work_, true);
+    gatherElements(work_, missing_);
     constexpr double kRoundOff = 1.0e-12;
-    for (std::size_t e = 0; e < missing_.size(); ++e)
-        missing_[e] = raw_[e].cwiseAbs().maxCoeff() > kRoundOff ? raw_[e] : Mat3(Mat3::Zero());
+    for (Mat3& missing : missing_)
+        if (missing.cwiseAbs().maxCoeff() <= kRoundOff) missing.setZero();
 }
 
-/// Gathered gradient of an element, faces without mass moving like the mean of its corners [1/s].
-Mat3 FaceSystem::relative(std::size_t e) const
+/// The pressed elements, and which of their pushes act on each vertex.
+void FaceSystem::findPushes()
 {
-    const std::array<int, 3>& corners = contact_.corners(e);
-    Vec3 mean = Vec3::Zero();
-    for (int k = 0; k < 3; ++k)
-        if (corners[k] >= 0) mean += contact_.shares(e)[k] * stiffness_.at(in_, corners[k]);
-    return (raw_[e] - mean.asDiagonal() * missing_[e]) / grid_->dx;
+    const BlockPoints& elements = particles_->elements();
+    pressedEdges_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, 0);
+    pressedFaces_.assemble(contact_, stiffness_, elements, missing_, grid_->dx,
+                           static_cast<int>(pressedEdges_.pushes()));
+    const int none = static_cast<int>(pressedEdges_.pushes() + pressedFaces_.pushes());
+    pushes_.resize(none);
+    first_.assign(contact_.size(), none);
+    pressedEdges_.tellPushes(first_);
+    pressedFaces_.tellPushes(first_);
+    const BlockPoints& vertices = particles_->vertices();
+    const std::vector<int>& begin = contact_.incidenceBegin();
+    pushOf_.clear();
+    pushBegin_.assign(1, 0);
+    for (int v : vertices.id) {
+        for (int i = begin[v]; i < begin[v + 1]; ++i) {
+            const int at = contact_.incidence()[i], first = first_[at / 3];
+            if (first != none) pushOf_.push_back(first + at % 3);
+        }
+        pushBegin_.push_back(static_cast<int>(pushOf_.size()));
+    }
 }
 
-/// Transpose of `relative`: what an element gives to its corners, and in raw_ to the faces.
-void FaceSystem::pushCorners(std::size_t e, const ElementContact::Push& push, double sign)
+/// Velocities of the vertices into in_, gradients of the pressed elements.
+void FaceSystem::gather(const BlockArray<double, 3>& u)
 {
-    raw_[e] = sign / grid_->dx * push.onGrid;
-    const Vec3 onMean = -raw_[e].cwiseProduct(missing_[e]).rowwise().sum();
-    for (int k = 0; k < 3; ++k) push_[e][k] = sign * push.onCorners[k] + contact_.shares(e)[k] * onMean;
+    const BlockPoints& vertices = particles_->vertices();
+    forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
+        gatherValues(tile, vertices, n, onVertices_);
+        for (int s = vertices.begin(n); s < vertices.end(n); ++s)
+            stiffness_.set(in_, vertices.id[s], {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]});
+        gatherGradients(tile, pressedEdges_.points(), n, pressedEdges_.onGrid());
+        gatherGradients(tile, pressedFaces_.points(), n, pressedFaces_.onGrid());
+    });
 }
 
-/// Wᵀ out_ with the active elements' pushes, and Gᵀ of what they give to the faces.
+/// Wᵀ out_ with the elements' pushes, and Gᵀ of what they give to the faces.
 void FaceSystem::spread(FaceVector& q)
 {
-    const std::vector<int>& begin = contact_.incidenceBegin();
-    parallelFor(fabric_.vertexCount(), kVerticesPerTask, [&](std::size_t v) {
-        Vec3 sum = Vec3::Zero();
-        for (int i = begin[v]; i < begin[v + 1]; ++i) {
-            const int e = contact_.incidence()[i] / 3, k = contact_.incidence()[i] % 3;
-            if (isActive_[e]) sum += push_[e][k];
+    const BlockPoints& vertices = particles_->vertices();
+    sumOverBlocks(particles_->order(), *grid_, rows_, q.faces, [&](std::size_t n, FaceTile& tile) {
+        for (int s = vertices.begin(n); s < vertices.end(n); ++s) {
+            Vec3 sum = stiffness_.at(out_, vertices.id[s]);
+            for (int i = pushBegin_[s]; i < pushBegin_[s + 1]; ++i) sum += pushes_[pushOf_[i]];
+            for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = sum[a];
         }
-        stiffness_.add(out_, static_cast<int>(v), sum);
-    });
-    const BlockPoints &vertices = particles_->vertices(), &elements = particles_->elements();
-    sumOverBlocks(particles_->order(), *grid_, q.faces, [&](std::size_t n, FaceTile& tile) {
-        const PointPlace* at = vertices.placesOf(n);
-        for (int v : vertices.idsOf(n)) distribute(PointWeights(*at++), stiffness_.at(out_, v), tile);
-        at = elements.placesOf(n);
-        for (int e : elements.idsOf(n)) {
-            if (isActive_[e]) distributeGradient(PointWeights(*at), raw_[e], tile);
-            ++at;
-        }
+        scatterValues(vertices, n, onVertices_, tile);
+        scatterGradients(pressedEdges_.points(), n, pressedEdges_.onGrid(), tile);
+        scatterGradients(pressedFaces_.points(), n, pressedFaces_.onGrid(), tile);
     });
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    for (std::size_t e = 0; e < edges(); ++e) q.twist[e] = out_[twistSlot[e]];
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { q.twist[e] = out_[twistSlot[e]]; });
 }
 
-void FaceSystem::multiply(const FaceVector& p, FaceVector& q)
+/// q = A p; returns p·q.
+double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
 {
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    for (std::size_t e = 0; e < edges(); ++e) in_[twistSlot[e]] = p.twist[e];
-    gatherPoints(p.faces, false);
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = p.twist[e]; });
+    gather(p.faces);
     stiffness_.multiply(in_, out_);
-    const std::vector<int>& active = contact_.active();
-    parallelFor(active.size(), kElementsPerTask, [&](std::size_t i) {
-        const std::size_t e = active[i];
-        std::array<Vec3, 3> u = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-        for (int k = 0; k < 3; ++k)
-            if (contact_.corners(e)[k] >= 0) u[k] = stiffness_.at(in_, contact_.corners(e)[k]);
-        pushCorners(e, contact_.hessian(e, relative(e), u), 1.0);
-    });
+    pressedEdges_.multiply(in_, pushes_);
+    pressedFaces_.multiply(in_, pushes_);
     spread(q);
     const double h2 = h_ * h_;
-    const double* mass = mass_.block(0);
-    forEachPack([&](bool isFace, std::size_t i) {
-        const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
-        Pack& out = q.pack(isFace, i);
-        out = select(m > 0.0, m * p.pack(isFace, i) + h2 * out, broadcast(0.0));
+    const Sums sums = forEachPack([&](auto isFace, std::size_t i, Sums& sum) {
+        const Pack m = mass(isFace, i), from = p.pack(isFace, i);
+        Pack& to = q.pack(isFace, i);
+        to = select(m > 0.0, m * from + h2 * to, broadcast(0.0));
+        sum.product += from * to;
     });
+    return sumLanes(sums.product);
 }
 
 void FaceSystem::impulses(FaceVector& q)
@@ -171,11 +168,11 @@ void FaceSystem::impulses(FaceVector& q)
     q.resize(blocks(), edges());
     const AlignedArray<double>& gradient = stiffness_.gradient();
     for (std::size_t i = 0; i < out_.size(); ++i) out_[i] = -gradient[i];
-    for (int e : contact_.active()) pushCorners(e, contact_.gradient(e), -1.0);
+    pressedEdges_.impulses(contact_, pushes_);
+    pressedFaces_.impulses(contact_, pushes_);
     spread(q);
-    const double* mass = mass_.block(0);
-    forEachPack([&](bool isFace, std::size_t i) {
-        const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
+    forEachPack([&](auto isFace, std::size_t i, Sums&) {
+        const Pack m = mass(isFace, i);
         Pack& out = q.pack(isFace, i);
         out = select(m > 0.0, h_ * out, broadcast(0.0));
     });
@@ -185,24 +182,21 @@ void FaceSystem::impulses(FaceVector& q)
 void FaceSystem::findDiagonal()
 {
     stiffness_.diagonal(out_);
-    const BlockPoints &vertices = particles_->vertices(), &elements = particles_->elements();
-    const double perCell2 = 1.0 / (grid_->dx * grid_->dx), h2 = h_ * h_;
-    sumOverBlocks(particles_->order(), *grid_, inverse_.faces, [&](std::size_t n, FaceTile& tile) {
-        const PointPlace* at = vertices.placesOf(n);
-        for (int v : vertices.idsOf(n)) distribute(PointWeights(*at++).squared(), stiffness_.at(out_, v), tile);
-        at = elements.placesOf(n);
-        for (int e : elements.idsOf(n)) {
-            if (isActive_[e])
-                for (int a = 0; a < kAxes; ++a)
-                    distributeSquare(PointWeights(*at), a, perCell2 * contact_.diagonalForm(e, a), tile);
-            ++at;
-        }
+    pressedEdges_.diagonalForms(edgeForms_);
+    pressedFaces_.diagonalForms(faceForms_);
+    const BlockPoints& vertices = particles_->vertices();
+    sumOverBlocks(particles_->order(), *grid_, rows_, inverse_.faces, [&](std::size_t n, FaceTile& tile) {
+        for (int s = vertices.begin(n); s < vertices.end(n); ++s)
+            for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = stiffness_.at(out_, vertices.id[s])[a];
+        scatterSquaredValues(vertices, n, onVertices_, tile);
+        scatterSquaredGradients(pressedEdges_.points(), n, edgeForms_, tile);
+        scatterSquaredGradients(pressedFaces_.points(), n, faceForms_, tile);
     });
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
     for (std::size_t e = 0; e < edges(); ++e) inverse_.twist[e] = out_[twistSlot[e]];
-    const double* mass = mass_.block(0);
-    forEachPack([&](bool isFace, std::size_t i) {
-        const Pack m = loadPack((isFace ? mass : inertia_.data()) + i);
+    const double h2 = h_ * h_;
+    forEachPack([&](auto isFace, std::size_t i, Sums&) {
+        const Pack m = mass(isFace, i);
         Pack& out = inverse_.pack(isFace, i);
         out = select(m > 0.0, 1.0 / (m + h2 * out), broadcast(0.0));
     });
@@ -210,9 +204,18 @@ void FaceSystem::findDiagonal()
 
 void FaceSystem::elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients)
 {
-    gatherPoints(u, true);
-    gradients.resize(contact_.size());
-    parallelFor(contact_.size(), kElementsPerTask, [&](std::size_t e) { gradients[e] = relative(e); });
+    gather(u);
+    gatherElements(u, gradients);
+    parallelFor(contact_.size(), kElementsPerTask, [&](std::size_t e) {
+        if (!missing_[e].isZero(0.0)) {
+            Vec3 mean = Vec3::Zero();
+            for (int k = 0; k < 3; ++k)
+                if (contact_.corners(e)[k] >= 0)
+                    mean += contact_.shares(e)[k] * stiffness_.at(in_, contact_.corners(e)[k]);
+            gradients[e] -= mean.asDiagonal() * missing_[e];
+        }
+        gradients[e] /= grid_->dx;
+    });
 }
 
 }  // namespace sim

@@ -4,6 +4,7 @@
 #include "sim/core/simd.h"
 #include "sim/fabric/grid/element_contact.h"
 #include "sim/fabric/grid/fabric_particles.h"
+#include "sim/fabric/grid/pressed_elements.h"
 #include "sim/fabric/grid/vertex_stiffness.h"
 
 #include <span>
@@ -55,7 +56,7 @@ class FaceSystem {
     const BlockArray<double, 3>& mass() const { return mass_; }
 
     /// q = A p. Entries of p at faces without mass must be 0.
-    void multiply(const FaceVector& p, FaceVector& q);
+    void multiply(const FaceVector& p, FaceVector& q) { multiplyAndDot(p, q); }
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
     /// A v = M v0 + impulses by conjugate gradients, preconditioned by A's diagonal, from v = v0 on. Stops when the
@@ -69,18 +70,27 @@ class FaceSystem {
     static constexpr double kLeastMass = 1.0e-2;  ///< [-]
 
  private:
-    void findActiveRows();
+    void findLeastMass();
     void clearInactive(BlockArray<double, 3>& u) const;
+    void gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
     void findMissing();
+    void findPushes();
     void findDiagonal();
-    void gatherPoints(const BlockArray<double, 3>& u, bool all);
-    Mat3 relative(std::size_t e) const;
-    void pushCorners(std::size_t e, const ElementContact::Push& push, double sign);
+    void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
+    /// What passes over the unknowns find out.
+    struct Sums {
+        Pack product{}, largest{};
+
+        /// A NaN among them stays a NaN.
+        void take(Pack error) { largest = select((error > largest) | (error != error), error, largest); }
+        double largestLane() const;
+    };
+    double multiplyAndDot(const FaceVector& p, FaceVector& q);
+    Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
+    Pack speedError(bool isFace, std::size_t i, Pack residual) const;
     template <class Body>
-    void forEachPack(Body&& body) const;
-    template <class F>
-    double sumOverPacks(F&& f) const;
+    Sums forEachPack(Body&& body) const;
 
     const Fabric& fabric_;
     const VertexStiffness& stiffness_;
@@ -92,41 +102,44 @@ class FaceSystem {
     BlockArray<double, 3> mass_;          ///< of each face [g]
     AlignedArray<double> inertia_;        ///< of each twist angle; 1 in unused lanes [g cm^2]
     AlignedArray<double> perTwistSpeed_;  ///< of each edge: residual to speed of its surface [1/(g cm)]
-    std::vector<int> rows_;               ///< packs of faces with mass, as multiples of kLanes
-    double leastMass_ = 0.0;              ///< [g]
+    FaceRows rows_;
+    double leastMass_ = 0.0;  ///< [g]
 
-    std::vector<char> isActive_;  ///< of each element
-    std::vector<Mat3> missing_;   ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
-    std::vector<Mat3> raw_;   ///< of each element: gathered gradient times the cell size; then what it gives to faces
-    std::vector<Vec3> mean_;  ///< of each element: of its corners
-    std::vector<std::array<Vec3, 3>> push_;  ///< of each element, on its corners
-    mutable AlignedArray<double> in_, out_;  ///< by vertex unknowns
+    std::vector<Mat3> missing_;  ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
+    PressedElements<EdgeContact<Pack>> pressedEdges_;
+    PressedElements<FaceContact<Pack>> pressedFaces_;
+    std::vector<Vec3> pushes_;             ///< of the pressed elements on their corners
+    std::vector<int> pushBegin_, pushOf_;  ///< on each vertex in the order of the blocks: in pushes_
+    PointArray<3> onVertices_;             ///< of each vertex, in the order of the blocks
+    PointArray<9> onElements_;
+    PointArray<18> edgeForms_, faceForms_;
+    std::vector<int> first_;         ///< of each element: its first push
+    AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
-    FaceVector residual_, z_, p_, q_, inverse_;  ///< of the solve; inverse of A's diagonal
+    FaceVector residual_, p_, q_, inverse_;  ///< of the solve; inverse of A's diagonal
 };
 
-/// body(isFace, i) for the packs at i of faces with mass, and of twist.
+/// body(isFace, i, sums) for the packs at i of faces with mass, and of twist.
 template <class Body>
-void FaceSystem::forEachPack(Body&& body) const
+FaceSystem::Sums FaceSystem::forEachPack(Body&& body) const
 {
-    constexpr std::size_t kPacksPerTask = 256;
-    const std::size_t n = rows_.size() + inertia_.size() / kLanes;
-    parallelFor(n, kPacksPerTask, [&](std::size_t r) {
-        if (r < rows_.size())
-            body(true, static_cast<std::size_t>(rows_[r]));
-        else
-            body(false, (r - rows_.size()) * kLanes);
+    const std::size_t faces = rows_.first.size();
+    const Chunks chunks(faces + inertia_.size() / kLanes);
+    std::array<Sums, kMaxChunks> partial;
+    parallelFor(chunks.count(), [&](std::size_t c) {
+        Sums sums;
+        for (std::size_t r = chunks.begin(c); r < std::min(chunks.end(c), faces); ++r)
+            body(std::true_type(), static_cast<std::size_t>(rows_.first[r]), sums);
+        for (std::size_t r = std::max(chunks.begin(c), faces); r < chunks.end(c); ++r)
+            body(std::false_type(), (r - faces) * kLanes, sums);
+        partial[c] = sums;
     });
-}
-
-template <class F>
-double FaceSystem::sumOverPacks(F&& f) const
-{
-    const std::size_t n = rows_.size() + inertia_.size() / kLanes;
-    return parallelSum(n, [&](std::size_t r) {
-        return r < rows_.size() ? sumLanes(f(true, static_cast<std::size_t>(rows_[r])))
-                                : sumLanes(f(false, (r - rows_.size()) * kLanes));
-    });
+    Sums all;
+    for (std::size_t c = 0; c < chunks.count(); ++c) {
+        all.product += partial[c].product;
+        all.take(partial[c].largest);
+    }
+    return all;
 }
 
 }  // namespace sim

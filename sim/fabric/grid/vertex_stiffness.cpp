@@ -17,6 +17,10 @@ VertexStiffness::VertexStiffness(const Fabric& fabric, const FabricSettings& set
 {
     strands_.resize(rods_.layout());
     gradient_.resize(unknowns_.size);
+    clothIn_.resize(4 * shells_.vertices().size());
+    for (int row = 0; row < cloth_.rows(); ++row)
+        for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e)
+            mirrored_.push_back(cloth_.find(cloth_.column(e), row));
     findShared();
     findPinStiffness(fabric);
 }
@@ -94,6 +98,34 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     }
 }
 
+/// Blocks below the diagonal are read where their transposes stand: half as much comes from memory, and what is right
+/// of a column's numbers is multiplied by 0 or left out.
+void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const
+{
+    const std::vector<int>& vertices = shells_.vertices();
+    parallelFor(vertices.size(), 512, [&](std::size_t row) {
+        const double* p = in.data() + unknowns_.slot[vertices[row]];
+        for (int a = 0; a < kAxes; ++a) clothIn_[4 * row + a] = p[a * kLanes];
+        clothIn_[4 * row + 3] = 0.0;
+    });
+    const auto at = [](const double* p) { return *reinterpret_cast<const HalfPack*>(p); };
+    parallelFor(vertices.size(), 128, [&](std::size_t n) {
+        const int row = static_cast<int>(n);
+        HalfPack upper{}, x{}, y{}, z{};
+        for (int e = cloth_.diagonal(row); e < cloth_.begin(row + 1); ++e) {
+            const double *m = cloth_.block(e), *u = clothIn_.data() + 4 * cloth_.column(e);
+            upper += u[0] * at(m) + u[1] * at(m + 3) + u[2] * at(m + 6);
+        }
+        for (int e = cloth_.begin(row); e < cloth_.diagonal(row); ++e) {
+            const double* m = cloth_.block(mirrored_[e]);
+            const HalfPack u = at(clothIn_.data() + 4 * cloth_.column(e));
+            x += u * at(m), y += u * at(m + 3), z += u * at(m + 6);
+        }
+        const auto sum = [](HalfPack v) { return v[0] + v[1] + v[2]; };
+        add(out, vertices[n], {upper[0] + sum(x), upper[1] + sum(y), upper[2] + sum(z)});
+    });
+}
+
 void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& out) const
 {
     for (const Shared& s : shared_)
@@ -107,17 +139,7 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     });
     std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
     addToOwners(out);
-    const std::vector<int>& vertices = shells_.vertices();
-    parallelFor(vertices.size(), 128, [&](std::size_t n) {
-        const int row = static_cast<int>(n);
-        double sum[3] = {};
-        for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
-            const double *m = cloth_.block(e), *v = in.data() + unknowns_.slot[vertices[cloth_.column(e)]];
-            for (int a = 0; a < kAxes; ++a)
-                sum[a] += m[a] * v[0] + m[3 + a] * v[kLanes] + m[6 + a] * v[2 * kLanes];
-        }
-        add(out, vertices[n], Vec3(sum[0], sum[1], sum[2]));
-    });
+    if (!shells_.empty()) multiplyCloth(in, out);
     for (const Spring& s : springs_) add(out, s.vertex, s.stiffness * at(in, s.vertex));
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
         const int slot = unknowns_.twistSlot[heldEdges_[i]];

@@ -58,6 +58,7 @@ class VertexStiffness {
     void findShared();
     void findPinStiffness(const Fabric& fabric);
     void addToOwners(AlignedArray<double>& u) const;
+    void multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const;
     void addPins(const FabricState& state, double end);
 
     const Fabric& fabric_;
@@ -66,6 +67,8 @@ class VertexStiffness {
     VertexUnknowns unknowns_;
     StrandMatrix strands_;
     BlockMatrix cloth_;
+    std::vector<int> mirrored_;             ///< of each block of cloth_: where its transpose stands
+    mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
     std::vector<Shared> shared_;
     std::vector<Spring> springs_;
     std::vector<Vec3> restReference_;   ///< of each yarn edge

@@ -87,12 +87,18 @@ void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pac
 {
     const Pack* band = packs(band_, group.firstRow * kBand);
     const int n = group.rows();
-    for (int r = 0; r < n; ++r) y[r] = band[r * kBand] * x[r];
-    for (int r = 0; r < n; ++r)
-        for (int k = 1; k <= std::min(r, kBand - 1); ++k) {
-            y[r] += band[r * kBand + k] * x[r - k];
-            y[r - k] += band[r * kBand + k] * x[r];
-        }
+    constexpr int kReach = kBand - 1;
+    // A row has its lower part itself; its upper part is in the rows that follow.
+    const auto row = [&](int r, int before, int after) __attribute__((always_inline)) {
+        Pack lower = band[r * kBand] * x[r], upper{};
+        for (int k = 1; k <= before; ++k) lower += band[r * kBand + k] * x[r - k];
+        for (int k = 1; k <= after; ++k) upper += band[(r + k) * kBand + k] * x[r + k];
+        y[r] = lower + upper;
+    };
+    const int middleEnd = std::max(kReach, n - kReach);
+    for (int r = 0; r < std::min(n, kReach); ++r) row(r, r, std::min(n - 1 - r, kReach));
+    for (int r = kReach; r < middleEnd; ++r) row(r, kReach, kReach);
+    for (int r = middleEnd; r < n; ++r) row(r, kReach, n - 1 - r);
 }
 
 }  // namespace sim

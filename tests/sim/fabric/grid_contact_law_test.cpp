@@ -1,7 +1,7 @@
 // Contact of fabric on the grid: energies, stresses, return mapping (model-fabric 3.4, 3.5, 13.5; T17 of 9).
 #include "sim/fabric/grid/contact_law.h"
 #include "sim/fabric/grid/element_contact.h"
-#include "tests/sim/fabric/pieces.h"
+#include "tests/sim/fabric/grid_runs.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
@@ -10,6 +10,15 @@
 
 namespace sim::testing {
 namespace {
+
+double yarnEnergy(const ContactModuli& m, const yarn::Strain& r)
+{
+    return yarn::energy(m, r, yarn::sectionOf(r));
+}
+yarn::Strain yarnStress(const ContactModuli& m, const yarn::Strain& r)
+{
+    return yarn::stress(m, r, yarn::sectionOf(r));
+}
 
 constexpr double kStep = 1.0e-6;
 
@@ -44,8 +53,8 @@ TEST(GridContactLaw, StressesAreTheSlopesOfTheEnergy)
         for (int i = 0; i < 6; ++i) {
             yarn::Strain by = yarn::Strain::Zero();
             by(i % 3, i / 3) = kStep;
-            EXPECT_NEAR((yarn::energy(m, s + by) - yarn::energy(m, s - by)) / (2.0 * kStep),
-                        yarn::stress(m, s)(i % 3, i / 3), 1e-7);
+            EXPECT_NEAR((yarnEnergy(m, s + by) - yarnEnergy(m, s - by)) / (2.0 * kStep), yarnStress(m, s)(i % 3, i / 3),
+                        1e-7);
         }
     }
 }
@@ -61,10 +70,10 @@ TEST(GridContactLaw, ChainRuleThroughQrGivesTheSameStress)
         const Mat3 q = yarn::frameOf(d.col(0), d.col(1)), r = q.transpose() * d;
         const auto energyOf = [&](const Mat3& x) {
             const Mat3 frame = yarn::frameOf(x.col(0), x.col(1));
-            return yarn::energy(m, (frame.transpose() * x).rightCols<2>());
+            return yarnEnergy(m, (frame.transpose() * x).rightCols<2>());
         };
         Mat3 p = Mat3::Zero();
-        p.rightCols<2>() = yarn::stress(m, r.rightCols<2>());
+        p.rightCols<2>() = yarnStress(m, r.rightCols<2>());
         p(2, 1) = 0.0;
         const Mat3 k = p * r.transpose();
         Mat3 tau = k.triangularView<Eigen::Upper>();
@@ -85,11 +94,11 @@ TEST(GridContactLaw, YarnStiffnessIsThePositivePartOfTheSlopeOfTheStress)
     for (int n = 0; n < 200; ++n) {
         const yarn::Strain r = squeezed(noise);
         yarn::SectionStiffness k, slope;
-        ASSERT_TRUE(yarn::stiffness(m, r, k));
+        ASSERT_TRUE(yarn::stiffness(m, yarn::sectionOf(r), k));
         for (int i = 0; i < 4; ++i) {
             yarn::Strain by = yarn::Strain::Zero();
             by(1 + i % 2, i / 2) = kStep;
-            const yarn::Strain change = (yarn::stress(m, r + by) - yarn::stress(m, r - by)) / (2.0 * kStep);
+            const yarn::Strain change = (yarnStress(m, r + by) - yarnStress(m, r - by)) / (2.0 * kStep);
             slope.col(i) << change(1, 0), change(2, 0), change(1, 1), change(2, 1);
         }
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(0.5 * (slope + slope.transpose()));
@@ -142,7 +151,7 @@ TEST(GridContactLaw, SeparationLeavesNoStress)
     EXPECT_EQ(sheet::stress(m, sheet::returned(m, {0.3, -0.2, 1.01})).norm(), 0.0);
     yarn::Strain r;
     r << 0.1, 0.2, 1.3, 0.1, 0.0, 0.9;
-    EXPECT_LT(yarn::stress(m, yarn::returned(m, r)).norm(), 1e-12);
+    EXPECT_LT(yarnStress(m, yarn::returned(m, r)).norm(), 1e-12);
 }
 
 TEST(GridContactLaw, IsotropicCompressionIsKept)
@@ -178,7 +187,7 @@ TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
     const double volume = 0.5 * 0.144 * 0.144 * 0.034;
     for (std::size_t e = 0; e < contact.size(); ++e) {
         const Vec3 n = state.across[e] / r33;
-        const double pressure = -n.dot(contact.gradient(e).onGrid * n) / (volume * r33);
+        const double pressure = -n.dot(gradientOf(contact, e).onGrid * n) / (volume * r33);
         EXPECT_NEAR(pressure, piece.material.packing() * m.normal() * 0.2 * 0.2, 1e-9 * pressure);
     }
 }
@@ -204,7 +213,7 @@ TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
     for (int i = 0; i < 9; ++i) g(i / 3, i % 3) = noise();
     double slope = 0.0;
     for (std::size_t e = 0; e < contact.size(); ++e) {
-        const ElementContact::Push push = contact.gradient(e);
+        const PlainPush push = gradientOf(contact, e);
         slope += push.onGrid.cwiseProduct(g).sum();
         for (int k = 0; k < 3; ++k)
             if (contact.corners(e)[k] >= 0) slope += push.onCorners[k].dot(move[contact.corners(e)[k]]);

@@ -123,6 +123,63 @@ struct GridParts {
     FaceSystem system;
 };
 
+/// A pressed element by itself, as the packs hold it.
+inline EdgeContact<double> edgeOf(const ElementContact& contact, std::size_t e)
+{
+    const ElementContact::Local& at = contact.local(e);
+    const auto symmetric = [](const Mat3& m) {
+        return Symmetric<double>{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)};
+    };
+    Rows<double> mixed;
+    for (int a = 0; a < 3; ++a) mixed[a] = toTriple(at.stiffness[1].row(a));
+    return {{toTriple(at.d[0]), toTriple(at.d[1])},
+            toTriple(at.reciprocal[0]),
+            symmetric(at.stiffness[0]),
+            symmetric(at.stiffness[2]),
+            mixed};
+}
+inline FaceContact<double> faceOf(const ElementContact& contact, std::size_t e)
+{
+    const ElementContact::Local& at = contact.local(e);
+    const Mat3& m = at.stiffness[0];
+    return {toTriple(at.d[0]),
+            toTriple(at.normal),
+            {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])},
+            {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}};
+}
+
+/// What an element gives to the grid and to its corners.
+struct PlainPush {
+    template <int kCorners>
+    explicit PlainPush(const ContactPush<double, kCorners>& push)
+    {
+        for (int a = 0; a < 3; ++a) onGrid.row(a) = toVec3(push.onGrid[a]).transpose();
+        for (int k = 0; k < kCorners; ++k) onCorners[k] = toVec3(push.onCorners[k]);
+    }
+    Mat3 onGrid;
+    std::array<Vec3, 3> onCorners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+};
+
+/// Energy gradient of an element.
+inline PlainPush gradientOf(const ElementContact& contact, std::size_t e)
+{
+    const std::array<Vec3, 2>& stress = contact.stress(e).stress;
+    if (contact.isEdge(e)) return PlainPush(edgeOf(contact, e).push({toTriple(stress[0]), toTriple(stress[1])}));
+    return PlainPush(faceOf(contact, e).push(toTriple(stress[0])));
+}
+
+/// Its Hessian times a move by G and of the corners by u.
+inline PlainPush changeOf(const ElementContact& contact, std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u)
+{
+    const Rows<double> rows = {toTriple(g.row(0)), toTriple(g.row(1)), toTriple(g.row(2))};
+    if (contact.isEdge(e)) {
+        const EdgeContact<double> edge = edgeOf(contact, e);
+        return PlainPush(edge.push(edge.change(rows, {toTriple(u[0]), toTriple(u[1])})));
+    }
+    const FaceContact<double> face = faceOf(contact, e);
+    return PlainPush(face.push(face.change(rows, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2])})));
+}
+
 /// Squeezes and shears what lies across the fabric.
 inline void press(FabricState& state, double by, unsigned seed, double noise)
 {

@@ -50,9 +50,12 @@ double relativeErrorOfSystem(std::vector<FabricPiece> pieces, double pressed)
     parts.system.elementGradients(p.faces, g);
     std::vector<Vec3> u(start.x.size(), Vec3::Zero());
     const BlockPoints& points = parts.particles.vertices();
+    PointArray<3> gathered;
+    gathered.resize(points.size());
     forEachBlock(parts.particles.order(), parts.particles.grid(), p.faces, [&](std::size_t n, const FaceTile& tile) {
-        const PointPlace* place = points.placesOf(n);
-        for (int v : points.idsOf(n)) u[v] = interpolate(tile, PointWeights(*place++));
+        gatherValues(tile, points, n, gathered);
+        for (int s = points.begin(n); s < points.end(n); ++s)
+            u[points.id[s]] = {gathered.of[0][s], gathered.of[1][s], gathered.of[2][s]};
     });
     const auto impulsesAt = [&](double step, FaceVector& out) {
         parts.state = start;

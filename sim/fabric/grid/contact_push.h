@@ -1,0 +1,126 @@
+#pragma once
+
+#include "sim/fabric/triple.h"
+
+#include <array>
+
+namespace sim {
+
+// How a pressed element answers to a move of what is around it (model-fabric 13.5), for one element or a pack of them.
+// Its directions across the fabric d go with the velocity gradient G on the grid, those in the mesh with the corners;
+// the mesh turning one way acts as d turning the other way.
+
+/// 3x3, by rows.
+template <class T>
+using Rows = std::array<Triple<T>, 3>;
+
+template <class T>
+Triple<T> operator*(const Rows<T>& m, const Triple<T>& v)
+{
+    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+}
+
+/// Σ_a v_a m_a: the transpose of m times v.
+template <class T>
+Triple<T> transposedTimes(const Rows<T>& m, const Triple<T>& v)
+{
+    return v.x * m[0] + v.y * m[1] + v.z * m[2];
+}
+
+/// xx, yy, zz, xy, yz, zx of a symmetric 3x3.
+template <class T>
+struct Symmetric {
+    T xx, yy, zz, xy, yz, zx;
+
+    const T& diagonal(int a) const { return a == 0 ? xx : a == 1 ? yy : zz; }
+    friend Triple<T> operator*(const Symmetric& m, const Triple<T>& v)
+    {
+        return {m.xx * v.x + m.xy * v.y + m.zx * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+                m.zx * v.x + m.yz * v.y + m.zz * v.z};
+    }
+    friend Symmetric operator*(const T& s, const Symmetric& m)
+    {
+        return {s * m.xx, s * m.yy, s * m.zz, s * m.xy, s * m.yz, s * m.zx};
+    }
+    friend Symmetric operator+(const Symmetric& a, const Symmetric& b)
+    {
+        return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.zx + b.zx};
+    }
+};
+
+/// a bᵀ + b aᵀ.
+template <class T>
+Symmetric<T> mixed(const Triple<T>& a, const Triple<T>& b)
+{
+    return {2.0 * a.x * b.x,       2.0 * a.y * b.y,       2.0 * a.z * b.z,
+            a.x * b.y + a.y * b.x, a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z};
+}
+
+/// What acts on an element's surroundings: through the velocity gradient, with rows by the component of the force
+/// [erg, erg/s …], and on its corners [dyn …].
+template <class T, int kCorners>
+struct ContactPush {
+    Rows<T> onGrid;
+    std::array<Triple<T>, kCorners> onCorners;
+};
+
+/// An edge of a yarn.
+template <class T>
+struct EdgeContact {
+    static constexpr int kCorners = 2;
+    using Stress = std::array<Triple<T>, 2>;  ///< ∂E/∂d [erg]
+    using Push = ContactPush<T, kCorners>;
+
+    std::array<Triple<T>, 2> d;
+    Triple<T> reciprocal;   ///< direction of the edge over its length [1/cm]
+    Symmetric<T> k00, k11;  ///< ∂²E/∂d² [erg]
+    Rows<T> k01;
+
+    /// Change of the stress when the surroundings move: d by G and the corners by u.
+    Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
+    {
+        const Triple<T> turn = cross(reciprocal, u[1] - u[0]);
+        const Triple<T> first = g * d[0] - cross(turn, d[0]), second = g * d[1] - cross(turn, d[1]);
+        return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
+    }
+    /// B such that a face normal to axis a whose weight has the gradient z has zᵀ B z of the Hessian on its diagonal.
+    Symmetric<T> diagonalForm(int a) const
+    {
+        return T(0.5 * k00.diagonal(a)) * mixed(d[0], d[0]) + k01[a][a] * mixed(d[0], d[1]) +
+               T(0.5 * k11.diagonal(a)) * mixed(d[1], d[1]);
+    }
+    /// Transpose of what moves d, applied to a stress.
+    Push push(const Stress& y) const
+    {
+        const Triple<T> lever = cross(cross(y[0], d[0]) + cross(y[1], d[1]), reciprocal);
+        return {{y[0].x * d[0] + y[1].x * d[1], y[0].y * d[0] + y[1].y * d[1], y[0].z * d[0] + y[1].z * d[1]},
+                {-lever, lever}};
+    }
+};
+
+/// A face of cloth.
+template <class T>
+struct FaceContact {
+    static constexpr int kCorners = 3;
+    using Stress = Triple<T>;
+    using Push = ContactPush<T, kCorners>;
+
+    Triple<T> d, normal;
+    std::array<Triple<T>, 2> reciprocal;  ///< in the plane, of the two edges from the first corner [1/cm]
+    Symmetric<T> k;
+
+    Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
+    {
+        const Triple<T> tilt = dot(normal, u[1] - u[0]) * reciprocal[0] + dot(normal, u[2] - u[0]) * reciprocal[1];
+        return k * (g * d + cross(cross(normal, tilt), d));
+    }
+    Symmetric<T> diagonalForm(int a) const { return T(0.5 * k.diagonal(a)) * mixed(d, d); }
+    Push push(const Stress& y) const
+    {
+        const Triple<T> lever = cross(cross(y, d), normal);
+        const Triple<T> second = -(dot(lever, reciprocal[0]) * normal), third = -(dot(lever, reciprocal[1]) * normal);
+        return {{y.x * d, y.y * d, y.z * d}, {-(second + third), second, third}};
+    }
+};
+
+}  // namespace sim
