@@ -253,7 +253,10 @@ LinearReport VertexSystem::solve(double tolerance, double speedTolerance, double
     report.firstEnergy = energy;
     const double share = tolerance * tolerance, speed = totalMass_ * speedTolerance * speedTolerance;
     const double enough = std::max({share * energy, 0.09 * share * otherEnergy, speed});
-    while (energy > enough && report.iterations < maxIterations) {
+    // One at least, above round-off: errors too small for one step would stay for good, as steps begin with the forces
+    // of the last.
+    constexpr double kRoundOff = 1.0e-16;
+    while (report.iterations < maxIterations && energy > (report.iterations == 0 ? kRoundOff * speed : enough)) {
         const double curvature = multiply();
         if (!(curvature > 0.0)) break;
         const double next = precondition(energy / curvature);

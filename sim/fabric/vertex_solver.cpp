@@ -11,8 +11,9 @@ namespace sim {
 namespace {
 
 constexpr double kTolerance = 2.0e-2;         ///< of the linear solves, relative (contact-design 3.3) [-]
-constexpr double kSpeedTolerance = 1.0e-2;    ///< rms error of the speed at which a linear solve is good enough [cm/s]
-constexpr double kQuietMove = 3.0;            ///< largest move per time after which no further Newton iteration is made [cm/s]
+constexpr double kAccelerationTolerance = 10.0;  ///< rms error at which a linear solve is good enough: 1 % of gravity [cm/s^2]
+constexpr double kQuietAcceleration = 250.0;  ///< largest change that a Newton iteration makes after which no other is made [cm/s^2]
+constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
@@ -50,13 +51,18 @@ void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, F
     advance(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
 }
 
-/// Where vertices and angles go without forces: pins to where their motion has them.
+/// Where vertices and angles go without forces, and in move_ where forces like those of the last step take them, by no
+/// more than contact is sure to notice; pins go where their motion has them. Newton begins there: quiet fabric finds its
+/// forces in balance and its friction at the speed that it has, instead of after a fall for one step.
 void VertexSolver::predict(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     const Vec3 fall = h * h * gravity;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        const Vec3 byForces = h * h * state.acceleration[v];
+        const double most = kExpectedMove * fabric_.radius[v], size = byForces.norm();
         move_[v] = h * state.v[v] + fall;
         free_[v] = state.x[v] + move_[v];
+        move_[v] += (size > most ? most / size : 1.0) * byForces;
     });
     const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
     for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -64,7 +70,7 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
         free_[v] = targets[i];
         move_[v] = free_[v] - state.x[v];
     }
-    for (std::size_t e = 0; e < freeAngle_.size(); ++e) freeAngle_[e] = state.theta[e] + h * state.omega[e];
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { freeAngle_[e] = state.theta[e] + h * state.omega[e]; });
 }
 
 /// Makes move_ safe.
@@ -106,19 +112,19 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     limit(state, report, clock);
     commit(state, clock);
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });
+    parallelFor(freeAngle_.size(), 4096,
+                [&](std::size_t e) { state.theta[e] = freeAngle_[e] + h * h * state.twistAcceleration[e]; });
     turnHeldEdges(t + h, state);
 
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
-    const double speedTolerance = kSpeedTolerance * tolerance / kTolerance;
+    const double speedTolerance = kAccelerationTolerance * h * tolerance / kTolerance;
     double firstEnergy = 0.0, wanted = 0.0, taken = 0.0;
     for (int k = 0; k < settings_.newton; ++k) {
         const ActiveContacts* contacts = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
         std::span<const ObstacleContact> touching;
         if (!obstacles_.empty()) {
             clock.start(Stage::FabricContact);
-            const std::span<const Vec3> velocity = k == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
-            touching = obstacles_.at(fabric_, state.x, start_.x, velocity, fabric_.mass, h);
+            touching = obstacles_.at(fabric_, state.x, start_.x, k == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>(), fabric_.mass, h);
         }
         clock.start(Stage::FabricElastic);
         system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);
@@ -140,7 +146,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
         commit(state, clock);
         parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
         turnHeldEdges(t + h, state);
-        if (largest < kQuietMove * h) break;
+        if (largest < kQuietAcceleration * h * h) break;
     }
 
     const double fraction = wanted > 0.0 ? taken / wanted : 1.0;
@@ -151,8 +157,14 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     if (isShort) ++report.shortened;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.v[v] = (state.x[v] - start_.x[v]) / h; });
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        state.v[v] = (state.x[v] - start_.x[v]) / h;
+        state.acceleration[v] = (state.x[v] - free_[v]) / (h * h);
+    });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
+        state.omega[e] = (state.theta[e] - start_.theta[e]) / h;
+        state.twistAcceleration[e] = (state.theta[e] - freeAngle_[e]) / (h * h);
+    });
     return true;
 }
 
