@@ -3,6 +3,9 @@
 #include "sim/core/parallel.h"
 #include "sim/grid/rows.h"
 
+#include <bit>
+#include <cstring>
+
 namespace sim {
 
 namespace {
@@ -22,8 +25,9 @@ Pack meanOfNeighbours(const RowAccess& rows, const std::uint64_t (&neighbourBits
     return sum / count;
 }
 
-/// One sweep over the faces of one block normal to one axis. Values of faces that are valid are read, those of others written.
-void sweepBlock(const BlockGrid& grid, int block, int axis, const BlockBits<3>& valid, BlockBits<3>& newlyValid, BlockArray<double, 3>& velocity)
+/// One sweep over the faces of one block normal to one axis: which become valid, and their velocities.
+void sweepBlock(const BlockGrid& grid, int block, int axis, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity,
+                ExtrapolationScratch& scratch)
 {
     const RowAccess rows(grid, block);
     const BitAccess bits(grid, block);
@@ -35,16 +39,27 @@ void sweepBlock(const BlockGrid& grid, int block, int axis, const BlockBits<3>& 
             any |= neighbourBits[2 * a] | neighbourBits[2 * a + 1];
         }
         const std::uint64_t fresh = any & ~valid.block(block, axis)[k];
-        newlyValid.block(block, axis)[k] = fresh;
+        scratch.newlyValid.block(block, axis)[k] = fresh;
         for (int j = 0; j < kBlockEdge; ++j) {
-            const std::uint64_t rowBits = fresh >> (j * kBlockEdge) & 0xff;
-            if (rowBits == 0) continue;
+            if ((fresh >> (j * kBlockEdge) & 0xff) == 0) continue;
             const Pack mean = meanOfNeighbours(rows, neighbourBits, velocity, axis, j, k);
-            double* u = velocity.block(block, axis) + cellInBlock(0, j, k);
-            for (int l = 0; l < kLanes; ++l)
-                if (rowBits >> l & 1) u[l] = mean[l];
+            std::memcpy(scratch.found.block(block, axis) + cellInBlock(0, j, k), &mean, sizeof mean);
         }
     }
+}
+
+/// Takes over what a sweep has found for one block.
+void takeFound(int block, const ExtrapolationScratch& scratch, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+{
+    for (int a = 0; a < kAxes; ++a)
+        for (int k = 0; k < kBlockEdge; ++k) {
+            std::uint64_t fresh = scratch.newlyValid.block(block, a)[k];
+            valid.block(block, a)[k] |= fresh;
+            for (; fresh != 0; fresh &= fresh - 1) {
+                const int cell = cellInBlock(0, 0, k) + std::countr_zero(fresh);
+                velocity.block(block, a)[cell] = scratch.found.block(block, a)[cell];
+            }
+        }
 }
 
 }  // namespace
@@ -53,15 +68,12 @@ void extrapolate(const BlockGrid& grid, std::span<const int> blocks, Extrapolati
                  BlockArray<double, 3>& velocity)
 {
     scratch.newlyValid.resize(grid.count());
+    scratch.found.resize(grid.count());
     for (int sweep = 0; sweep < kExtrapolationSweeps; ++sweep) {
         parallelFor(blocks.size(), [&](std::size_t n) {
-            for (int a = 0; a < kAxes; ++a) sweepBlock(grid, blocks[n], a, valid, scratch.newlyValid, velocity);
+            for (int a = 0; a < kAxes; ++a) sweepBlock(grid, blocks[n], a, valid, velocity, scratch);
         });
-        parallelFor(blocks.size(), 32, [&](std::size_t n) {
-            const int b = blocks[n];
-            for (int a = 0; a < kAxes; ++a)
-                for (int k = 0; k < kBlockEdge; ++k) valid.block(b, a)[k] |= scratch.newlyValid.block(b, a)[k];
-        });
+        parallelFor(blocks.size(), 32, [&](std::size_t n) { takeFound(blocks[n], scratch, valid, velocity); });
     }
 }
 

@@ -11,6 +11,7 @@ inline constexpr int kExtrapolationSweeps = 3;
 
 struct ExtrapolationScratch {
     BlockBits<3> newlyValid;
+    BlockArray<double, 3> found;     ///< their velocities [cm/s]
 };
 
 /// Carry face velocities past the liquid's edge, in some of the blocks: in each sweep a face without a velocity takes the mean of those of its

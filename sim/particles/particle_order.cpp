@@ -207,11 +207,13 @@ void sortWithinBlock(const LiquidParticles& particles, int block, ParticleOrder&
     int* start = order.cellStart.data() + static_cast<std::size_t>(block) * kBlockCells;
     const int first = start[0], last = start[kBlockCells];
     for (int s = first; s < last; ++s) ++next[order.binnedCell[s]];
+    // start[0] stays as it is, which the block before reads for its end.
     int running = first;
     for (int c = 0; c < kBlockCells; ++c) {
-        start[c] = running;
+        const int here = running;
         running += next[c];
-        next[c] = start[c];
+        next[c] = here;
+        if (c > 0) start[c] = here;
     }
     for (int s = first; s < last; ++s) {
         const int to = next[order.binnedCell[s]]++, from = order.binned[s];
