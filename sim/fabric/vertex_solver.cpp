@@ -113,7 +113,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     limit(state, report, clock);
     commit(state, clock);
     parallelFor(freeAngle_.size(), 4096,
-                [&](std::size_t e) { state.theta[e] = freeAngle_[e] + h * h * state.twistAcceleration[e]; });
+                [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });
     turnHeldEdges(t + h, state);
 
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
