@@ -134,7 +134,7 @@ std::uint64_t stateHash(const State& state)
     const FabricState& fabric = state.fabric;
     for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference, &fabric.across, &fabric.acceleration})
         add(v->data(), v->size() * sizeof(Vec3));
-    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist, &fabric.modes, &fabric.twistAcceleration})
+    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist, &fabric.modes})
         add(v->data(), v->size() * sizeof(double));
     add(&fabric.sinceGather, sizeof fabric.sinceGather);
     add(&fabric.lastFraction, sizeof fabric.lastFraction);

@@ -192,7 +192,6 @@ FabricState restState(const Fabric& fabric)
     state.v.assign(fabric.vertexCount(), Vec3::Zero());
     state.acceleration.assign(fabric.vertexCount(), Vec3::Zero());
     const std::size_t edges = fabric.edges.size();
-    state.twistAcceleration.assign(edges, 0.0);
     state.theta.assign(edges, 0.0);
     state.omega.assign(edges, 0.0);
     state.referenceTwist.assign(edges, 0.0);

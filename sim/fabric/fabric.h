@@ -78,7 +78,6 @@ struct FabricState {
     // Of solver vertex only.
     double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
     std::vector<Vec3> acceleration;       ///< of each vertex by all forces but gravity, over the last step [cm/s^2]
-    std::vector<double> twistAcceleration;///< of each yarn edge [1/s^2]
 
     // Of solver grid only; empty until its first step.
     std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]

@@ -51,8 +51,8 @@ void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, F
     advance(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
 }
 
-/// Where vertices and angles go without forces, and in move_ where forces like those of the last step take them, by no
-/// more than contact is sure to notice; pins go where their motion has them. Newton begins there: quiet fabric finds its
+/// Where vertices and angles go without forces, and in move_ where forces like those of the last step take the vertices, by
+/// no more than contact is sure to notice; pins go where their motion has them. Newton begins there: quiet fabric finds its
 /// forces in balance and its friction at the speed that it has, instead of after a fall for one step.
 void VertexSolver::predict(double t, double h, const Vec3& gravity, const FabricState& state)
 {
@@ -112,8 +112,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     limit(state, report, clock);
     commit(state, clock);
-    parallelFor(freeAngle_.size(), 4096,
-                [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });  // with forces they diverge
     turnHeldEdges(t + h, state);
 
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
@@ -161,10 +160,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
         state.v[v] = (state.x[v] - start_.x[v]) / h;
         state.acceleration[v] = (state.x[v] - free_[v]) / (h * h);
     });
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
-        state.omega[e] = (state.theta[e] - start_.theta[e]) / h;
-        state.twistAcceleration[e] = (state.theta[e] - freeAngle_[e]) / (h * h);
-    });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
     return true;
 }
 
