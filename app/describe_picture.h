@@ -178,7 +178,7 @@ void describe(V& v, OutputSettings& o)
              {"ledger", nullptr},
              {"geometry", nullptr},
              {"checkpoint", nullptr}},
-            "Data files of a run");
+            "Data files of a run beside report.json: energy.csv, steps.jsonl");
     v.withoutEffect([](auto& w) { w.other("geometry_format", ""); });
     v.group("video", "", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");

@@ -62,7 +62,7 @@ struct OutputSettings {
     std::string dir;                        ///< default out/<name>/<variant>
     double every = 4.0e-3;                  ///< simulated time per frame [s]
     bool frames = true;                     ///< write frame_00000.png, …
-    bool energy = true, stats = true;       ///< data files of a run
+    bool energy = true, stats = true;       ///< energy.csv, steps.jsonl
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

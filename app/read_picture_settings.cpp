@@ -34,6 +34,13 @@ void checkReference(const Node& root, const CompareSettings& compare)
                           sim::suggestion(compare.reference, labels)));
 }
 
+void checkEnergyPlot(const Node& root, const PictureSettings& settings)
+{
+    if (settings.compare.variants.empty() || !settings.compare.energyPlot || settings.output.energy) return;
+    sim::fail(root.find("output")->find("data")->place,
+              "output.data: has no energy, which compare.products: energy_plot draws; add energy, or take energy_plot out");
+}
+
 void writeVariants(sim::SectionWriter& w, const std::vector<Variant>& variants)
 {
     if (variants.empty()) return;
@@ -59,6 +66,7 @@ PictureSettings readPictureSettings(const sim::SceneFile& file)
     sim::SectionReader::read(root.find("compare"), "compare", [&](auto& v) { describe(v, settings.compare); });
     settings.compare.variants = variantsOf(file);
     checkReference(root, settings.compare);
+    checkEnergyPlot(root, settings);
     return settings;
 }
 

@@ -188,8 +188,11 @@ try {
 }
 
 Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads)
-    : folder_(folder), steps_(folder / "steps.jsonl"), energy_(folder / "energy.csv"), begin_(setup.scene.settings.time.start)
+    : folder_(folder), begin_(setup.scene.settings.time.start)
 {
+    const auto& output = setup.pictures.output;
+    if (output.stats) steps_.emplace(folder / "steps.jsonl");
+    if (output.energy) energy_.emplace(folder / "energy.csv");
     summary_.scene = setup.scene.name;
     summary_.title = setup.scene.title;
     summary_.variant = setup.variant;
@@ -197,7 +200,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     summary_.contentHash = std::move(contentHash);
     summary_.version = DRENCH_VERSION;
     summary_.threads = threads;
-    energy_.add(kEnergyHeader);
+    if (energy_) energy_->add(kEnergyHeader);
     writeReport();
 }
 
@@ -205,13 +208,14 @@ void Reports::initial(const sim::State& state, const sim::Energies& energies)
 {
     summary_.particles = state.liquid.count;
     summary_.fabricVertices = state.fabric.x.size();
-    energy_.add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass));
+    if (energy_)
+        energy_->add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass));
 }
 
 void Reports::step(const sim::State& state, const sim::StepReport& report)
 {
-    steps_.add(stepLine(state, report));
-    energy_.add(energyRow(state.time, report.energies, report.particles, report.liquidMass));
+    if (steps_) steps_->add(stepLine(state, report));
+    if (energy_) energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass));
 
     ++summary_.steps;
     summary_.simulatedTime = state.time - begin_;

@@ -60,7 +60,7 @@ struct RunResult {
 /// Nothing where there is no report or none that can be read.
 std::optional<RunResult> readReport(const std::filesystem::path& folder);
 
-/// The growing logs of one run, steps.jsonl and energy.csv, and its report.json. What is written is in the files at
+/// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is written is in the files at
 /// once, so that a run can be followed, and read after it was cut off.
 class Reports {
  public:
@@ -80,7 +80,7 @@ class Reports {
  private:
     void writeReport();
     const std::filesystem::path folder_;
-    LineFile steps_, energy_;
+    std::optional<LineFile> steps_, energy_;       ///< those the scene's output.data asks for
     RunSummary summary_;
     double begin_ = 0.0;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -109,6 +109,7 @@ void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransfor
     gl_.UniformMatrix4fv(program_["projection"], 1, GL_FALSE, transforms.projection.data());
     gl_.Uniform1f(program_["radius"], liquid.radius * look.radiusFactor);
     gl_.Uniform1f(program_["pixelsPerTangent"], transforms.pixelsPerTangent());
+    gl_.Uniform1f(program_["smallestDisc"], kSmallestDisc);
     gl_.Uniform1f(program_["dotPixels"],
                   dots ? look.pointPixels * static_cast<float>(transforms.height) / 720.0f : 0.0f);
     gl_.Uniform2f(program_["range"], look.range[0], look.range[1]);

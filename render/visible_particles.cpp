@@ -9,10 +9,9 @@ namespace render {
 namespace {
 
 constexpr std::size_t kFewParticles = 4096;        // not worth the search
-constexpr float kSmallestDisc = 2.0f;              // pixels, as in shaders/liquid.vert
 constexpr float kLargestDisc = 64.0f;              // pixels: drivers draw no point larger than some size of theirs
 constexpr float kPlaceError = 0.2f;                // pixels: how well it is known where the driver puts a sprite
-constexpr float kDepthError = 1e-5f;               // of the farthest depth: 24 bits hold 6e-8
+constexpr float kDepthError = 2.5e-7f;             // of the depth buffer's range: four steps of its 24 bits
 
 struct PixelRange {
     int begin, end;
@@ -36,6 +35,12 @@ float discPixels(float eyeZ, float radius, const ViewTransforms& transforms)
 {
     const float tangentSquared = std::max(eyeZ * eyeZ - radius * radius, 1e-12f * eyeZ * eyeZ);
     return std::max(2.0f * transforms.pixelsPerTangent() * radius / std::sqrt(tangentSquared), kSmallestDisc);
+}
+
+/// How far two depths near `depth` may lie from each other and the depth buffer not tell them apart [cm].
+float depthError(float depth, const ViewTransforms& transforms)
+{
+    return kDepthError * depth * depth * (1.0f / transforms.zNear - 1.0f / transforms.zFar);
 }
 
 }  // namespace
@@ -99,7 +104,7 @@ bool VisibleParticles::isHidden(const Disc& disc, const ViewTransforms& transfor
     if (disc.diameter == 0.0f) return false;
     const float reach = reachOf(disc.diameter, anyFrom) + kPlaceError;
     const PixelRange columns = pixelsWithin(disc.x, reach, transforms.width), rows = pixelsWithin(disc.y, reach, transforms.height);
-    const float infront = disc.depth - kDepthError * transforms.zFar;
+    const float infront = disc.depth - depthError(disc.depth, transforms);
     for (int y = rows.begin; y < rows.end; ++y) {
         const float* row = &nearest_[static_cast<std::size_t>(y) * transforms.width];
         const float dy = static_cast<float>(y) + 0.5f - disc.y;

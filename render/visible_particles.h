@@ -8,6 +8,8 @@
 
 namespace render {
 
+inline constexpr float kSmallestDisc = 2.0f;       ///< pixels across; smaller ones would leave holes between particles
+
 /// Picks the particles of a liquid that some pixel may show. Within a body of liquid most are hidden by others, and a
 /// software renderer spends its time on them. The picture is the same with and without those left out: one is left out
 /// only where nearer particles cover every pixel of its sprite whole.

@@ -9,6 +9,7 @@ uniform mat4 view;
 uniform mat4 projection;
 uniform float radius;            // [cm]
 uniform float pixelsPerTangent;  // pixels of 1 cm at 1 cm from the eye
+uniform float smallestDisc;      // diameter [pixels]
 uniform float dotPixels;         // > 0: plain dots of this diameter instead of spheres
 uniform vec2 range;              // values at the ends of the colour map
 uniform vec4 flatColor;          // a = 1: this colour for all
@@ -20,8 +21,6 @@ flat out vec3 color;
 flat out float discPixels;       // diameter of the disc
 flat out float spritePixels;     // side of the square around it
 
-const float kSmallestDisc = 2.0;  // pixels: smaller ones leave holes between them
-
 void main()
 {
     vec4 eye = view * vec4(position, 1.0);
@@ -30,7 +29,7 @@ void main()
 
     float tangentSquared = max(eye.z * eye.z - radius * radius, 1e-12 * eye.z * eye.z);
     float spherePixels = 2.0 * pixelsPerTangent * radius * inversesqrt(tangentSquared);
-    discPixels = dotPixels > 0.0 ? dotPixels : max(spherePixels, kSmallestDisc);
+    discPixels = dotPixels > 0.0 ? dotPixels : max(spherePixels, smallestDisc);
     spritePixels = discPixels + (smoothEdges ? 1.0 : 0.0);
     gl_PointSize = spritePixels;
 

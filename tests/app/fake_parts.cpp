@@ -37,7 +37,7 @@ class ToySimulation : public Steppable {
     }
     const sim::State& state() const override { return state_; }
     const sim::Fabric& fabric() const override { return fabric_; }
-    sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0]}; }
+    sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0], .fabric = {}}; }
     std::uint64_t stateHash() const override { return static_cast<std::uint64_t>(1.0e9 * state_.liquid.x[0][0]) + 1; }
 
     sim::StepReport step(double until) override

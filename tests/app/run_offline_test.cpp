@@ -33,6 +33,20 @@ TEST(RunOffline, LeavesPicturesLogsAndReport)
     EXPECT_EQ(test::linesOf(folder / "energy.csv").size(), 1u + 1u + 15u) << "header, initial state, steps";
 }
 
+TEST(RunOffline, WritesOnlyTheLogsTheSceneWants)
+{
+    for (const bool energy : {false, true}) {
+        TemporaryFolder folder;
+        SceneSetup setup = test::toySetup({});
+        setup.pictures.output.energy = energy;
+        setup.pictures.output.stats = !energy;
+        runOffline(setup, test::toyParts({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
+        EXPECT_EQ(std::filesystem::exists(folder / "energy.csv"), energy);
+        EXPECT_EQ(std::filesystem::exists(folder / "steps.jsonl"), !energy);
+        EXPECT_EQ(reportOf(folder.path()).at("steps"), 15);
+    }
+}
+
 TEST(RunOffline, StepLinesTellTimeStagesEnergyAndLedger)
 {
     TemporaryFolder folder;

@@ -26,7 +26,8 @@ void addBlock(Drawing& drawing, float spacing)
     for (int k = 0; k < 15; ++k)
         for (int j = 0; j < 15; ++j)
             for (int i = 0; i < 15; ++i) {
-                const Eigen::Vector3f stir(noise(++seed), noise(++seed), noise(++seed));
+                const Eigen::Vector3f stir(noise(seed + 1), noise(seed + 2), noise(seed + 3));
+                seed += 3;
                 drawing.add(spacing * (Eigen::Vector3f(float(i), float(j), float(k)).array() - 7.0f).matrix() + 0.4f * spacing * stir,
                             100.0f + 100.0f * stir.x());
             }
