@@ -239,7 +239,7 @@ void VertexSystem::nextDirection(double ratio)
     }
 }
 
-LinearReport VertexSystem::solve(double tolerance, double speedTolerance, double otherEnergy, int maxIterations)
+LinearReport VertexSystem::solve(const LinearTolerance& tolerance, double stepEnergy, int maxIterations)
 {
     solution_.fill(0.0);
     p_.fill(0.0);
@@ -251,8 +251,9 @@ LinearReport VertexSystem::solve(double tolerance, double speedTolerance, double
     double energy = precondition(0.0);
     nextDirection(0.0);
     report.firstEnergy = energy;
-    const double share = tolerance * tolerance, speed = totalMass_ * speedTolerance * speedTolerance;
-    const double enough = std::max({share * energy, 0.09 * share * otherEnergy, speed});
+    const double share = tolerance.share * tolerance.share, speed = totalMass_ * tolerance.speed * tolerance.speed;
+    const double most = totalMass_ * tolerance.most * tolerance.most;
+    const double enough = std::min(std::max({share * energy, 0.09 * share * stepEnergy, speed}), most);
     // One at least, above round-off: errors too small for one step would stay for good, as steps begin with the forces
     // of the last.
     constexpr double kRoundOff = 1.0e-16;

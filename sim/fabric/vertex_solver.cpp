@@ -5,6 +5,7 @@
 #include "sim/fabric/pins.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace sim {
 
@@ -12,8 +13,13 @@ namespace {
 
 constexpr double kTolerance = 2.0e-2;         ///< of the linear solves, relative (contact-design 3.3) [-]
 constexpr double kAccelerationTolerance = 10.0;  ///< rms error at which a linear solve is good enough: 1 % of gravity [cm/s^2]
+constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii]
 constexpr double kQuietAcceleration = 250.0;  ///< largest change that a Newton iteration makes after which no other is made [cm/s^2]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
+constexpr double kSettledMove = 0.25;         ///< rms move of a Newton iteration that may be the last [radii] …
+constexpr double kSmallMove = 0.03;           ///< … or this, where moves do not become smaller [radii]
+constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
+constexpr int kMostNewton = 6;                ///< iterations to get there; more ask for halves
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
@@ -28,6 +34,8 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
         contact_.emplace(fabric);
         obstacles_ = FabricObstacles(fabric, obstacles);
     }
+    totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
+    meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
     free_.resize(fabric.vertexCount());
     move_.resize(fabric.vertexCount());
     freeAngle_.resize(fabric.edges.size());
@@ -73,6 +81,15 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { freeAngle_[e] = state.theta[e] + h * state.omega[e]; });
 }
 
+/// Weighted by mass.
+double VertexSolver::rmsInRadii(std::span<const Vec3> move) const
+{
+    const double sum = parallelSum(move.size(), [&](std::size_t v) {
+        return fabric_.mass[v] * move[v].squaredNorm() / (fabric_.radius[v] * fabric_.radius[v]);
+    });
+    return std::sqrt(sum / totalMass_);
+}
+
 /// Makes move_ safe.
 void VertexSolver::limit(const FabricState& state, FabricReport& report, StageClock& clock)
 {
@@ -116,9 +133,10 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     turnHeldEdges(t + h, state);
 
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
-    const double speedTolerance = kAccelerationTolerance * h * tolerance / kTolerance;
-    double firstEnergy = 0.0, wanted = 0.0, taken = 0.0;
-    for (int k = 0; k < settings_.newton; ++k) {
+    const LinearTolerance linearTolerance = {tolerance, kAccelerationTolerance * h * tolerance / kTolerance, kMoveTolerance * meanRadius_ / h};
+    double firstEnergy = 0.0, wanted = 0.0, taken = 0.0, lastMove = 0.0;
+    bool isSettled = false;
+    for (int k = 0; k < settings_.newton || (!isSettled && k < kMostNewton); ++k) {
         const ActiveContacts* contacts = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
         std::span<const ObstacleContact> touching;
         if (!obstacles_.empty()) {
@@ -127,9 +145,8 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
         }
         clock.start(Stage::FabricElastic);
         system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);
-        system_.factor();
         clock.start(Stage::FabricSolve);
-        const LinearReport linear = system_.solve(tolerance, speedTolerance, firstEnergy, kMaxLinearIterations);
+        const LinearReport linear = system_.solve(linearTolerance, firstEnergy, kMaxLinearIterations);
         if (k == 0) firstEnergy = linear.firstEnergy;
         ++report.newton;
         report.iterations += linear.iterations;
@@ -139,6 +156,9 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
         parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
         const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
+        const double rmsMove = rmsInRadii(move_);
+        isSettled = rmsMove < kSmallMove || (rmsMove < kSettledMove && (k == 0 || rmsMove < kContraction * lastMove));
+        lastMove = rmsMove;
         limit(state, report, clock);
         wanted += parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * system_.move(static_cast<int>(v)).squaredNorm(); });
         taken += parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * system_.move(static_cast<int>(v)).dot(move_[v]); });
@@ -150,7 +170,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     const double fraction = wanted > 0.0 ? taken / wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds;
+                         limits_.listBuilds > kMaxListBuilds || !isSettled;
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     if (isShort) ++report.shortened;

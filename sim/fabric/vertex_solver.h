@@ -31,6 +31,7 @@ class VertexSolver {
     void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void predict(double t, double h, const Vec3& gravity, const FabricState& state);
     void commit(FabricState& state, StageClock& clock);
+    double rmsInRadii(std::span<const Vec3> move) const;
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
 
@@ -45,6 +46,8 @@ class VertexSolver {
     FabricState start_;                          ///< of the attempt under way, to go back to
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
     std::vector<double> freeAngle_;              ///< of each yarn edge [rad]
+    double totalMass_ = 0.0;                     ///< [g]
+    double meanRadius_ = 0.0;                    ///< weighted by mass [cm]
 };
 
 }  // namespace sim

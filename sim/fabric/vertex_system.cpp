@@ -53,6 +53,18 @@ void VertexSystem::findLinks()
 
 void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
+    rods_.useTorque();
+    sumUp(at, obstacles, contacts);
+    if (!rods_.empty() && !strands_.factor(rods_.layout())) {
+        rods_.leaveOutTorque(strands_.definite());
+        sumUp(at, obstacles, contacts);
+        strands_.factor(rods_.layout());
+    }
+    if (!shells_.empty()) clothFactor_.factor(cloth_, clothExtra_);
+}
+
+void VertexSystem::sumUp(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
+{
     copyPairs(contacts);
     gradient_.fill(0.0);
     if (!rods_.empty()) rods_.forces(at.state, at.h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
@@ -180,12 +192,6 @@ void VertexSystem::holdPins()
         }
         strands_.at(row, 0, lane) = 1.0;
     }
-}
-
-void VertexSystem::factor()
-{
-    if (!rods_.empty()) strands_.factor(rods_.layout());
-    if (!shells_.empty()) clothFactor_.factor(cloth_, clothExtra_);
 }
 
 Vec3 VertexSystem::move(int vertex) const

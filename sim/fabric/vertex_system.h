@@ -21,6 +21,13 @@ struct NewtonPoint {
     double h;                                ///< length of the step [s]
 };
 
+/// When a linear solve is good enough: √(rᵀz / total mass), the rms error of speeds, below `share` of what it was at first, 0.3 of
+/// that in the step's first iteration, or `speed`; and below `most` in any case.
+struct LinearTolerance {
+    double share;                            ///< [-]
+    double speed, most;                      ///< [cm/s]
+};
+
 /// Linear solve of one Newton iteration.
 struct LinearReport {
     int iterations = 0;
@@ -41,12 +48,10 @@ class VertexSystem {
     Shells& shells() { return shells_; }
     const VertexUnknowns& unknowns() const { return unknowns_; }
 
-    /// Gradient and matrix at a point.
+    /// Gradient and matrix at a point, with its factors.
     void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
-    void factor();
-    /// Newton's move. Stops when rᵀz has fallen below (tolerance)² of its first value, (0.3 tolerance)² of `otherEnergy` (that of the
-    /// step's first iteration; 0 = none), or when the rms speed error is below speedTolerance [cm/s].
-    LinearReport solve(double tolerance, double speedTolerance, double otherEnergy, int maxIterations);
+    /// Newton's move. `stepEnergy`: firstEnergy of the step's first iteration [erg]; 0 in that.
+    LinearReport solve(const LinearTolerance& tolerance, double stepEnergy, int maxIterations);
 
     Vec3 move(int vertex) const;             ///< of the last solve [cm]
     double turn(int edge) const { return solution_[unknowns_.twistSlot[edge]]; }  ///< [rad]
@@ -60,6 +65,7 @@ class VertexSystem {
         std::array<std::array<double, 16>, 3> coupling;
     };
 
+    void sumUp(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void findLinks();
     void addInertia(const NewtonPoint& at);
     void emptySharedRows();

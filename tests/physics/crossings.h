@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -35,8 +37,10 @@ inline SegmentPair closestOfSegments(const Vec3& a0, const Vec3& a1, const Vec3&
     return p;
 }
 
+inline constexpr int kLargestBox = 50;  ///< cells
+
 /// Boxes of elements in a hash grid: body(i, j), i < j, for every two whose boxes, grown by half of `reach`, overlap.
-/// `cell` should be about the size of an element.
+/// `cell` should be about the size of an element. Throws std::runtime_error for a box of more than kLargestBox cells.
 template <class Box, class Body>
 void forEachNearPair(int count, double cell, double reach, Box&& box, Body&& body)
 {
@@ -48,6 +52,8 @@ void forEachNearPair(int count, double cell, double reach, Box&& box, Body&& bod
     std::vector<int> seen(count, -1);
     for (int j = 0; j < count; ++j) {
         const auto [low, high] = box(j);
+        if (!((high - low).maxCoeff() < kLargestBox * cell))
+            throw std::runtime_error("fabric has burst: an element reaches across " + std::to_string(kLargestBox) + " of its length");
         std::array<int, 3> from, to;
         for (int a = 0; a < 3; ++a) {
             from[a] = static_cast<int>(std::floor((low[a] - 0.5 * reach) / cell));

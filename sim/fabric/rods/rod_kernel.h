@@ -94,4 +94,39 @@ RodStrain<T> rodStrain(const RodEdge<T>& e, const RodEdge<T>& f)
     return s;
 }
 
+template <class T>
+using Block = std::array<std::array<T, 3>, 3>;
+
+/// Second derivatives of m by the edges e and f (model-fabric 1.4, after Bergou et al. 2010).
+template <class T>
+struct TwistCurvature {
+    Block<T> ee, ef, ff;     ///< [1/cm^2]; ef: a row for each component of e
+};
+
+template <class T>
+TwistCurvature<T> twistCurvature(const RodEdge<T>& e, const RodEdge<T>& f)
+{
+    const T one = constant<T>(1.0), least = constant<T>(1.0e-12), quarter = constant<T>(0.25);
+    const T inverse = one / largerOf(one + dot(e.tangent, f.tangent), least);
+    const Triple<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
+    const Triple<T> middle = inverse * (e.tangent + f.tangent);
+    const Triple<T> onE = (-quarter / (e.length * e.length)) * (e.tangent + middle);
+    const Triple<T> onF = (-quarter / (f.length * f.length)) * (f.tangent + middle);
+    const T both = constant<T>(0.5) / (e.length * f.length);
+    const Triple<T> turn = (constant<T>(2.0) * inverse) * e.tangent;
+    TwistCurvature<T> c;
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+            c.ee[a][b] = binormal[a] * onE[b] + onE[a] * binormal[b];
+            c.ff[a][b] = binormal[a] * onF[b] + onF[a] * binormal[b];
+            c.ef[a][b] = -both * binormal[a] * middle[b];
+        }
+    for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, third = (a + 2) % 3;
+        c.ef[a][b] -= both * turn[third];
+        c.ef[b][a] += both * turn[third];
+    }
+    return c;
+}
+
 }  // namespace sim

@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/rods/rod_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sim {
@@ -70,6 +71,7 @@ void setMaterialFrame(const FabricState& state, const StrandLayout::Lanes& edges
 /// A vertex with an edge on either side, as walkGroup meets it.
 struct Rods::Walk {
     int j;                       ///< the vertex within the strands; edge j − 1 ends and edge j begins here
+    const RodEdge<Pack>&before, &after;
     RodStrain<Pack> strain;
     Pack twist;                  ///< m [rad]
 };
@@ -97,6 +99,7 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
         stiffness_.push_back(k);
     }
 
+    torqueShare_.assign(layout_.groups.size(), Pack{});
     perRestLength_.resize(layout_.edge.size());
     twistInertia_.resize(layout_.edge.size());
     for (std::size_t i = 0; i < layout_.edge.size(); ++i)
@@ -123,6 +126,8 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
         startBend_.resize(layout_.vertex.size());
     }
 }
+
+void Rods::useTorque() { std::ranges::fill(torqueShare_, broadcast(1.0)); }
 
 void Rods::transportFrames(FabricState& state) const
 {
@@ -170,7 +175,7 @@ void Rods::walkGroup(int g, const FabricState& state, Visit&& visit) const
         setMaterialFrame(state, edges, edge);
         const Pack theta = gathered(state.theta, edges);
         if (j > 0) {
-            Walk at{j, rodStrain(before, edge), gathered(state.referenceTwist, edges) + theta - thetaBefore};
+            Walk at{j, before, edge, rodStrain(before, edge), gathered(state.referenceTwist, edges) + theta - thetaBefore};
             visit(at);
         }
         before = edge;
@@ -205,6 +210,28 @@ void Rods::forces(const FabricState& state, double h, Pack* gradient, StrandMatr
         forcesOfGroup(static_cast<int>(g), state, h, gradient + firstRow, matrix ? matrix->rows(firstRow) : nullptr);
     });
 }
+
+namespace {
+
+/// The torque's part of the Hessian: what turns a twisted rod out of its plane. Not definite by itself.
+void addTorque(const Pack& torque, const RodEdge<Pack>& e, const RodEdge<Pack>& f, Pack* band)
+{
+    constexpr int kBand = StrandMatrix::kBand;
+    const TwistCurvature<Pack> c = twistCurvature(e, f);
+    const auto entry = [&](int row, int column) -> Pack& { return band[row * kBand + row - column]; };
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+            entry(4 + a, b) += torque * (c.ef[b][a] - c.ee[a][b]);
+            entry(8 + a, b) -= torque * c.ef[b][a];
+            entry(8 + a, 4 + b) += torque * (c.ef[b][a] - c.ff[a][b]);
+            if (b > a) continue;
+            entry(a, b) += torque * c.ee[a][b];
+            entry(4 + a, 4 + b) += torque * (c.ee[a][b] - c.ef[a][b] - c.ef[b][a] + c.ff[a][b]);
+            entry(8 + a, 8 + b) += torque * c.ff[a][b];
+        }
+}
+
+}  // namespace
 
 void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const
 {
@@ -276,6 +303,7 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
             for (int c = 0; c <= r; ++c)
                 band[(row + r) * kBand + r - c] += e0 * d[0][c] + e1 * d[1][c] + f0 * d[2][c] + f1 * d[3][c] + t * s.twistGradient[c];
         }
+        addTorque(torqueShare_[g] * torque, at.before, at.after, band + row * kBand);
     });
 }
 

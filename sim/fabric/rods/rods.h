@@ -32,6 +32,11 @@ class Rods {
     /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian with the tensile part of the stretching's
     /// geometric stiffness replaces what the matrix held. h: length of the step [s], read by the damping only.
     void forces(const FabricState& state, double h, Pack* gradient, StrandMatrix* matrix) const;
+    /// From now on the matrix has the torque's part too, the second derivatives of the twist: without it Newton overshoots on rods
+    /// that are twisted hard. It may be indefinite.
+    void useTorque();
+    /// … but for the rods that have a 0 in `keep`, as StrandMatrix::definite tells them.
+    void leaveOutTorque(const std::vector<Pack>& keep) { torqueShare_ = keep; }
     /// Elastic energy [erg]: stretching, bending, twisting.
     std::array<double, 3> energies(const FabricState& state) const;
 
@@ -64,6 +69,7 @@ class Rods {
     std::vector<Bend> bends_;
     bool damped_ = false;
     std::vector<Pack> startStretch_;         ///< l / l̄ of each packed edge
+    std::vector<Pack> torqueShare_;          ///< of each group: 1 in lanes of rods whose torque has its part in the matrix, else 0
     std::vector<std::array<Pack, 5>> startBend_;  ///< curvatures and twist of each packed vertex
 };
 

@@ -36,15 +36,17 @@ void StrandMatrix::resize(const StrandLayout& layout)
     band_.resize(entries);
     lower_.resize(entries);
     inverse_.resize(static_cast<std::size_t>(layout.rows) * kLanes);
+    definite_.resize(layout.groups.size());
 }
 
-void StrandMatrix::factor(const StrandLayout& layout)
+bool StrandMatrix::factor(const StrandLayout& layout)
 {
     parallelFor(layout.groups.size(), [&](std::size_t g) {
         const StrandLayout::Group& group = layout.groups[g];
         const Pack* band = packs(band_, group.firstRow * kBand);
         Pack* lower = packs(lower_, group.firstRow * kBand);
         Pack* inverse = packs(inverse_, group.firstRow);
+        Pack definite = broadcast(1.0);
         for (int r = 0; r < group.rows(); ++r) {
             const Pack* row = band + r * kBand;
             const int reach = std::min(r, kBand - 1);
@@ -61,9 +63,12 @@ void StrandMatrix::factor(const StrandLayout& layout)
                 own[k] = scaled[k] * inverse[r - k];
                 diagonal -= own[k] * scaled[k];
             }
+            definite = select(diagonal > 0.0, definite, broadcast(0.0));
             inverse[r] = broadcast(1.0) / diagonal;
         }
+        definite_[g] = definite;
     });
+    return std::ranges::all_of(definite_, [](const Pack& lanes) { return sumLanes(lanes) == kLanes; });
 }
 
 void StrandMatrix::solve(const StrandLayout::Group& group, const Pack* b, Pack* z) const

@@ -45,7 +45,10 @@ class StrandMatrix {
     /// The rows of a group, kBand packs each.
     Pack* rows(int firstRow) { return packs(band_, firstRow * kBand); }
 
-    void factor(const StrandLayout& layout);
+    /// A = L D Lᵀ of every strand; false if some are not positive definite: `definite` tells which.
+    bool factor(const StrandLayout& layout);
+    /// Of each group, after factor(): 1 in lanes of strands that are positive definite, else 0.
+    const std::vector<Pack>& definite() const { return definite_; }
     /// z = (L D Lᵀ)⁻¹ b for one group, of which b and z are the rows.
     void solve(const StrandLayout::Group& group, const Pack* b, Pack* z) const;
     /// y = A x for one group, of which x and y are the rows.
@@ -58,6 +61,7 @@ class StrandMatrix {
     AlignedArray<double> band_;
     AlignedArray<double> lower_;       ///< L, laid out like the band, without its unit diagonal
     AlignedArray<double> inverse_;     ///< D⁻¹
+    std::vector<Pack> definite_;
 };
 
 }  // namespace sim
