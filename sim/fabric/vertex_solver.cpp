@@ -116,7 +116,9 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
         if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t, state, static_cast<int>(e));
 }
 
-bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
+/// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin at their free flight; carried on
+/// with the last step's forces they diverge.
+void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
     start_ = state;
     limits_ = {};
@@ -129,48 +131,72 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     limit(state, report, clock);
     commit(state, clock);
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });  // with forces they diverge
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });
     turnHeldEdges(t + h, state);
+}
 
-    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
-    const LinearTolerance linearTolerance = {tolerance, kAccelerationTolerance * h * tolerance / kTolerance, kMoveTolerance * meanRadius_ / h};
-    double firstEnergy = 0.0, wanted = 0.0, taken = 0.0, lastMove = 0.0;
-    bool isSettled = false;
-    for (int k = 0; k < settings_.newton || (!isSettled && k < kMostNewton); ++k) {
-        const ActiveContacts* contacts = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
-        std::span<const ObstacleContact> touching;
-        if (!obstacles_.empty()) {
-            clock.start(Stage::FabricContact);
-            touching = obstacles_.at(fabric_, state.x, start_.x, k == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>(), fabric_.mass, h);
-        }
-        clock.start(Stage::FabricElastic);
-        system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);
-        clock.start(Stage::FabricSolve);
-        const LinearReport linear = system_.solve(linearTolerance, firstEnergy, kMaxLinearIterations);
-        if (k == 0) firstEnergy = linear.firstEnergy;
-        ++report.newton;
-        report.iterations += linear.iterations;
-        report.speedError = std::max(report.speedError, linear.speedError);
-        report.contacts = contacts ? contacts->size() : 0;
-        report.obstacleContacts = touching.size();
+/// Newton's move from where the state is, into move_.
+void VertexSolver::solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock)
+{
+    const ActiveContacts* contacts = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
+    std::span<const ObstacleContact> touching;
+    if (!obstacles_.empty()) {
+        clock.start(Stage::FabricContact);
+        const std::span<const Vec3> frictionFrom = newton.count == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
+        touching = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, fabric_.mass, h);
+    }
+    clock.start(Stage::FabricElastic);
+    system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);
+    clock.start(Stage::FabricSolve);
+    const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
+    const LinearTolerance tolerance = {share, kAccelerationTolerance * h * share / kTolerance, kMoveTolerance * meanRadius_ / h};
+    const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
+    if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
+    ++report.newton;
+    report.iterations += linear.iterations;
+    report.speedError = std::max(report.speedError, linear.speedError);
+    report.contacts = contacts ? contacts->size() : 0;
+    report.obstacleContacts = touching.size();
+}
 
-        parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
-        const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
-        const double rmsMove = rmsInRadii(move_);
-        isSettled = rmsMove < kSmallMove || (rmsMove < kSettledMove && (k == 0 || rmsMove < kContraction * lastMove));
-        lastMove = rmsMove;
-        limit(state, report, clock);
-        wanted += parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * system_.move(static_cast<int>(v)).squaredNorm(); });
-        taken += parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * system_.move(static_cast<int>(v)).dot(move_[v]); });
-        commit(state, clock);
-        parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
-        turnHeldEdges(t + h, state);
-        if (largest < kQuietAcceleration * h * h) break;
+/// Has the last move left nothing worth another? One by which nothing moved far, or much less far than before.
+void VertexSolver::judge(double h, Newton& newton) const
+{
+    const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
+    const double move = rmsInRadii(move_);
+    newton.isQuiet = largest < kQuietAcceleration * h * h;
+    newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
+    newton.lastMove = move;
+    ++newton.count;
+}
+
+/// Makes the move as far as the limiter lets it.
+void VertexSolver::take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
+{
+    limit(state, report, clock);
+    const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * of(v); }); };
+    newton.wanted += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).squaredNorm(); });
+    newton.taken += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).dot(move_[v]); });
+    commit(state, clock);
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
+    turnHeldEdges(t, state);
+}
+
+bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
+{
+    begin(t, h, gravity, state, report, clock);
+    Newton newton;
+    const auto isDone = [&] { return newton.isQuiet || newton.count >= (newton.isSettled ? settings_.newton : std::max(settings_.newton, kMostNewton)); };
+    while (!isDone()) {
+        solve(h, newton, state, report, clock);
+        judge(h, newton);
+        take(t + h, newton, state, report, clock);
     }
 
-    const double fraction = wanted > 0.0 ? taken / wanted : 1.0;
+    const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || !isSettled;
+                         limits_.listBuilds > kMaxListBuilds || !newton.isSettled;
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     if (isShort) ++report.shortened;

@@ -26,10 +26,23 @@ class VertexSolver {
     double leastDistance() const;
 
  private:
+    /// The Newton iterations of one attempt so far.
+    struct Newton {
+        int count = 0;
+        double firstEnergy = 0.0;                ///< LinearReport::firstEnergy of the first [erg]
+        double lastMove = 0.0;                   ///< rms [radii]
+        double wanted = 0.0, taken = 0.0;        ///< moves squared, and what the limiter left of them, by mass [g cm^2]
+        bool isSettled = false, isQuiet = false;
+    };
+
     /// One attempt at a step; false if it should be redone in halves.
     bool attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
     void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    void begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void predict(double t, double h, const Vec3& gravity, const FabricState& state);
+    void solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock);
+    void judge(double h, Newton& newton) const;
+    void take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
     void commit(FabricState& state, StageClock& clock);
     double rmsInRadii(std::span<const Vec3> move) const;
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);

@@ -88,7 +88,7 @@ TEST(Allocation, MovingObstaclesAllocateNothing)
     Scene scene = pool(kPoly8);
     Motion motion;
     motion.addOscillation(0.0, 100.0, Vec3::UnitX(), 2.0, 1.0);
-    scene.obstacles.push_back({"ball", Shape::ball({10.0, 4.0, 6.0}, 2.0), motion, false, {}, {}, {}});
+    scene.obstacles.push_back(obstacle("ball", Shape::ball({10.0, 4.0, 6.0}, 2.0), motion));
     const long count = onThreads(1, [&] {
         Simulation simulation(scene);
         allocationsOf(simulation, 10);

@@ -71,7 +71,7 @@ TEST(Volume, MassesStayAndTheLedgerAddsUp)
 {
     Scene scene = coarseDamBreak(kPoly8);
     scene.obstacles.clear();
-    scene.obstacles.push_back({"floor", Shape::box({0.0, -5.0, 0.0}, {100.0, 5.0, 100.0}), {}, false, {}, {}, {}});
+    scene.obstacles.push_back(obstacle("floor", Shape::box({0.0, -5.0, 0.0}, {100.0, 5.0, 100.0})));
     scene.domain = Shape::box({0.0, 10.0, 0.0}, {20.0, 30.0, 20.0});
     SourceSettings jet;
     jet.shape = Shape::box({5.0, 16.0, 2.0}, {1.0, 1.0, 1.0});

@@ -21,6 +21,15 @@ inline const Transfer kPic{"PIC", TransferMethod::Pic, 1}, kFlip{"FLIP", Transfe
     kPoly11{"PolyPIC-11", TransferMethod::PolyPic, 11}, kPoly27{"PolyPIC-27", TransferMethod::PolyPic, 27};
 inline const std::array<Transfer, 6> kTransfers = {kPic, kFlip, kApic, kPoly8, kPoly11, kPoly27};
 
+inline ObstacleSettings obstacle(const std::string& name, const Shape& shape, const Motion& motion = {})
+{
+    ObstacleSettings settings;
+    settings.name = name;
+    settings.shape = shape;
+    settings.motion = motion;
+    return settings;
+}
+
 /// A tank of `size` cells from the origin on, with free-slip walls in planes of faces, and a box of liquid from `low`
 /// to `high` (cells).
 inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, const Vec3& low, const Vec3& high)
@@ -32,8 +41,7 @@ inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, 
     scene.settings.transfer.modes = transfer.modes;
     scene.settings.time.mode = TimeMode::Cfl;
     scene.settings.time.dt = 1.0;
-    scene.obstacles.push_back(
-        {"tank", Shape::box(0.5 * cell * size, 0.5 * cell * size).inverted(), {}, false, {}, {}, {}});
+    scene.obstacles.push_back(obstacle("tank", Shape::box(0.5 * cell * size, 0.5 * cell * size).inverted()));
     SourceSettings source;
     source.name = "liquid";
     source.shape = Shape::box(0.5 * cell * (low + high), 0.5 * cell * (high - low));

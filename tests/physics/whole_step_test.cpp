@@ -13,7 +13,7 @@ Scene splash(const Transfer& transfer)
 {
     Scene scene = tankScene(transfer, 0.5, {20.0, 24.0, 18.0}, {0.0, 0.0, 0.0}, {20.0, 5.0, 18.0});
     scene.settings.time.cfl = 1.0;
-    scene.obstacles.push_back({"post", Shape::capsule({3.0, -1.0, 4.0}, {3.5, 4.0, 4.5}, 0.8), {}, false, {}, {}, {}});
+    scene.obstacles.push_back(obstacle("post", Shape::capsule({3.0, -1.0, 4.0}, {3.5, 4.0, 4.5}, 0.8)));
     SourceSettings drop;
     drop.shape = Shape::ball({6.0, 5.0, 4.5}, 1.6);
     Emission emission;

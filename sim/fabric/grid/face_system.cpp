@@ -2,7 +2,7 @@
 
 #include "sim/core/parallel.h"
 
-#include <cmath>
+#include <numeric>
 
 namespace sim {
 
@@ -17,13 +17,8 @@ FaceSystem::FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, c
 {
     const std::size_t edges = fabric.edges.size(), padded = (edges + kLanes - 1) / kLanes * kLanes;
     inertia_.resize(padded);
-    perTwistSpeed_.resize(padded);
-    for (std::size_t e = 0; e < padded; ++e) {
-        inertia_[e] = e < edges ? fabric.edges.twistInertia[e] : 1.0;
-        if (e >= edges) continue;
-        const auto [a, b] = fabric.strands.radius[fabric.edges.strand[e]];
-        perTwistSpeed_[e] = 0.5 * std::sqrt(a * a + b * b) / inertia_[e];  // the radius of gyration times the rate
-    }
+    for (std::size_t e = 0; e < padded; ++e) inertia_[e] = e < edges ? fabric.edges.twistInertia[e] : 1.0;
+    totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     in_.resize(stiffness.unknowns().size);
     out_.resize(stiffness.unknowns().size);
 }
@@ -40,24 +35,10 @@ void FaceSystem::assemble(const FabricParticles& particles, double h)
     });
     for (FaceVector* v : {&residual_, &p_, &q_, &inverse_}) v->resize(blocks(), edges());
     rows_.find(mass_);
-    findLeastMass();
     findMissing();
     findPushes();
     onVertices_.resize(particles.vertices().size());
     findDiagonal();
-}
-
-void FaceSystem::findLeastMass()
-{
-    std::size_t faces = 0;
-    double sum = 0.0;
-    for (int row : rows_.first)
-        for (int l = 0; l < kLanes; ++l) {
-            const double m = mass_.block(0)[row + l];
-            faces += m > 0.0;
-            sum += m;
-        }
-    leastMass_ = faces > 0 ? kLeastMass * sum / static_cast<double>(faces) : 1.0;
 }
 
 /// ∇u of all elements times the cell size.
@@ -154,13 +135,12 @@ double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
     pressedFaces_.multiply(in_, pushes_);
     spread(q);
     const double h2 = h_ * h_;
-    const Sums sums = forEachPack([&](auto isFace, std::size_t i, Sums& sum) {
+    return forEachPack([&](auto isFace, std::size_t i, Pack& product) {
         const Pack m = mass(isFace, i), from = p.pack(isFace, i);
         Pack& to = q.pack(isFace, i);
         to = select(m > 0.0, m * from + h2 * to, broadcast(0.0));
-        sum.product += from * to;
+        product += from * to;
     });
-    return sumLanes(sums.product);
 }
 
 void FaceSystem::impulses(FaceVector& q)
@@ -171,7 +151,7 @@ void FaceSystem::impulses(FaceVector& q)
     pressedEdges_.impulses(contact_, pushes_);
     pressedFaces_.impulses(contact_, pushes_);
     spread(q);
-    forEachPack([&](auto isFace, std::size_t i, Sums&) {
+    forEachPack([&](auto isFace, std::size_t i, Pack&) {
         const Pack m = mass(isFace, i);
         Pack& out = q.pack(isFace, i);
         out = select(m > 0.0, h_ * out, broadcast(0.0));
@@ -195,7 +175,7 @@ void FaceSystem::findDiagonal()
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
     for (std::size_t e = 0; e < edges(); ++e) inverse_.twist[e] = out_[twistSlot[e]];
     const double h2 = h_ * h_;
-    forEachPack([&](auto isFace, std::size_t i, Sums&) {
+    forEachPack([&](auto isFace, std::size_t i, Pack&) {
         const Pack m = mass(isFace, i);
         Pack& out = inverse_.pack(isFace, i);
         out = select(m > 0.0, 1.0 / (m + h2 * out), broadcast(0.0));

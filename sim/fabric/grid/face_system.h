@@ -36,7 +36,7 @@ struct FaceVector {
 /// A linear solve on the faces.
 struct FaceSolveReport {
     int iterations = 0;
-    double speedError = 0.0;  ///< largest |residual| / mass of a face [cm/s]
+    double speedError = 0.0;  ///< rms, weighted by mass, not below what it is [cm/s]
 };
 
 /// The linear system of one implicit step on the grid (model-fabric 4.2, 13.5): A = M + h² (Wᵀ K W + Gᵀ H G), with K
@@ -59,18 +59,14 @@ class FaceSystem {
     void multiply(const FaceVector& p, FaceVector& q) { multiplyAndDot(p, q); }
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
-    /// A v = M v0 + impulses by conjugate gradients, preconditioned by A's diagonal, from v = v0 on. Stops when the
-    /// largest |residual| / mass is below `tolerance` [cm/s]; faces with little mass count as if they had kLeastMass of
-    /// the mean.
+    /// A v = M v0 + impulses by conjugate gradients, preconditioned by A's diagonal, from v = v0 on. Stops when
+    /// the rms error of the velocities is below `tolerance` [cm/s].
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
 
     /// ∇u of all elements, those without full stencils as in multiply [1/s].
     void elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
 
-    static constexpr double kLeastMass = 1.0e-2;  ///< [-]
-
  private:
-    void findLeastMass();
     void clearInactive(BlockArray<double, 3>& u) const;
     void gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
     void findMissing();
@@ -78,19 +74,10 @@ class FaceSystem {
     void findDiagonal();
     void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
-    /// What passes over the unknowns find out.
-    struct Sums {
-        Pack product{}, largest{};
-
-        /// A NaN among them stays a NaN.
-        void take(Pack error) { largest = select((error > largest) | (error != error), error, largest); }
-        double largestLane() const;
-    };
     double multiplyAndDot(const FaceVector& p, FaceVector& q);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
-    Pack speedError(bool isFace, std::size_t i, Pack residual) const;
     template <class Body>
-    Sums forEachPack(Body&& body) const;
+    double forEachPack(Body&& body) const;
 
     const Fabric& fabric_;
     const VertexStiffness& stiffness_;
@@ -101,9 +88,8 @@ class FaceSystem {
 
     BlockArray<double, 3> mass_;          ///< of each face [g]
     AlignedArray<double> inertia_;        ///< of each twist angle; 1 in unused lanes [g cm^2]
-    AlignedArray<double> perTwistSpeed_;  ///< of each edge: residual to speed of its surface [1/(g cm)]
+    double totalMass_;                    ///< [g]
     FaceRows rows_;
-    double leastMass_ = 0.0;  ///< [g]
 
     std::vector<Mat3> missing_;  ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
     PressedElements<EdgeContact<Pack>> pressedEdges_;
@@ -119,27 +105,24 @@ class FaceSystem {
     FaceVector residual_, p_, q_, inverse_;  ///< of the solve; inverse of A's diagonal
 };
 
-/// body(isFace, i, sums) for the packs at i of faces with mass, and of twist.
+/// Sum over body(isFace, i, sum) for the packs at i of faces with mass, and of twist.
 template <class Body>
-FaceSystem::Sums FaceSystem::forEachPack(Body&& body) const
+double FaceSystem::forEachPack(Body&& body) const
 {
     const std::size_t faces = rows_.first.size();
     const Chunks chunks(faces + inertia_.size() / kLanes);
-    std::array<Sums, kMaxChunks> partial;
+    std::array<Pack, kMaxChunks> partial;
     parallelFor(chunks.count(), [&](std::size_t c) {
-        Sums sums;
+        Pack sum{};
         for (std::size_t r = chunks.begin(c); r < std::min(chunks.end(c), faces); ++r)
-            body(std::true_type(), static_cast<std::size_t>(rows_.first[r]), sums);
+            body(std::true_type(), static_cast<std::size_t>(rows_.first[r]), sum);
         for (std::size_t r = std::max(chunks.begin(c), faces); r < chunks.end(c); ++r)
-            body(std::false_type(), (r - faces) * kLanes, sums);
-        partial[c] = sums;
+            body(std::false_type(), (r - faces) * kLanes, sum);
+        partial[c] = sum;
     });
-    Sums all;
-    for (std::size_t c = 0; c < chunks.count(); ++c) {
-        all.product += partial[c].product;
-        all.take(partial[c].largest);
-    }
-    return all;
+    Pack all{};
+    for (std::size_t c = 0; c < chunks.count(); ++c) all += partial[c];
+    return sumLanes(all);
 }
 
 }  // namespace sim

@@ -147,22 +147,29 @@ TEST(GridFabricProduct, SolutionSatisfiesTheEquations)
     GridParts parts(allKinds(), gridSettings(TransferMethod::PolyPic));
     assemble(parts);
     const FaceVector start = parts.randomVector(6);
-    FaceVector v = start, impulses, av, az;
-    constexpr double kTolerance = 1.0e-6;
-    const FaceSolveReport report = parts.system.solve(kTolerance, 1000, v);
-    EXPECT_LE(report.speedError, kTolerance);
-    EXPECT_GT(report.iterations, 5);
-    av.resize(parts.system.blocks(), parts.system.edges());
-    parts.system.multiply(v, av);
+    FaceVector exact = start, impulses, product;
+    constexpr double kExact = 1.0e-10, kTolerance = 1.0e-4;  // cm/s
+    parts.system.solve(kExact, 1000, exact);
+    product.resize(parts.system.blocks(), parts.system.edges());
+    parts.system.multiply(exact, product);
     parts.system.impulses(impulses);
     const double* mass = parts.system.mass().block(0);
-    double heaviest = 0.0;
-    for (std::size_t i = 0; i < v.faces.size(); ++i) heaviest = std::max(heaviest, mass[i]);
-    for (std::size_t i = 0; i < v.faces.size(); ++i) {
+    const double heaviest = *std::max_element(mass, mass + exact.faces.size());
+    for (std::size_t i = 0; i < exact.faces.size(); ++i) {
         if (!(mass[i] > 0.0)) continue;
         const double wanted = mass[i] * start.faces.block(0)[i] + impulses.faces.block(0)[i];
-        ASSERT_NEAR(av.faces.block(0)[i], wanted, 2.0 * kTolerance * std::max(mass[i], 0.01 * heaviest));
+        ASSERT_NEAR(product.faces.block(0)[i], wanted, 10.0 * kExact * heaviest);
     }
+
+    FaceVector v = start;
+    const FaceSolveReport report = parts.system.solve(kTolerance, 1000, v);
+    EXPECT_LE(report.speedError, kTolerance);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < v.faces.size(); ++i)
+        if (mass[i] > 0.0) sum += mass[i] * std::pow(v.faces.block(0)[i] - exact.faces.block(0)[i], 2);
+    const double total = std::accumulate(parts.fabric.mass.begin(), parts.fabric.mass.end(), 0.0);
+    EXPECT_LE(std::sqrt(sum / total), report.speedError);  // it is no less than it says …
+    EXPECT_GE(std::sqrt(sum / total), 1.0e-3 * kTolerance);  // … and not by far: half of the iterations would be in vain
 }
 
 TEST(GridVertexStiffness, ClothEqualsItsMatrix)
