@@ -97,8 +97,6 @@ struct FabricSettings {
     double tolerance = 0.0;           ///< vertex: of the linear solve, relative [-]; grid: speed error [cm/s]; 0 = 2e-2, 1e-3
     bool contact = true;              ///< fabric touches itself and obstacles
     int maxHalvings = 4;              ///< of a step that could not be taken, vertex only
-    double gridObstacleYoung = 6.6e6;     ///< Stiffness of obstacles against fabric, grid only [dyn/cm^2]
-    double gridObstacleThickness = 0.25;  ///< Cells around obstacles in which they push, grid only [-]
 };
 
 /// What fabric is like inside: fibres and the pores between them.

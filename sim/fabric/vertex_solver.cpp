@@ -187,7 +187,10 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 {
     begin(t, h, gravity, state, report, clock);
     Newton newton;
-    const auto isDone = [&] { return newton.isQuiet || newton.count >= (newton.isSettled ? settings_.newton : std::max(settings_.newton, kMostNewton)); };
+    const auto isDone = [&] {
+        const int most = newton.isSettled ? settings_.newton : std::max(settings_.newton, kMostNewton);
+        return newton.isQuiet || newton.count >= most;
+    };
     while (!isDone()) {
         solve(h, newton, state, report, clock);
         judge(h, newton);

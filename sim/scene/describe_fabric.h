@@ -65,14 +65,13 @@ void describe(V& v, FabricSettings& f)
     v.integer("max_halvings", f.maxHalvings, 0, 30, "Of a step that could not be taken, solver vertex only");
 }
 
-/// Keys of `contact`.
+/// Keys of `contact`, as published: obstacles push fabric by its inertia here, whatever the solver.
 template <class V>
-void describeGridContact(V& v, FabricSettings& f)
+void describePublishedContact(V& v)
 {
-    v.number("obstacle_young", f.gridObstacleYoung, Quantity::Pressure, Range::above(0.0),
-             "Stiffness of obstacles against fabric, fabric.solver grid only");
-    v.number("obstacle_thickness", f.gridObstacleThickness, Quantity::None, Range::above(0.0),
-             "Cells around obstacles in which they push, fabric.solver grid only");
+    double young = 6.6e6, thickness = 0.25;
+    v.number("obstacle_young", young, Quantity::Pressure, Range::above(0.0), "Stiffness of obstacles against fabric");
+    v.number("obstacle_thickness", thickness, Quantity::None, Range::above(0.0), "Cells around obstacles in which they push");
 }
 
 class SectionReader;
@@ -129,7 +128,7 @@ void describeFabric(V& v, Settings& s)
 {
     v.section("porous", s.porous, "");
     v.section("fabric", s.fabric, "");
-    v.group("contact", "", [&](auto& w) { describeGridContact(w, s.fabric); });
+    v.withoutEffect([](auto& w) { w.group("contact", "", [](auto& inner) { describePublishedContact(inner); }); });
 }
 
 }  // namespace sim

@@ -137,8 +137,6 @@ contact: {obstacle_young: 1.0e+5, obstacle_thickness: 0.5}
     EXPECT_EQ(1.0e-4, f.tolerance);
     EXPECT_FALSE(f.contact);
     EXPECT_EQ(2, f.maxHalvings);
-    EXPECT_EQ(1.0e5, f.gridObstacleYoung);
-    EXPECT_EQ(0.5, f.gridObstacleThickness);
 }
 
 TEST(LoadFabric, ObstaclesSayHowFabricMeetsThem)

@@ -121,7 +121,6 @@ TEST(PrintScene, KeepsEveryBitOfTheFabric)
     EXPECT_EQ(before.settings.fabric.solver, after.settings.fabric.solver);
     EXPECT_EQ(before.settings.fabric.tolerance, after.settings.fabric.tolerance);
     EXPECT_EQ(before.settings.fabric.hingeConstant, after.settings.fabric.hingeConstant);
-    EXPECT_EQ(before.settings.fabric.gridObstacleThickness, after.settings.fabric.gridObstacleThickness);
     EXPECT_EQ(before.obstacles.at(0).collide, after.obstacles.at(0).collide);
     EXPECT_EQ(before.obstacles[0].frictionAngle, after.obstacles[0].frictionAngle);
     ASSERT_EQ(before.fabrics.size(), after.fabrics.size());
