@@ -12,20 +12,25 @@ struct PairEnergy {
     double energy = 0.0, slope = 0.0, curvature = 0.0;
 };
 
-/// A spring from the reach R inwards; below the wall τ a logarithm that no distance above the core can pay. C1 at R and at τ, convex.
-/// Source: contact-design 3.2.
+inline constexpr double kSoft = 0.5;  ///< part of the spring's way over which its stiffness grows from 0 [-]
+
+/// A spring from the reach R inwards whose stiffness grows over the first part of its way; below the wall τ a logarithm that no
+/// distance above the core can pay. C2 at R, C1 at τ, convex. Source: contact-design 3.2, but for the soft beginning: a spring that is
+/// stiff at once chatters under light loads, and cloth that should slide on cloth sticks (ClothOnCloth tests).
 inline PairEnergy pairEnergy(double distance, const PairRange& range, double stiffness)
 {
     if (distance >= range.reach) return {};
     const double wall = range.wall(), pressed = range.reach - wall, depth = wall - range.core;
-    if (distance >= wall) {
-        const double gap = range.reach - distance;
-        return {0.5 * stiffness * gap * gap, -stiffness * gap, stiffness};
-    }
+    const double soft = kSoft * pressed, gap = range.reach - distance, firm = gap - 0.5 * soft;
+    if (gap < soft)
+        return {stiffness * gap * gap * gap / (6.0 * soft), -0.5 * stiffness * gap * gap / soft, stiffness * gap / soft};
+    const double spring = 0.5 * stiffness * firm * firm + stiffness * soft * soft / 24.0;
+    if (distance >= wall) return {spring, -stiffness * firm, stiffness};
     constexpr double kLeastDepth = 0.02;  // of the wall: nearer the core the force stays what it is there
     const double left = std::max(distance - range.core, kLeastDepth * depth);
-    const double strength = stiffness * pressed * depth;
-    return {0.5 * stiffness * pressed * pressed - strength * std::log(left / depth), -strength / left, strength / (left * left)};
+    const double firmest = pressed - 0.5 * soft, strength = stiffness * firmest * depth;
+    const double atWall = 0.5 * stiffness * firmest * firmest + stiffness * soft * soft / 24.0;
+    return {atWall - strength * std::log(left / depth), -strength / left, strength / (left * left)};
 }
 
 /// Stiffness of a pair [dyn/cm]: of the fibres where they are soft; what a step of h [s] can resolve where they are hard, and no less than it
