@@ -196,6 +196,7 @@ inline int piercedFaces(const Fabric& fabric, std::span<const Vec3> x)
     const int faces = static_cast<int>(fabric.faces.size());
     double size = 0.0;
     for (const Vec3i& f : fabric.faces.vertices) size = std::max(size, (fabric.rest[f[1]] - fabric.rest[f[0]]).norm());
+    const double roundOff = 1.0e-10 * size * size * size;  // of held faces, which lie in one plane
     const auto corner = [&](int f, int k) -> const Vec3& { return x[fabric.faces.vertices[f][k % 3]]; };
     const auto box = [&](int f) {
         return std::pair<Vec3, Vec3>(corner(f, 0).cwiseMin(corner(f, 1)).cwiseMin(corner(f, 2)),
@@ -206,7 +207,8 @@ inline int piercedFaces(const Fabric& fabric, std::span<const Vec3> x)
     };
     const auto pierces = [&](const Vec3& p, const Vec3& q, int f) {
         const Vec3 &a = corner(f, 0), &b = corner(f, 1), &c = corner(f, 2);
-        if (volume(a, b, c, p) * volume(a, b, c, q) >= 0.0) return false;
+        const double above = volume(a, b, c, p), below = volume(a, b, c, q);
+        if (above * below >= 0.0 || std::min(std::abs(above), std::abs(below)) < roundOff) return false;
         const double u = volume(p, q, a, b), v = volume(p, q, b, c), w = volume(p, q, c, a);
         return (u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0);
     };
