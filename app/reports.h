@@ -60,8 +60,8 @@ struct RunResult {
 /// Nothing where there is no report or none that can be read.
 std::optional<RunResult> readReport(const std::filesystem::path& folder);
 
-/// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is written is in the files at
-/// once, so that a run can be followed, and read after it was cut off.
+/// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is
+/// written is in the files at once, so that a run can be followed, and read after it was cut off.
 class Reports {
  public:
     /// Writes a report.json that says "running".

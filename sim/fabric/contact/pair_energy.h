@@ -12,7 +12,7 @@ struct PairEnergy {
     double energy = 0.0, slope = 0.0, curvature = 0.0;
 };
 
-inline constexpr double kSoft = 0.5;  ///< part of the spring's way over which its stiffness grows from 0 [-]
+inline constexpr double kSoftShare = 0.5;  ///< part of the spring's way over which its stiffness grows from 0; 0.2 still chatters [-]
 
 /// A spring from the reach R inwards whose stiffness grows over the first part of its way; below the wall τ a logarithm that no
 /// distance above the core can pay. C2 at R, C1 at τ, convex. Source: contact-design 3.2, but for the soft beginning: a spring that is
@@ -21,7 +21,7 @@ inline PairEnergy pairEnergy(double distance, const PairRange& range, double sti
 {
     if (distance >= range.reach) return {};
     const double wall = range.wall(), pressed = range.reach - wall, depth = wall - range.core;
-    const double soft = kSoft * pressed, gap = range.reach - distance, firm = gap - 0.5 * soft;
+    const double soft = kSoftShare * pressed, gap = range.reach - distance, firm = gap - 0.5 * soft;
     if (gap < soft)
         return {stiffness * gap * gap * gap / (6.0 * soft), -0.5 * stiffness * gap * gap / soft, stiffness * gap / soft};
     const double spring = 0.5 * stiffness * firm * firm + stiffness * soft * soft / 24.0;

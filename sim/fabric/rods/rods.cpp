@@ -238,6 +238,7 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
     constexpr int kBand = StrandMatrix::kBand;
     const StrandLayout::Group& group = layout_.groups[g];
     const Stiffness& k = stiffness_[g];
+    const bool hasTorque = sumLanes(torqueShare_[g]) > 0.0;
     const Pack one = broadcast(1.0), perStep = broadcast(damped_ ? 1.0 / h : 0.0);
     const Pack stretchRate = perStep * k.stretchDamping, bendRate = perStep * k.bendDamping, twistRate = perStep * k.twistDamping;
 
@@ -303,7 +304,7 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
             for (int c = 0; c <= r; ++c)
                 band[(row + r) * kBand + r - c] += e0 * d[0][c] + e1 * d[1][c] + f0 * d[2][c] + f1 * d[3][c] + t * s.twistGradient[c];
         }
-        addTorque(torqueShare_[g] * torque, at.before, at.after, band + row * kBand);
+        if (hasTorque) addTorque(torqueShare_[g] * torque, at.before, at.after, band + row * kBand);
     });
 }
 
