@@ -153,6 +153,22 @@ template <class V>
     return (lane & static_cast<long long>(bits)) != 0;
 }
 
+/// v[i][j] becomes v[j][i].
+[[gnu::always_inline]] inline void transposeLanes(Pack (&v)[kLanes])
+{
+    const auto exchange = [](Pack& a, Pack& b, PackMask first, PackMask second) __attribute__((always_inline)) {
+        const Pack left = __builtin_shuffle(a, b, first);
+        b = __builtin_shuffle(a, b, second);
+        a = left;
+    };
+    for (int i = 0; i < kLanes; i += 2)
+        exchange(v[i], v[i + 1], PackMask{0, 8, 2, 10, 4, 12, 6, 14}, PackMask{1, 9, 3, 11, 5, 13, 7, 15});
+    for (int i : {0, 1, 4, 5})
+        exchange(v[i], v[i + 2], PackMask{0, 1, 8, 9, 4, 5, 12, 13}, PackMask{2, 3, 10, 11, 6, 7, 14, 15});
+    for (int i = 0; i < 4; ++i)
+        exchange(v[i], v[i + 4], PackMask{0, 1, 2, 3, 8, 9, 10, 11}, PackMask{4, 5, 6, 7, 12, 13, 14, 15});
+}
+
 /// {before[7], row[0] … row[6]}: a row of cells seen from one cell further right, before being the row to its left.
 [[gnu::always_inline]] inline Pack shiftRight(Pack before, Pack row)
 {

@@ -11,9 +11,11 @@ BlockMatrix::BlockMatrix(const std::vector<std::vector<int>>& columns)
     for (std::size_t row = 0; row < columns.size(); ++row) {
         const auto own = std::ranges::lower_bound(columns[row], static_cast<int>(row));
         SIM_CHECK(own != columns[row].end() && *own == static_cast<int>(row));
-        diagonal_.push_back(begin_.back() + static_cast<int>(own - columns[row].begin()));
-        column_.insert(column_.end(), columns[row].begin(), columns[row].end());
+        column_.insert(column_.end(), own, columns[row].end());
         begin_.push_back(static_cast<int>(column_.size()));
+        for (auto column = columns[row].begin(); column != own; ++column)
+            mirrors_.push_back({*column, find(*column, static_cast<int>(row))});
+        mirrorBegin_.push_back(static_cast<int>(mirrors_.size()));
     }
     values_.resize(9 * column_.size() + 1);
 }

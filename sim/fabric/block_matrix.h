@@ -1,33 +1,62 @@
 #pragma once
 
 #include "sim/core/aligned_array.h"
+#include "sim/core/simd.h"
 
 #include <span>
 #include <vector>
 
 namespace sim {
 
-/// A symmetric matrix of 3x3 blocks with a fixed pattern, rows of all blocks stored (block CSR). Blocks are
-/// column-major; behind the last one number more may be read.
+/// A symmetric matrix of 3x3 blocks with a fixed pattern. Rows begin with their diagonal block; what is left of it is read where its
+/// transpose stands (block CSR of the upper half). Blocks are column-major; behind the last one number more may be read.
 class BlockMatrix {
  public:
+    /// A block left of the diagonal: its column, and the entry of its transpose.
+    struct Mirror {
+        int column, entry;
+    };
+
     BlockMatrix() = default;
-    /// Rows with ascending columns; the diagonal must be among them.
+    /// Rows with ascending columns; the diagonal must be among them, and with every block its transpose.
     explicit BlockMatrix(const std::vector<std::vector<int>>& columns);
 
     int rows() const { return static_cast<int>(begin_.size()) - 1; }
+    /// The diagonal block of a row, then those right of it up to begin(row + 1).
     int begin(int row) const { return begin_[row]; }
     int column(int entry) const { return column_[entry]; }
-    int diagonal(int row) const { return diagonal_[row]; }
-    /// Where the block of a row and a column stands; both must be in the pattern.
+    std::span<const Mirror> left(int row) const
+    {
+        return {mirrors_.data() + mirrorBegin_[row], mirrors_.data() + mirrorBegin_[row + 1]};
+    }
+    /// Where the block of a row and a column ≥ row stands; it must be in the pattern.
     int find(int row, int column) const;
     double* block(int entry) { return values_.data() + std::size_t{9} * entry; }
     const double* block(int entry) const { return values_.data() + std::size_t{9} * entry; }
     void clear() { values_.fill(0.0); }
 
+    /// A row of the product with a vector of which at(column) gives the three numbers and a 0; the fourth that comes out is void.
+    template <class At>
+    HalfPack timesRow(int row, At&& at) const
+    {
+        const auto of = [&](int entry, int from) { return *reinterpret_cast<const HalfPack*>(block(entry) + from); };
+        HalfPack right{}, x{}, y{}, z{};
+        for (int e = begin_[row]; e < begin_[row + 1]; ++e) {
+            const HalfPack u = at(column_[e]);
+            right += u[0] * of(e, 0) + u[1] * of(e, 3) + u[2] * of(e, 6);
+        }
+        for (const Mirror& m : left(row)) {
+            const HalfPack u = at(m.column);
+            x += u * of(m.entry, 0), y += u * of(m.entry, 3), z += u * of(m.entry, 6);
+        }
+        const auto sum = [](const HalfPack& v) { return v[0] + v[1] + v[2]; };
+        return right + HalfPack{sum(x), sum(y), sum(z), 0.0};
+    }
+
  private:
-    std::vector<int> begin_ = {0};
-    std::vector<int> column_, diagonal_;
+    std::vector<int> begin_ = {0}, mirrorBegin_ = {0};
+    std::vector<int> column_;
+    std::vector<Mirror> mirrors_;
     AlignedArray<double> values_;
 };
 

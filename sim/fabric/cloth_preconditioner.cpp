@@ -33,11 +33,14 @@ ClothPreconditioner::ClothPreconditioner(const BlockMatrix& matrix, const std::v
             for (int column : pattern[row]) {
                 if (column < partBegin_[part] || column >= row || skipped_[column] || skipped_[row]) continue;
                 column_.push_back(column);
-                source_.push_back(matrix.find(row, column));
+                source_.push_back(matrix.find(column, row));
             }
             begin_.push_back(static_cast<int>(column_.size()));
+            const auto isDropped = [&](int column) { return !std::ranges::binary_search(pattern[row], column); };
+            for (const BlockMatrix::Mirror& m : matrix.left(row))
+                if (isDropped(m.column)) dropped_.push_back(m.entry);
             for (int e = matrix.begin(row); e < matrix.begin(row + 1); ++e)
-                if (!std::ranges::binary_search(pattern[row], matrix.column(e))) dropped_.push_back(e);
+                if (isDropped(matrix.column(e))) dropped_.push_back(e);
             droppedBegin_.push_back(static_cast<int>(dropped_.size()));
         }
     lower_.resize(9 * column_.size());
@@ -49,7 +52,7 @@ void ClothPreconditioner::factor(const BlockMatrix& matrix, const std::vector<Ma
     parallelFor(parts(), [&](std::size_t part) {
         for (int row = partBegin_[part]; row < partBegin_[part + 1]; ++row) {
             if (skipped_[row]) continue;
-            Mat3 own = ConstBlockRef(matrix.block(matrix.diagonal(row))) + extra[row];
+            Mat3 own = ConstBlockRef(matrix.block(matrix.begin(row))) + extra[row];
             for (int d = droppedBegin_[row]; d < droppedBegin_[row + 1]; ++d) {
                 const ConstBlockRef block(matrix.block(dropped_[d]));
                 own += 0.5 * (block + block.transpose());
@@ -58,7 +61,7 @@ void ClothPreconditioner::factor(const BlockMatrix& matrix, const std::vector<Ma
             // Up-looking: U(row, c) = A(row, c) − Σ U(row, k) L(c, k)ᵀ over the columns k that both rows have; L = U D⁻¹.
             for (int e = begin_[row]; e < begin_[row + 1]; ++e) {
                 const int c = column_[e];
-                Block u = ConstBlockRef(matrix.block(source_[e]));
+                Block u = ConstBlockRef(matrix.block(source_[e])).transpose();
                 for (int i = begin_[row], k = begin_[c]; i < e && k < begin_[c + 1];) {
                     if (column_[i] < column_[k]) ++i;
                     else if (column_[i] > column_[k]) ++k;

@@ -28,8 +28,8 @@ class ClothPreconditioner {
  private:
     std::vector<int> partBegin_;
     std::vector<char> skipped_;
-    std::vector<int> begin_, column_, source_;   ///< strictly lower blocks by row: column, and where the block stands in the matrix
-    std::vector<int> droppedBegin_, dropped_;    ///< blocks of the matrix that are not in the pattern, by row
+    std::vector<int> begin_, column_, source_;   ///< strictly lower blocks by row: column, and where the transpose stands in the matrix
+    std::vector<int> droppedBegin_, dropped_;    ///< blocks that are not in the pattern, or their transposes, by row
     AlignedArray<double> lower_;                 ///< L, 9 per block
     AlignedArray<double> inverse_;               ///< D⁻¹, 9 per row
 };

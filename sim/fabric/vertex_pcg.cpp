@@ -15,8 +15,6 @@ Pack* packs(AlignedArray<double>& v) { return reinterpret_cast<Pack*>(v.data());
 
 /// A vertex' three numbers and a 0.
 HalfPack& quad(AlignedArray<double>& v, std::size_t n) { return *reinterpret_cast<HalfPack*>(v.data() + 4 * n); }
-/// Three numbers of a column, and whatever is behind them.
-const HalfPack& column(const double* m) { return *reinterpret_cast<const HalfPack*>(m); }
 HalfPack asQuad(const std::array<double, 4>& v) { return HalfPack{v[0], v[1], v[2], v[3]}; }
 
 double dot(const HalfPack& a, const HalfPack& b)
@@ -126,13 +124,7 @@ double VertexSystem::multiplyCloth()
     return parallelSum(vertices.size(), [&](std::size_t n) {
         const int row = static_cast<int>(n), v = vertices[n], slot = unknowns_.slot[v];
         if (fabric_.pinned[v]) return 0.0;
-        HalfPack sum{};
-        for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e) {
-            if (ownsDiagonal_[row] && e == cloth_.diagonal(row)) continue;
-            const double* m = cloth_.block(e);
-            const HalfPack u = quad(pOfVertex_, vertices[cloth_.column(e)]);
-            sum += u[0] * column(m) + u[1] * column(m + 3) + u[2] * column(m + 6);
-        }
+        HalfPack sum = cloth_.timesRow(row, [&](int column) { return quad(pOfVertex_, vertices[column]); });
         if (!ownsDiagonal_[row] && !pairs_.empty())
             for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
                 sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);

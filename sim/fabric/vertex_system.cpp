@@ -77,8 +77,9 @@ void VertexSystem::sumUp(const NewtonPoint& at, std::span<const ObstacleContact>
         shells_.forces(at.state.x, at.h, unknowns_.slot, gradient_.data(), &cloth_);
         for (std::size_t row = 0; row < ownsDiagonal_.size(); ++row)
             if (ownsDiagonal_[row]) {
-                const double* block = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
-                addToDiagonal(shells_.vertices()[row], Eigen::Map<const Mat3>(block));
+                Eigen::Map<Mat3> block(cloth_.block(cloth_.begin(static_cast<int>(row))));
+                addToDiagonal(shells_.vertices()[row], block);
+                block.setZero();
             }
     }
     addObstacles(obstacles);
@@ -112,7 +113,7 @@ void VertexSystem::addInertia(const NewtonPoint& at)
     parallelFor(shells_.vertices().size(), 256, [&](std::size_t row) {
         if (ownsDiagonal_[row]) return;
         const int v = shells_.vertices()[row], slot = unknowns_.slot[v];
-        double* block = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
+        double* block = cloth_.block(cloth_.begin(static_cast<int>(row)));
         for (int a = 0; a < 3; ++a) {
             block[4 * a] += at.mass[v] * perStep2;
             gradient_[slot + a * kLanes] += at.mass[v] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
@@ -167,7 +168,7 @@ void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
             addToDiagonal(contact.vertex, contact.stiffness);
             continue;
         }
-        double* block = cloth_.block(cloth_.diagonal(clothRow_[contact.vertex]));
+        double* block = cloth_.block(cloth_.begin(clothRow_[contact.vertex]));
         for (int e = 0; e < 9; ++e) block[e] += contact.stiffness(e / 3, e % 3);
     }
 }

@@ -92,7 +92,7 @@ class VertexSystem {
     StrandMatrix strands_;
     BlockMatrix cloth_;
     ClothPreconditioner clothFactor_;
-    std::vector<char> ownsDiagonal_;         ///< of each row of cloth: it is on a strand, which holds its diagonal block
+    std::vector<char> ownsDiagonal_;         ///< of each row of cloth: it is on a strand; S has its diagonal block instead of K
     std::vector<int> clothRow_;              ///< of each vertex; −1 without cloth
     std::vector<Mat3> clothExtra_;           ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
     mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth

@@ -2,6 +2,8 @@
 
 #include "sim/core/parallel.h"
 
+#include <algorithm>
+
 namespace sim::contact {
 
 namespace {
@@ -98,7 +100,8 @@ void PairSearch::run(const Sweep& sweep, std::span<const char> dirtyVertices, co
     dirtyLeaves_.clear();
     listDirtyLeaves(Query::EdgesToEdges, edges_);
     listDirtyLeaves(Query::VerticesToFaces, vertices_);
-    listDirtyLeaves(Query::FacesToVertices, faces_);
+    const bool isAnyClean = std::ranges::any_of(dirtyVertices, [](char isDirty) { return isDirty == 0; });
+    if (isAnyClean) listDirtyLeaves(Query::FacesToVertices, faces_);  // dirty vertices find their faces themselves
     tasks_ = (dirtyLeaves_.size() + kLeavesPerTask - 1) / kLeavesPerTask;
     if (found_.size() < tasks_) found_.resize(tasks_);
     parallelFor(tasks_, [&](std::size_t task) {

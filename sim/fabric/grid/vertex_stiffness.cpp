@@ -18,9 +18,6 @@ VertexStiffness::VertexStiffness(const Fabric& fabric, const FabricSettings& set
     strands_.resize(rods_.layout());
     gradient_.resize(unknowns_.size);
     clothIn_.resize(4 * shells_.vertices().size());
-    for (int row = 0; row < cloth_.rows(); ++row)
-        for (int e = cloth_.begin(row); e < cloth_.begin(row + 1); ++e)
-            mirrored_.push_back(cloth_.find(cloth_.column(e), row));
     findShared();
     findPinStiffness(fabric);
 }
@@ -98,8 +95,6 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     }
 }
 
-/// Blocks below the diagonal are read where their transposes stand: half as much comes from memory, and what is right
-/// of a column's numbers is multiplied by 0 or left out.
 void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const
 {
     const std::vector<int>& vertices = shells_.vertices();
@@ -108,21 +103,12 @@ void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray
         for (int a = 0; a < kAxes; ++a) clothIn_[4 * row + a] = p[a * kLanes];
         clothIn_[4 * row + 3] = 0.0;
     });
-    const auto at = [](const double* p) { return *reinterpret_cast<const HalfPack*>(p); };
     parallelFor(vertices.size(), 128, [&](std::size_t n) {
         const int row = static_cast<int>(n);
-        HalfPack upper{}, x{}, y{}, z{};
-        for (int e = cloth_.diagonal(row); e < cloth_.begin(row + 1); ++e) {
-            const double *m = cloth_.block(e), *u = clothIn_.data() + 4 * cloth_.column(e);
-            upper += u[0] * at(m) + u[1] * at(m + 3) + u[2] * at(m + 6);
-        }
-        for (int e = cloth_.begin(row); e < cloth_.diagonal(row); ++e) {
-            const double* m = cloth_.block(mirrored_[e]);
-            const HalfPack u = at(clothIn_.data() + 4 * cloth_.column(e));
-            x += u * at(m), y += u * at(m + 3), z += u * at(m + 6);
-        }
-        const auto sum = [](HalfPack v) { return v[0] + v[1] + v[2]; };
-        add(out, vertices[n], {upper[0] + sum(x), upper[1] + sum(y), upper[2] + sum(z)});
+        const HalfPack product = cloth_.timesRow(row, [&](int column) {
+            return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * column);
+        });
+        add(out, vertices[n], {product[0], product[1], product[2]});
     });
 }
 
@@ -156,7 +142,7 @@ void VertexStiffness::diagonal(AlignedArray<double>& out) const
     addToOwners(out);
     const std::vector<int>& vertices = shells_.vertices();
     parallelFor(vertices.size(), 512, [&](std::size_t row) {
-        const double* m = cloth_.block(cloth_.diagonal(static_cast<int>(row)));
+        const double* m = cloth_.block(cloth_.begin(static_cast<int>(row)));
         add(out, vertices[row], Vec3(m[0], m[4], m[8]));
     });
     for (const Spring& s : springs_) add(out, s.vertex, s.stiffness.diagonal());

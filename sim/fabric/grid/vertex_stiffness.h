@@ -67,7 +67,6 @@ class VertexStiffness {
     VertexUnknowns unknowns_;
     StrandMatrix strands_;
     BlockMatrix cloth_;
-    std::vector<int> mirrored_;             ///< of each block of cloth_: where its transpose stands
     mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
     std::vector<Shared> shared_;
     std::vector<Spring> springs_;

@@ -17,29 +17,6 @@ constexpr std::size_t kBatchesPerTask = 16;
 /// Number of the block (i, j), i ≤ j, of the upper half.
 constexpr int blockOf(int i, int j) { return i * kShellVertices - i * (i - 1) / 2 + j - i; }
 
-/// Greedy colours: no two faces of one colour have one of their six vertices in common.
-std::vector<std::vector<int>> colored(std::span<const Vec3i> faces, std::span<const std::array<int, 3>> across, std::size_t vertices)
-{
-    std::vector<std::uint64_t> taken(vertices, 0);
-    std::vector<std::vector<int>> colors;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        std::uint64_t used = 0;
-        for (int k = 0; k < 3; ++k) {
-            used |= taken[faces[f][k]];
-            if (across[f][k] >= 0) used |= taken[across[f][k]];
-        }
-        const int color = std::countr_one(used);
-        if (color >= 64) throw InputError("cloth: more than 60 faces meet around one vertex; use a more regular mesh");
-        for (int k = 0; k < 3; ++k) {
-            taken[faces[f][k]] |= std::uint64_t{1} << color;
-            if (across[f][k] >= 0) taken[across[f][k]] |= std::uint64_t{1} << color;
-        }
-        if (color >= static_cast<int>(colors.size())) colors.resize(color + 1);
-        colors[color].push_back(static_cast<int>(f));
-    }
-    return colors;
-}
-
 template <class Batch>
 ShellCorners<Pack> cornersOf(const Batch& batch, std::span<const Vec3> x)
 {
@@ -101,26 +78,43 @@ Shells::Shells(const Fabric& fabric, const FabricSettings& settings) : settings_
         }
 
     const BlockMatrix pattern(pattern_);
-    colorBegin_.push_back(0);
-    for (const std::vector<int>& color : colored(faces, across_, fabric.vertexCount())) {
-        for (std::size_t begin = 0; begin < color.size(); begin += kLanes) {
-            const std::size_t count = std::min<std::size_t>(kLanes, color.size() - begin);
-            fill(fabric, settings, {color.data() + begin, count}, pattern, batches_.emplace_back());
-        }
-        colorBegin_.push_back(static_cast<int>(batches_.size()));
-    }
+    for (std::size_t begin = 0; begin < faces.size(); begin += kLanes)
+        fill(fabric, settings, begin, std::min(faces.size(), begin + kLanes), pattern, batches_.emplace_back());
+    colorTasks(fabric.vertexCount());
     for (const FabricMaterial& m : fabric.materials)
         damped_ = damped_ || (m.dampingViscosity > 0.0 && (m.dampBending || m.dampStretching));
 }
 
-void Shells::fill(const Fabric& fabric, const FabricSettings& settings, std::span<const int> faces, const BlockMatrix& pattern,
+/// Greedy: each task takes the first colour that none before it with a vertex of its own has.
+void Shells::colorTasks(std::size_t vertices)
+{
+    std::vector<std::vector<int>> colorsAt(vertices);
+    const int tasks = static_cast<int>((batches_.size() + kBatchesPerTask - 1) / kBatchesPerTask);
+    for (int task = 0; task < tasks; ++task) {
+        std::vector<int> own;
+        for (std::size_t b = task * kBatchesPerTask; b < std::min(batches_.size(), (task + 1) * kBatchesPerTask); ++b)
+            for (const Lanes& lanes : batches_[b].vertex)
+                std::ranges::copy_if(lanes, std::back_inserter(own), [](int v) { return v >= 0; });
+        std::vector<char> isTaken(tasks_.size() + 1, 0);
+        for (int v : own)
+            for (int color : colorsAt[v]) isTaken[color] = 1;
+        const int color = static_cast<int>(std::ranges::find(isTaken, 0) - isTaken.begin());
+        if (color == static_cast<int>(tasks_.size())) tasks_.emplace_back();
+        tasks_[color].push_back(task);
+        for (int v : own)
+            if (colorsAt[v].empty() || colorsAt[v].back() != color) colorsAt[v].push_back(color);
+    }
+}
+
+/// The faces from number begin to end, a pack of them at most.
+void Shells::fill(const Fabric& fabric, const FabricSettings& settings, std::size_t begin, std::size_t end, const BlockMatrix& pattern,
                   Batch& batch) const
 {
     for (auto& lanes : batch.vertex) lanes.fill(-1);
     for (auto& lanes : batch.entry) lanes.fill(-1);
-    for (auto& lanes : batch.mirrored) lanes.fill(-1);
-    for (int l = 0; l < static_cast<int>(faces.size()); ++l) {
-        const int f = faces[l];
+    batch.isTransposed.fill(0);
+    for (std::size_t f = begin; f < end; ++f) {
+        const int l = static_cast<int>(f - begin);
         const FabricMaterial& material = fabric.materials[fabric.faces.material[f]];
         for (int k = 0; k < 3; ++k) {
             batch.vertex[k][l] = fabric.faces.vertices[f][k];
@@ -134,8 +128,8 @@ void Shells::fill(const Fabric& fabric, const FabricSettings& settings, std::spa
             for (int j = i; j < kShellVertices; ++j) {
                 if (batch.vertex[i][l] < 0 || batch.vertex[j][l] < 0) continue;
                 const int ri = row_[batch.vertex[i][l]], rj = row_[batch.vertex[j][l]];
-                batch.entry[blockOf(i, j)][l] = pattern.find(ri, rj);
-                if (i != j) batch.mirrored[blockOf(i, j)][l] = pattern.find(rj, ri);
+                batch.entry[blockOf(i, j)][l] = pattern.find(std::min(ri, rj), std::max(ri, rj));
+                if (ri > rj) batch.isTransposed[blockOf(i, j)] |= 1u << l;
             }
     }
 }
@@ -183,11 +177,11 @@ void Shells::startStep(std::span<const Vec3> x)
 
 void Shells::forces(std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const
 {
-    for (std::size_t color = 0; color + 1 < colorBegin_.size(); ++color) {
-        const int begin = colorBegin_[color];
-        parallelFor(colorBegin_[color + 1] - begin, kBatchesPerTask,
-                    [&](std::size_t n) { addForces(batches_[begin + n], x, h, slot, gradient, matrix); });
-    }
+    for (const std::vector<int>& color : tasks_)
+        parallelFor(color.size(), [&](std::size_t n) {
+            const std::size_t begin = color[n] * kBatchesPerTask, end = std::min(batches_.size(), begin + kBatchesPerTask);
+            for (std::size_t b = begin; b < end; ++b) addForces(batches_[b], x, h, slot, gradient, matrix);
+        });
 }
 
 void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient,
@@ -267,17 +261,24 @@ void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, st
                                                     tension[2] * (rest.ru[i] * rest.rw[j] + rest.rw[i] * rest.ru[j]));
                 for (int a = 0; a < 3; ++a) block[4 * a] += geometric;
             }
-            const int n = blockOf(i, j);
-            for (int l = 0; l < kLanes; ++l) {
-                if (batch.entry[n][l] < 0) continue;
-                double* at = matrix->block(batch.entry[n][l]);
-                for (int a = 0; a < 3; ++a)
-                    for (int b = 0; b < 3; ++b) at[3 * b + a] += block[3 * a + b][l];
-                if (batch.mirrored[n][l] < 0) continue;
-                double* mirror = matrix->block(batch.mirrored[n][l]);
-                for (int e = 0; e < 9; ++e) mirror[e] += block[e][l];
-            }
+            addBlock(batch, blockOf(i, j), block, *matrix);
         }
+    }
+}
+
+/// Row-major block number n of eight triangles to where each has it in the matrix.
+void Shells::addBlock(const Batch& batch, int n, const std::array<Pack, 9>& block, BlockMatrix& matrix) const
+{
+    Pack ofLane[kLanes];  // but for the last number
+    std::copy_n(block.begin(), kLanes, ofLane);
+    transposeLanes(ofLane);
+    for (int l = 0; l < kLanes; ++l) {
+        if (batch.entry[n][l] < 0) continue;
+        double* at = matrix.block(batch.entry[n][l]);
+        Pack values = ofLane[l];
+        if ((batch.isTransposed[n] >> l & 1u) == 0) values = __builtin_shuffle(values, PackMask{0, 3, 6, 1, 4, 7, 2, 5});
+        storeFirst(at, loadPack(at) + values, kLanes);
+        at[8] += block[8][l];
     }
 }
 

@@ -11,8 +11,8 @@
 
 namespace sim {
 
-/// All cloth as thin shells (model-fabric 2): triangles in packs, in colours of which no two triangles touch the same vertex, so that
-/// each may add to all its vertices at once.
+/// All cloth as thin shells (model-fabric 2): triangles in packs as the faces follow each other, so that what they add to is near in
+/// memory; packs by tasks, and tasks in colours of which no two touch the same vertex.
 class Shells {
  public:
     Shells() = default;
@@ -48,12 +48,15 @@ class Shells {
         ShellRest<Pack> rest{};
         Pack damping{};                             ///< 3η/E if the membrane is damped [s] …
         Pack bendDamping{};                         ///< … and bending
-        std::array<Lanes, kBlocks> entry, mirrored; ///< where a block goes in the matrix, and its transpose; −1 for no block
+        std::array<Lanes, kBlocks> entry;           ///< where a block, or its transpose, stands in the matrix; −1 for no block
+        std::array<unsigned, kBlocks> isTransposed; ///< bit l: of lane l it is the transpose
         std::array<Pack, 3> startGreen{}, startAngle{}; ///< at the start of the step
     };
-    void fill(const Fabric& fabric, const FabricSettings& settings, std::span<const int> faces, const BlockMatrix& pattern,
+    void fill(const Fabric& fabric, const FabricSettings& settings, std::size_t begin, std::size_t end, const BlockMatrix& pattern,
               Batch& batch) const;
+    void colorTasks(std::size_t vertices);
     void addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const;
+    void addBlock(const Batch& batch, int n, const std::array<Pack, 9>& block, BlockMatrix& matrix) const;
     MembraneStress<Pack> stressOf(const Batch& batch, const MembraneStrain<Pack>& strain) const;
     /// Φ(θ) − Φ(θ̄), Φ' and the factor of the Gauss-Newton matrix by the chosen measure, for each edge.
     struct BendMeasure {
@@ -66,7 +69,7 @@ class Shells {
     std::vector<std::array<int, 3>> across_;        ///< of each face: vertices across its edges; −1 on the boundary
     std::vector<std::vector<int>> pattern_, neighbors_;
     std::vector<Batch> batches_;
-    std::vector<int> colorBegin_;                   ///< in `batches_`
+    std::vector<std::vector<int>> tasks_;           ///< of each colour: kBatchesPerTask batches from number · kBatchesPerTask on
     bool damped_ = false;
 };
 

@@ -189,12 +189,16 @@ TEST(GridVertexStiffness, ClothEqualsItsMatrix)
     const std::vector<int>& vertices = shells.vertices();
     for (int v : vertices) parts.stiffness.set(in, v, noise.vector());
     parts.stiffness.multiply(in, out);
-    for (int row = 0; row < matrix.rows(); ++row) {
-        Vec3 expected = Vec3::Zero();
-        for (int e = matrix.begin(row); e < matrix.begin(row + 1); ++e)
-            expected += Eigen::Map<const Mat3>(matrix.block(e)) * parts.stiffness.at(in, vertices[matrix.column(e)]);
-        EXPECT_LT((parts.stiffness.at(out, vertices[row]) - expected).norm(), 1e-12 * expected.norm());
-    }
+    std::vector<Vec3> expected(matrix.rows(), Vec3::Zero());
+    for (int row = 0; row < matrix.rows(); ++row)
+        for (int e = matrix.begin(row); e < matrix.begin(row + 1); ++e) {
+            const int column = matrix.column(e);
+            const Eigen::Map<const Mat3> block(matrix.block(e));
+            expected[row] += block * parts.stiffness.at(in, vertices[column]);
+            if (column != row) expected[column] += block.transpose() * parts.stiffness.at(in, vertices[row]);
+        }
+    for (int row = 0; row < matrix.rows(); ++row)
+        EXPECT_LT((parts.stiffness.at(out, vertices[row]) - expected[row]).norm(), 1e-12 * expected[row].norm());
 }
 
 TEST(StrandMatrix, ProductEqualsAPlainLoop)

@@ -94,7 +94,11 @@ Eigen::MatrixXd denseOf(const BlockMatrix& matrix)
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * matrix.rows(), 3 * matrix.rows());
     for (int row = 0; row < matrix.rows(); ++row)
         for (int e = matrix.begin(row); e < matrix.begin(row + 1); ++e)
-            for (int i = 0; i < 9; ++i) dense(3 * row + i % 3, 3 * matrix.column(e) + i / 3) = matrix.block(e)[i];
+            for (int i = 0; i < 9; ++i) {
+                const int p = 3 * row + i % 3, q = 3 * matrix.column(e) + i / 3;
+                dense(p, q) = matrix.block(e)[i];
+                if (matrix.column(e) != row) dense(q, p) = matrix.block(e)[i];
+            }
     return dense;
 }
 
