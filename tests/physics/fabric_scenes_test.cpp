@@ -17,8 +17,14 @@ void expectUntangled(const WatchedRun::Seen& seen)
     EXPECT_TRUE(seen.isFinite);
     EXPECT_EQ(seen.flipped, 0);
     EXPECT_EQ(seen.undecided, 0);
-    EXPECT_GE(seen.spare, 0.0);
     EXPECT_EQ(seen.pierced, 0);
+}
+
+/// No pair nearer than half its thickness either (contact-design 5).
+void expectThick(const WatchedRun::Seen& seen)
+{
+    expectUntangled(seen);
+    EXPECT_GE(seen.spare, 0.0);
 }
 
 /// The published weave, struck by a ball at 300 cm/s: every frame of 2 s (contact-design 5).
@@ -27,7 +33,7 @@ TEST(YarnSheet, NoYarnPassesAnother)
     WatchedRun run(loadScene(kScenes / "bench/yarn_sheet.yaml"));
     EXPECT_EQ(run.simulation().fabric().rest.size(), 19604u);
     const WatchedRun::Seen& seen = run.run(2.0, 4.0e-3);
-    expectUntangled(seen);
+    expectThick(seen);
     EXPECT_GE(seen.nearest, 0.5);  // of r_A + r_B
 }
 
@@ -35,7 +41,7 @@ TEST(YarnSheet, NoYarnPassesAnother)
 TEST(ClothOverSphere, NoFaceIsPierced)
 {
     WatchedRun run(loadScene(kScenes / "bench/cloth_over_sphere.yaml"));
-    expectUntangled(run.run(2.0, 1.0e-2));
+    expectThick(run.run(2.0, 1.0e-2));
     EXPECT_EQ(run.simulation().fabric().rest.size(), 9801u);
 }
 
@@ -43,13 +49,14 @@ TEST(ClothOverSphere, NoFaceIsPierced)
 TEST(TwistAndBuckle, ComesToRest)
 {
     WatchedRun run(loadScene(kScenes / "twist_and_buckle.yaml"));
-    expectUntangled(run.run(5.0, 0.1));
+    expectThick(run.run(5.0, 0.1));
     EXPECT_LT(run.simulation().energies().fabric.kinetic, 10.0);  // erg
 }
 
 class ShippedScenes : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
-/// In long steps and with yarns and cloth softer and stiffer than they are. The whole table: tests/bench/stability.
+/// In long steps and with yarns and cloth softer and stiffer than they are. The stiffness of contact is what a step can resolve: yarns
+/// come nearer to each other than in short steps, but not past each other. The whole table: tests/bench/stability.
 TEST_P(ShippedScenes, StayWholeInLongSteps)
 {
     const auto& [name, factor] = GetParam();
