@@ -107,6 +107,14 @@ struct PorousSettings {
     double poreRadius() const { return 0.5 * fibreDiameter * std::sqrt((1.0 - volumeFraction) / volumeFraction); }  ///< [cm]
 };
 
+enum class DragLaw { Off, Linear, Nonlinear };
+
+/// How liquid and fabric act on each other (model-fluid 6, 8, 9).
+struct CouplingSettings {
+    DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
+    double dragExponent = 1.6;          ///< of the speed, nonlinear only; 1 = Forchheimer [-]
+};
+
 struct SolverSettings {
     double pressureTolerance = 1.0e-6;  ///< Largest residual relative to the largest right-hand side [-]
     int maxIterations = 200;
@@ -121,6 +129,7 @@ struct Settings {
     LiquidSettings liquid;
     FabricSettings fabric;
     PorousSettings porous;
+    CouplingSettings coupling;
     SolverSettings solver;
 };
 

@@ -1,0 +1,84 @@
+#include "sim/coupling/porous_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr double kSeriesEnd = 0.4;           ///< fraction up to which the series for flow across holds [-]
+constexpr double kLeastPermeability = 1.0e-20;  ///< [cm^2]
+constexpr double kErgun = 0.14288690166235205;  ///< 1.75 / √150 [-]
+constexpr double kMostDrag = 1.0e63;         ///< [g/(cm^3 s)]
+
+/// In squares of the fibre diameter.
+double permeabilityAlong(double f) { return (-std::log(f) - 1.476 + 2.0 * f - 0.5 * f * f) / (16.0 * f); }
+double seriesAcross(double f)
+{
+    return (-std::log(f) - 1.476 + 2.0 * f - 1.774 * f * f + 4.078 * f * f * f) / (32.0 * f);
+}
+
+}  // namespace
+
+Permeability permeability(double fraction, double fibreDiameter)
+{
+    const double along = permeabilityAlong(fraction);
+    const double across = fraction <= kSeriesEnd ? seriesAcross(fraction) : seriesAcross(kSeriesEnd) * along / permeabilityAlong(kSeriesEnd);
+    const double d2 = fibreDiameter * fibreDiameter;
+    return {std::max(d2 * along, kLeastPermeability), std::max(d2 * across, kLeastPermeability)};
+}
+
+PorousLaw::PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid, const CouplingSettings& coupling)
+    : fibreDiameter_(porous.fibreDiameter),
+      suctionScale_(porous.poreRadius() > 0.0 ? liquid.surfaceTension * std::cos(liquid.contactAngle) / porous.poreRadius() : 0.0),
+      density_(liquid.density),
+      viscosity_(liquid.viscosity),
+      law_(coupling.drag),
+      exponent_(coupling.dragExponent)
+{
+}
+
+double PorousLaw::suction(double fraction) const
+{
+    return fraction < 1.0 ? fraction / (1.0 - fraction) * suctionScale_ : 0.0;
+}
+
+double PorousLaw::captureRate(double fraction, double cell) const
+{
+    if (!(fraction > 0.0)) return 1.0;
+    return permeability(fraction, fibreDiameter_).across * suction(fraction) / (cell * cell * viscosity_);
+}
+
+double PorousLaw::drag(double k, double fraction, double speed) const
+{
+    if (law_ == DragLaw::Off || !(fraction > 0.0)) return 0.0;
+    double c = viscosity_ / k;
+    if (law_ == DragLaw::Nonlinear && speed > 0.0)
+        c += kErgun * std::pow(fibreDiameter_, exponent_ - 1.0) * std::pow(viscosity_, 1.0 - exponent_) *
+             std::pow(density_ * speed, exponent_) / (std::pow(1.0 - fraction, 1.5) * std::sqrt(k));
+    return std::min(c, kMostDrag);
+}
+
+PorousLaw::Drag PorousLaw::drag(double fraction, double speed) const
+{
+    if (law_ == DragLaw::Off || !(fraction > 0.0)) return {0.0, 0.0};
+    const Permeability k = permeability(fraction, fibreDiameter_);
+    return {drag(k.along, fraction, speed), drag(k.across, fraction, speed)};
+}
+
+double dragAlongAxis(const PorousLaw::Drag& drag, const FabricDirection& direction, int axis)
+{
+    const double s = direction.shape, o2 = direction.squares[axis];
+    const double across = (1.0 - s) * drag.along + s * drag.across;  // across the direction: in the plane of cloth
+    const double along = s * drag.along + (1.0 - s) * drag.across;
+    return across * (1.0 - o2) + along * o2;
+}
+
+double suctionAlongAxis(const FabricDirection& direction, int axis)
+{
+    const double s = direction.shape, o2 = direction.squares[axis];
+    return 1.0 + (1.0 - s) * (1.0 - o2) + s * o2;
+}
+
+}  // namespace sim

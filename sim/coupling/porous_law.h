@@ -1,0 +1,55 @@
+#pragma once
+
+#include "sim/settings.h"
+
+namespace sim {
+
+/// How easily liquid flows along fibres and across them [cm^2].
+struct Permeability {
+    double along, across;
+};
+
+/// Of parallel fibres in a square array.
+/// @param fraction  of the volume that fibres fill, (0..1]
+/// Source: Drummond and Tahir 1984. Their series for flow across turns up again beyond 0.4; from there on it falls as that along does
+/// (model-fluid 8.2).
+Permeability permeability(double fraction, double fibreDiameter);
+
+/// What liquid feels in fabric, from the fabric's pores and the liquid's constants (model-fluid 8).
+class PorousLaw {
+ public:
+    PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid, const CouplingSettings& coupling);
+
+    /// P_c: capillary suction of dry fabric [dyn/cm^2]; 0 where fibres leave no pores.
+    double suction(double fraction) const;
+    /// κ: rate at which fabric takes in what is in the cells around it [1/s] (model-fluid 9.1).
+    double captureRate(double fraction, double cell) const;
+    /// c: drag per volume and relative speed [g/(cm^3 s)]: Darcy's, and where it is not linear the one of Yazdchi and Luding 2012.
+    /// @param permeability  in the direction of the flow [cm^2]
+    /// @param speed         of the liquid past the fabric [cm/s]
+    double drag(double permeability, double fraction, double speed) const;
+    /// Drag by directions; at speeds of all directions together.
+    struct Drag {
+        double along, across;
+    };
+    Drag drag(double fraction, double speed) const;
+
+ private:
+    double fibreDiameter_, suctionScale_;            ///< [cm], σ cos θ / r_p [dyn/cm^2]
+    double density_, viscosity_;                     ///< of the liquid [g/cm^3, P]
+    DragLaw law_;
+    double exponent_;                                ///< of the speed where drag is not linear [-]
+};
+
+/// Directions of the fabric in one place: yarns have their tangent, cloth its normal.
+struct FabricDirection {
+    double shape;    ///< 1 = yarns, 0 = cloth, or between
+    Vec3 squares;    ///< mean of o_a² for the direction o; their sum is 1
+};
+
+/// T_aa of the drag tensor: drag on the flow along axis a; between the least and the largest of the two (model-fluid 8.2).
+double dragAlongAxis(const PorousLaw::Drag& drag, const FabricDirection& direction, int axis);
+/// χ_a: suction along axis a: 2 along yarns and in the plane of cloth, 1 across (model-fluid 8.1).
+double suctionAlongAxis(const FabricDirection& direction, int axis);
+
+}  // namespace sim
