@@ -113,6 +113,7 @@ enum class DragLaw { Off, Linear, Nonlinear };
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
     double dragExponent = 1.6;          ///< of the speed, nonlinear only; 1 = Forchheimer [-]
+    bool pressureOnFabric = true;       ///< the liquid's pressure pushes fabric: buoyancy
 };
 
 struct SolverSettings {

@@ -70,6 +70,7 @@ void Simulation::prepareWorkspace()
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_);
+    if (!fabric_.empty() && !scene_.sources.empty()) work_.mixture = std::make_unique<Mixture>(fabric_, scene_.settings);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
         work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)

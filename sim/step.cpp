@@ -77,11 +77,18 @@ void finishAtWalls(const BlockGrid& grid, double friction, bool flip, Workspace&
     apply(liquid.faces.valid, liquid.faces.velocity);
 }
 
-/// All stages of the liquid.
-void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock)
+/// What a step of the liquid does beside the usual.
+struct LiquidPlan {
+    bool flips = false, relaxes = false, corrects = false;
+    bool isMixed = false;  ///< with fabric
+};
+
+/// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock)
 {
     const Settings& settings = scene.settings;
-    const bool flip = settings.transfer.method == TransferMethod::Flip;
+    LiquidPlan plan;
+    plan.flips = settings.transfer.method == TransferMethod::Flip;
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
 
@@ -90,7 +97,7 @@ void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, St
     clock.start(Stage::Sort);
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
     carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
-    work.grid.resize(grid.count(), flip);
+    work.grid.resize(grid.count(), plan.flips);
     work.grid.fullMass = work.packing * settings.liquid.density * grid.dx * grid.dx * grid.dx;
 
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
@@ -98,9 +105,9 @@ void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, St
 
     state.unrelaxed += dt;
     state.uncorrected += dt;
-    const bool relaxes = work.relaxReach > 0.0 && isDue(settings.liquid.relax.rate, state.unrelaxed, dt);
-    const bool corrects = isDue(settings.liquid.volume.rate, state.uncorrected, dt);
-    if (relaxes) {
+    plan.relaxes = work.relaxReach > 0.0 && isDue(settings.liquid.relax.rate, state.unrelaxed, dt);
+    plan.corrects = isDue(settings.liquid.volume.rate, state.uncorrected, dt);
+    if (plan.relaxes) {
         clock.start(Stage::Relax);
         relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, state.unrelaxed, work.relax,
                                 work.displacement);
@@ -112,41 +119,56 @@ void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, St
         particlesToFacesAffine(particles, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
     else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
     if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
-    divideAndAddGravity(grid, settings.gravity, dt, flip, work.grid);
+    divideAndAddGravity(grid, settings.gravity, dt, plan.flips, work.grid);
+
+    if (work.mixture && work.mixture->isNear(grid, state.fabric)) {
+        clock.start(Stage::Mixture);
+        plan.isMixed = work.mixture->find(grid, work.obstacleField, settings.gravity, dt, state.fabric, work.grid);
+    }
 
     clock.start(Stage::Cells);
     findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
     findSurface(grid, work.obstacleField, work.grid);
 
     clock.start(Stage::Pressure);
-    report.pressure = projectPressure(grid, work.obstacleField, settings.liquid, settings.solver, dt, work.pressure, work.grid, state.pressure);
+    findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
+    if (plan.isMixed) work.mixture->blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
 
-    if (corrects) {
+    if (plan.corrects) {
         clock.start(Stage::Volume);
         const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
         report.volume = correctVolume(grid, work.obstacleField, work.pressure, work.grid, strength, settings.solver.maxIterations, work.volume);
         state.uncorrected = 0.0;
     }
+    return plan;
+}
 
+/// The rest, when the fabric has done what it does.
+void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
+{
+    const Settings& settings = scene.settings;
+    LiquidParticles& particles = state.liquid;
+    BlockGrid& grid = state.grid;
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
-        finishAtWalls(grid, settings.liquid.wallFriction, flip, work);
+        finishAtWalls(grid, settings.liquid.wallFriction, plan.flips, work);
     }
 
     clock.start(Stage::GridToParticles);
     GatherSettings gather = gatherSettings(scene, work, dt);
-    if (relaxes) gather.displacement = work.displacement.data();
-    if (corrects) gather.faceDisplacement = &work.volume.displacement;
+    if (plan.relaxes) gather.displacement = work.displacement.data();
+    if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
     if (!work.obstacles.empty()) {
-        const double farthest =
-            report.maxSpeed * dt + (relaxes ? work.relaxReach : 0.0) + (corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
+        const double farthest = report.maxSpeed * dt + (plan.relaxes ? work.relaxReach : 0.0) +
+                                (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
     }
 
     const WeightSums weights = weightSums(particles, settings.gravity);
-    report.energies = {sums.kinetic, flip ? 0.0 : sums.modal, weights.potential, {}};
+    report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
     report.liquidMass = weights.mass;
     report.particles = particles.count;
     report.blocks = grid.count();
@@ -154,11 +176,25 @@ void stepLiquid(State& state, const Scene& scene, Workspace& work, double dt, St
     if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
 }
 
-template <class Solver>
-void stepFabric(State& state, const Settings& settings, Solver& solver, double dt, StepReport& report, StageClock& clock)
+void stepFabric(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
 {
-    report.fabric = solver.step(state.time, dt, settings.gravity, state.fabric, clock);
-    report.energies.fabric = solver.energies(state.fabric, settings.gravity);
+    const LiquidLoads* loads = nullptr;
+    if (plan.isMixed) {
+        clock.start(Stage::Mixture);
+        loads = &work.mixture->loads(work.grid);
+    }
+    if (work.fabric) report.fabric = work.fabric->step(state.time, dt, settings.gravity, state.fabric, clock, loads);
+    if (work.gridFabric) report.fabric = work.gridFabric->step(state.time, dt, settings.gravity, state.fabric, clock);
+    if (plan.isMixed) {
+        clock.start(Stage::Mixture);
+        work.mixture->separate(state.fabric, work.grid);
+    }
+}
+
+void findFabricEnergies(const State& state, const Settings& settings, const Workspace& work, StepReport& report)
+{
+    if (work.fabric) report.energies.fabric = work.fabric->energies(state.fabric, settings.gravity);
+    if (work.gridFabric) report.energies.fabric = work.gridFabric->energies(state.fabric, settings.gravity);
     if (std::isfinite(report.energies.fabric.total())) return;
     report.failure = "the fabric's energy is not finite";
     report.failedStage = Stage::FabricSolve;
@@ -176,9 +212,12 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
         clock.start(Stage::Emit);
         emitLiquid(scene, state, state.time, state.time + dt);
     }
-    if (hasLiquid(state)) stepLiquid(state, scene, work, dt, report, clock);
-    if (work.fabric) stepFabric(state, scene.settings, *work.fabric, dt, report, clock);
-    if (work.gridFabric) stepFabric(state, scene.settings, *work.gridFabric, dt, report, clock);
+    const bool isWet = hasLiquid(state);
+    LiquidPlan plan;
+    if (isWet) plan = startLiquid(state, scene, work, dt, report, clock);
+    stepFabric(state, scene.settings, work, dt, plan, report, clock);
+    if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock);
+    findFabricEnergies(state, scene.settings, work, report);
 
     state.time += dt;
     ++state.step;

@@ -15,6 +15,7 @@ enum class Stage {
     Obstacles,
     Relax,
     ParticlesToGrid,
+    Mixture,           ///< liquid and fabric on the faces that both reach: drag, and what one does to the other
     Cells,
     Pressure,
     Volume,
@@ -31,7 +32,7 @@ enum class Stage {
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "relax", "particles_to_grid", "cells", "pressure", "volume", "walls", "grid_to_particles",
+    "emit", "sort", "obstacles", "relax", "particles_to_grid", "mixture", "cells", "pressure", "volume", "walls", "grid_to_particles",
     "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain"};
 
 /// What an iterative solve did.

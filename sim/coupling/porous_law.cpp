@@ -67,18 +67,16 @@ PorousLaw::Drag PorousLaw::drag(double fraction, double speed) const
     return {drag(k.along, fraction, speed), drag(k.across, fraction, speed)};
 }
 
-double dragAlongAxis(const PorousLaw::Drag& drag, const FabricDirection& direction, int axis)
+double dragAlongAxis(const PorousLaw::Drag& drag, double shape, double square)
 {
-    const double s = direction.shape, o2 = direction.squares[axis];
-    const double across = (1.0 - s) * drag.along + s * drag.across;  // across the direction: in the plane of cloth
-    const double along = s * drag.along + (1.0 - s) * drag.across;
-    return across * (1.0 - o2) + along * o2;
+    const double across = (1.0 - shape) * drag.along + shape * drag.across;  // across the direction: in the plane of cloth
+    const double along = shape * drag.along + (1.0 - shape) * drag.across;
+    return across * (1.0 - square) + along * square;
 }
 
-double suctionAlongAxis(const FabricDirection& direction, int axis)
+double suctionAlongAxis(double shape, double square)
 {
-    const double s = direction.shape, o2 = direction.squares[axis];
-    return 1.0 + (1.0 - s) * (1.0 - o2) + s * o2;
+    return 1.0 + (1.0 - shape) * (1.0 - square) + shape * square;
 }
 
 }  // namespace sim

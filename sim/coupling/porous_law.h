@@ -41,15 +41,11 @@ class PorousLaw {
     double exponent_;                                ///< of the speed where drag is not linear [-]
 };
 
-/// Directions of the fabric in one place: yarns have their tangent, cloth its normal.
-struct FabricDirection {
-    double shape;    ///< 1 = yarns, 0 = cloth, or between
-    Vec3 squares;    ///< mean of o_a² for the direction o; their sum is 1
-};
-
 /// T_aa of the drag tensor: drag on the flow along axis a; between the least and the largest of the two (model-fluid 8.2).
-double dragAlongAxis(const PorousLaw::Drag& drag, const FabricDirection& direction, int axis);
+/// @param shape   of the fabric: 1 = yarns, 0 = cloth, or between
+/// @param square  o_a², with the direction o: tangent of yarns, normal of cloth
+double dragAlongAxis(const PorousLaw::Drag& drag, double shape, double square);
 /// χ_a: suction along axis a: 2 along yarns and in the plane of cloth, 1 across (model-fluid 8.1).
-double suctionAlongAxis(const FabricDirection& direction, int axis);
+double suctionAlongAxis(double shape, double square);
 
 }  // namespace sim

@@ -36,14 +36,17 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     }
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
+    inertia_.resize(fabric.vertexCount());
     free_.resize(fabric.vertexCount());
     move_.resize(fabric.vertexCount());
     freeAngle_.resize(fabric.edges.size());
 }
 
-FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
+FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads)
 {
     FabricReport report;
+    loads_ = loads;
+    wholeStep_ = h;
     advance(t, h, 0, gravity, state, report, clock);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
@@ -59,16 +62,24 @@ void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, F
     advance(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
 }
 
-/// Where vertices and angles go without forces, and in move_ where forces like those of the last step take the vertices, by
-/// no more than contact is sure to notice; pins go where their motion has them. Newton begins there: quiet fabric finds its
+/// Where vertices and angles go without forces of the fabric's own, and in move_ where forces like those of the last step take the
+/// vertices, by no more than contact is sure to notice; pins go where their motion has them. Newton begins there: quiet fabric finds its
 /// forces in balance and its friction at the speed that it has, instead of after a fall for one step.
 void VertexSolver::predict(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     const Vec3 fall = h * h * gravity;
+    const double part = h / wholeStep_;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        const Vec3 byForces = h * h * state.acceleration[v];
-        const double most = kExpectedMove * fabric_.radius[v], size = byForces.norm();
+        const double mass = fabric_.mass[v];
+        inertia_[v] = Vec3::Constant(mass);
         move_[v] = h * state.v[v] + fall;
+        Vec3 byForces = h * h * state.acceleration[v];
+        if (loads_) {
+            inertia_[v] += part * loads_->drag[v];
+            move_[v] = (mass * move_[v] + (h * part) * loads_->impulse[v]).cwiseQuotient(inertia_[v]);
+            byForces = (mass * byForces).cwiseQuotient(inertia_[v]);
+        }
+        const double most = kExpectedMove * fabric_.radius[v], size = byForces.norm();
         free_[v] = state.x[v] + move_[v];
         move_[v] += (size > most ? most / size : 1.0) * byForces;
     });
@@ -146,7 +157,7 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
         touching = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, fabric_.mass, h);
     }
     clock.start(Stage::FabricElastic);
-    system_.assemble({state, free_, freeAngle_, fabric_.mass, h}, touching, contacts);
+    system_.assemble({state, free_, freeAngle_, inertia_, h}, touching, contacts);
     clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
     const LinearTolerance tolerance = {share, kAccelerationTolerance * h * share / kTolerance, kMoveTolerance * meanRadius_ / h};
@@ -207,7 +218,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
         state.v[v] = (state.x[v] - start_.x[v]) / h;
-        state.acceleration[v] = (state.x[v] - free_[v]) / (h * h);
+        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * fabric_.mass[v]);
     });
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
     return true;

@@ -2,6 +2,7 @@
 
 #include "sim/fabric/contact/contact.h"
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/vertex_system.h"
 #include "sim/scene/scene.h"
@@ -18,8 +19,9 @@ class VertexSolver {
  public:
     VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles);
 
-    /// From t to t + h [s]. A step that could not be taken is redone as two halves, and so on.
-    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock);
+    /// From t to t + h [s]. A step that could not be taken is redone as two halves, and so on; each then takes its part of the loads.
+    /// @param loads  of the liquid over the whole step; null without liquid
+    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads = nullptr);
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
     double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
@@ -56,7 +58,10 @@ class VertexSolver {
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
     LimitReport limits_;                         ///< of the attempt under way
+    const LiquidLoads* loads_ = nullptr;         ///< of the step under way
+    double wholeStep_ = 0.0;                     ///< its length [s]
     FabricState start_;                          ///< of the attempt under way, to go back to
+    std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
     std::vector<double> freeAngle_;              ///< of each yarn edge [rad]
     double totalMass_ = 0.0;                     ///< [g]

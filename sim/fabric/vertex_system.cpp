@@ -100,8 +100,8 @@ void VertexSystem::addInertia(const NewtonPoint& at)
                 const int v = layout.vertex[group.firstVertex + j][l], row = group.firstRow + 4 * j, slot = row * kLanes + l;
                 const bool isOwner = v >= 0 && unknowns_.slot[v] == slot;
                 for (int a = 0; a < 3; ++a) {
-                    strands_.at(row + a, 0, l) += isOwner ? at.mass[v] * perStep2 : 1.0;
-                    if (isOwner) gradient_[slot + a * kLanes] += at.mass[v] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
+                    strands_.at(row + a, 0, l) += isOwner ? at.inertia[v][a] * perStep2 : 1.0;
+                    if (isOwner) gradient_[slot + a * kLanes] += at.inertia[v][a] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
                 }
                 if (j == group.edges()) continue;
                 const int e = layout.edge[group.firstEdge + j][l];
@@ -115,11 +115,11 @@ void VertexSystem::addInertia(const NewtonPoint& at)
         const int v = shells_.vertices()[row], slot = unknowns_.slot[v];
         double* block = cloth_.block(cloth_.begin(static_cast<int>(row)));
         for (int a = 0; a < 3; ++a) {
-            block[4 * a] += at.mass[v] * perStep2;
-            gradient_[slot + a * kLanes] += at.mass[v] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
+            block[4 * a] += at.inertia[v][a] * perStep2;
+            gradient_[slot + a * kLanes] += at.inertia[v][a] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
         }
     });
-    totalMass_ = parallelSum(at.mass.size(), [&](std::size_t v) { return fabric_.pinned[v] ? 0.0 : at.mass[v]; });
+    totalMass_ = parallelSum(at.inertia.size(), [&](std::size_t v) { return fabric_.pinned[v] ? 0.0 : at.inertia[v].minCoeff(); });
 }
 
 void VertexSystem::emptySharedRows()

@@ -17,7 +17,7 @@ struct NewtonPoint {
     const FabricState& state;
     std::span<const Vec3> freePositions;     ///< of each vertex [cm]
     std::span<const double> freeAngles;      ///< of each yarn edge [rad]
-    std::span<const double> mass;            ///< of each vertex, with what it has absorbed [g]
+    std::span<const Vec3> inertia;           ///< of each vertex by components: mass, and drag of liquid times the step [g]
     double h;                                ///< length of the step [s]
 };
 

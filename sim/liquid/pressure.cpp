@@ -129,12 +129,17 @@ void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, con
 
 }  // namespace
 
-SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
-                            double dt, PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
+void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, double dt, const LiquidGrid& liquid,
+                       PressureWorkspace& work)
+{
+    computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.full, liquid, work);
+}
+
+SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, PressureWorkspace& work,
+                          LiquidGrid& liquid, BlockArray<double>& pressure)
 {
     work.matrix.resize(grid.count());
     work.rhs.resize(grid.count());
-    computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.full, liquid, work);
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
     const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
     subtractGradient(grid, obstacles, work, pressure, liquid);

@@ -15,16 +15,19 @@ struct PressureWorkspace {
     PoissonSolver solver;
 };
 
-/// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the
-/// others, and subtract dt grad p / (ρ fill) (model-fluid 6.4, 6.5 without fabric).
+/// The faces of the pressure system and their coefficients ω dt β / dx², with β = 1 / (ρ fill). Fabric may change them (Mixture::blend).
 ///
 /// The fill of a face is the mass that P2G put there relative to a face amid liquid. At the surface it takes the place of the ghost fluid's
 /// fraction: both are the share of liquid between two cell middles. Only the mass makes this the projection that is orthogonal
 /// in the kinetic energy of the particles, so that it gains no energy and conserves momentum and angular momentum. Needs findSurface.
-/// All faces with liquid that are not closed are valid afterwards.
+void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, double dt, const LiquidGrid& liquid,
+                       PressureWorkspace& work);
+
+/// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the
+/// others, and subtract dt β grad p (model-fluid 6.4, 6.5). All faces with liquid that are not closed are valid afterwards.
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
-SolveReport projectPressure(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
-                            double dt, PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure);
+SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, PressureWorkspace& work,
+                          LiquidGrid& liquid, BlockArray<double>& pressure);
 
 /// Faces are taken to be at least this full, for the sake of the conditioning.
 inline constexpr double kLeastFill = 0.01;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/scene/choice.h"
+#include "sim/scene/describe_coupling.h"
 #include "sim/scene/range.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/units.h"
@@ -196,6 +197,7 @@ void describe(V& v, Settings& s)
         w.number("cell", s.cell, Quantity::Length, Range::above(0.0), "Edge of a grid cell");
     });
     v.vector("gravity", s.gravity, Quantity::Acceleration, "Acceleration of everything");
+    v.section("coupling", s.coupling, "");
     v.section("solver", s.solver, "");
 }
 
@@ -203,7 +205,6 @@ void describe(V& v, Settings& s)
 template <class V>
 void describeLater(V& v)
 {
-    v.later("coupling", "this version simulates fabric dry; remove the section");
     v.later("changes", "this version cannot change settings during a run; remove the section");
     v.later("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
 }

@@ -115,8 +115,8 @@ Scene readScene(const SceneFile& file)
     }
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
     for (const SourceSettings& source : scene.sources) checkSource(source, scene);
-    if (!scene.fabrics.empty() && !scene.sources.empty())
-        fail(scene.fabrics[0].where, "fabrics: liquid and fabric do not act on each other in this version; leave out one of the two");
+    if (!scene.fabrics.empty() && !scene.sources.empty() && scene.settings.fabric.solver == FabricSolver::Grid)
+        fail(scene.fabrics[0].where, "fabrics: liquid does not act on fabric.solver grid in this version; choose vertex");
     return scene;
 }
 

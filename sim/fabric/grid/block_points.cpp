@@ -5,6 +5,8 @@
 // Gathering works on 8 points of a cell at once. Scattering takes them one by one, with the nodes of one plane as lanes
 // and all planes of a cell in registers, so that points of one cell do not wait for each other's sums.
 
+#include <cmath>
+
 namespace sim {
 
 namespace {
@@ -187,6 +189,35 @@ void BlockPoints::clear()
     blockBegin.assign(1, 0);
     cells.clear();
     id.clear();
+}
+
+void BlockPoints::find(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin,
+                       std::uint32_t idEnd)
+{
+    clear();
+    std::vector<int> row;  // of each point: among the sorted particles
+    for (int block : order.occupied) {
+        const int* ranks = order.cells(block);
+        for (int rank = 0; rank < kBlockCells; ++rank) {
+            const std::size_t first = size();
+            for (int s = ranks[rank]; s < ranks[rank + 1]; ++s) {
+                if (particles.id[s] < idBegin || particles.id[s] >= idEnd) continue;
+                id.push_back(static_cast<int>(particles.id[s] - idBegin));
+                row.push_back(s);
+            }
+            const int i = rank / (kBlockEdge * kBlockEdge), j = rank / kBlockEdge % kBlockEdge, k = rank % kBlockEdge;
+            if (size() > first) cells.push_back({tileIndex(i - 1, j - 1, k - 1), static_cast<int>(first)});
+        }
+        blockBegin.push_back(static_cast<int>(cells.size()));
+    }
+    cells.push_back({0, static_cast<int>(size())});
+    for (AlignedArray<double>& x : inCell) x.resize(size() + kLanes);
+    parallelFor(size(), 1024, [&](std::size_t p) {
+        for (int a = 0; a < kAxes; ++a) {
+            const double inCells = (particles.x[a][row[p]] - grid.origin[a]) * (1.0 / grid.dx);
+            inCell[a][p] = inCells - std::floor(inCells);
+        }
+    });
 }
 
 [[gnu::flatten]] void gatherValues(const FaceTile& tile, const BlockPoints& points, std::size_t n, PointArray<3>& u)

@@ -50,55 +50,13 @@ void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> e
     });
 }
 
-/// Places of all points, in the order of the sort.
-void FabricParticles::findPoints(std::size_t vertexCount)
-{
-    vertices_.clear();
-    elements_.clear();
-    vertexRow_.clear();
-    elementRow_.clear();
-    for (int block : order_.occupied) {
-        const int* cells = order_.cells(block);
-        for (int rank = 0; rank < kBlockCells; ++rank) {
-            if (cells[rank] == cells[rank + 1]) continue;
-            const int i = rank / (kBlockEdge * kBlockEdge), j = rank / kBlockEdge % kBlockEdge, k = rank % kBlockEdge;
-            const int corner = tileIndex(i - 1, j - 1, k - 1);
-            const std::size_t vertices = vertices_.size(), elements = elements_.size();
-            for (int s = cells[rank]; s < cells[rank + 1]; ++s) {
-                const std::size_t id = particles_.id[s];
-                const bool isVertex = id < vertexCount;
-                (isVertex ? vertices_ : elements_).id.push_back(static_cast<int>(isVertex ? id : id - vertexCount));
-                (isVertex ? vertexRow_ : elementRow_).push_back(s);
-            }
-            if (vertices_.size() > vertices) vertices_.cells.push_back({corner, static_cast<int>(vertices)});
-            if (elements_.size() > elements) elements_.cells.push_back({corner, static_cast<int>(elements)});
-        }
-        vertices_.blockBegin.push_back(static_cast<int>(vertices_.cells.size()));
-        elements_.blockBegin.push_back(static_cast<int>(elements_.cells.size()));
-    }
-    place(vertexRow_, vertices_);
-    place(elementRow_, elements_);
-}
-
-/// Ends the list of points and says where they are.
-/// @param row  of each point: among the sorted particles
-void FabricParticles::place(const std::vector<int>& row, BlockPoints& points) const
-{
-    points.cells.push_back({0, static_cast<int>(points.size())});
-    for (AlignedArray<double>& x : points.inCell) x.resize(points.size() + kLanes);
-    parallelFor(row.size(), 1024, [&](std::size_t i) {
-        for (int a = 0; a < kAxes; ++a) {
-            const double inCells = (particles_.x[a][row[i]] - grid_.origin[a]) * (1.0 / grid_.dx);
-            points.inCell[a][i] = inCells - std::floor(inCells);
-        }
-    });
-}
-
 void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
 {
     load(mass, elements, state);
     sortParticles(particles_, grid_, nullptr, order_, ledger_);
-    findPoints(state.x.size());
+    const auto vertices = static_cast<std::uint32_t>(state.x.size());
+    vertices_.find(particles_, order_, grid_, 0, vertices);
+    elements_.find(particles_, order_, grid_, vertices, vertices + static_cast<std::uint32_t>(elements.size()));
     if (differsFromTranslation(transfer_.xi, modes_))
         particlesToFacesAffine(particles_, order_, grid_, transfer_.xi, state.sinceGather, faces_);
     else

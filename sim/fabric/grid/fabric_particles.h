@@ -42,8 +42,6 @@ class FabricParticles {
         return state.modes[(static_cast<std::size_t>(axis) * rows() + r) * state.x.size() + v];
     }
     void load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state);
-    void findPoints(std::size_t vertexCount);
-    void place(const std::vector<int>& row, BlockPoints& points) const;
     void damp(double h, std::size_t v, FabricState& state) const;
 
     FabricTransferSettings transfer_;
@@ -59,7 +57,6 @@ class FabricParticles {
     ScatterScratch scatter_;
     GatherScratch gather_;
     BlockPoints vertices_, elements_;
-    std::vector<int> vertexRow_, elementRow_;  ///< of their points: among the sorted particles
 };
 
 }  // namespace sim

@@ -120,7 +120,7 @@ void Shells::fill(const Fabric& fabric, const FabricSettings& settings, std::siz
             batch.vertex[k][l] = fabric.faces.vertices[f][k];
             batch.vertex[3 + k][l] = across_[f][k];
         }
-        setLane(batch.rest, l, shellRest(fabric, f, across_[f], settings));
+        setLane(batch.rest, l, shellRest(fabric, static_cast<int>(f), across_[f], settings));
         const double viscous = 3.0 * material.dampingViscosity / material.young;
         batch.damping[l] = material.dampStretching ? viscous : 0.0;
         batch.bendDamping[l] = material.dampBending ? viscous : 0.0;

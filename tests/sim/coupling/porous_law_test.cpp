@@ -78,16 +78,15 @@ TEST(DragAlongAxis, LiesBetweenBothAndTurnsWithTheAxes)
     for (int i = 0; i < 200; ++i) {
         const Vec3 o = noise.vector().normalized(), turned(o.y(), -o.x(), o.z());  // by 90 degrees about z
         const double shape = (i % 3) * 0.5;
-        const FabricDirection direction = {shape, o.cwiseAbs2()}, other = {shape, turned.cwiseAbs2()};
         double sum = 0.0;
         for (int a = 0; a < kAxes; ++a) {
-            const double t = dragAlongAxis(drag, direction, a);
+            const double square = o[a] * o[a], t = dragAlongAxis(drag, shape, square);
             EXPECT_GE(t, drag.along * (1.0 - 1.0e-14));
             EXPECT_LE(t, drag.across * (1.0 + 1.0e-14));
             sum += t;
             const int image = a == 0 ? 1 : a == 1 ? 0 : 2;
-            EXPECT_DOUBLE_EQ(t, dragAlongAxis(drag, other, image));
-            EXPECT_DOUBLE_EQ(suctionAlongAxis(direction, a), suctionAlongAxis(other, image));
+            EXPECT_DOUBLE_EQ(t, dragAlongAxis(drag, shape, turned[image] * turned[image]));
+            EXPECT_DOUBLE_EQ(suctionAlongAxis(shape, square), suctionAlongAxis(shape, turned[image] * turned[image]));
         }
         const double trace = shape * (drag.along + 2.0 * drag.across) + (1.0 - shape) * (2.0 * drag.along + drag.across);
         EXPECT_NEAR(sum, trace, 1.0e-12 * trace);
@@ -97,15 +96,15 @@ TEST(DragAlongAxis, LiesBetweenBothAndTurnsWithTheAxes)
 TEST(DragAlongAxis, KnowsYarnsFromCloth)
 {
     const PorousLaw::Drag drag = {2.0, 20.0};
-    const FabricDirection yarn = {1.0, Vec3::UnitX()}, cloth = {0.0, Vec3::UnitX()};
-    EXPECT_EQ(dragAlongAxis(drag, yarn, 0), drag.along);
-    EXPECT_EQ(dragAlongAxis(drag, yarn, 1), drag.across);
-    EXPECT_EQ(dragAlongAxis(drag, cloth, 0), drag.across);
-    EXPECT_EQ(dragAlongAxis(drag, cloth, 1), drag.along);
-    EXPECT_EQ(suctionAlongAxis(yarn, 0), 2.0);
-    EXPECT_EQ(suctionAlongAxis(yarn, 1), 1.0);
-    EXPECT_EQ(suctionAlongAxis(cloth, 0), 1.0);
-    EXPECT_EQ(suctionAlongAxis(cloth, 1), 2.0);
+    constexpr double kYarn = 1.0, kCloth = 0.0, kOwn = 1.0, kOther = 0.0;
+    EXPECT_EQ(dragAlongAxis(drag, kYarn, kOwn), drag.along);
+    EXPECT_EQ(dragAlongAxis(drag, kYarn, kOther), drag.across);
+    EXPECT_EQ(dragAlongAxis(drag, kCloth, kOwn), drag.across);
+    EXPECT_EQ(dragAlongAxis(drag, kCloth, kOther), drag.along);
+    EXPECT_EQ(suctionAlongAxis(kYarn, kOwn), 2.0);
+    EXPECT_EQ(suctionAlongAxis(kYarn, kOther), 1.0);
+    EXPECT_EQ(suctionAlongAxis(kCloth, kOwn), 1.0);
+    EXPECT_EQ(suctionAlongAxis(kCloth, kOther), 2.0);
 }
 
 }  // namespace

@@ -147,7 +147,8 @@ struct GridScene {
 
     SolveReport project(double dt)
     {
-        return projectPressure(grid, field, settings, solver, dt, work, liquid, pressure);
+        findPressureFaces(grid, field, settings, dt, liquid, work);
+        return solvePressure(grid, field, solver, work, liquid, pressure);
     }
     double divergence() const { return largestDivergence(grid, field, liquid); }
 

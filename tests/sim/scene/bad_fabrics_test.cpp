@@ -26,10 +26,11 @@ const char* const kBegin = "grid: {cell: 0.1}\nmaterials: {wool: {young: 1.0e+6}
 const BadFabric kBadFabrics[] = {
     {"NoShape", "fabrics: [{name: cloth}]\n",
      "bad.yaml:3: fabrics.cloth: says no fabric; it takes one of cloth_grid, woven_yarns, strand, mesh, points"},
-    {"LiquidAndFabric",
+    {"LiquidOnGridFabric",
      "fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: 0.1}}]\n"
-     "liquid: {sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n",
-     "bad.yaml:3: fabrics: liquid and fabric do not act on each other in this version; leave out one of the two"},
+     "liquid: {sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n"
+     "fabric: {solver: grid}\n",
+     "bad.yaml:3: fabrics: liquid does not act on fabric.solver grid in this version; choose vertex"},
     {"TwoShapes", "fabrics: [{strand: {}, cloth_grid: {}}]\n",
      "bad.yaml:3: fabrics.0: has both cloth_grid and strand; make them two pieces"},
     {"NotAList", "fabrics: {cloth: {}}\n", "bad.yaml:3: fabrics: needs a list like [{cloth_grid: …}], not a map"},

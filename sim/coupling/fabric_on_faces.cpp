@@ -1,0 +1,118 @@
+#include "sim/coupling/fabric_on_faces.h"
+
+#include "sim/core/parallel.h"
+
+namespace sim {
+
+namespace {
+
+constexpr std::size_t kGrain = 1024;
+
+/// Numbers of the elements at each vertex.
+template <class Corners>
+void sortByVertex(std::size_t vertices, const std::vector<Corners>& elements, std::vector<int>& begin, std::vector<int>& at)
+{
+    begin.assign(vertices + 1, 0);
+    for (const Corners& e : elements)
+        for (int v : e) ++begin[v + 1];
+    for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+    at.resize(begin.back());
+    std::vector<int> next(begin.begin(), begin.end() - 1);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+        for (int v : elements[e]) at[next[v]++] = static_cast<int>(e);
+}
+
+}  // namespace
+
+FabricOnFaces::FabricOnFaces(const Fabric& fabric) : fabric_(fabric)
+{
+    const std::size_t n = fabric.vertexCount();
+    particles_.modeCount = 1;
+    sortByVertex(n, fabric.edges.vertices, edgesBegin_, edgesAt_);
+    sortByVertex(n, fabric.faces.vertices, facesBegin_, facesAt_);
+    squares_.resize(n);
+    for (std::size_t v = 0; v < n; ++v) {
+        fibres_.push_back(fabric.materials[fabric.vertexMaterial[v]].volumeFraction * fabric.volume[v]);
+        double yarn = 0.0;  // share of the volume
+        for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
+            const auto [a, b] = fabric.strands.radius[fabric.edges.strand[edgesAt_[i]]];
+            yarn += 0.5 * kPi * a * b * fabric.edges.restLength[edgesAt_[i]];
+        }
+        shape_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
+    }
+}
+
+void FabricOnFaces::place(const BlockGrid& grid, const FabricState& state)
+{
+    grid_.dx = grid.dx;
+    grid_.origin = grid.origin;
+    const std::size_t n = fabric_.vertexCount();
+    particles_.resize(n);
+    parallelFor(n, kGrain, [&](std::size_t v) {
+        particles_.id[v] = static_cast<std::uint32_t>(v);
+        for (int a = 0; a < kAxes; ++a) particles_.x[a][v] = state.x[v][a];
+    });
+    sortParticles(particles_, grid_, nullptr, order_, ledger_);
+    points_.find(particles_, order_, grid_, 0, static_cast<std::uint32_t>(n));
+    onPoints_.resize(n);
+}
+
+/// Squares of the components of tangents and normals, weighted by lengths and areas.
+void FabricOnFaces::findDirections(const FabricState& state)
+{
+    const auto normalized = [](const Vec3& sum) { return sum.sum() > 0.0 ? Vec3(sum / sum.sum()) : Vec3::Constant(1.0 / 3.0).eval(); };
+    parallelFor(fabric_.vertexCount(), kGrain, [&](std::size_t v) {
+        Vec3 tangents = Vec3::Zero(), normals = Vec3::Zero();
+        for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
+            const Vec2i& e = fabric_.edges.vertices[edgesAt_[i]];
+            const Vec3 t = state.x[e[1]] - state.x[e[0]];
+            if (t.norm() > 0.0) tangents += t.cwiseAbs2() / t.norm();
+        }
+        for (int i = facesBegin_[v]; i < facesBegin_[v + 1]; ++i) {
+            const Vec3i& f = fabric_.faces.vertices[facesAt_[i]];
+            const Vec3 area = (state.x[f[1]] - state.x[f[0]]).cross(state.x[f[2]] - state.x[f[0]]);
+            if (area.norm() > 0.0) normals += area.cwiseAbs2() / area.norm();
+        }
+        squares_[v] = shape_[v] * normalized(tangents) + (1.0 - shape_[v]) * normalized(normals);
+    });
+}
+
+/// Mass-weighted sums become means.
+void FabricOnFaces::divideByMass(BlockArray<double, 3>& u) const
+{
+    parallelFor(grid_.count(), 8, [&](std::size_t b) {
+        const double* m = mass.block(static_cast<int>(b));
+        double* value = u.block(static_cast<int>(b));
+        for (std::size_t i = 0; i < BlockArray<double, 3>::kStride; ++i) value[i] = m[i] > 0.0 ? value[i] / m[i] : 0.0;
+    });
+}
+
+void FabricOnFaces::spread(std::span<const double> massOf, std::span<const double> absorbedBy, const FabricState& state)
+{
+    // The sort has moved the particles; their ids tell which is which.
+    parallelFor(particles_.count, kGrain, [&](std::size_t s) { particles_.mass[s] = massOf[particles_.id[s]]; });
+    for (int a = 0; a < kAxes; ++a) {
+        double* mode = particles_.mode(a, 0);
+        parallelFor(particles_.count, kGrain, [&](std::size_t s) { mode[order_.source[s]] = state.v[particles_.id[s]][a]; });
+    }
+    particlesToFaces(particles_, order_, grid_, scatter_, sums_);
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &acceleration, &fibres, &absorbed, &shape, &squares}) u->resize(grid_.count());
+    parallelFor(grid_.count(), 8, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        std::copy_n(sums_.sums.block(b, FaceFields::kMass), kAxes * kBlockCells, mass.block(b));
+        std::copy_n(sums_.sums.block(b, FaceFields::kMomentum), kAxes * kBlockCells, velocity.block(b));
+    });
+    rows_.find(mass);
+    findDirections(state);
+    divideByMass(velocity);
+    scatter([&](int v) { return Vec3(massOf[v] * state.acceleration[v]); }, acceleration);
+    scatter([&](int v) { return Vec3::Constant(fibres_[v]); }, fibres);
+    scatter([&](int v) { return Vec3::Constant(absorbedBy.empty() ? 0.0 : absorbedBy[v]); }, absorbed);
+    scatter([&](int v) { return Vec3::Constant(massOf[v] * shape_[v]); }, shape);
+    scatter([&](int v) { return Vec3(massOf[v] * squares_[v]); }, squares);
+    divideByMass(acceleration);
+    divideByMass(shape);
+    divideByMass(squares);
+}
+
+}  // namespace sim

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/grid/block_points.h"
+#include "sim/transfer/scatter.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// The fabric as liquid meets it: masses, volumes and directions on the faces of a grid of its own, which has the blocks that vertices
+/// reach (model-fluid 3). Plain P2G, without modes. The grid's cells are those of the liquid's.
+class FabricOnFaces {
+ public:
+    explicit FabricOnFaces(const Fabric& fabric);
+
+    /// Finds the blocks of the vertices, with cells like those of `grid`.
+    void place(const BlockGrid& grid, const FabricState& state);
+    /// P2G of all fields, after place().
+    /// @param mass      of each vertex, with what it has absorbed [g]
+    /// @param absorbed  liquid in each vertex [cm^3]
+    void spread(std::span<const double> mass, std::span<const double> absorbed, const FabricState& state);
+
+    const BlockGrid& grid() const { return grid_; }
+
+    // Of each face; of its own component where there are several.
+    BlockArray<double, 3> mass;           ///< [g]
+    BlockArray<double, 3> velocity;       ///< [cm/s]
+    BlockArray<double, 3> acceleration;   ///< by all forces but gravity over the last step [cm/s^2]
+    BlockArray<double, 3> fibres;         ///< volume of the fibres [cm^3]
+    BlockArray<double, 3> absorbed;       ///< volume of the liquid in them [cm^3]
+    BlockArray<double, 3> shape;          ///< 1 = yarns, 0 = cloth, or between
+    BlockArray<double, 3> squares;        ///< o_a² of the direction o: tangent of yarns, normal of cloth
+
+    /// Wᵀ: of(v) is what vertex v gives to the faces normal to each axis. Faces without mass stay as they are.
+    template <class Of>
+    void scatter(Of&& of, BlockArray<double, 3>& u);
+    /// W: to(v, value) gets u at vertex v.
+    template <class To>
+    void gather(const BlockArray<double, 3>& u, To&& to);
+
+ private:
+    void findDirections(const FabricState& state);
+    void divideByMass(BlockArray<double, 3>& u) const;
+
+    const Fabric& fabric_;
+    std::vector<double> fibres_, shape_;            ///< of each vertex [cm^3, -]
+    std::vector<Vec3> squares_;                     ///< of each vertex
+    std::vector<int> edgesBegin_, edgesAt_;         ///< of each vertex: yarn edges that end there
+    std::vector<int> facesBegin_, facesAt_;
+
+    LiquidParticles particles_;
+    BlockGrid grid_;
+    ParticleOrder order_;
+    Ledger ledger_;                                 ///< of particles outside the domain; there is none
+    FaceFields sums_;
+    ScatterScratch scatter_;
+    BlockPoints points_;
+    FaceRows rows_;
+    PointArray<3> onPoints_;
+};
+
+template <class Of>
+void FabricOnFaces::scatter(Of&& of, BlockArray<double, 3>& u)
+{
+    sumOverBlocks(order_, grid_, rows_, u, [&](std::size_t n, FaceTile& tile) {
+        for (int s = points_.begin(n); s < points_.end(n); ++s) {
+            const Vec3 value = of(points_.id[s]);
+            for (int a = 0; a < kAxes; ++a) onPoints_.of[a][s] = value[a];
+        }
+        scatterValues(points_, n, onPoints_, tile);
+    });
+}
+
+template <class To>
+void FabricOnFaces::gather(const BlockArray<double, 3>& u, To&& to)
+{
+    forEachBlock(order_, grid_, u, [&](std::size_t n, const FaceTile& tile) {
+        gatherValues(tile, points_, n, onPoints_);
+        for (int s = points_.begin(n); s < points_.end(n); ++s)
+            to(points_.id[s], Vec3(onPoints_.of[0][s], onPoints_.of[1][s], onPoints_.of[2][s]));
+    });
+}
+
+}  // namespace sim

@@ -1,0 +1,231 @@
+#include "sim/coupling/mixture.h"
+
+#include "sim/core/parallel.h"
+#include "sim/coupling/mixture_face.h"
+#include "sim/liquid/pressure.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+
+/// body(block, liquid's block, axis, cell) for the shared faces, blocks in parallel.
+template <class Body>
+void Mixture::forEachShared(Body&& body) const
+{
+    parallelFor(liquidBlock_.size(), [&](std::size_t n) {
+        const int b = static_cast<int>(n), m = liquidBlock_[b];
+        if (m == BlockGrid::kNone) return;
+        for (int a = 0; a < kAxes; ++a) {
+            const double* mass = liquidMass_.block(b, a);
+            for (int c = 0; c < kBlockCells; ++c)
+                if (mass[c] > 0.0) body(b, m, a, c);
+        }
+    });
+}
+
+Mixture::Mixture(const Fabric& fabric, const Settings& settings)
+    : fabric_(fabric),
+      law_(settings.porous, settings.liquid, settings.coupling),
+      liquidDensity_(settings.liquid.density),
+      pressureActs_(settings.coupling.pressureOnFabric),
+      onFaces_(fabric)
+{
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v)
+        fibres_.push_back(fabric.materials[fabric.vertexMaterial[v]].volumeFraction * fabric.volume[v]);
+    loads_.drag.resize(fabric.vertexCount());
+    loads_.impulse.resize(fabric.vertexCount());
+}
+
+bool Mixture::isNear(const BlockGrid& grid, const FabricState& state) const
+{
+    if (grid.count() == 0) return false;
+    Eigen::AlignedBox3d box;
+    for (int b = 0; b < grid.count(); ++b) {
+        box.extend(grid.lowerCorner(b));
+        box.extend(grid.lowerCorner(b) + Vec3::Constant(kBlockEdge * grid.dx));
+    }
+    return std::ranges::any_of(state.x, [&](const Vec3& x) { return box.contains(x); });
+}
+
+bool Mixture::findShared(const BlockGrid& grid)
+{
+    liquidBlock_.clear();
+    for (const Vec3i& coords : onFaces_.grid().coords()) liquidBlock_.push_back(grid.find(coords));
+    return std::ranges::any_of(liquidBlock_, [](int b) { return b != BlockGrid::kNone; });
+}
+
+bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state,
+                   LiquidGrid& liquid)
+{
+    onFaces_.place(grid, state);
+    if (!findShared(grid)) return false;
+    dt_ = dt;
+    onFaces_.spread(fabric_.mass, {}, state);
+    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &perMass_, &pull_, &push_})
+        u->resize(onFaces_.grid().count());
+    findRelative(gravity, obstacles, liquid);
+    mix(gravity, obstacles, liquid);
+    addDisplaced(liquid);
+    return true;
+}
+
+/// Which faces are shared, and how the phases move past each other there before anything acts on them.
+void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
+{
+    parallelFor(liquidBlock_.size(), [&](std::size_t n) {
+        const int b = static_cast<int>(n), m = liquidBlock_[b];
+        std::fill_n(liquidMass_.block(b), Faces::kStride, 0.0);
+        std::fill_n(relative_.block(b), Faces::kStride, 0.0);
+        if (m == BlockGrid::kNone) return;
+        for (int a = 0; a < kAxes; ++a) {
+            const double *mass = liquid.faces.sums.block(m, FaceFields::kMass + a), *u = liquid.faces.velocity.block(m, a);
+            const double *fabric = onFaces_.mass.block(b, a), *v = onFaces_.velocity.block(b, a), *room = obstacles.room(m, a);
+            for (int c = 0; c < kBlockCells; ++c) {
+                if (!(mass[c] > 0.0 && fabric[c] > 0.0 && room[c] > 0.0)) continue;
+                liquidMass_.block(b, a)[c] = mass[c];
+                relative_.block(b, a)[c] = u[c] - dt_ * gravity[a] - v[c];
+                predicted_.block(b, a)[c] = u[c];
+            }
+        }
+    });
+}
+
+/// |u_f − u_s|: the face's own component, the others from the four faces around it that are shared.
+double Mixture::speedAt(int block, int axis, int cell) const
+{
+    const int at[kAxes] = {cell % kBlockEdge, cell / kBlockEdge % kBlockEdge, cell / (kBlockEdge * kBlockEdge)};
+    double square = std::pow(relative_.block(block, axis)[cell], 2);
+    for (int other = 0; other < kAxes; ++other) {
+        if (other == axis) continue;
+        double sum = 0.0;
+        int count = 0;
+        for (int corner = 0; corner < 4; ++corner) {
+            int near[kAxes] = {at[0], at[1], at[2]};
+            near[axis] -= corner & 1;
+            near[other] += corner >> 1;
+            const CellRef ref = cellNear(onFaces_.grid(), block, near[0], near[1], near[2]);
+            if (!(liquidMass_.block(ref.block, other)[ref.cell] > 0.0)) continue;
+            sum += relative_.block(ref.block, other)[ref.cell];
+            ++count;
+        }
+        if (count > 0) square += std::pow(sum / count, 2);
+    }
+    return std::sqrt(square);
+}
+
+/// Drag, and what both phases together do (MixtureSplit).
+void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
+{
+    const double cell = std::pow(onFaces_.grid().dx, 3);
+    forEachShared([&](int b, int m, int a, int c) {
+        const double fibres = onFaces_.fibres.block(b, a)[c], absorbed = onFaces_.absorbed.block(b, a)[c];
+        const double mass = liquidMass_.block(b, a)[c], full = liquid.fullMass * obstacles.room(m, a)[c];
+        MixtureFace face;
+        face.liquidMass = mass;
+        face.fabricMass = onFaces_.mass.block(b, a)[c];
+        face.fabricVolume = fibres + absorbed;
+        // Pressure acts on all the room that the fabric leaves, as without fabric; on a little liquid as on kLeastFill.
+        face.liquidVolume = std::max(full / liquidDensity_ - face.fabricVolume, 0.0) * std::min(1.0, mass / (kLeastFill * full));
+        face.fraction = std::clamp(fibres / cell, 0.0, 1.0);
+        const double shape = onFaces_.shape.block(b, a)[c], square = onFaces_.squares.block(b, a)[c];
+        const PorousLaw::Drag drag = law_.drag(face.fraction, speedAt(b, a, c));
+        face.drag = dt_ * (mass / liquidDensity_ + face.fabricVolume) * dragAlongAxis(drag, shape, square);
+
+        const MixtureSplit split = splitMixture(face);
+        const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * (gravity[a] + onFaces_.acceleration.block(b, a)[c]);
+        liquidVolume_.block(b, a)[c] = face.liquidVolume;
+        drag_.block(b, a)[c] = face.drag;
+        mixed_.block(b, a)[c] = split.ofLiquid * predicted_.block(b, a)[c] + split.ofFabric * fabric;
+        mobility_.block(b, a)[c] = split.mobility;
+    });
+}
+
+/// Room that fabric takes up is full.
+void Mixture::addDisplaced(LiquidGrid& liquid) const
+{
+    const double perVolume = liquid.fullMass / std::pow(onFaces_.grid().dx, 3);
+    forEachShared([&](int b, int m, int a, int c) {
+        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] +=
+            perVolume * (onFaces_.fibres.block(b, a)[c] + onFaces_.absorbed.block(b, a)[c]);
+    });
+}
+
+void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient)
+{
+    const double scale = dt_ / (onFaces_.grid().dx * onFaces_.grid().dx);
+    forEachShared([&](int b, int m, int a, int c) {
+        liquid.faces.velocity.block(m, a)[c] = mixed_.block(b, a)[c];
+        double& k = coefficient.block(m, a)[c];
+        if (k > 0.0) k = scale * obstacles.open(m, a)[c] * mobility_.block(b, a)[c];
+    });
+}
+
+const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
+{
+    parallelFor(liquidBlock_.size(), [&](std::size_t b) {
+        for (Faces* u : {&perMass_, &pull_, &push_}) std::fill_n(u->block(static_cast<int>(b)), Faces::kStride, 0.0);
+    });
+    forEachShared([&](int b, int m, int a, int c) {
+        const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], mobility = mobility_.block(b, a)[c];
+        const double change = liquid.faces.velocity.block(m, a)[c] - mixed_.block(b, a)[c];
+        const double push = mobility > 0.0 ? -change / mobility : 0.0;
+        double& u = predicted_.block(b, a)[c];
+        u -= liquidVolume_.block(b, a)[c] / mass * push;
+        push_.block(b, a)[c] = push;
+        perMass_.block(b, a)[c] = drag * mass / ((mass + drag) * onFaces_.mass.block(b, a)[c]);
+        pull_.block(b, a)[c] = perMass_.block(b, a)[c] * u;
+    });
+    onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = fabric_.mass[v] * d; });
+    onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = fabric_.mass[v] * f; });
+    if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= fibres_[v] * f; });
+    return loads_;
+}
+
+void Mixture::separate(const FabricState& state, LiquidGrid& liquid)
+{
+    Faces& momentum = push_;
+    onFaces_.scatter([&](int v) { return Vec3(fabric_.mass[v] * state.v[v]); }, momentum);
+    forEachShared([&](int b, int m, int a, int c) {
+        const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c];
+        const double fabric = momentum.block(b, a)[c] / onFaces_.mass.block(b, a)[c];
+        liquid.faces.velocity.block(m, a)[c] = (mass * predicted_.block(b, a)[c] + drag * fabric) / (mass + drag);
+    });
+}
+
+Vec3 Mixture::liquidMomentum(const LiquidGrid& liquid) const
+{
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t b = 0; b < liquidBlock_.size(); ++b)
+        for (int a = 0; a < kAxes; ++a) sum[a] += sumOver(liquid, static_cast<int>(b), a, [](double m, double u) { return m * u; });
+    return sum;
+}
+
+double Mixture::liquidEnergy(const LiquidGrid& liquid) const
+{
+    double sum = 0.0;
+    for (std::size_t b = 0; b < liquidBlock_.size(); ++b)
+        for (int a = 0; a < kAxes; ++a) sum += sumOver(liquid, static_cast<int>(b), a, [](double m, double u) { return 0.5 * m * u * u; });
+    return sum;
+}
+
+/// Σ of(mass, velocity) over the shared faces of a block.
+template <class Of>
+double Mixture::sumOver(const LiquidGrid& liquid, int block, int axis, Of&& of) const
+{
+    if (liquidBlock_[block] == BlockGrid::kNone) return 0.0;
+    const double *mass = liquidMass_.block(block, axis), *u = liquid.faces.velocity.block(liquidBlock_[block], axis);
+    double sum = 0.0;
+    for (int c = 0; c < kBlockCells; ++c) sum += of(mass[c], u[c]);
+    return sum;
+}
+
+bool Mixture::isShared(int axis, const Vec3i& cell) const
+{
+    const int block = onFaces_.grid().find(cell.unaryExpr([](int i) { return i >> 3; }));
+    return block != BlockGrid::kNone && liquidMass_.block(block, axis)[cellInBlock(cell.x() & 7, cell.y() & 7, cell.z() & 7)] > 0.0;
+}
+
+}  // namespace sim

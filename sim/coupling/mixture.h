@@ -1,0 +1,69 @@
+#pragma once
+
+#include "sim/coupling/fabric_on_faces.h"
+#include "sim/coupling/porous_law.h"
+#include "sim/fabric/liquid_loads.h"
+#include "sim/grid/obstacle_field.h"
+#include "sim/liquid/liquid_grid.h"
+#include "sim/settings.h"
+
+namespace sim {
+
+/// Liquid and fabric on the faces that both reach: drag, and the pressure that keeps the mixture's volume (model-fluid 6). The fabric's
+/// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off (model-fabric 13.6).
+class Mixture {
+ public:
+    Mixture(const Fabric& fabric, const Settings& settings);
+
+    /// Does a vertex lie in the box around the liquid's blocks? Elsewhere nothing is to be done.
+    bool isNear(const BlockGrid& grid, const FabricState& state) const;
+    /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the liquid's predicted velocities are
+    /// known. The volume of the fabric then counts as filled. False if there are none: nothing else is to be called then.
+    bool find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state, LiquidGrid& liquid);
+    /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
+    /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
+    void blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
+    /// After the pressure: what it and drag do to the fabric.
+    const LiquidLoads& loads(const LiquidGrid& liquid);
+    /// After the fabric: the liquid's own velocities on these faces, given those of the vertices at the end of the step.
+    void separate(const FabricState& state, LiquidGrid& liquid);
+
+    /// Momentum and kinetic energy of the liquid on the shared faces [g cm/s, erg].
+    Vec3 liquidMomentum(const LiquidGrid& liquid) const;
+    double liquidEnergy(const LiquidGrid& liquid) const;
+    /// Are both phases on the lower face of a cell?
+    bool isShared(int axis, const Vec3i& cell) const;
+
+ private:
+    using Faces = BlockArray<double, 3>;
+    bool findShared(const BlockGrid& grid);
+    void findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
+    void mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
+    void addDisplaced(LiquidGrid& liquid) const;
+    double speedAt(int block, int axis, int cell) const;
+    template <class Body>
+    void forEachShared(Body&& body) const;
+    template <class Of>
+    double sumOver(const LiquidGrid& liquid, int block, int axis, Of&& of) const;
+
+    const Fabric& fabric_;
+    PorousLaw law_;
+    double liquidDensity_;                           ///< [g/cm^3]
+    bool pressureActs_;
+    double dt_ = 0.0;                                ///< of the step under way [s]
+    std::vector<double> fibres_;                     ///< of each vertex [cm^3]
+    FabricOnFaces onFaces_;
+    std::vector<int> liquidBlock_;                   ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
+
+    // Of each face of the fabric's grid; liquidMass_ is 0 where it is not shared.
+    Faces liquidMass_;                               ///< [g]
+    Faces relative_;                                 ///< velocity of the liquid past the fabric [cm/s]
+    Faces liquidVolume_;                             ///< on which pressure pushes the liquid [cm^3]
+    Faces drag_;                                     ///< D = dt c (V_f + V_s) [g]
+    Faces predicted_;                                ///< u_f*, later ũ_f: after the pressure [cm/s]
+    Faces mixed_, mobility_;                         ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
+    Faces perMass_, pull_, push_;                    ///< D'/M_s [-], that times ũ_f [cm/s], dt ∇p [g/(cm^2 s)]
+    LiquidLoads loads_;
+};
+
+}  // namespace sim

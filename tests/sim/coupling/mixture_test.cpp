@@ -1,0 +1,116 @@
+#include "sim/coupling/mixture.h"
+#include "tests/sim/fabric/pieces.h"
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+using testing::Noise;
+
+constexpr double kStep = 1.0e-3;  // s
+
+/// Cloth and yarns in the middle of liquid that moves at random.
+struct Bath {
+    explicit Bath(DragLaw law = DragLaw::Nonlinear) : scene(Vec3i(0, 0, 0), Vec3i(16, 16, 16))
+    {
+        testing::Noise noise(7);
+        const Vec3 middle = scene.corner(Vec3i(8, 8, 8));
+        FabricPiece cloth = testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.144}, middle}), testing::wool(), {0.017, 0.017});
+        FabricPiece yarn = testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03});
+        cloth.material.volumeFraction = yarn.material.volumeFraction = 0.4;
+        fabric = assembleFabric(std::vector<FabricPiece>{cloth, yarn});
+        state = restState(fabric);
+        for (Vec3& v : state.v) v = 20.0 * noise.vector();
+        scene.fill([](const Vec3&) { return -1.0; });
+        scene.setRandomVelocities(20.0);
+        settings.cell = scene.grid.dx;
+        settings.gravity.setZero();
+        settings.coupling.drag = law;
+    }
+    Vec3 fabricMomentum() const
+    {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t v = 0; v < state.v.size(); ++v) sum += fabric.mass[v] * state.v[v];
+        return sum;
+    }
+    /// The fabric under the liquid's loads alone.
+    void moveFabric(const LiquidLoads& loads)
+    {
+        for (std::size_t v = 0; v < state.v.size(); ++v) {
+            const Vec3 inertia = Vec3::Constant(fabric.mass[v]) + loads.drag[v];
+            state.v[v] = (fabric.mass[v] * state.v[v] + loads.impulse[v]).cwiseQuotient(inertia);
+        }
+    }
+
+    GridScene scene;
+    Fabric fabric;
+    FabricState state;
+    Settings settings;
+};
+
+/// Model-fabric 13.6, T15: what drag takes from one phase it gives to the other, and it makes no energy.
+TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
+{
+    Bath bath;
+    Mixture mixture(bath.fabric, bath.settings);
+    ASSERT_TRUE(mixture.isNear(bath.scene.grid, bath.state));
+    ASSERT_TRUE(mixture.find(bath.scene.grid, bath.scene.field, Vec3::Zero(), kStep, bath.state, bath.scene.liquid));
+    const Vec3 liquidBefore = mixture.liquidMomentum(bath.scene.liquid), fabricBefore = bath.fabricMomentum();
+    const double size = fabricBefore.norm() + liquidBefore.norm();
+    const auto energy = [&] {
+        double sum = 0.0;
+        for (std::size_t v = 0; v < bath.state.v.size(); ++v) sum += 0.5 * bath.fabric.mass[v] * bath.state.v[v].squaredNorm();
+        return sum + mixture.liquidEnergy(bath.scene.liquid);
+    };
+    const double before = energy();
+
+    BlockArray<double, 3> noPressure;
+    noPressure.resize(bath.scene.grid.count());
+    for (int b = 0; b < bath.scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
+    mixture.blend(bath.scene.field, bath.scene.liquid, noPressure);
+    bath.moveFabric(mixture.loads(bath.scene.liquid));
+    mixture.separate(bath.state, bath.scene.liquid);
+
+    const Vec3 moved = bath.fabricMomentum() - fabricBefore;
+    EXPECT_GT(moved.norm(), 1.0e-3 * size);
+    EXPECT_LT((mixture.liquidMomentum(bath.scene.liquid) + bath.fabricMomentum() - liquidBefore - fabricBefore).norm(), 1.0e-13 * size);
+    EXPECT_LT(energy(), before);
+}
+
+/// Pressure moves both phases: what both get is minus its gradient over all the room.
+TEST(Mixture, PressureActsOnAllTheRoom)
+{
+    Bath bath(DragLaw::Off);
+    Mixture mixture(bath.fabric, bath.settings);
+    GridScene& scene = bath.scene;
+    ASSERT_TRUE(mixture.find(scene.grid, scene.field, Vec3::Zero(), kStep, bath.state, scene.liquid));
+    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+    const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
+    mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+    // A pressure that falls evenly along x: what solvePressure would leave on the faces.
+    constexpr double kSlope = 300.0;  // dyn/cm^3
+    double room = 0.0;
+    scene.forEachCell([&](const Vec3i& c) {
+        const CellRef ref = scene.at(c);
+        const double k = scene.work.coefficient.block(ref.block, 0)[ref.cell], dx = scene.grid.dx;
+        scene.velocity(0, c) += k * dx * dx * kSlope;
+        if (k > 0.0 && mixture.isShared(0, c)) room += dx * dx * dx;
+    });
+    bath.moveFabric(mixture.loads(scene.liquid));
+    mixture.separate(bath.state, scene.liquid);
+    const Vec3 after = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
+    EXPECT_NEAR((after - before).x(), kStep * kSlope * room, 1.0e-10 * kStep * kSlope * room);
+    EXPECT_NEAR((after - before).y(), 0.0, 1.0e-10 * kStep * kSlope * room);
+}
+
+TEST(Mixture, FarFabricIsLeftAlone)
+{
+    Bath bath;
+    for (Vec3& x : bath.state.x) x.x() += 100.0;
+    EXPECT_FALSE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
+}
+
+}  // namespace
+}  // namespace sim::test
