@@ -23,7 +23,7 @@ struct Bath {
         fabric = assembleFabric(std::vector<FabricPiece>{cloth, yarn});
         state = restState(fabric);
         for (Vec3& v : state.v) v = 20.0 * noise.vector();
-        scene.fill([](const Vec3&) { return -1.0; });
+        scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * scene.grid.dx; });
         scene.setRandomVelocities(20.0);
         settings.cell = scene.grid.dx;
         settings.gravity.setZero();
