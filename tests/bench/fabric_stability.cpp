@@ -13,7 +13,7 @@ namespace {
 
 using namespace sim;
 
-constexpr double kBetweenLooks = 1.0e-2;  // s
+constexpr double kBetweenLooks = 2.0e-2;  // s; a whole number of steps of every length in the table
 
 void print(const Scene& scene, double dt, double factor, double time, test::WatchedRun::Seen seen)
 {

@@ -65,7 +65,7 @@ TEST_P(ShippedScenes, StayWholeInLongSteps)
     Scene scene = loadScene(kScenes / (name + ".yaml"), options);
     for (FabricPiece& piece : scene.fabrics) piece.material.young *= factor;
     WatchedRun run(scene);
-    expectUntangled(run.run(4.0, 1.0e-2));
+    expectUntangled(run.run(4.0, 2.0e-2));  // looks after whole steps: none is cut shorter
 }
 
 INSTANTIATE_TEST_SUITE_P(Softness, ShippedScenes,
