@@ -48,7 +48,7 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     state_.grid.dx = settings.cell;
     state_.liquid.modeCount = storedModes(settings.transfer.modeCount());
     state_.emittedVolume.assign(scene_.sources.size(), 0.0);
-    state_.fabric = initialState(fabric_, scene_.fabrics);
+    state_.fabric = settings.fabric.solver == FabricSolver::Off ? restState(fabric_) : initialState(fabric_, scene_.fabrics);
     prepareWorkspace();
     emitLiquid(scene_, state_, state_.time, state_.time);
     maxSpeed_ = fastest(state_.liquid);

@@ -30,15 +30,15 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric) : fabric_(fabric)
     particles_.modeCount = 1;
     sortByVertex(n, fabric.edges.vertices, edgesBegin_, edgesAt_);
     sortByVertex(n, fabric.faces.vertices, facesBegin_, facesAt_);
-    squares_.resize(n);
+    squaresOf_.resize(n);
     for (std::size_t v = 0; v < n; ++v) {
-        fibres_.push_back(fabric.materials[fabric.vertexMaterial[v]].volumeFraction * fabric.volume[v]);
-        double yarn = 0.0;  // share of the volume
+        fibresOf_.push_back(fabric.materials[fabric.vertexMaterial[v]].volumeFraction * fabric.volume[v]);
+        double yarn = 0.0;  // volume [cm^3]
         for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
             const auto [a, b] = fabric.strands.radius[fabric.edges.strand[edgesAt_[i]]];
             yarn += 0.5 * kPi * a * b * fabric.edges.restLength[edgesAt_[i]];
         }
-        shape_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
+        shapeOf_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
     }
 }
 
@@ -73,7 +73,7 @@ void FabricOnFaces::findDirections(const FabricState& state)
             const Vec3 area = (state.x[f[1]] - state.x[f[0]]).cross(state.x[f[2]] - state.x[f[0]]);
             if (area.norm() > 0.0) normals += area.cwiseAbs2() / area.norm();
         }
-        squares_[v] = shape_[v] * normalized(tangents) + (1.0 - shape_[v]) * normalized(normals);
+        squaresOf_[v] = shapeOf_[v] * normalized(tangents) + (1.0 - shapeOf_[v]) * normalized(normals);
     });
 }
 
@@ -87,8 +87,9 @@ void FabricOnFaces::divideByMass(BlockArray<double, 3>& u) const
     });
 }
 
-void FabricOnFaces::spread(std::span<const double> massOf, std::span<const double> absorbedBy, const FabricState& state)
+void FabricOnFaces::spread(const FabricState& state)
 {
+    const std::vector<double>& massOf = fabric_.mass;
     // The sort has moved the particles; their ids tell which is which.
     parallelFor(particles_.count, kGrain, [&](std::size_t s) { particles_.mass[s] = massOf[particles_.id[s]]; });
     for (int a = 0; a < kAxes; ++a) {
@@ -96,7 +97,7 @@ void FabricOnFaces::spread(std::span<const double> massOf, std::span<const doubl
         parallelFor(particles_.count, kGrain, [&](std::size_t s) { mode[order_.source[s]] = state.v[particles_.id[s]][a]; });
     }
     particlesToFaces(particles_, order_, grid_, scatter_, sums_);
-    for (BlockArray<double, 3>* u : {&mass, &velocity, &acceleration, &fibres, &absorbed, &shape, &squares}) u->resize(grid_.count());
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &acceleration, &fibres, &shape, &squares}) u->resize(grid_.count());
     parallelFor(grid_.count(), 8, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         std::copy_n(sums_.sums.block(b, FaceFields::kMass), kAxes * kBlockCells, mass.block(b));
@@ -106,10 +107,9 @@ void FabricOnFaces::spread(std::span<const double> massOf, std::span<const doubl
     findDirections(state);
     divideByMass(velocity);
     scatter([&](int v) { return Vec3(massOf[v] * state.acceleration[v]); }, acceleration);
-    scatter([&](int v) { return Vec3::Constant(fibres_[v]); }, fibres);
-    scatter([&](int v) { return Vec3::Constant(absorbedBy.empty() ? 0.0 : absorbedBy[v]); }, absorbed);
-    scatter([&](int v) { return Vec3::Constant(massOf[v] * shape_[v]); }, shape);
-    scatter([&](int v) { return Vec3(massOf[v] * squares_[v]); }, squares);
+    scatter([&](int v) { return Vec3::Constant(fibresOf_[v]); }, fibres);
+    scatter([&](int v) { return Vec3::Constant(massOf[v] * shapeOf_[v]); }, shape);
+    scatter([&](int v) { return Vec3(massOf[v] * squaresOf_[v]); }, squares);
     divideByMass(acceleration);
     divideByMass(shape);
     divideByMass(squares);

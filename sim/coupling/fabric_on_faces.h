@@ -4,7 +4,6 @@
 #include "sim/fabric/grid/block_points.h"
 #include "sim/transfer/scatter.h"
 
-#include <span>
 #include <vector>
 
 namespace sim {
@@ -18,18 +17,16 @@ class FabricOnFaces {
     /// Finds the blocks of the vertices, with cells like those of `grid`.
     void place(const BlockGrid& grid, const FabricState& state);
     /// P2G of all fields, after place().
-    /// @param mass      of each vertex, with what it has absorbed [g]
-    /// @param absorbed  liquid in each vertex [cm^3]
-    void spread(std::span<const double> mass, std::span<const double> absorbed, const FabricState& state);
+    void spread(const FabricState& state);
 
     const BlockGrid& grid() const { return grid_; }
+    double fibresOf(int vertex) const { return fibresOf_[vertex]; }  ///< volume of the fibres [cm^3]
 
     // Of each face; of its own component where there are several.
     BlockArray<double, 3> mass;           ///< [g]
     BlockArray<double, 3> velocity;       ///< [cm/s]
     BlockArray<double, 3> acceleration;   ///< by all forces but gravity over the last step [cm/s^2]
     BlockArray<double, 3> fibres;         ///< volume of the fibres [cm^3]
-    BlockArray<double, 3> absorbed;       ///< volume of the liquid in them [cm^3]
     BlockArray<double, 3> shape;          ///< 1 = yarns, 0 = cloth, or between
     BlockArray<double, 3> squares;        ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
@@ -45,8 +42,8 @@ class FabricOnFaces {
     void divideByMass(BlockArray<double, 3>& u) const;
 
     const Fabric& fabric_;
-    std::vector<double> fibres_, shape_;            ///< of each vertex [cm^3, -]
-    std::vector<Vec3> squares_;                     ///< of each vertex
+    std::vector<double> fibresOf_, shapeOf_;        ///< of each vertex [cm^3, -]
+    std::vector<Vec3> squaresOf_;                   ///< of each vertex
     std::vector<int> edgesBegin_, edgesAt_;         ///< of each vertex: yarn edges that end there
     std::vector<int> facesBegin_, facesAt_;
 

@@ -33,8 +33,6 @@ Mixture::Mixture(const Fabric& fabric, const Settings& settings)
       pressureActs_(settings.coupling.pressureOnFabric),
       onFaces_(fabric)
 {
-    for (std::size_t v = 0; v < fabric.vertexCount(); ++v)
-        fibres_.push_back(fabric.materials[fabric.vertexMaterial[v]].volumeFraction * fabric.volume[v]);
     loads_.drag.resize(fabric.vertexCount());
     loads_.impulse.resize(fabric.vertexCount());
 }
@@ -47,6 +45,9 @@ bool Mixture::isNear(const BlockGrid& grid, const FabricState& state) const
         box.extend(grid.lowerCorner(b));
         box.extend(grid.lowerCorner(b) + Vec3::Constant(kBlockEdge * grid.dx));
     }
+    const Vec3 reach = Vec3::Constant(2.0 * grid.dx);  // of a vertex' stencil
+    box.min() -= reach;
+    box.max() += reach;
     return std::ranges::any_of(state.x, [&](const Vec3& x) { return box.contains(x); });
 }
 
@@ -63,7 +64,7 @@ bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const 
     onFaces_.place(grid, state);
     if (!findShared(grid)) return false;
     dt_ = dt;
-    onFaces_.spread(fabric_.mass, {}, state);
+    onFaces_.spread(state);
     for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &perMass_, &pull_, &push_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, obstacles, liquid);
@@ -121,12 +122,12 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
 {
     const double cell = std::pow(onFaces_.grid().dx, 3);
     forEachShared([&](int b, int m, int a, int c) {
-        const double fibres = onFaces_.fibres.block(b, a)[c], absorbed = onFaces_.absorbed.block(b, a)[c];
+        const double fibres = onFaces_.fibres.block(b, a)[c];
         const double mass = liquidMass_.block(b, a)[c], full = liquid.fullMass * obstacles.room(m, a)[c];
         MixtureFace face;
         face.liquidMass = mass;
         face.fabricMass = onFaces_.mass.block(b, a)[c];
-        face.fabricVolume = fibres + absorbed;
+        face.fabricVolume = fibres;
         // Pressure acts on all the room that the fabric leaves, as without fabric; on a little liquid as on kLeastFill.
         face.liquidVolume = std::max(full / liquidDensity_ - face.fabricVolume, 0.0) * std::min(1.0, mass / (kLeastFill * full));
         face.fraction = std::clamp(fibres / cell, 0.0, 1.0);
@@ -148,8 +149,7 @@ void Mixture::addDisplaced(LiquidGrid& liquid) const
 {
     const double perVolume = liquid.fullMass / std::pow(onFaces_.grid().dx, 3);
     forEachShared([&](int b, int m, int a, int c) {
-        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] +=
-            perVolume * (onFaces_.fibres.block(b, a)[c] + onFaces_.absorbed.block(b, a)[c]);
+        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.fibres.block(b, a)[c];
     });
 }
 
@@ -180,7 +180,7 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
     });
     onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = fabric_.mass[v] * d; });
     onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = fabric_.mass[v] * f; });
-    if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= fibres_[v] * f; });
+    if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.fibresOf(v) * f; });
     return loads_;
 }
 

@@ -15,7 +15,7 @@ class Mixture {
  public:
     Mixture(const Fabric& fabric, const Settings& settings);
 
-    /// Does a vertex lie in the box around the liquid's blocks? Elsewhere nothing is to be done.
+    /// Does a vertex reach the box around the liquid's blocks? Elsewhere nothing is to be done.
     bool isNear(const BlockGrid& grid, const FabricState& state) const;
     /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the liquid's predicted velocities are
     /// known. The volume of the fabric then counts as filled. False if there are none: nothing else is to be called then.
@@ -51,7 +51,6 @@ class Mixture {
     double liquidDensity_;                           ///< [g/cm^3]
     bool pressureActs_;
     double dt_ = 0.0;                                ///< of the step under way [s]
-    std::vector<double> fibres_;                     ///< of each vertex [cm^3]
     FabricOnFaces onFaces_;
     std::vector<int> liquidBlock_;                   ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
 

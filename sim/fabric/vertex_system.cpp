@@ -119,7 +119,7 @@ void VertexSystem::addInertia(const NewtonPoint& at)
             gradient_[slot + a * kLanes] += at.inertia[v][a] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
         }
     });
-    totalMass_ = parallelSum(at.inertia.size(), [&](std::size_t v) { return fabric_.pinned[v] ? 0.0 : at.inertia[v].minCoeff(); });
+    totalMass_ = parallelSum(at.inertia.size(), [&](std::size_t v) { return fabric_.pinned[v] ? 0.0 : at.inertia[v].mean(); });
 }
 
 void VertexSystem::emptySharedRows()

@@ -97,7 +97,7 @@ class VertexSystem {
     std::vector<Mat3> clothExtra_;           ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
     mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
     std::vector<Link> links_;
-    double totalMass_ = 0.0;
+    double totalMass_ = 0.0;                 ///< of what is not pinned, with drag [g]
 
     /// A pair's part of C as the solver reads it; vectors have a fourth component, 0.
     struct PairBlock {

@@ -76,6 +76,20 @@ void checkSource(const SourceSettings& source, const Scene& scene)
     }
 }
 
+/// What liquid and fabric cannot do together.
+void checkCoupling(const Scene& scene)
+{
+    if (scene.fabrics.empty() || scene.sources.empty()) return;
+    const std::string& where = scene.fabrics[0].where;
+    if (scene.settings.fabric.solver == FabricSolver::Grid)
+        fail(where, "fabrics: liquid does not act on fabric.solver grid in this version; choose vertex");
+    const CouplingSettings& coupling = scene.settings.coupling;
+    if (coupling.drag == DragLaw::Nonlinear && coupling.dragExponent > 1.0 && scene.settings.liquid.viscosity == 0.0)
+        fail(where, fmt::format("fabrics: nonlinear drag with exponent {} is infinite at liquid.viscosity 0; give a viscosity, "
+                                "or choose coupling.drag_exponent 1 or coupling.drag linear",
+                                coupling.dragExponent));
+}
+
 }  // namespace
 
 void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid)
@@ -115,8 +129,7 @@ Scene readScene(const SceneFile& file)
     }
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
     for (const SourceSettings& source : scene.sources) checkSource(source, scene);
-    if (!scene.fabrics.empty() && !scene.sources.empty() && scene.settings.fabric.solver == FabricSolver::Grid)
-        fail(scene.fabrics[0].where, "fabrics: liquid does not act on fabric.solver grid in this version; choose vertex");
+    checkCoupling(scene);
     return scene;
 }
 

@@ -195,7 +195,7 @@ void BlockPoints::find(const LiquidParticles& particles, const ParticleOrder& or
                        std::uint32_t idEnd)
 {
     clear();
-    std::vector<int> row;  // of each point: among the sorted particles
+    row.clear();
     for (int block : order.occupied) {
         const int* ranks = order.cells(block);
         for (int rank = 0; rank < kBlockCells; ++rank) {

@@ -25,6 +25,7 @@ struct BlockPoints {
     std::vector<Cell> cells;      ///< and one behind the last, where the points end
     std::vector<int> id;          ///< of each point: number of the vertex or element
     std::array<AlignedArray<double>, kAxes> inCell;  ///< of each point: position in its cell, in cells, 0..1
+    std::vector<int> row;         ///< of each point after find(): among the sorted particles
 
     void clear();
     std::size_t size() const { return id.size(); }

@@ -112,5 +112,16 @@ TEST(Mixture, FarFabricIsLeftAlone)
     EXPECT_FALSE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
 }
 
+/// A vertex shares faces with the liquid from outside of its blocks: the stencil reaches over their edge.
+TEST(Mixture, FabricBesideTheLiquidsBlocksCounts)
+{
+    Bath bath;
+    const double edge = bath.scene.corner(Vec3i(16, 0, 0)).x();  // of the last block
+    for (Vec3& x : bath.state.x) x.x() = edge + 0.4 * bath.scene.grid.dx;
+    EXPECT_TRUE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
+    for (Vec3& x : bath.state.x) x.x() = edge + 2.1 * bath.scene.grid.dx;
+    EXPECT_FALSE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
+}
+
 }  // namespace
 }  // namespace sim::test

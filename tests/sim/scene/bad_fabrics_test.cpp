@@ -31,6 +31,11 @@ const BadFabric kBadFabrics[] = {
      "liquid: {sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n"
      "fabric: {solver: grid}\n",
      "bad.yaml:3: fabrics: liquid does not act on fabric.solver grid in this version; choose vertex"},
+    {"InfiniteDrag",
+     "fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: 0.1}}]\n"
+     "liquid: {viscosity: 0, sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n",
+     "bad.yaml:3: fabrics: nonlinear drag with exponent 1.6 is infinite at liquid.viscosity 0; give a viscosity, "
+     "or choose coupling.drag_exponent 1 or coupling.drag linear"},
     {"TwoShapes", "fabrics: [{strand: {}, cloth_grid: {}}]\n",
      "bad.yaml:3: fabrics.0: has both cloth_grid and strand; make them two pieces"},
     {"NotAList", "fabrics: {cloth: {}}\n", "bad.yaml:3: fabrics: needs a list like [{cloth_grid: …}], not a map"},
