@@ -126,7 +126,7 @@ void describeFabricLook(V& v, FabricLookSettings& f)
                "Values at the ends of the colours");
         w.require(f.range[0] < f.range[1], "range", "must end above its beginning");
     });
-    v.withoutEffect([&](auto& w) { w.color("wet_color", f.wetColor, "Colour of soaked fabric"); });
+    v.color("wet_color", f.wetColor, "Colour of soaked fabric, color_by material");
     v.whenReading([&](auto& r) {
         f.ownColor = r.has("color");
         const bool isMapped = f.colorBy != FabricColorBy::Material;

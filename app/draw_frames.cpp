@@ -50,6 +50,7 @@ void fillIn(const FabricLookSettings& settings, render::FabricLook& look)
 {
     look.byValue = settings.colorBy != FabricColorBy::Material;
     if (settings.ownColor) look.colors = {settings.color};
+    look.wetColor = settings.wetColor;
     look.colorMap = colorMapOf(settings.colorMap);
     look.range = toFloat(settings.range);
     look.colorBarTitle = settings.colorBy == FabricColorBy::Strain ? kStrainTitle : kSpeedTitle;

@@ -65,6 +65,18 @@ std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, co
     return speeds;
 }
 
+/// How full the pores of each vertex are, 0 … 1; empty where all are dry.
+std::vector<float> wetnessOf(const Fabric& fabric, const FabricState& state, double liquidDensity)
+{
+    if (std::ranges::all_of(state.absorbed, [](double mass) { return mass == 0.0; })) return {};
+    std::vector<float> wetness(fabric.vertexCount(), 0.0f);
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) {
+        const double capacity = poreVolume(fabric, v) * liquidDensity;
+        if (capacity > 0.0) wetness[v] = static_cast<float>(std::min(1.0, state.absorbed[v] / capacity));
+    }
+    return wetness;
+}
+
 }  // namespace
 
 std::vector<double> yarnStrain(const Fabric& fabric, const FabricState& state)
@@ -90,16 +102,17 @@ std::vector<double> clothStrain(const Fabric& fabric, const FabricState& state)
     return strain;
 }
 
-void takeYarns(const Fabric& fabric, const FabricState& state, FabricColorBy colorBy, FrameSnapshot::Yarns& out)
+void takeYarns(const Fabric& fabric, const FabricState& state, double liquidDensity, FabricColorBy colorBy, FrameSnapshot::Yarns& out)
 {
     for (auto* positions : {&out.positions, &out.directions}) positions->clear();
-    for (auto* numbers : {&out.along, &out.values}) numbers->clear();
+    for (auto* numbers : {&out.along, &out.values, &out.wetness}) numbers->clear();
     for (auto* numbers : {&out.begin, &out.materials}) numbers->clear();
     out.halfAxes.clear();
     const Fabric::Strands& strands = fabric.strands;
     if (strands.count() == 0) return;
 
     const std::vector<double> values = vertexValues(colorBy, fabric, state, yarnStrain);
+    const std::vector<float> wetness = wetnessOf(fabric, state, liquidDensity);
     out.begin = strands.begin;
     out.materials = strands.material;
     for (int s = 0; s < strands.count(); ++s) {
@@ -112,20 +125,23 @@ void takeYarns(const Fabric& fabric, const FabricState& state, FabricColorBy col
             out.directions.push_back(directionAt(fabric, state, s, j).cast<float>());
             out.along.push_back(static_cast<float>(along));
             if (!values.empty()) out.values.push_back(static_cast<float>(values[v]));
+            if (!wetness.empty()) out.wetness.push_back(wetness[v]);
         }
     }
 }
 
-void takeCloth(const Fabric& fabric, const FabricState& state, FabricColorBy colorBy, FrameSnapshot::Cloth& out)
+void takeCloth(const Fabric& fabric, const FabricState& state, double liquidDensity, FabricColorBy colorBy, FrameSnapshot::Cloth& out)
 {
     out.positions.clear();
     out.values.clear();
+    out.wetness.clear();
     out.triangles = fabric.faces.vertices;
     const std::size_t count = fabric.faces.size() > 0 ? fabric.vertexCount() : 0;
     out.thickness.assign(count, 0.0f);
     out.materials.assign(count, 0);
     if (count == 0) return;
 
+    out.wetness = wetnessOf(fabric, state, liquidDensity);
     for (const Vec3& x : state.x) out.positions.push_back(x.cast<float>());
     for (const double value : vertexValues(colorBy, fabric, state, clothStrain))
         out.values.push_back(static_cast<float>(value));

@@ -7,11 +7,11 @@
 namespace app {
 
 /// Yarns as they are now. Without any, all is empty.
-void takeYarns(const sim::Fabric& fabric, const sim::FabricState& state, FabricColorBy colorBy,
+void takeYarns(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy,
                FrameSnapshot::Yarns& out);
 
 /// Cloth as it is now. Without any, all is empty.
-void takeCloth(const sim::Fabric& fabric, const sim::FabricState& state, FabricColorBy colorBy,
+void takeCloth(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy,
                FrameSnapshot::Cloth& out);
 
 /// Of each vertex: the largest relative lengthening of the yarn edges that meet there; 0 where there are none [-].

@@ -16,12 +16,14 @@ render::FrameView FrameSnapshot::view()
                       .begin = yarns.begin,
                       .halfAxes = yarns.halfAxes,
                       .materials = yarns.materials,
-                      .values = yarns.values},
+                      .values = yarns.values,
+                      .wetness = yarns.wetness},
             .cloth = {.positions = cloth.positions,
                       .triangles = cloth.triangles,
                       .thickness = cloth.thickness,
                       .materials = cloth.materials,
-                      .values = cloth.values}};
+                      .values = cloth.values,
+                      .wetness = cloth.wetness}};
 }
 
 }  // namespace app

@@ -21,14 +21,14 @@ struct FrameSnapshot {
 
     struct Yarns {
         std::vector<Eigen::Vector3f> positions, directions;  ///< [cm], [-]
-        std::vector<float> along, values;         ///< [cm]; values empty where the colour is that of the material
+        std::vector<float> along, values, wetness;  ///< [cm]; values empty where the colour is that of the material, wetness [0..1] where all is dry
         std::vector<int> begin, materials;
         std::vector<std::array<float, 2>> halfAxes;   ///< [cm]
     };
     struct Cloth {
         std::vector<Eigen::Vector3f> positions;   ///< of all vertices of the fabric; empty without faces [cm]
         std::vector<Eigen::Vector3i> triangles;
-        std::vector<float> thickness, values;     ///< [cm]; values as those of yarns
+        std::vector<float> thickness, values, wetness;  ///< [cm]; as those of yarns
         std::vector<int> materials;
     };
 

@@ -33,8 +33,8 @@ void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, double den
         snapshot.positions[p] = liquid.position(p).cast<float>();
         snapshot.speeds[p] = static_cast<float>(liquid.velocity(p).norm());
     });
-    takeYarns(fabric, state.fabric, look.yarns.colorBy, snapshot.yarns);
-    takeCloth(fabric, state.fabric, look.cloth.colorBy, snapshot.cloth);
+    takeYarns(fabric, state.fabric, density, look.yarns.colorBy, snapshot.yarns);
+    takeCloth(fabric, state.fabric, density, look.cloth.colorBy, snapshot.cloth);
 }
 
 }  // namespace app

@@ -73,7 +73,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"blocks", report.blocks},
         {"cells", report.liquidCells},
         {"energy", energyJson(report.energies)},
-        {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}}},
+        {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}, {"absorbed_mass", report.absorbedMass}}},
     };
     if (!state.fabric.x.empty()) line["fabric"] = fabricJson(report);
     return line.dump();
@@ -232,7 +232,7 @@ void Reports::step(const sim::State& state, const sim::StepReport& report)
     summary_.largestCfl = std::max(summary_.largestCfl, report.cfl);
     const double entered = state.ledger.emittedMass;
     if (entered > 0.0)
-        summary_.massError = std::max(summary_.massError, std::abs(entered - state.ledger.leftMass - report.liquidMass) / entered);
+        summary_.massError = std::max(summary_.massError, std::abs(entered - state.ledger.leftMass - report.liquidMass - report.absorbedMass) / entered);
 }
 
 void Reports::finish(RunStatus status, const std::string& reason, const std::string& stateHash)

@@ -11,10 +11,12 @@ namespace render {
 /// What a vertex of fabric says of its colour; its alpha: 255 = this colour, 0 = that of its value in the colour map.
 using Paint = std::array<std::uint8_t, 4>;
 
-inline Paint paintOf(const FabricLook& look, int material)
+/// @param wetness  0 = dry … 1 = soaked
+inline Paint paintOf(const FabricLook& look, int material, float wetness = 0.0f)
 {
     if (look.byValue || look.colors.empty()) return {0, 0, 0, 0};
-    const Rgb color = toRgb(look.colors[static_cast<std::size_t>(std::max(material, 0)) % look.colors.size()]);
+    const Eigen::Vector3f& dry = look.colors[static_cast<std::size_t>(std::max(material, 0)) % look.colors.size()];
+    const Rgb color = toRgb(dry + std::clamp(wetness, 0.0f, 1.0f) * (look.wetColor - dry));
     return {color.r, color.g, color.b, 255};
 }
 

@@ -24,6 +24,7 @@ struct FrameView {
         std::span<const std::array<float, 2>> halfAxes;  ///< per strand: of the section along m1 and across it [cm]
         std::span<const int> materials;            ///< per strand: which colour of the look
         std::span<const float> values;             ///< per position what colours it; needed by a look that says so
+        std::span<const float> wetness = {};       ///< per position: 0 = dry … 1 = soaked; empty where all is dry
     };
     struct Cloth {
         std::span<const Eigen::Vector3f> positions;    ///< those that no triangle names are not drawn
@@ -31,6 +32,7 @@ struct FrameView {
         std::span<const float> thickness;          ///< per position, of the whole cloth [cm]
         std::span<const int> materials;            ///< per position: which colour of the look
         std::span<const float> values;             ///< per position what colours it; needed by a look that says so
+        std::span<const float> wetness = {};       ///< per position: 0 = dry … 1 = soaked; empty where all is dry
     };
     struct Mesh {
         std::span<const Eigen::Vector3f> positions;

@@ -18,7 +18,7 @@ constexpr float kThinPixels = 3.5f;  ///< radius below which yarns.frag has let 
 /// Section of a tube at one place along it.
 struct Ring {
     Vector3f center, tangent, m1;
-    float turn, value;
+    float turn, value, wetness;
 };
 
 Vector3f anyAcross(const Vector3f& tangent)
@@ -74,6 +74,7 @@ class Strand {
         const auto between = [&](std::span<const float> f) { return (1.0f - u) * f[first_ + i] + u * f[first_ + j]; };
         ring.turn = between(yarns_.along) / pitch_;
         ring.value = yarns_.values.empty() ? 0.0f : between(yarns_.values);
+        ring.wetness = yarns_.wetness.empty() ? 0.0f : between(yarns_.wetness);
         return ring;
     }
     float turnsOf(float length) const { return length / pitch_; }
@@ -134,8 +135,8 @@ class Fineness {
 /// Writes rings of `sides` + 1 corners (the seam has two) and joins each to the one before it.
 class RingWriter {
  public:
-    RingWriter(const Strand& strand, int sides, const std::array<std::uint8_t, 4>& color, TubeMesh& mesh)
-        : strand_(strand), sides_(sides), color_(color), mesh_(mesh)
+    RingWriter(const Strand& strand, int sides, const TubePaint& paint, TubeMesh& mesh)
+        : strand_(strand), sides_(sides), paint_(paint), mesh_(mesh)
     {
         // Seen from all around, a polygon with corners on a circle is narrower than the circle: on average by this.
         const float n = static_cast<float>(sides);
@@ -150,6 +151,7 @@ class RingWriter {
         const float reach = std::min(a, b) * tip;
         const Vector3f center = ring.center + reach * ring.tangent;
         const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+        const std::array<std::uint8_t, 4> color = paint_(ring.wetness);
         for (int k = 0; k <= sides_; ++k) {
             const float angle = static_cast<float>(k) / static_cast<float>(sides_);
             const float c = std::cos(2.0f * kPi * angle), s = std::sin(2.0f * kPi * angle);
@@ -160,7 +162,7 @@ class RingWriter {
                                       .turn = ring.turn + strand_.turnsOf(reach),
                                       .angle = angle,
                                       .value = ring.value,
-                                      .color = color_});
+                                      .color = color});
         }
         if (hasBefore_) join(first - static_cast<std::uint32_t>(sides_) - 1, first);
         hasBefore_ = true;
@@ -176,7 +178,7 @@ class RingWriter {
 
     const Strand& strand_;
     int sides_;
-    std::array<std::uint8_t, 4> color_;
+    const TubePaint& paint_;
     TubeMesh& mesh_;
     float widening_ = 1.0f;
     bool hasBefore_ = false;
@@ -190,13 +192,12 @@ bool isThin(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& de
     return Fineness(strand, detail).radiusPixels() < kThinPixels;
 }
 
-void addTube(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail,
-             const std::array<std::uint8_t, 4>& color, TubeMesh& mesh)
+void addTube(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail, const TubePaint& paint, TubeMesh& mesh)
 {
     const Strand strand(yarns, strandIndex);
     if (strand.size() < 2 || !(std::min(strand.a(), strand.b()) > 0.0f)) return;
     const Fineness fineness(strand, detail);
-    RingWriter writer(strand, fineness.sides(), color, mesh);
+    RingWriter writer(strand, fineness.sides(), paint, mesh);
     const int caps = fineness.capRings(), last = strand.size() - 2;
 
     const Ring begin = strand.ring(0, 0.0f);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace render {
@@ -33,11 +34,12 @@ struct TubeDetail {
 /// The strand is so thin in the picture that its plies cannot be seen.
 bool isThin(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail);
 
+/// The color of a Vertex by its wetness, 0 = dry … 1 = soaked.
+using TubePaint = std::function<std::array<std::uint8_t, 4>(float)>;
+
 /// Adds one strand: a tube of elliptic section with round ends, through the vertices and round between them. Vertices
 /// that are not finite end the tube; a strand of one vertex or without extent has none.
 /// @param strand  in view.begin
-/// @param color   as in Vertex
-void addTube(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail,
-             const std::array<std::uint8_t, 4>& color, TubeMesh& mesh);
+void addTube(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail, const TubePaint& paint, TubeMesh& mesh);
 
 }  // namespace render

@@ -109,11 +109,26 @@ struct PorousSettings {
 
 enum class DragLaw { Off, Linear, Nonlinear };
 
+/// How fabric takes up liquid.
+struct CaptureSettings {
+    double rate = 1.0;          ///< Factor on the rate; 0 = fabric stays dry [-]
+    double compatFactor = 3.0;  ///< Another; 3 is the published one, 1 the physical [-]
+};
+
+/// How liquid moves in fabric.
+struct WickingSettings {
+    double rateScale = 1.0;     ///< Factor on the flow; 0 = liquid stays where it was taken up [-]
+    bool pressure = true;       ///< The pressure of the liquid around drives it too
+};
+
 /// How liquid and fabric act on each other (model-fluid 6, 8, 9).
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
     double dragExponent = 1.6;          ///< of the speed, nonlinear only; 1 = Forchheimer [-]
     bool pressureOnFabric = true;       ///< the liquid's pressure pushes fabric: buoyancy
+    CaptureSettings capture;
+    WickingSettings wicking;
+    bool drip = true;                   ///< fabric lets go of what its pores cannot hold
 };
 
 struct SolverSettings {

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sim {
 
@@ -34,6 +36,13 @@ double packingOfSources(const Scene& scene)
     return packing > 0.0 ? packing : 1.0;
 }
 
+/// Of a particle that fabric lets go: like those of the first source [g].
+double nominalMass(const Scene& scene)
+{
+    const FillSettings fill = scene.sources.empty() ? FillSettings() : scene.sources[0].fill;
+    return scene.settings.liquid.density * packingOf(fill.pattern) * std::pow(particleSpacing(fill, scene.settings.cell), 3);
+}
+
 double fastest(const LiquidParticles& particles)
 {
     return parallelMax(particles.count, [&](std::size_t p) { return particles.velocity(p).norm(); });
@@ -48,7 +57,8 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     state_.grid.dx = settings.cell;
     state_.liquid.modeCount = storedModes(settings.transfer.modeCount());
     state_.emittedVolume.assign(scene_.sources.size(), 0.0);
-    state_.fabric = settings.fabric.solver == FabricSolver::Off ? restState(fabric_) : initialState(fabric_, scene_.fabrics);
+    state_.fabric = settings.fabric.solver == FabricSolver::Off ? restState(fabric_) : initialState(fabric_, scene_.fabrics, settings.liquid.density);
+    state_.ledger.emittedMass = std::accumulate(state_.fabric.absorbed.begin(), state_.fabric.absorbed.end(), 0.0);
     prepareWorkspace();
     emitLiquid(scene_, state_, state_.time, state_.time);
     maxSpeed_ = fastest(state_.liquid);
@@ -70,7 +80,10 @@ void Simulation::prepareWorkspace()
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_);
-    if (!fabric_.empty() && !scene_.sources.empty()) work_.mixture = std::make_unique<Mixture>(fabric_, scene_.settings);
+    if (scene_.settings.fabric.solver == FabricSolver::Off) std::ranges::fill(fabric_.pinned, 1);
+    const bool isWet = std::ranges::any_of(scene_.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
+    if (!fabric_.empty() && (isWet || !scene_.sources.empty()))
+        work_.coupling = std::make_unique<Coupling>(fabric_, scene_.settings, nominalMass(scene_));
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
         work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
@@ -135,7 +148,7 @@ std::uint64_t stateHash(const State& state)
     const FabricState& fabric = state.fabric;
     for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference, &fabric.across, &fabric.acceleration})
         add(v->data(), v->size() * sizeof(Vec3));
-    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist, &fabric.modes})
+    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist, &fabric.modes, &fabric.absorbed})
         add(v->data(), v->size() * sizeof(double));
     add(&fabric.sinceGather, sizeof fabric.sinceGather);
     add(&fabric.lastFraction, sizeof fabric.lastFraction);

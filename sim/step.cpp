@@ -80,7 +80,8 @@ void finishAtWalls(const BlockGrid& grid, double friction, bool flip, Workspace&
 /// What a step of the liquid does beside the usual.
 struct LiquidPlan {
     bool flips = false, relaxes = false, corrects = false;
-    bool isMixed = false;  ///< with fabric
+    bool meetsFabric = false;  ///< is near enough to
+    bool isMixed = false;      ///< with fabric on some faces
 };
 
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
@@ -103,6 +104,13 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
     work.obstacleField.update(grid, work.order.previous, work.obstacles, wallsMirror(settings.liquid.wallFriction));
 
+    plan.meetsFabric = work.coupling && reachesLiquid(grid, state.fabric);
+    if (plan.meetsFabric) {
+        clock.start(Stage::Capture);
+        work.coupling->vertices.sort(grid, state.fabric);
+        report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
+    }
+
     state.unrelaxed += dt;
     state.uncorrected += dt;
     plan.relaxes = work.relaxReach > 0.0 && isDue(settings.liquid.relax.rate, state.unrelaxed, dt);
@@ -121,9 +129,9 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
     divideAndAddGravity(grid, settings.gravity, dt, plan.flips, work.grid);
 
-    if (work.mixture && work.mixture->isNear(grid, state.fabric)) {
+    if (plan.meetsFabric) {
         clock.start(Stage::Mixture);
-        plan.isMixed = work.mixture->find(grid, work.obstacleField, settings.gravity, dt, state.fabric, work.grid);
+        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, work.grid);
     }
 
     clock.start(Stage::Cells);
@@ -132,7 +140,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
 
     clock.start(Stage::Pressure);
     findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
-    if (plan.isMixed) work.mixture->blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
 
     if (plan.corrects) {
@@ -181,14 +189,38 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
     const LiquidLoads* loads = nullptr;
     if (plan.isMixed) {
         clock.start(Stage::Mixture);
-        loads = &work.mixture->loads(work.grid);
+        loads = &work.coupling->mixture.loads(work.grid);
     }
     if (work.fabric) report.fabric = work.fabric->step(state.time, dt, settings.gravity, state.fabric, clock, loads);
     if (work.gridFabric) report.fabric = work.gridFabric->step(state.time, dt, settings.gravity, state.fabric, clock);
     if (plan.isMixed) {
         clock.start(Stage::Mixture);
-        work.mixture->separate(state.fabric, work.grid);
+        work.coupling->mixture.separate(state.fabric, work.grid);
     }
+}
+
+/// Liquid that leaves the fabric, and that moves in it.
+void exchange(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
+{
+    Coupling& coupling = *work.coupling;
+    LiquidParticles& particles = state.liquid;
+    if (plan.meetsFabric) coupling.capture.dropEmptied(particles);
+    if (coupling.wicking.isWet(state.fabric)) {
+        if (settings.coupling.drip) {
+            clock.start(Stage::Drip);
+            const std::size_t before = particles.count;
+            report.drippedMass = coupling.drip.drip(state);
+            for (std::size_t p = before; p < particles.count; ++p) {
+                report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();
+                report.energies.potential -= particles.mass[p] * settings.gravity.dot(particles.position(p));
+            }
+        }
+        clock.start(Stage::Wicking);
+        coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
+    }
+    report.particles = particles.count;
+    report.liquidMass += report.drippedMass;
+    report.absorbedMass = parallelSum(state.fabric.absorbed.size(), [&](std::size_t v) { return state.fabric.absorbed[v]; });
 }
 
 void findFabricEnergies(const State& state, const Settings& settings, const Workspace& work, StepReport& report)
@@ -215,8 +247,10 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     const bool isWet = hasLiquid(state);
     LiquidPlan plan;
     if (isWet) plan = startLiquid(state, scene, work, dt, report, clock);
+    if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     stepFabric(state, scene.settings, work, dt, plan, report, clock);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock);
+    if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock);
     findFabricEnergies(state, scene.settings, work, report);
 
     state.time += dt;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/coupling/mixture.h"
+#include "sim/coupling/coupling.h"
 #include "sim/fabric/grid/grid_solver.h"
 #include "sim/fabric/vertex_solver.h"
 #include "sim/liquid/extrapolate.h"
@@ -33,7 +33,7 @@ struct Workspace {
     RelaxScratch relax;
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
-    std::unique_ptr<Mixture> mixture;                      ///< where there are liquid and fabric
+    std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
     std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these two …
     std::unique_ptr<GridFabricSolver> gridFabric;          ///< … or neither, where there is no fabric that moves
 };

@@ -13,6 +13,7 @@ enum class Stage {
     Emit,
     Sort,
     Obstacles,
+    Capture,           ///< fabric takes up liquid
     Relax,
     ParticlesToGrid,
     Mixture,           ///< liquid and fabric on the faces that both reach: drag, and what one does to the other
@@ -28,12 +29,14 @@ enum class Stage {
     FabricToGrid,      ///< vertices to faces …
     GridToFabric,      ///< … and back, solver grid only
     FabricStrain,      ///< strains of contact on the grid, with separation and friction
+    Drip,              ///< fabric lets go of liquid that its pores cannot hold
+    Wicking,           ///< liquid moves in fabric
     Count
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "relax", "particles_to_grid", "mixture", "cells", "pressure", "volume", "walls", "grid_to_particles",
-    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain"};
+    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "mixture", "cells", "pressure", "volume", "walls", "grid_to_particles",
+    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
 
 /// What an iterative solve did.
 struct SolveReport {
@@ -57,9 +60,9 @@ struct FabricReport {
     std::size_t obstacleContacts = 0;  ///< vertices that touch obstacles, at the last look
 };
 
-/// Liquid that has entered and left so far; the particles hold the rest.
+/// Liquid that has entered and left so far; particles and fabric hold the rest.
 struct Ledger {
-    double emittedMass = 0.0;                   ///< [g]
+    double emittedMass = 0.0;                   ///< by sources, and in fabric that was wet at the start [g]
     double leftMass = 0.0;                      ///< deleted outside the domain [g]
     Vec3 leftMomentum = Vec3::Zero();           ///< [g cm/s]
 };
@@ -95,6 +98,8 @@ struct StepReport {
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     Energies energies;                           ///< at the end of the step
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
+    double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]
+    double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
     std::string_view failure;                    ///< empty, or why the state can't be trusted …
     Stage failedStage = Stage::GridToParticles;  ///< … and since when
 

@@ -24,13 +24,15 @@ void sortByVertex(std::size_t vertices, const std::vector<Corners>& elements, st
 
 }  // namespace
 
-FabricOnFaces::FabricOnFaces(const Fabric& fabric) : fabric_(fabric)
+FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedVertices& vertices)
+    : fabric_(fabric), liquidDensity_(liquidDensity), vertices_(vertices)
 {
     const std::size_t n = fabric.vertexCount();
-    particles_.modeCount = 1;
     sortByVertex(n, fabric.edges.vertices, edgesBegin_, edgesAt_);
     sortByVertex(n, fabric.faces.vertices, facesBegin_, facesAt_);
     squaresOf_.resize(n);
+    massOf_.resize(n);
+    solidOf_.resize(n);
     for (std::size_t v = 0; v < n; ++v) {
         fibresOf_.push_back(fabric.materials[fabric.vertexMaterial[v]].volumeFraction * fabric.volume[v]);
         double yarn = 0.0;  // volume [cm^3]
@@ -40,21 +42,6 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric) : fabric_(fabric)
         }
         shapeOf_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
     }
-}
-
-void FabricOnFaces::place(const BlockGrid& grid, const FabricState& state)
-{
-    grid_.dx = grid.dx;
-    grid_.origin = grid.origin;
-    const std::size_t n = fabric_.vertexCount();
-    particles_.resize(n);
-    parallelFor(n, kGrain, [&](std::size_t v) {
-        particles_.id[v] = static_cast<std::uint32_t>(v);
-        for (int a = 0; a < kAxes; ++a) particles_.x[a][v] = state.x[v][a];
-    });
-    sortParticles(particles_, grid_, nullptr, order_, ledger_);
-    points_.find(particles_, order_, grid_, 0, static_cast<std::uint32_t>(n));
-    onPoints_.resize(n);
 }
 
 /// Squares of the components of tangents and normals, weighted by lengths and areas.
@@ -80,7 +67,7 @@ void FabricOnFaces::findDirections(const FabricState& state)
 /// Mass-weighted sums become means.
 void FabricOnFaces::divideByMass(BlockArray<double, 3>& u) const
 {
-    parallelFor(grid_.count(), 8, [&](std::size_t b) {
+    parallelFor(grid().count(), 8, [&](std::size_t b) {
         const double* m = mass.block(static_cast<int>(b));
         double* value = u.block(static_cast<int>(b));
         for (std::size_t i = 0; i < BlockArray<double, 3>::kStride; ++i) value[i] = m[i] > 0.0 ? value[i] / m[i] : 0.0;
@@ -89,27 +76,35 @@ void FabricOnFaces::divideByMass(BlockArray<double, 3>& u) const
 
 void FabricOnFaces::spread(const FabricState& state)
 {
-    const std::vector<double>& massOf = fabric_.mass;
+    const std::size_t n = vertices_.count();
+    LiquidParticles& particles = vertices_.particles;
+    points_.find(particles, vertices_.order, vertices_.grid, 0, static_cast<std::uint32_t>(n));
+    onPoints_.resize(n);
+    parallelFor(n, kGrain, [&](std::size_t v) {
+        massOf_[v] = fabric_.mass[v] + state.absorbed[v];
+        solidOf_[v] = fibresOf_[v] + state.absorbed[v] / liquidDensity_;
+    });
     // The sort has moved the particles; their ids tell which is which.
-    parallelFor(particles_.count, kGrain, [&](std::size_t s) { particles_.mass[s] = massOf[particles_.id[s]]; });
+    parallelFor(n, kGrain, [&](std::size_t s) { particles.mass[s] = massOf_[particles.id[s]]; });
     for (int a = 0; a < kAxes; ++a) {
-        double* mode = particles_.mode(a, 0);
-        parallelFor(particles_.count, kGrain, [&](std::size_t s) { mode[order_.source[s]] = state.v[particles_.id[s]][a]; });
+        double* mode = particles.mode(a, 0);
+        parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
     }
-    particlesToFaces(particles_, order_, grid_, scatter_, sums_);
-    for (BlockArray<double, 3>* u : {&mass, &velocity, &acceleration, &fibres, &shape, &squares}) u->resize(grid_.count());
-    parallelFor(grid_.count(), 8, [&](std::size_t n) {
-        const int b = static_cast<int>(n);
+    particlesToFaces(particles, vertices_.order, grid(), scatter_, sums_);
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &acceleration, &fibres, &solid, &shape, &squares}) u->resize(grid().count());
+    parallelFor(grid().count(), 8, [&](std::size_t i) {
+        const int b = static_cast<int>(i);
         std::copy_n(sums_.sums.block(b, FaceFields::kMass), kAxes * kBlockCells, mass.block(b));
         std::copy_n(sums_.sums.block(b, FaceFields::kMomentum), kAxes * kBlockCells, velocity.block(b));
     });
     rows_.find(mass);
     findDirections(state);
     divideByMass(velocity);
-    scatter([&](int v) { return Vec3(massOf[v] * state.acceleration[v]); }, acceleration);
+    scatter([&](int v) { return Vec3(massOf_[v] * state.acceleration[v]); }, acceleration);
     scatter([&](int v) { return Vec3::Constant(fibresOf_[v]); }, fibres);
-    scatter([&](int v) { return Vec3::Constant(massOf[v] * shapeOf_[v]); }, shape);
-    scatter([&](int v) { return Vec3(massOf[v] * squaresOf_[v]); }, squares);
+    scatter([&](int v) { return Vec3::Constant(solidOf_[v]); }, solid);
+    scatter([&](int v) { return Vec3::Constant(massOf_[v] * shapeOf_[v]); }, shape);
+    scatter([&](int v) { return Vec3(massOf_[v] * squaresOf_[v]); }, squares);
     divideByMass(acceleration);
     divideByMass(shape);
     divideByMass(squares);

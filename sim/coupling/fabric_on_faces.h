@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/fabric/fabric.h"
+#include "sim/coupling/sorted_vertices.h"
 #include "sim/fabric/grid/block_points.h"
 #include "sim/transfer/scatter.h"
 
@@ -8,25 +8,25 @@
 
 namespace sim {
 
-/// The fabric as liquid meets it: masses, volumes and directions on the faces of a grid of its own, which has the blocks that vertices
-/// reach (model-fluid 3). Plain P2G, without modes. The grid's cells are those of the liquid's.
+/// The fabric as liquid meets it: masses, volumes and directions on the faces of the blocks that vertices reach (model-fluid 3). Plain
+/// P2G, without modes.
 class FabricOnFaces {
  public:
-    explicit FabricOnFaces(const Fabric& fabric);
+    FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedVertices& vertices);
 
-    /// Finds the blocks of the vertices, with cells like those of `grid`.
-    void place(const BlockGrid& grid, const FabricState& state);
-    /// P2G of all fields, after place().
+    /// P2G of all fields, of vertices that have been sorted.
     void spread(const FabricState& state);
 
-    const BlockGrid& grid() const { return grid_; }
-    double fibresOf(int vertex) const { return fibresOf_[vertex]; }  ///< volume of the fibres [cm^3]
+    const BlockGrid& grid() const { return vertices_.grid; }
+    double massOf(int vertex) const { return massOf_[vertex]; }    ///< with what it has absorbed [g]
+    double solidOf(int vertex) const { return solidOf_[vertex]; }  ///< volume of its fibres and of that [cm^3]
 
     // Of each face; of its own component where there are several.
-    BlockArray<double, 3> mass;           ///< [g]
+    BlockArray<double, 3> mass;           ///< with what has been absorbed [g]
     BlockArray<double, 3> velocity;       ///< [cm/s]
     BlockArray<double, 3> acceleration;   ///< by all forces but gravity over the last step [cm/s^2]
     BlockArray<double, 3> fibres;         ///< volume of the fibres [cm^3]
+    BlockArray<double, 3> solid;          ///< volume of them and of what has been absorbed [cm^3]
     BlockArray<double, 3> shape;          ///< 1 = yarns, 0 = cloth, or between
     BlockArray<double, 3> squares;        ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
@@ -42,15 +42,14 @@ class FabricOnFaces {
     void divideByMass(BlockArray<double, 3>& u) const;
 
     const Fabric& fabric_;
+    double liquidDensity_;                          ///< [g/cm^3]
+    SortedVertices& vertices_;
     std::vector<double> fibresOf_, shapeOf_;        ///< of each vertex [cm^3, -]
+    std::vector<double> massOf_, solidOf_;          ///< of each vertex, of the step [g, cm^3]
     std::vector<Vec3> squaresOf_;                   ///< of each vertex
     std::vector<int> edgesBegin_, edgesAt_;         ///< of each vertex: yarn edges that end there
     std::vector<int> facesBegin_, facesAt_;
 
-    LiquidParticles particles_;
-    BlockGrid grid_;
-    ParticleOrder order_;
-    Ledger ledger_;                                 ///< of particles outside the domain; there is none
     FaceFields sums_;
     ScatterScratch scatter_;
     BlockPoints points_;
@@ -61,7 +60,7 @@ class FabricOnFaces {
 template <class Of>
 void FabricOnFaces::scatter(Of&& of, BlockArray<double, 3>& u)
 {
-    sumOverBlocks(order_, grid_, rows_, u, [&](std::size_t n, FaceTile& tile) {
+    sumOverBlocks(vertices_.order, vertices_.grid, rows_, u, [&](std::size_t n, FaceTile& tile) {
         for (int s = points_.begin(n); s < points_.end(n); ++s) {
             const Vec3 value = of(points_.id[s]);
             for (int a = 0; a < kAxes; ++a) onPoints_.of[a][s] = value[a];
@@ -73,7 +72,7 @@ void FabricOnFaces::scatter(Of&& of, BlockArray<double, 3>& u)
 template <class To>
 void FabricOnFaces::gather(const BlockArray<double, 3>& u, To&& to)
 {
-    forEachBlock(order_, grid_, u, [&](std::size_t n, const FaceTile& tile) {
+    forEachBlock(vertices_.order, vertices_.grid, u, [&](std::size_t n, const FaceTile& tile) {
         gatherValues(tile, points_, n, onPoints_);
         for (int s = points_.begin(n); s < points_.end(n); ++s)
             to(points_.id[s], Vec3(onPoints_.of[0][s], onPoints_.of[1][s], onPoints_.of[2][s]));

@@ -4,8 +4,6 @@
 #include "sim/coupling/mixture_face.h"
 #include "sim/liquid/pressure.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 
@@ -26,29 +24,15 @@ void Mixture::forEachShared(Body&& body) const
     });
 }
 
-Mixture::Mixture(const Fabric& fabric, const Settings& settings)
+Mixture::Mixture(const Fabric& fabric, const Settings& settings, SortedVertices& vertices)
     : fabric_(fabric),
       law_(settings.porous, settings.liquid, settings.coupling),
       liquidDensity_(settings.liquid.density),
       pressureActs_(settings.coupling.pressureOnFabric),
-      onFaces_(fabric)
+      onFaces_(fabric, settings.liquid.density, vertices)
 {
     loads_.drag.resize(fabric.vertexCount());
     loads_.impulse.resize(fabric.vertexCount());
-}
-
-bool Mixture::isNear(const BlockGrid& grid, const FabricState& state) const
-{
-    if (grid.count() == 0) return false;
-    Eigen::AlignedBox3d box;
-    for (int b = 0; b < grid.count(); ++b) {
-        box.extend(grid.lowerCorner(b));
-        box.extend(grid.lowerCorner(b) + Vec3::Constant(kBlockEdge * grid.dx));
-    }
-    const Vec3 reach = Vec3::Constant(2.0 * grid.dx);  // of a vertex' stencil
-    box.min() -= reach;
-    box.max() += reach;
-    return std::ranges::any_of(state.x, [&](const Vec3& x) { return box.contains(x); });
 }
 
 bool Mixture::findShared(const BlockGrid& grid)
@@ -61,7 +45,6 @@ bool Mixture::findShared(const BlockGrid& grid)
 bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state,
                    LiquidGrid& liquid)
 {
-    onFaces_.place(grid, state);
     if (!findShared(grid)) return false;
     dt_ = dt;
     onFaces_.spread(state);
@@ -127,7 +110,7 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
         MixtureFace face;
         face.liquidMass = mass;
         face.fabricMass = onFaces_.mass.block(b, a)[c];
-        face.fabricVolume = fibres;
+        face.fabricVolume = onFaces_.solid.block(b, a)[c];
         // Pressure acts on all the room that the fabric leaves, as without fabric; on a little liquid as on kLeastFill.
         face.liquidVolume = std::max(full / liquidDensity_ - face.fabricVolume, 0.0) * std::min(1.0, mass / (kLeastFill * full));
         face.fraction = std::clamp(fibres / cell, 0.0, 1.0);
@@ -149,7 +132,7 @@ void Mixture::addDisplaced(LiquidGrid& liquid) const
 {
     const double perVolume = liquid.fullMass / std::pow(onFaces_.grid().dx, 3);
     forEachShared([&](int b, int m, int a, int c) {
-        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.fibres.block(b, a)[c];
+        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.solid.block(b, a)[c];
     });
 }
 
@@ -178,16 +161,16 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
         perMass_.block(b, a)[c] = drag * mass / ((mass + drag) * onFaces_.mass.block(b, a)[c]);
         pull_.block(b, a)[c] = perMass_.block(b, a)[c] * u;
     });
-    onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = fabric_.mass[v] * d; });
-    onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = fabric_.mass[v] * f; });
-    if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.fibresOf(v) * f; });
+    onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
+    onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
+    if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
     return loads_;
 }
 
 void Mixture::separate(const FabricState& state, LiquidGrid& liquid)
 {
     Faces& momentum = push_;
-    onFaces_.scatter([&](int v) { return Vec3(fabric_.mass[v] * state.v[v]); }, momentum);
+    onFaces_.scatter([&](int v) { return Vec3(onFaces_.massOf(v) * state.v[v]); }, momentum);
     forEachShared([&](int b, int m, int a, int c) {
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c];
         const double fabric = momentum.block(b, a)[c] / onFaces_.mass.block(b, a)[c];

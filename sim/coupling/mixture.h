@@ -13,12 +13,10 @@ namespace sim {
 /// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off (model-fabric 13.6).
 class Mixture {
  public:
-    Mixture(const Fabric& fabric, const Settings& settings);
+    Mixture(const Fabric& fabric, const Settings& settings, SortedVertices& vertices);
 
-    /// Does a vertex reach the box around the liquid's blocks? Elsewhere nothing is to be done.
-    bool isNear(const BlockGrid& grid, const FabricState& state) const;
-    /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the liquid's predicted velocities are
-    /// known. The volume of the fabric then counts as filled. False if there are none: nothing else is to be called then.
+    /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the vertices are sorted and the liquid's
+    /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing else is to be called then.
     bool find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state, LiquidGrid& liquid);
     /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)

@@ -60,6 +60,25 @@ double PorousLaw::drag(double k, double fraction, double speed) const
     return std::min(c, kMostDrag);
 }
 
+double PorousLaw::speedUnder(double force, double k, double fraction) const
+{
+    constexpr int kMostIterations = 20;
+    constexpr double kLastChange = 1.0e-5;  // relative; Newton's next error is its square
+    const double linear = drag(k, fraction, 0.0);
+    if (!(linear > 0.0 && force > 0.0)) return 0.0;
+    double u = force / linear;
+    const double atOne = law_ == DragLaw::Nonlinear ? drag(k, fraction, 1.0) - linear : 0.0;
+    if (!(atOne > 0.0)) return u;
+    // Newton from above, where the force of drag, which grows faster than the speed, leads it down to the root.
+    u = std::min(u, std::pow(force / atOne, 1.0 / (1.0 + exponent_)));
+    for (int n = 0; n < kMostIterations; ++n) {
+        const double c = drag(k, fraction, u), change = (c * u - force) / (linear + (1.0 + exponent_) * (c - linear));
+        u -= change;
+        if (std::abs(change) < kLastChange * u) break;
+    }
+    return u;
+}
+
 PorousLaw::Drag PorousLaw::drag(double fraction, double speed) const
 {
     if (law_ == DragLaw::Off || !(fraction > 0.0)) return {0.0, 0.0};

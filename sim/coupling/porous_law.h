@@ -28,6 +28,8 @@ class PorousLaw {
     /// @param permeability  in the direction of the flow [cm^2]
     /// @param speed         of the liquid past the fabric [cm/s]
     double drag(double permeability, double fraction, double speed) const;
+    /// Speed at which drag holds a force per volume [dyn/cm^3]; 0 without drag.
+    double speedUnder(double force, double permeability, double fraction) const;
     /// Drag by directions; at speeds of all directions together.
     struct Drag {
         double along, across;

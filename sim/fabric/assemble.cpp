@@ -190,6 +190,7 @@ FabricState restState(const Fabric& fabric)
     FabricState state;
     state.x = fabric.rest;
     state.v.assign(fabric.vertexCount(), Vec3::Zero());
+    state.absorbed.assign(fabric.vertexCount(), 0.0);
     state.acceleration.assign(fabric.vertexCount(), Vec3::Zero());
     const std::size_t edges = fabric.edges.size();
     state.theta.assign(edges, 0.0);
@@ -207,11 +208,16 @@ FabricState restState(const Fabric& fabric)
     return state;
 }
 
-FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces)
+FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces, double liquidDensity)
 {
     FabricState state = restState(fabric);
-    auto v = state.v.begin();
-    for (const FabricPiece& piece : pieces) v = std::fill_n(v, piece.points.size(), piece.velocity);
+    std::size_t v = 0;
+    for (const FabricPiece& piece : pieces) {
+        for (const std::size_t end = v + piece.points.size(); v < end; ++v) {
+            state.v[v] = piece.velocity;
+            state.absorbed[v] = piece.wetness * poreVolume(fabric, v) * liquidDensity;
+        }
+    }
     for (const int vertex : fabric.pins.vertex) state.v[vertex].setZero();
     return state;
 }

@@ -69,6 +69,7 @@ struct Fabric {
 struct FabricState {
     std::vector<Vec3> x;                  ///< of each vertex [cm]
     std::vector<Vec3> v;                  ///< [cm/s]
+    std::vector<double> absorbed;         ///< of each vertex: liquid in its pores [g]
     std::vector<double> theta;            ///< of each yarn edge: angle of the material frame against the reference frame [rad]
     std::vector<double> omega;            ///< its rate [1/s]
     std::vector<Vec3> tangent;            ///< of each yarn edge, when its reference frame was last transported [-]
@@ -91,7 +92,13 @@ Fabric assembleFabric(std::span<const FabricPiece> pieces);
 /// The fabric at rest where it starts, standing still, its frames parallel along each strand, without twist.
 FabricState restState(const Fabric& fabric);
 
-/// The same at the pieces' velocities; what is pinned stands still.
-FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces);
+/// The same at the pieces' velocities and wetness; what is pinned stands still.
+FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces, double liquidDensity = 1.0);
+
+/// Volume of the pores of a vertex [cm^3]: its share of the envelope less that of the fibres (model-fluid 9).
+inline double poreVolume(const Fabric& fabric, std::size_t v)
+{
+    return fabric.volume[v] * (1.0 - fabric.materials[fabric.vertexMaterial[v]].volumeFraction);
+}
 
 }  // namespace sim

@@ -53,6 +53,7 @@ struct FabricPiece {
     std::vector<std::vector<int>> strands;  ///< points in order, at least 2 each
     std::vector<Vec3i> faces;               ///< consistently oriented
     Vec3 velocity = Vec3::Zero();           ///< [cm/s]
+    double wetness = 0.0;                   ///< share of the pores that liquid fills at the start [-]
     std::vector<PinGroup> pins;
     std::string where;                      ///< "flag.yaml:14", for messages
     std::string kind;                       ///< the generator that made it: "cloth_grid"

@@ -36,6 +36,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     }
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
+    mass_.resize(fabric.vertexCount());
     inertia_.resize(fabric.vertexCount());
     free_.resize(fabric.vertexCount());
     move_.resize(fabric.vertexCount());
@@ -47,6 +48,7 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     FabricReport report;
     loads_ = loads;
     wholeStep_ = h;
+    parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
     advance(t, h, 0, gravity, state, report, clock);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
@@ -70,7 +72,7 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
     const Vec3 fall = h * h * gravity;
     const double part = h / wholeStep_;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        const double mass = fabric_.mass[v];
+        const double mass = mass_[v];
         inertia_[v] = Vec3::Constant(mass);
         move_[v] = h * state.v[v] + fall;
         Vec3 byForces = h * h * state.acceleration[v];
@@ -138,7 +140,7 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     system_.shells().startStep(state.x);
     predict(t, h, gravity, state);
     obstacles_.moveTo(t, t + h);
-    if (contact_) contact_->beginStep(state.x, fabric_.mass, h);
+    if (contact_) contact_->beginStep(state.x, mass_, h);
 
     limit(state, report, clock);
     commit(state, clock);
@@ -154,7 +156,7 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     if (!obstacles_.empty()) {
         clock.start(Stage::FabricContact);
         const std::span<const Vec3> frictionFrom = newton.count == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
-        touching = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, fabric_.mass, h);
+        touching = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h);
     }
     clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching, contacts);
@@ -186,7 +188,7 @@ void VertexSolver::judge(double h, Newton& newton) const
 void VertexSolver::take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
 {
     limit(state, report, clock);
-    const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return fabric_.mass[v] * of(v); }); };
+    const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return mass_[v] * of(v); }); };
     newton.wanted += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).squaredNorm(); });
     newton.taken += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).dot(move_[v]); });
     commit(state, clock);
@@ -218,7 +220,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
         state.v[v] = (state.x[v] - start_.x[v]) / h;
-        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * fabric_.mass[v]);
+        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
     });
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
     return true;

@@ -61,6 +61,7 @@ class VertexSolver {
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
     FabricState start_;                          ///< of the attempt under way, to go back to
+    std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
     std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
     std::vector<double> freeAngle_;              ///< of each yarn edge [rad]

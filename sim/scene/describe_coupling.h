@@ -18,16 +18,33 @@ inline std::span<const Choice<DragLaw>> choicesOf(DragLaw)
 }
 
 template <class V>
+void describe(V& v, CaptureSettings& c)
+{
+    v.number("rate", c.rate, Quantity::None, Range::atLeast(0.0), "Factor on the rate at which fabric takes up liquid; 0 = it stays dry");
+    v.number("compat_factor", c.compatFactor, Quantity::None, Range::above(0.0), "Another factor; 3 as published, 1 physical");
+}
+
+template <class V>
+void describe(V& v, WickingSettings& w)
+{
+    v.number("rate_scale", w.rateScale, Quantity::None, Range::atLeast(0.0), "Factor on the flow of liquid inside fabric; 0 = it stays");
+    v.flag("pressure", w.pressure, "The pressure of the liquid around drives that flow too");
+}
+
+template <class V>
 void describe(V& v, CouplingSettings& c)
 {
     v.choice("drag", c.drag, "What liquid feels that flows through fabric");
     v.number("drag_exponent", c.dragExponent, Quantity::None, Range::between(1.0, 2.0), "Of the speed in nonlinear drag; 1 is Forchheimer's law");
     v.flag("pressure_on_fabric", c.pressureOnFabric, "The liquid's pressure pushes the fabric: buoyancy");
+    v.section("capture", c.capture, "Fabric takes up liquid");
+    v.section("wicking", c.wicking, "Liquid moves in fabric");
+    v.flag("drip", c.drip, "Fabric lets go of liquid that its pores cannot hold");
     v.onlyRuns("drag_uses_new_velocity", "true", {"false"}, "Drag by the fabric's velocity at the end of the step");
     v.onlyRuns("air_drag", "false", {"true"}, "Air drags fabric");
     v.onlyRuns("varying_fraction", "false", {"true"}, "Fabric that is stretched has wider pores");
-    for (const char* key : {"capillary", "capillary_reaction", "pore_pressure_on_fabric", "capture", "wicking", "drip", "cohesion"})
-        v.later(key, "this version has drag and pressure between liquid and fabric, which takes up no liquid; remove the key");
+    for (const char* key : {"capillary", "capillary_reaction", "pore_pressure_on_fabric", "cohesion"})
+        v.later(key, "this version has no suction or cohesion of liquid on fabric; remove the key");
 }
 
 }  // namespace sim

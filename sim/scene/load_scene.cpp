@@ -79,7 +79,8 @@ void checkSource(const SourceSettings& source, const Scene& scene)
 /// What liquid and fabric cannot do together.
 void checkCoupling(const Scene& scene)
 {
-    if (scene.fabrics.empty() || scene.sources.empty()) return;
+    const bool isWet = std::ranges::any_of(scene.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
+    if (scene.fabrics.empty() || (scene.sources.empty() && !isWet)) return;
     const std::string& where = scene.fabrics[0].where;
     if (scene.settings.fabric.solver == FabricSolver::Grid)
         fail(where, "fabrics: liquid does not act on fabric.solver grid in this version; choose vertex");

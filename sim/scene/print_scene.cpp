@@ -102,6 +102,7 @@ void writePiece(SectionWriter& w, const FabricPiece& piece)
     const Vec3& v = piece.velocity;
     w.line("  velocity", fmt::format("[{}, {}, {}]", formatPlain(v[0]), formatPlain(v[1]), formatPlain(v[2])),
            "[cm/s]");
+    if (piece.wetness > 0.0) w.line("  wetness", formatPlain(piece.wetness), "Share of the pores that liquid fills at the start");
     if (piece.pins.empty()) return;
     w.below("  pin", "[cm], [s], [deg]", [&](SectionWriter& inner) {
         inner.indentBy(1);

@@ -78,7 +78,7 @@ void readPieceFields(const Node& node, const std::string& path, FabricPiece& pie
         v.vector("velocity", piece.velocity, Quantity::Velocity, "");
         v.other("pin", "");
         v.other("transform", "");
-        v.later("wetness", "this version simulates fabric dry; remove the key");
+        v.number("wetness", piece.wetness, Quantity::None, Range::between(0.0, 1.0), "");
     });
     if (const Node* group = node.find("group")) requireName(piece.group, group->place, path + ".group");
 }

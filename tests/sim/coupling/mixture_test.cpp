@@ -44,8 +44,15 @@ struct Bath {
         }
     }
 
+    bool find(Mixture& mixture)
+    {
+        vertices.sort(scene.grid, state);
+        return mixture.find(scene.grid, scene.field, Vec3::Zero(), kStep, state, scene.liquid);
+    }
+
     GridScene scene;
     Fabric fabric;
+    SortedVertices vertices;
     FabricState state;
     Settings settings;
 };
@@ -54,9 +61,9 @@ struct Bath {
 TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;
-    Mixture mixture(bath.fabric, bath.settings);
-    ASSERT_TRUE(mixture.isNear(bath.scene.grid, bath.state));
-    ASSERT_TRUE(mixture.find(bath.scene.grid, bath.scene.field, Vec3::Zero(), kStep, bath.state, bath.scene.liquid));
+    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    ASSERT_TRUE(reachesLiquid(bath.scene.grid, bath.state));
+    ASSERT_TRUE(bath.find(mixture));
     const Vec3 liquidBefore = mixture.liquidMomentum(bath.scene.liquid), fabricBefore = bath.fabricMomentum();
     const double size = fabricBefore.norm() + liquidBefore.norm();
     const auto energy = [&] {
@@ -83,9 +90,9 @@ TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
 TEST(Mixture, PressureActsOnAllTheRoom)
 {
     Bath bath(DragLaw::Off);
-    Mixture mixture(bath.fabric, bath.settings);
+    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
     GridScene& scene = bath.scene;
-    ASSERT_TRUE(mixture.find(scene.grid, scene.field, Vec3::Zero(), kStep, bath.state, scene.liquid));
+    ASSERT_TRUE(bath.find(mixture));
     findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
     const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
     mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
@@ -109,7 +116,7 @@ TEST(Mixture, FarFabricIsLeftAlone)
 {
     Bath bath;
     for (Vec3& x : bath.state.x) x.x() += 100.0;
-    EXPECT_FALSE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
+    EXPECT_FALSE(reachesLiquid(bath.scene.grid, bath.state));
 }
 
 /// A vertex shares faces with the liquid from outside of its blocks: the stencil reaches over their edge.
@@ -118,9 +125,9 @@ TEST(Mixture, FabricBesideTheLiquidsBlocksCounts)
     Bath bath;
     const double edge = bath.scene.corner(Vec3i(16, 0, 0)).x();  // of the last block
     for (Vec3& x : bath.state.x) x.x() = edge + 0.4 * bath.scene.grid.dx;
-    EXPECT_TRUE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
+    EXPECT_TRUE(reachesLiquid(bath.scene.grid, bath.state));
     for (Vec3& x : bath.state.x) x.x() = edge + 2.1 * bath.scene.grid.dx;
-    EXPECT_FALSE(Mixture(bath.fabric, bath.settings).isNear(bath.scene.grid, bath.state));
+    EXPECT_FALSE(reachesLiquid(bath.scene.grid, bath.state));
 }
 
 }  // namespace

@@ -108,8 +108,8 @@ const BadFabric kBadFabrics[] = {
     {"MeshMissing", "fabrics: [{mesh: {material: wool, file: nowhere.obj, radius: 0.1}}]\n",
      "bad.yaml:3: fabrics.0.mesh.file: there is no file \"./nowhere.obj\""},
     {"Wetness",
-     "fabrics: [{wetness: 0.5, strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: 0.1}}]\n",
-     "bad.yaml:3: fabrics.0.wetness: this version simulates fabric dry; remove the key"},
+     "fabrics: [{wetness: 1.5, strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: 0.1}}]\n",
+     "bad.yaml:3: fabrics.0.wetness: \"1.5\" is out of range; must be 0 to 1"},
     {"UnknownKey",
      "fabrics: [{velocty: [0, 0, 0], strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: "
      "0.1}}]\n",

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "sim/coupling/porous_law.h"
+#include "sim/coupling/sorted_vertices.h"
+#include "sim/settings.h"
+
+#include <vector>
+
+namespace sim {
+
+/// Fabric takes up liquid from the particles around until its pores are full (model-fluid 9.1). Both meet in the cells that they reach;
+/// each particle gives some of its mass, at its own velocity. Mass and momentum are kept to round-off.
+class Capture {
+ public:
+    /// @param nominalMass  of a particle [g]
+    Capture(const Fabric& fabric, const Settings& settings, double nominalMass);
+
+    /// Over dt [s], with the liquid sorted. Velocities of pinned vertices stay.
+    /// @return mass taken up [g]
+    double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
+                   FabricState& state);
+    /// Removes the particles that have given all they had; their numbers change.
+    void dropEmptied(LiquidParticles& liquid);
+
+ private:
+    enum Kind { kMass, kMomentum, kDemand = kMomentum + kAxes, kKinds };  ///< of liquid in a cell; what vertices want of it, then the share taken
+
+    double roomOf(std::size_t v, const FabricState& state) const { return capacity_[v] - state.absorbed[v]; }
+    bool findThirsty(const SortedVertices& vertices, const FabricState& state);
+    bool matchBlocks(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
+    void collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid);
+    void ask(double dt, const SortedVertices& vertices, const FabricState& state);
+    void settle(const SortedVertices& vertices);
+    double wet(const SortedVertices& vertices, FabricState& state);
+    void drain(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid);
+    double takeRemnants(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
+                        FabricState& state);
+    void give(std::size_t v, double mass, const Vec3& momentum, FabricState& state) const;
+    template <class Body>
+    void forEachThirsty(const SortedVertices& vertices, Body&& body) const;
+    template <class Body>
+    void forEachNear(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid, Body&& body) const;
+
+    const Fabric& fabric_;
+    std::vector<double> capacity_;              ///< of each vertex [g]
+    std::vector<double> ratePerVertex_;         ///< share of the liquid around that it takes per time [1/s]
+    double leastMass_;                          ///< of a particle that stays [g]
+
+    // Of the vertices' blocks.
+    BlockArray<double, kKinds> cells_;
+    BlockArray<std::uint8_t> reached_;          ///< by a vertex that has room
+    std::vector<std::uint8_t> blockReached_;
+    // Of the step.
+    std::vector<double> wanted_, around_;       ///< of each vertex [g]
+    std::vector<std::uint8_t> thirsty_;         ///< of each block of the vertices: has vertices with room
+    std::vector<std::array<int, 27>> nearBlocks_;  ///< of each block of the liquid: vertices' blocks around; empty where none is reached
+    std::vector<std::uint8_t> isNear_;          ///< of each block of the liquid
+    std::vector<std::size_t> emptied_;          ///< particles, ascending
+};
+
+}  // namespace sim

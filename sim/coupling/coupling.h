@@ -1,0 +1,33 @@
+#pragma once
+
+#include "sim/coupling/capture.h"
+#include "sim/coupling/drip.h"
+#include "sim/coupling/mixture.h"
+#include "sim/coupling/wicking.h"
+
+namespace sim {
+
+/// Everything that liquid and fabric do to each other (model-fluid 6, 8, 9), in the order in which a step does it.
+struct Coupling {
+    SortedVertices vertices;
+    WetElements elements;
+    Capture capture;
+    Mixture mixture;
+    Drip drip;
+    Wicking wicking;
+    std::vector<Vec3> velocityBefore;  ///< of each vertex, as the fabric's part of the step began [cm/s]
+
+    /// @param nominalMass  of a particle of liquid [g]
+    Coupling(const Fabric& fabric, const Settings& settings, double nominalMass)
+        : elements(fabric),
+          capture(fabric, settings, nominalMass),
+          mixture(fabric, settings, vertices),
+          drip(fabric, elements, settings, nominalMass),
+          wicking(fabric, elements, settings)
+    {
+    }
+    Coupling(const Coupling&) = delete;  // its parts refer to each other
+    Coupling& operator=(const Coupling&) = delete;
+};
+
+}  // namespace sim

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+
+#include <array>
+#include <vector>
+
+namespace sim {
+
+/// What liquid in fabric moves through and drips from: yarn edges, then faces, alike but for the number of their corners.
+struct WetElements {
+    std::vector<std::array<int, 3>> vertices;     ///< the third of an edge is −1
+    std::vector<double> crossSection;             ///< of an edge: area [cm^2]; of a face: thickness [cm]
+    std::vector<std::array<double, 3>> share;     ///< of each corner's rest surface that is the element's [-]
+    std::vector<int> begin, at;                   ///< of each vertex: its elements are at[begin[v]] … at[begin[v + 1] − 1]
+
+    explicit WetElements(const Fabric& fabric);
+    std::size_t size() const { return vertices.size(); }
+    int corners(std::size_t e) const { return vertices[e][2] < 0 ? 2 : 3; }
+};
+
+}  // namespace sim

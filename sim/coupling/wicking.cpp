@@ -1,0 +1,215 @@
+#include "sim/coupling/wicking.h"
+
+#include "sim/core/parallel.h"
+#include "sim/coupling/cell_stencil.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sim {
+
+namespace {
+
+constexpr std::size_t kGrain = 1024;
+constexpr double kStable = 0.4;  ///< of h²/(2D): explicit steps are safe (model-fluid 9.2) [-]
+
+/// At rest: the length of an edge, or the least height of a face [cm].
+double leastExtent(const Fabric& fabric, const std::array<int, 3>& v)
+{
+    const auto x = [&](int c) { return fabric.rest[v[c]]; };
+    if (v[2] < 0) return (x(1) - x(0)).norm();
+    const double longest = std::max({(x(1) - x(0)).norm(), (x(2) - x(1)).norm(), (x(0) - x(2)).norm()});
+    return (x(1) - x(0)).cross(x(2) - x(0)).norm() / longest;
+}
+
+/// An element as it stands.
+struct Slopes {
+    std::array<Vec3, 3> of;      ///< gradients of the corners' hat functions [1/cm]
+    double size = 0.0;           ///< length or area [cm, cm^2]
+    Vec3 direction;              ///< of an edge, or normal to a face
+    bool isEdge = false;
+    /// The part of a vector that lies in the element.
+    Vec3 within(const Vec3& u) const { return isEdge ? Vec3(direction * direction.dot(u)) : Vec3(u - direction * direction.dot(u)); }
+};
+
+/// False for an element without extent.
+bool findSlopes(const std::vector<Vec3>& x, const std::array<int, 3>& v, Slopes& out)
+{
+    out.isEdge = v[2] < 0;
+    if (out.isEdge) {
+        const Vec3 along = x[v[1]] - x[v[0]];
+        out.size = along.norm();
+        out.direction = along / out.size;
+        out.of[1] = out.direction / out.size;
+        out.of[0] = -out.of[1];
+    } else {
+        const Vec3 area = 0.5 * (x[v[1]] - x[v[0]]).cross(x[v[2]] - x[v[0]]);
+        out.size = area.norm();
+        out.direction = area / out.size;
+        for (int c = 0; c < 3; ++c) out.of[c] = out.direction.cross(x[v[(c + 2) % 3]] - x[v[(c + 1) % 3]]) / (2.0 * out.size);
+    }
+    return out.size > 0.0;
+}
+
+}  // namespace
+
+Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settings& settings)
+    : fabric_(fabric),
+      elements_(elements),
+      settings_(settings.coupling.wicking),
+      density_(settings.liquid.density),
+      rate_(elements.size()),
+      flow_(elements.size()),
+      carried_(elements.size())
+{
+    for (std::vector<double>* u : {&pressure_, &head_, &part_, &absorbed_}) u->resize(fabric.vertexCount());
+    for (std::vector<Vec3>* u : {&acceleration_, &velocity_}) u->resize(fabric.vertexCount());
+    for (const FabricMaterial& m : fabric.materials) {
+        laws_.emplace_back(PorousSettings{settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling);
+        suction_.push_back(laws_.back().suction(m.volumeFraction));
+        along_.push_back(permeability(m.volumeFraction, settings.porous.fibreDiameter).along);
+    }
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) capacity_.push_back(poreVolume(fabric, v) * density_);
+    longest_ = std::numeric_limits<double>::infinity();
+    for (const std::array<int, 3>& v : elements.vertices) {
+        const int m = fabric.vertexMaterial[v[0]];
+        const double drag = laws_[m].drag(along_[m], fabric.materials[m].volumeFraction, 0.0);
+        if (!(drag > 0.0 && settings_.rateScale > 0.0)) continue;
+        const double diffusivity = settings_.rateScale * (1.0 - fabric.materials[m].volumeFraction) * 2.0 * suction_[m] / drag;
+        if (diffusivity > 0.0) longest_ = std::min(longest_, kStable * std::pow(leastExtent(fabric, v), 2) / (2.0 * diffusivity));
+    }
+}
+
+int Wicking::substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt / longest_))); }
+
+bool Wicking::isWet(const FabricState& state) const
+{
+    return settings_.rateScale > 0.0 && parallelMax(state.absorbed.size(), [&](std::size_t v) { return state.absorbed[v]; }) > 0.0;
+}
+
+/// Pressure of the liquid around each vertex, none where there is no liquid.
+void Wicking::findPressure(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state)
+{
+    parallelFor(pressure_.size(), kGrain, [&](std::size_t v) {
+        pressure_[v] = 0.0;
+        if (!settings_.pressure || grid.count() == 0) return;
+        const Vec3 at = (state.x[v] - grid.origin) / (kBlockEdge * grid.dx);
+        const int block = grid.find(at.array().floor().matrix().cast<int>());
+        if (block == BlockGrid::kNone) return;
+        CellStencil(state.x[v], grid.lowerCorner(block), grid.dx).forEach(grid.neighbours(block), [&](int b, int c, double weight) {
+            pressure_[v] += weight * pressure.block(b)[c];
+        });
+    });
+}
+
+/// What drives liquid towards a vertex: suction of its empty pores, less the pressure around it.
+void Wicking::findHeads(const FabricState& state)
+{
+    parallelFor(head_.size(), kGrain, [&](std::size_t v) {
+        const double filling = capacity_[v] > 0.0 ? std::clamp(state.absorbed[v] / capacity_[v], 0.0, 1.0) : 1.0;
+        head_[v] = 2.0 * suction_[fabric_.vertexMaterial[v]] * (1.0 - filling) - pressure_[v];
+    });
+}
+
+/// Outflow at the corners of each element.
+void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
+{
+    parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
+        const std::array<int, 3>& v = elements_.vertices[e];
+        const int corners = elements_.corners(e);
+        rate_[e] = {0.0, 0.0, 0.0};
+        Slopes slopes;
+        double held = 0.0;
+        for (int c = 0; c < corners; ++c) held += state.absorbed[v[c]];
+        if (!(held > 0.0) || !findSlopes(state.x, v, slopes)) return;
+        Vec3 body = density_ * gravity, force = Vec3::Zero();
+        for (int c = 0; c < corners; ++c) {
+            body -= density_ / corners * acceleration_[v[c]];
+            force += head_[v[c]] * slopes.of[c];
+        }
+        force += slopes.within(body);
+        const double strength = force.norm();
+        if (!(strength > 0.0)) return;
+        const int m = fabric_.vertexMaterial[v[0]];
+        const double fraction = fabric_.materials[m].volumeFraction;
+        const double speed = laws_[m].speedUnder((1.0 - fraction) * strength, along_[m], fraction);
+        const Vec3 flow = settings_.rateScale * elements_.crossSection[e] * slopes.size * speed / strength * force;
+        for (int c = 0; c < corners; ++c) rate_[e][c] = -flow.dot(slopes.of[c]);
+    });
+}
+
+/// No vertex gives more than it has.
+void Wicking::limitDonors(double h)
+{
+    parallelFor(part_.size(), kGrain, [&](std::size_t v) {
+        double out = 0.0;  // share of what is there
+        for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
+            const int e = elements_.at[i];
+            for (int c = 0; c < elements_.corners(e); ++c)
+                if (elements_.vertices[e][c] == static_cast<int>(v)) out += h * std::max(rate_[e][c], 0.0) / fabric_.volume[v];
+        }
+        part_[v] = out > 1.0 ? 1.0 / out : 1.0;
+    });
+}
+
+void Wicking::transport(double h, FabricState& state)
+{
+    const auto leaves = [&](std::size_t e, int c) {
+        const int v = elements_.vertices[e][c];
+        return part_[v] * h * std::max(rate_[e][c], 0.0) / fabric_.volume[v] * state.absorbed[v];
+    };
+    parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
+        flow_[e] = 0.0;
+        carried_[e].setZero();
+        double received = 0.0;
+        for (int c = 0; c < elements_.corners(e); ++c) {
+            const double mass = leaves(e, c);
+            flow_[e] += mass;
+            carried_[e] += mass * state.v[elements_.vertices[e][c]];
+            received += std::max(-rate_[e][c], 0.0);
+        }
+        if (!(received > 0.0)) return;
+        flow_[e] /= received;
+        carried_[e] /= received;
+    });
+    parallelFor(absorbed_.size(), kGrain, [&](std::size_t v) {
+        double mass = state.absorbed[v], gained = 0.0;
+        Vec3 momentum = Vec3::Zero();
+        for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
+            const int e = elements_.at[i];
+            for (int c = 0; c < elements_.corners(e); ++c) {
+                if (elements_.vertices[e][c] != static_cast<int>(v)) continue;
+                const double share = std::max(-rate_[e][c], 0.0);
+                mass -= leaves(e, c);
+                gained += share * flow_[e];
+                momentum += share * carried_[e];
+            }
+        }
+        absorbed_[v] = std::max(mass, 0.0) + gained;
+        velocity_[v] = state.v[v];
+        if (gained > 0.0 && !fabric_.pinned[v])
+            velocity_[v] = ((fabric_.mass[v] + std::max(mass, 0.0)) * state.v[v] + momentum) / (fabric_.mass[v] + absorbed_[v]);
+    });
+    state.absorbed.swap(absorbed_);
+    state.v.swap(velocity_);
+}
+
+void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
+                   FabricState& state)
+{
+    findPressure(grid, pressure, state);
+    const int parts = substeps(dt);
+    const double h = dt / parts;
+    parallelFor(before.size(), kGrain, [&](std::size_t v) { acceleration_[v] = (state.v[v] - before[v]) / dt; });
+    for (int n = 0; n < parts; ++n) {
+        findHeads(state);
+        findFlow(gravity, state);
+        limitDonors(h);
+        transport(h, state);
+    }
+}
+
+}  // namespace sim

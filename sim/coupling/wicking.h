@@ -1,0 +1,54 @@
+#pragma once
+
+#include "sim/coupling/porous_law.h"
+#include "sim/coupling/wet_elements.h"
+#include "sim/grid/block_grid.h"
+#include "sim/settings.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Liquid that fabric holds moves along yarns and through cloth: to where it is drier, down, and against the fabric's acceleration
+/// (model-fluid 9.2; Darcy's law with the pores' suction). What leaves a vertex arrives at others, with its momentum.
+class Wicking {
+ public:
+    Wicking(const Fabric& fabric, const WetElements& elements, const Settings& settings);
+
+    /// Over dt [s], in substeps as short as stability asks for.
+    /// @param before  velocity of each vertex when the step began [cm/s]
+    void move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
+              FabricState& state);
+    /// Is there liquid in the fabric?
+    bool isWet(const FabricState& state) const;
+    int substeps(double dt) const;
+
+ private:
+    void findPressure(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state);
+    void findHeads(const FabricState& state);
+    void findFlow(const Vec3& gravity, const FabricState& state);
+    void limitDonors(double h);
+    void transport(double h, FabricState& state);
+
+    const Fabric& fabric_;
+    const WetElements& elements_;
+    WickingSettings settings_;
+    double density_;                              ///< [g/cm^3]
+    double longest_ = 0.0;                        ///< stable substep [s]
+    std::vector<PorousLaw> laws_;                 ///< of each material …
+    std::vector<double> suction_, along_;         ///< … its suction when dry [dyn/cm^2], permeability along fibres [cm^2]
+    std::vector<double> capacity_;                ///< of each vertex [g]
+
+    // Of the step.
+    std::vector<Vec3> acceleration_;              ///< of each vertex [cm/s^2]
+    std::vector<double> pressure_, head_;         ///< of each vertex: of the liquid around it, of suction less that [dyn/cm^2]
+    std::vector<std::array<double, 3>> rate_;     ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
+    std::vector<double> part_;                    ///< of what would flow out of each vertex, that it has [-]
+    std::vector<double> flow_;                    ///< through an element, over its inflow's rate [g s/cm^3]
+    std::vector<Vec3> carried_;                   ///< momentum of that [g/cm^2]
+    std::vector<double> absorbed_;                ///< of each vertex after the substep [g]
+    std::vector<Vec3> velocity_;                  ///< likewise [cm/s]
+};
+
+}  // namespace sim

@@ -1,0 +1,167 @@
+#include "sim/coupling/wicking.h"
+#include "sim/fabric/generators.h"
+#include "tests/sim/fabric/pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace sim::test {
+namespace {
+
+/// Fabric that stands still in air.
+struct Wick {
+    explicit Wick(const std::vector<FabricPiece>& pieces)
+        : fabric(assembleFabric(pieces)), elements(fabric), state(restState(fabric)), before(fabric.vertexCount(), Vec3::Zero())
+    {
+        settings.coupling.drag = DragLaw::Linear;
+    }
+    void fill(const std::function<double(const Vec3&)>& saturation)
+    {
+        for (std::size_t v = 0; v < fabric.vertexCount(); ++v) state.absorbed[v] = saturation(fabric.rest[v]) * poreVolume(fabric, v);
+    }
+    double saturation(std::size_t v) const { return state.absorbed[v] / poreVolume(fabric, v); }
+    double mass() const { return std::accumulate(state.absorbed.begin(), state.absorbed.end(), 0.0); }
+    Vec3 momentum() const
+    {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t v = 0; v < state.v.size(); ++v) sum += (fabric.mass[v] + state.absorbed[v]) * state.v[v];
+        return sum;
+    }
+    void run(double dt, int steps, const Vec3& gravity)
+    {
+        Wicking wicking(fabric, elements, settings);
+        for (int n = 0; n < steps; ++n) wicking.move(dt, gravity, BlockGrid(), BlockArray<double>(), before, state);
+    }
+
+    Fabric fabric;
+    WetElements elements;
+    FabricState state;
+    std::vector<Vec3> before;
+    Settings settings;
+};
+
+FabricPiece rod(int segments, const Vec3& to) { return testing::pieceOf(strand(Vec3::Zero(), to, segments), testing::wool(), {0.05, 0.05}); }
+std::vector<FabricPiece> clothAndYarn()
+{
+    return {testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.12}, Vec3::Zero()}), testing::wool(), {0.017, 0.02}), rod(20, Vec3(1.0, 0.7, 0.2))};
+}
+
+const double kSuction = 5933.6;                  // K2 [dyn/cm^2]
+const double kDrag = 8.9e-3 / 2.5045e-6;         // along, K1 [g/(cm^3 s)]
+
+/// Model-fluid E3: what is filled alike stays.
+TEST(Wicking, UniformSaturationStays)
+{
+    Wick wick(clothAndYarn());
+    wick.fill([](const Vec3&) { return 0.3; });
+    const std::vector<double> before = wick.state.absorbed;
+    wick.run(1.0e-3, 10, Vec3::Zero());
+    for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(wick.state.absorbed[v], before[v], 1.0e-12 * before[v]);
+}
+
+/// Model-fluid E3: along a rod whose saturation falls evenly, the flow is A θ u with u = (1 − φ) 2 P_c ds/dx / c.
+TEST(Wicking, FlowOfALinearSaturation)
+{
+    constexpr int kSegments = 20;
+    constexpr double kLength = 2.0, kStep = 1.0e-4;  // cm, s
+    Wick wick({rod(kSegments, Vec3(kLength, 0.0, 0.0))});
+    wick.fill([](const Vec3& x) { return 0.8 - 0.3 * x.x(); });
+    const std::vector<double> before = wick.state.absorbed;
+    wick.run(kStep, 1, Vec3::Zero());
+    const double area = kPi * 0.05 * 0.05, speed = 0.6 / kDrag * 2.0 * kSuction * 0.3;
+    double crossed = 0.0;  // from all vertices so far to the next
+    for (int v = 0; v < kSegments; ++v) {
+        crossed += before[v] - wick.state.absorbed[v];
+        const double filling = before[v] / wick.fabric.volume[v];
+        EXPECT_NEAR(crossed, kStep * area * filling * speed, 1.0e-4 * crossed) << v;
+    }
+}
+
+/// Model-fluid E3: conservation on any mesh, in steps of many parts and with a vertex that would give more than it has.
+TEST(Wicking, KeepsMassAndMomentum)
+{
+    for (const double dt : {1.0e-3, 0.05}) {
+        Wick wick(clothAndYarn());
+        std::mt19937 random(4);
+        std::uniform_real_distribution<double> unit(0.0, 1.0);
+        wick.fill([&](const Vec3&) { return unit(random) < 0.3 ? 0.0 : unit(random); });
+        for (Vec3& v : wick.state.v) v = Vec3(unit(random), unit(random) - 0.5, 2.0 * unit(random));
+        wick.before = wick.state.v;
+        for (Vec3& v : wick.before) v += Vec3(0.3, 0.0, 0.2) * unit(random);
+        const double mass = wick.mass();
+        const Vec3 momentum = wick.momentum();
+        const std::vector<double> before = wick.state.absorbed;
+        wick.run(dt, 5, Vec3(0.0, -981.0, 0.0));
+        double moved = 0.0;
+        for (std::size_t v = 0; v < before.size(); ++v) {
+            EXPECT_GE(wick.state.absorbed[v], 0.0);
+            moved += std::abs(wick.state.absorbed[v] - before[v]);
+        }
+        EXPECT_GT(moved, 0.1 * mass);
+        EXPECT_NEAR(wick.mass(), mass, 1.0e-13 * mass);
+        EXPECT_LT((wick.momentum() - momentum).norm(), 1.0e-13 * momentum.norm());
+    }
+}
+
+/// Model-fluid E3: a strip that dips its end into liquid follows ds/dt = d/dx(s D ds/dx), D = (1 − φ) 2 P_c / c: against a fine solution.
+TEST(Wicking, SpreadsLikeTheOneDimensionalModel)
+{
+    constexpr int kSegments = 120, kFine = 4;
+    constexpr double kLength = 3.0, kEnd = 0.2;  // cm, s
+    Wick wick({rod(kSegments, Vec3(kLength, 0.0, 0.0))});
+    const auto step = [](double x) { return x < 1.0 ? 0.9 : 0.0; };
+    wick.fill([&](const Vec3& x) { return step(x.x()); });
+    wick.run(1.0e-3, static_cast<int>(std::lround(kEnd / 1.0e-3)), Vec3::Zero());
+
+    const double diffusivity = 0.6 * 2.0 * kSuction / kDrag, dx = kLength / (kSegments * kFine);
+    const int cells = kSegments * kFine;
+    const int steps = static_cast<int>(std::ceil(kEnd * diffusivity / (0.2 * dx * dx)));
+    std::vector<double> s(cells), flux(cells + 1, 0.0);
+    for (int i = 0; i < cells; ++i) s[i] = step((i + 0.5) * dx);
+    for (int n = 0; n < steps; ++n) {
+        for (int i = 1; i < cells; ++i) flux[i] = 0.5 * (s[i - 1] + s[i]) * diffusivity * (s[i - 1] - s[i]) / dx;
+        for (int i = 0; i < cells; ++i) s[i] += kEnd / steps * (flux[i] - flux[i + 1]) / dx;
+    }
+    double difference = 0.0, moved = 0.0;
+    for (int v = 1; v < kSegments; ++v) {
+        double exact = 0.0;
+        for (int i = -kFine / 2; i < kFine / 2; ++i) exact += s[v * kFine + i] / kFine;
+        difference += std::abs(wick.saturation(v) - exact);
+        moved += std::abs(exact - step(v * kLength / kSegments));
+    }
+    EXPECT_LT(difference, 0.05 * moved);
+    EXPECT_GT(moved, 10.0);
+}
+
+/// Model-fluid E3: in a yarn that hangs, saturation falls upwards until suction holds the weight: 2 P_c ds/dy = −ρ g.
+TEST(Wicking, ColumnAtRest)
+{
+    constexpr int kSegments = 15;
+    constexpr double kHeight = 1.5, kGravity = 981.0;
+    Wick wick({rod(kSegments, Vec3(0.0, kHeight, 0.0))});
+    wick.fill([](const Vec3&) { return 0.5; });
+    wick.run(2.0e-3, 5000, Vec3(0.0, -kGravity, 0.0));
+    const double slope = (wick.saturation(kSegments) - wick.saturation(0)) / kHeight;
+    EXPECT_NEAR(slope, -kGravity / (2.0 * kSuction), 1.0e-3 * kGravity / (2.0 * kSuction));
+}
+
+/// Nonlinear drag: the speed is the one at which drag holds the force.
+TEST(Wicking, SpeedUnderAForceIsTheRootOfDrag)
+{
+    CouplingSettings coupling;
+    const LiquidSettings water;
+    const PorousLaw law({0.01, 0.4}, water, coupling);
+    const double k = permeability(0.4, 0.01).along;
+    for (const double force : {1.0e-3, 1.0, 981.0, 1.0e5, 1.0e8}) {
+        const double u = law.speedUnder(force, k, 0.4);
+        EXPECT_NEAR(law.drag(k, 0.4, u) * u, force, 1.0e-9 * force);
+    }
+    EXPECT_EQ(law.speedUnder(0.0, k, 0.4), 0.0);
+    coupling.drag = DragLaw::Off;
+    EXPECT_EQ(PorousLaw({0.01, 0.4}, water, coupling).speedUnder(1.0, k, 0.4), 0.0);
+}
+
+}  // namespace
+}  // namespace sim::test
