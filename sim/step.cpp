@@ -108,7 +108,9 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     if (plan.meetsFabric) {
         clock.start(Stage::Capture);
         work.coupling->vertices.sort(grid, state.fabric);
-        report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
+        plan.meetsFabric = !work.coupling->vertices.empty();
+        if (plan.meetsFabric)
+            report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
     }
 
     state.unrelaxed += dt;

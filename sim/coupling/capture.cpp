@@ -68,6 +68,7 @@ bool Capture::findThirsty(const SortedVertices& vertices, const FabricState& sta
 {
     const int blocks = vertices.grid.count();
     thirsty_.assign(blocks, 0);
+    std::ranges::fill(wanted_, 0.0);
     parallelFor(vertices.order.occupied.size(), [&](std::size_t n) {
         const int block = vertices.order.occupied[n];
         for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {

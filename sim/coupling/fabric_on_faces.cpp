@@ -48,7 +48,8 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedV
 void FabricOnFaces::findDirections(const FabricState& state)
 {
     const auto normalized = [](const Vec3& sum) { return sum.sum() > 0.0 ? Vec3(sum / sum.sum()) : Vec3::Constant(1.0 / 3.0).eval(); };
-    parallelFor(fabric_.vertexCount(), kGrain, [&](std::size_t v) {
+    parallelFor(vertices_.count(), kGrain, [&](std::size_t s) {
+        const std::size_t v = vertices_.particles.id[s];
         Vec3 tangents = Vec3::Zero(), normals = Vec3::Zero();
         for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
             const Vec2i& e = fabric_.edges.vertices[edgesAt_[i]];
@@ -78,14 +79,13 @@ void FabricOnFaces::spread(const FabricState& state)
 {
     const std::size_t n = vertices_.count();
     LiquidParticles& particles = vertices_.particles;
-    points_.find(particles, vertices_.order, vertices_.grid, 0, static_cast<std::uint32_t>(n));
+    points_.find(particles, vertices_.order, vertices_.grid, 0, static_cast<std::uint32_t>(fabric_.vertexCount()));
     onPoints_.resize(n);
-    parallelFor(n, kGrain, [&](std::size_t v) {
-        massOf_[v] = fabric_.mass[v] + state.absorbed[v];
+    parallelFor(n, kGrain, [&](std::size_t s) {
+        const std::size_t v = particles.id[s];
+        particles.mass[s] = massOf_[v] = fabric_.mass[v] + state.absorbed[v];
         solidOf_[v] = fibresOf_[v] + state.absorbed[v] / liquidDensity_;
     });
-    // The sort has moved the particles; their ids tell which is which.
-    parallelFor(n, kGrain, [&](std::size_t s) { particles.mass[s] = massOf_[particles.id[s]]; });
     for (int a = 0; a < kAxes; ++a) {
         double* mode = particles.mode(a, 0);
         parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });

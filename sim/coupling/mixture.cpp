@@ -161,6 +161,9 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
         perMass_.block(b, a)[c] = drag * mass / ((mass + drag) * onFaces_.mass.block(b, a)[c]);
         pull_.block(b, a)[c] = perMass_.block(b, a)[c] * u;
     });
+    // Vertices far from the liquid are not asked.
+    std::ranges::fill(loads_.drag, Vec3::Zero());
+    std::ranges::fill(loads_.impulse, Vec3::Zero());
     onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
     onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
     if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });

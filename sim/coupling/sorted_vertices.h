@@ -5,16 +5,20 @@
 
 namespace sim {
 
-/// The fabric's vertices sorted by cell, in blocks of their own: those that vertices reach. The cells are the liquid's.
+/// The vertices that may share faces with the liquid, sorted by cell, in blocks of their own: those that they reach. The cells are the
+/// liquid's.
 struct SortedVertices {
     LiquidParticles particles;  ///< positions; id is the vertex
     BlockGrid grid;
     ParticleOrder order;
 
+    /// Takes the vertices in blocks at those of the liquid; what is farther has nothing to do with it.
     void sort(const BlockGrid& liquid, const FabricState& state);
+    bool empty() const { return particles.count == 0; }
     std::size_t count() const { return particles.count; }
 
  private:
+    std::vector<std::uint8_t> isNear_;  ///< of each vertex
     Ledger ledger_;             ///< of what is outside the domain; nothing is
 };
 

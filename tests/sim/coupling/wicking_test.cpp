@@ -135,6 +135,28 @@ TEST(Wicking, SpreadsLikeTheOneDimensionalModel)
     EXPECT_GT(moved, 10.0);
 }
 
+/// A dry yarn with its end in liquid fills by the square root of time (Washburn 1921). For ds/dt = D d/dx(s ds/dx) with s = 1 at the end
+/// it takes up 0.8875 √(D t) of length: twice the flow −s ds/dx = 0.4437 of the self-similar solution.
+TEST(Wicking, DryYarnFillsByTheSquareRootOfTime)
+{
+    constexpr int kSegments = 200, kSteps = 10000;
+    constexpr double kLength = 3.0, kStep = 2.0e-5;  // cm, s
+    Wick wick({rod(kSegments, Vec3(kLength, 0.0, 0.0))});
+    Wicking wicking(wick.fabric, wick.elements, wick.settings);
+    ASSERT_EQ(wicking.substeps(kStep), 1);  // the end is full in every part of a step
+    std::vector<double> filled;  // length [cm]
+    const double perLength = poreVolume(wick.fabric, 1) * kSegments / kLength;
+    for (int n = 0; n < kSteps; ++n) {
+        wick.state.absorbed[0] = poreVolume(wick.fabric, 0);
+        wicking.move(kStep, Vec3::Zero(), BlockGrid(), BlockArray<double>(), wick.before, wick.state);
+        filled.push_back(wick.mass() / perLength);
+    }
+    EXPECT_NEAR(std::log(filled[kSteps - 1] / filled[kSteps / 4 - 1]) / std::log(4.0), 0.50, 0.02);
+    const double diffusivity = 0.6 * 2.0 * kSuction / kDrag;
+    EXPECT_NEAR(filled.back(), 0.8875 * std::sqrt(diffusivity * kSteps * kStep), 0.05 * filled.back());
+    EXPECT_LT(wick.state.absorbed[kSegments], 1.0e-12);  // the other end is still dry
+}
+
 /// Model-fluid E3: in a yarn that hangs, saturation falls upwards until suction holds the weight: 2 P_c ds/dy = −ρ g.
 TEST(Wicking, ColumnAtRest)
 {
