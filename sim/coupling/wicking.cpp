@@ -65,7 +65,9 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
       flow_(elements.size()),
       carried_(elements.size())
 {
-    for (std::vector<double>* u : {&pressure_, &head_, &part_, &absorbed_}) u->resize(fabric.vertexCount());
+    for (std::vector<double>* u : {&head_, &part_, &absorbed_}) u->resize(fabric.vertexCount());
+    isWetElement_.resize(elements.size());
+    isActive_.resize(fabric.vertexCount());
     for (std::vector<Vec3>* u : {&acceleration_, &velocity_}) u->resize(fabric.vertexCount());
     for (const FabricMaterial& m : fabric.materials) {
         laws_.emplace_back(PorousSettings{settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling);
@@ -90,27 +92,42 @@ bool Wicking::isWet(const FabricState& state) const
     return settings_.rateScale > 0.0 && parallelMax(state.absorbed.size(), [&](std::size_t v) { return state.absorbed[v]; }) > 0.0;
 }
 
-/// Pressure of the liquid around each vertex, none where there is no liquid.
-void Wicking::findPressure(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state)
+/// The elements that hold liquid, and the vertices that it may flow from or to.
+void Wicking::findActive(const FabricState& state)
 {
-    parallelFor(pressure_.size(), kGrain, [&](std::size_t v) {
-        pressure_[v] = 0.0;
-        if (!settings_.pressure || grid.count() == 0) return;
-        const Vec3 at = (state.x[v] - grid.origin) / (kBlockEdge * grid.dx);
-        const int block = grid.find(at.array().floor().matrix().cast<int>());
-        if (block == BlockGrid::kNone) return;
-        CellStencil(state.x[v], grid.lowerCorner(block), grid.dx).forEach(grid.neighbours(block), [&](int b, int c, double weight) {
-            pressure_[v] += weight * pressure.block(b)[c];
-        });
+    parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
+        double held = 0.0;
+        for (int c = 0; c < elements_.corners(e); ++c) held += state.absorbed[elements_.vertices[e][c]];
+        isWetElement_[e] = held > 0.0;
+        rate_[e] = {0.0, 0.0, 0.0};
+    });
+    parallelFor(isActive_.size(), kGrain, [&](std::size_t v) {
+        isActive_[v] = std::any_of(elements_.at.begin() + elements_.begin[v], elements_.at.begin() + elements_.begin[v + 1],
+                                   [&](int e) { return isWetElement_[e] != 0; });
     });
 }
 
+/// Of the liquid around a point, 0 where there is none [dyn/cm^2].
+double Wicking::pressureAt(const Vec3& x, const BlockGrid& grid, const BlockArray<double>& pressure) const
+{
+    if (!settings_.pressure || grid.count() == 0) return 0.0;
+    const Vec3 at = (x - grid.origin) / (kBlockEdge * grid.dx);
+    const int block = grid.find(at.array().floor().matrix().cast<int>());
+    if (block == BlockGrid::kNone) return 0.0;
+    double sum = 0.0;
+    CellStencil(x, grid.lowerCorner(block), grid.dx).forEach(grid.neighbours(block), [&](int b, int c, double weight) {
+        sum += weight * pressure.block(b)[c];
+    });
+    return sum;
+}
+
 /// What drives liquid towards a vertex: suction of its empty pores, less the pressure around it.
-void Wicking::findHeads(const FabricState& state)
+void Wicking::findHeads(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state)
 {
     parallelFor(head_.size(), kGrain, [&](std::size_t v) {
+        if (!isActive_[v]) return;
         const double filling = capacity_[v] > 0.0 ? std::clamp(state.absorbed[v] / capacity_[v], 0.0, 1.0) : 1.0;
-        head_[v] = 2.0 * suction_[fabric_.vertexMaterial[v]] * (1.0 - filling) - pressure_[v];
+        head_[v] = 2.0 * suction_[fabric_.vertexMaterial[v]] * (1.0 - filling) - pressureAt(state.x[v], grid, pressure);
     });
 }
 
@@ -120,11 +137,8 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
     parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
         const std::array<int, 3>& v = elements_.vertices[e];
         const int corners = elements_.corners(e);
-        rate_[e] = {0.0, 0.0, 0.0};
         Slopes slopes;
-        double held = 0.0;
-        for (int c = 0; c < corners; ++c) held += state.absorbed[v[c]];
-        if (!(held > 0.0) || !findSlopes(state.x, v, slopes)) return;
+        if (!isWetElement_[e] || !findSlopes(state.x, v, slopes)) return;
         Vec3 body = density_ * gravity, force = Vec3::Zero();
         for (int c = 0; c < corners; ++c) {
             body -= density_ / corners * acceleration_[v[c]];
@@ -145,6 +159,7 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
 void Wicking::limitDonors(double h)
 {
     parallelFor(part_.size(), kGrain, [&](std::size_t v) {
+        if (!isActive_[v]) return;
         double out = 0.0;  // share of what is there
         for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
             const int e = elements_.at[i];
@@ -162,6 +177,7 @@ void Wicking::transport(double h, FabricState& state)
         return part_[v] * h * std::max(rate_[e][c], 0.0) / fabric_.volume[v] * state.absorbed[v];
     };
     parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
+        if (!isWetElement_[e]) return;
         flow_[e] = 0.0;
         carried_[e].setZero();
         double received = 0.0;
@@ -176,10 +192,14 @@ void Wicking::transport(double h, FabricState& state)
         carried_[e] /= received;
     });
     parallelFor(absorbed_.size(), kGrain, [&](std::size_t v) {
+        absorbed_[v] = state.absorbed[v];
+        velocity_[v] = state.v[v];
+        if (!isActive_[v]) return;
         double mass = state.absorbed[v], gained = 0.0;
         Vec3 momentum = Vec3::Zero();
         for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
             const int e = elements_.at[i];
+            if (!isWetElement_[e]) continue;
             for (int c = 0; c < elements_.corners(e); ++c) {
                 if (elements_.vertices[e][c] != static_cast<int>(v)) continue;
                 const double share = std::max(-rate_[e][c], 0.0);
@@ -189,7 +209,6 @@ void Wicking::transport(double h, FabricState& state)
             }
         }
         absorbed_[v] = std::max(mass, 0.0) + gained;
-        velocity_[v] = state.v[v];
         if (gained > 0.0 && !fabric_.pinned[v])
             velocity_[v] = ((fabric_.mass[v] + std::max(mass, 0.0)) * state.v[v] + momentum) / (fabric_.mass[v] + absorbed_[v]);
     });
@@ -200,12 +219,12 @@ void Wicking::transport(double h, FabricState& state)
 void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
                    FabricState& state)
 {
-    findPressure(grid, pressure, state);
     const int parts = substeps(dt);
     const double h = dt / parts;
     parallelFor(before.size(), kGrain, [&](std::size_t v) { acceleration_[v] = (state.v[v] - before[v]) / dt; });
     for (int n = 0; n < parts; ++n) {
-        findHeads(state);
+        findActive(state);
+        findHeads(grid, pressure, state);
         findFlow(gravity, state);
         limitDonors(h);
         transport(h, state);

@@ -25,8 +25,9 @@ class Wicking {
     int substeps(double dt) const;
 
  private:
-    void findPressure(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state);
-    void findHeads(const FabricState& state);
+    void findActive(const FabricState& state);
+    double pressureAt(const Vec3& x, const BlockGrid& grid, const BlockArray<double>& pressure) const;
+    void findHeads(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state);
     void findFlow(const Vec3& gravity, const FabricState& state);
     void limitDonors(double h);
     void transport(double h, FabricState& state);
@@ -42,7 +43,8 @@ class Wicking {
 
     // Of the step.
     std::vector<Vec3> acceleration_;              ///< of each vertex [cm/s^2]
-    std::vector<double> pressure_, head_;         ///< of each vertex: of the liquid around it, of suction less that [dyn/cm^2]
+    std::vector<std::uint8_t> isWetElement_, isActive_;  ///< of each element: holds liquid; of each vertex: ends one that does
+    std::vector<double> head_;                    ///< of each vertex: suction less the pressure of the liquid around it [dyn/cm^2]
     std::vector<std::array<double, 3>> rate_;     ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
     std::vector<double> part_;                    ///< of what would flow out of each vertex, that it has [-]
     std::vector<double> flow_;                    ///< through an element, over its inflow's rate [g s/cm^3]
