@@ -126,6 +126,8 @@ struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
     double dragExponent = 1.6;          ///< of the speed, nonlinear only; 1 = Forchheimer [-]
     bool pressureOnFabric = true;       ///< the liquid's pressure pushes fabric: buoyancy
+    bool capillary = true;              ///< suction of empty pores draws the liquid around
+    bool capillaryReaction = false;     ///< and the liquid the fabric; not in the published model
     CaptureSettings capture;
     WickingSettings wicking;
     bool drip = true;                   ///< fabric lets go of what its pores cannot hold

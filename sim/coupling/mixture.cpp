@@ -28,7 +28,9 @@ Mixture::Mixture(const Fabric& fabric, const Settings& settings, SortedVertices&
     : fabric_(fabric),
       law_(settings.porous, settings.liquid, settings.coupling),
       liquidDensity_(settings.liquid.density),
-      pressureActs_(settings.coupling.pressureOnFabric),
+      settings_(settings.coupling),
+      suction_(fabric, settings),
+      vertices_(vertices),
       onFaces_(fabric, settings.liquid.density, vertices)
 {
     loads_.drag.resize(fabric.vertexCount());
@@ -48,9 +50,10 @@ bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const 
     if (!findShared(grid)) return false;
     dt_ = dt;
     onFaces_.spread(state);
-    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &perMass_, &pull_, &push_})
+    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &perMass_, &pull_, &push_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, obstacles, liquid);
+    if (settings_.capillary) suck(grid, obstacles, state, liquid);
     mix(gravity, obstacles, liquid);
     addDisplaced(liquid);
     return true;
@@ -98,6 +101,22 @@ double Mixture::speedAt(int block, int axis, int cell) const
         if (count > 0) square += std::pow(sum / count, 2);
     }
     return std::sqrt(square);
+}
+
+/// Fabric draws liquid to where its pores are empty (model-fluid 6.1).
+void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid)
+{
+    suction_.find(vertices_, state, grid, liquidBlock_, liquid);
+    const double cell = std::pow(onFaces_.grid().dx, 3);
+    forEachShared([&](int b, int m, int a, int c) {
+        const double mass = liquidMass_.block(b, a)[c], volume = mass / liquidDensity_;
+        const double fibres = onFaces_.fibres.block(b, a)[c], held = onFaces_.solid.block(b, a)[c] - fibres;
+        const double saturation = fibres < cell ? std::clamp((volume + held) / (cell - fibres), 0.0, 1.0) : 0.0;
+        const double along = suctionAlongAxis(onFaces_.shape.block(b, a)[c], onFaces_.squares.block(b, a)[c]);
+        const double impulse = dt_ * volume * saturation * obstacles.open(m, a)[c] * along * suction_.slope(onFaces_.grid(), b, a, c);
+        sucked_.block(b, a)[c] = impulse;
+        predicted_.block(b, a)[c] += impulse / mass;
+    });
 }
 
 /// Drag, and what both phases together do (MixtureSplit).
@@ -160,13 +179,14 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
         push_.block(b, a)[c] = push;
         perMass_.block(b, a)[c] = drag * mass / ((mass + drag) * onFaces_.mass.block(b, a)[c]);
         pull_.block(b, a)[c] = perMass_.block(b, a)[c] * u;
+        if (settings_.capillary && settings_.capillaryReaction) pull_.block(b, a)[c] -= sucked_.block(b, a)[c] / onFaces_.mass.block(b, a)[c];
     });
     // Vertices far from the liquid are not asked.
     std::ranges::fill(loads_.drag, Vec3::Zero());
     std::ranges::fill(loads_.impulse, Vec3::Zero());
     onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
     onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
-    if (pressureActs_) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
+    if (settings_.pressureOnFabric) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
     return loads_;
 }
 

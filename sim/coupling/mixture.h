@@ -2,6 +2,7 @@
 
 #include "sim/coupling/fabric_on_faces.h"
 #include "sim/coupling/porous_law.h"
+#include "sim/coupling/suction.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/grid/obstacle_field.h"
 #include "sim/liquid/liquid_grid.h"
@@ -36,6 +37,7 @@ class Mixture {
     using Faces = BlockArray<double, 3>;
     bool findShared(const BlockGrid& grid);
     void findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
+    void suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid);
     void mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
     void addDisplaced(LiquidGrid& liquid) const;
     double speedAt(int block, int axis, int cell) const;
@@ -47,8 +49,10 @@ class Mixture {
     const Fabric& fabric_;
     PorousLaw law_;
     double liquidDensity_;                           ///< [g/cm^3]
-    bool pressureActs_;
+    CouplingSettings settings_;
+    Suction suction_;
     double dt_ = 0.0;                                ///< of the step under way [s]
+    SortedVertices& vertices_;
     FabricOnFaces onFaces_;
     std::vector<int> liquidBlock_;                   ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
 
@@ -59,6 +63,7 @@ class Mixture {
     Faces drag_;                                     ///< D = dt c (V_f + V_s) [g]
     Faces predicted_;                                ///< u_f*, later ũ_f: after the pressure [cm/s]
     Faces mixed_, mobility_;                         ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
+    Faces sucked_;                                   ///< impulse of suction on the liquid [g cm/s]
     Faces perMass_, pull_, push_;                    ///< D'/M_s [-], that times ũ_f [cm/s], dt ∇p [g/(cm^2 s)]
     LiquidLoads loads_;
 };

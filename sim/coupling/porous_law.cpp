@@ -35,7 +35,8 @@ PorousLaw::PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid,
       density_(liquid.density),
       viscosity_(liquid.viscosity),
       law_(coupling.drag),
-      exponent_(coupling.dragExponent)
+      exponent_(coupling.dragExponent),
+      inertial_(kErgun * std::pow(fibreDiameter_, exponent_ - 1.0) * std::pow(viscosity_, 1.0 - exponent_) * std::pow(density_, exponent_))
 {
 }
 
@@ -50,14 +51,17 @@ double PorousLaw::captureRate(double fraction, double cell) const
     return permeability(fraction, fibreDiameter_).across * suction(fraction) / (cell * cell * viscosity_);
 }
 
-double PorousLaw::drag(double k, double fraction, double speed) const
+/// What is not linear in the speed, times the root of the permeability [g/(cm^2 s)].
+double PorousLaw::inertialDrag(double fraction, double speed) const
+{
+    if (law_ != DragLaw::Nonlinear || !(speed > 0.0)) return 0.0;
+    return inertial_ * std::pow(speed, exponent_) / ((1.0 - fraction) * std::sqrt(1.0 - fraction));
+}
+
+double PorousLaw::dragOf(double k, double fraction, double inertial) const
 {
     if (law_ == DragLaw::Off || !(fraction > 0.0)) return 0.0;
-    double c = viscosity_ / k;
-    if (law_ == DragLaw::Nonlinear && speed > 0.0)
-        c += kErgun * std::pow(fibreDiameter_, exponent_ - 1.0) * std::pow(viscosity_, 1.0 - exponent_) *
-             std::pow(density_ * speed, exponent_) / (std::pow(1.0 - fraction, 1.5) * std::sqrt(k));
-    return std::min(c, kMostDrag);
+    return std::min(viscosity_ / k + inertial / std::sqrt(k), kMostDrag);
 }
 
 double PorousLaw::speedUnder(double force, double k, double fraction) const
@@ -83,7 +87,8 @@ PorousLaw::Drag PorousLaw::drag(double fraction, double speed) const
 {
     if (law_ == DragLaw::Off || !(fraction > 0.0)) return {0.0, 0.0};
     const Permeability k = permeability(fraction, fibreDiameter_);
-    return {drag(k.along, fraction, speed), drag(k.across, fraction, speed)};
+    const double inertial = inertialDrag(fraction, speed);
+    return {dragOf(k.along, fraction, inertial), dragOf(k.across, fraction, inertial)};
 }
 
 double dragAlongAxis(const PorousLaw::Drag& drag, double shape, double square)

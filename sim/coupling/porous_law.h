@@ -27,7 +27,10 @@ class PorousLaw {
     /// c: drag per volume and relative speed [g/(cm^3 s)]: Darcy's, and where it is not linear the one of Yazdchi and Luding 2012.
     /// @param permeability  in the direction of the flow [cm^2]
     /// @param speed         of the liquid past the fabric [cm/s]
-    double drag(double permeability, double fraction, double speed) const;
+    double drag(double permeability, double fraction, double speed) const 
+    {
+        return dragOf(permeability, fraction, inertialDrag(fraction, speed));
+    }
     /// Speed at which drag holds a force per volume [dyn/cm^3]; 0 without drag.
     double speedUnder(double force, double permeability, double fraction) const;
     /// Drag by directions; at speeds of all directions together.
@@ -40,7 +43,11 @@ class PorousLaw {
     double fibreDiameter_, suctionScale_;            ///< [cm], σ cos θ / r_p [dyn/cm^2]
     double density_, viscosity_;                     ///< of the liquid [g/cm^3, P]
     DragLaw law_;
-    double exponent_;                                ///< of the speed where drag is not linear [-]
+    double exponent_;                                ///< b, of the speed where drag is not linear [-]
+    double inertial_;                                ///< 1.75/√150 d^(b−1) μ^(1−b) ρ^b: of that part of drag [g s^(b−1)/cm^(b+2)]
+
+    double inertialDrag(double fraction, double speed) const;
+    double dragOf(double permeability, double fraction, double inertial) const;
 };
 
 /// T_aa of the drag tensor: drag on the flow along axis a; between the least and the largest of the two (model-fluid 8.2).

@@ -37,14 +37,16 @@ void describe(V& v, CouplingSettings& c)
     v.choice("drag", c.drag, "What liquid feels that flows through fabric");
     v.number("drag_exponent", c.dragExponent, Quantity::None, Range::between(1.0, 2.0), "Of the speed in nonlinear drag; 1 is Forchheimer's law");
     v.flag("pressure_on_fabric", c.pressureOnFabric, "The liquid's pressure pushes the fabric: buoyancy");
+    v.flag("capillary", c.capillary, "Suction of empty pores draws the liquid around");
+    v.flag("capillary_reaction", c.capillaryReaction, "That liquid draws the fabric; the published model has no reaction");
     v.section("capture", c.capture, "Fabric takes up liquid");
     v.section("wicking", c.wicking, "Liquid moves in fabric");
     v.flag("drip", c.drip, "Fabric lets go of liquid that its pores cannot hold");
     v.onlyRuns("drag_uses_new_velocity", "true", {"false"}, "Drag by the fabric's velocity at the end of the step");
     v.onlyRuns("air_drag", "false", {"true"}, "Air drags fabric");
     v.onlyRuns("varying_fraction", "false", {"true"}, "Fabric that is stretched has wider pores");
-    for (const char* key : {"capillary", "capillary_reaction", "pore_pressure_on_fabric", "cohesion"})
-        v.later(key, "this version has no suction or cohesion of liquid on fabric; remove the key");
+    v.onlyRuns("pore_pressure_on_fabric", "false", {"true"}, "Suction in its pores moves fabric");
+    v.later("cohesion", "this version has no cohesion of wet fabric; remove the key");
 }
 
 }  // namespace sim

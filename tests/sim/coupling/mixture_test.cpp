@@ -28,6 +28,7 @@ struct Bath {
         settings.cell = scene.grid.dx;
         settings.gravity.setZero();
         settings.coupling.drag = law;
+        settings.coupling.capillary = false;
     }
     Vec3 fabricMomentum() const
     {
@@ -44,6 +45,17 @@ struct Bath {
         }
     }
 
+    Vec3 momentum(const Mixture& mixture) const { return fabricMomentum() + mixture.liquidMomentum(scene.liquid); }
+    /// A step of the two without pressure.
+    void exchange(Mixture& mixture)
+    {
+        BlockArray<double, 3> noPressure;
+        noPressure.resize(scene.grid.count());
+        for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
+        mixture.blend(scene.field, scene.liquid, noPressure);
+        moveFabric(mixture.loads(scene.liquid));
+        mixture.separate(state, scene.liquid);
+    }
     bool find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
@@ -73,12 +85,7 @@ TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
     };
     const double before = energy();
 
-    BlockArray<double, 3> noPressure;
-    noPressure.resize(bath.scene.grid.count());
-    for (int b = 0; b < bath.scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
-    mixture.blend(bath.scene.field, bath.scene.liquid, noPressure);
-    bath.moveFabric(mixture.loads(bath.scene.liquid));
-    mixture.separate(bath.state, bath.scene.liquid);
+    bath.exchange(mixture);
 
     const Vec3 moved = bath.fabricMomentum() - fabricBefore;
     EXPECT_GT(moved.norm(), 1.0e-3 * size);
@@ -110,6 +117,51 @@ TEST(Mixture, PressureActsOnAllTheRoom)
     const Vec3 after = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
     EXPECT_NEAR((after - before).x(), kStep * kSlope * room, 1.0e-10 * kStep * kSlope * room);
     EXPECT_NEAR((after - before).y(), 0.0, 1.0e-10 * kStep * kSlope * room);
+}
+
+/// Liquid below a height, at rest.
+void fillBelow(Bath& bath, double height)
+{
+    for (int b = 0; b < bath.scene.grid.count(); ++b) {
+        std::fill_n(bath.scene.liquid.inside.block(b), BlockBits<>::kWords, 0);
+        std::fill_n(bath.scene.liquid.faces.sums.block(b), 6 * kBlockCells, 0.0);
+    }
+    bath.scene.fill([&](const Vec3& x) { return x.y() - height; });
+    bath.scene.setRandomVelocities(0.0);
+}
+
+/// Model-fluid 6.1: liquid under dry fabric is drawn up, by as much as the fabric is drawn down where the reaction is asked for.
+TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
+{
+    for (const bool reacts : {false, true}) {
+        Bath bath(DragLaw::Off);
+        for (Vec3& v : bath.state.v) v.setZero();
+        bath.settings.coupling.capillary = true;
+        bath.settings.coupling.capillaryReaction = reacts;
+        double middle = 0.0;
+        for (const Vec3& x : bath.state.x) middle += x.y() / static_cast<double>(bath.state.x.size());
+        fillBelow(bath, middle - 0.5 * bath.scene.grid.dx);
+        Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+        ASSERT_TRUE(bath.find(mixture));
+        bath.exchange(mixture);
+        const Vec3 up = mixture.liquidMomentum(bath.scene.liquid);
+        EXPECT_GT(up.y(), 1.0e-4);
+        EXPECT_GT(up.y(), std::abs(up.x()) + std::abs(up.z()));
+        if (reacts) EXPECT_LT(bath.momentum(mixture).norm(), 1.0e-13 * up.norm());
+        else EXPECT_EQ(bath.fabricMomentum(), Vec3::Zero().eval());
+    }
+}
+
+TEST(Mixture, FullPoresDoNotSuck)
+{
+    Bath bath(DragLaw::Off);
+    bath.settings.coupling.capillary = true;
+    for (Vec3& v : bath.state.v) v.setZero();
+    bath.scene.setRandomVelocities(0.0);  // fabric amid liquid: every cell that it reaches is full
+    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    ASSERT_TRUE(bath.find(mixture));
+    bath.exchange(mixture);
+    EXPECT_LT(mixture.liquidMomentum(bath.scene.liquid).norm(), 1.0e-12);
 }
 
 TEST(Mixture, FarFabricIsLeftAlone)

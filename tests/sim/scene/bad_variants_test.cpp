@@ -7,9 +7,9 @@ namespace {
 const BadScene kBadScenes[] = {
     {"Coupling", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-coupling: {capillary: true}
+coupling: {cohesion: {strength: 1}}
 )",
-     "bad.yaml:3: coupling.capillary: this version has no suction or cohesion of liquid on fabric; remove the key"},
+     "bad.yaml:3: coupling.cohesion: this version has no cohesion of wet fabric; remove the key"},
     {"Changes", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 changes: []

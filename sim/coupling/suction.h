@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sim/coupling/porous_law.h"
+#include "sim/coupling/sorted_vertices.h"
+#include "sim/liquid/liquid_grid.h"
+
+namespace sim {
+
+/// Capillary suction of fabric on the liquid around: P = P_c (1 − saturation) in the cells that vertices reach (model-fluid 8.1).
+class Suction {
+ public:
+    Suction(const Fabric& fabric, const Settings& settings);
+
+    /// @param liquidBlock  the liquid's block for each of the vertices', or BlockGrid::kNone
+    void find(const SortedVertices& vertices, const FabricState& state, const BlockGrid& grid, std::span<const int> liquidBlock,
+              const LiquidGrid& liquid);
+    /// dP/da at the lower face of a cell along an axis [dyn/cm^3].
+    double slope(const BlockGrid& grid, int block, int axis, int cell) const;
+
+ private:
+    enum Kind { kFibres, kHeld, kKinds };        ///< volumes in a cell [cm^3]
+
+    const Fabric& fabric_;
+    PorousLaw law_;
+    double density_;                             ///< of the liquid [g/cm^3]
+    BlockArray<double, kKinds> volumes_;
+    BlockArray<double> suction_;                 ///< of each cell [dyn/cm^2]
+};
+
+}  // namespace sim
