@@ -119,14 +119,15 @@ TEST(Mixture, PressureActsOnAllTheRoom)
     EXPECT_NEAR((after - before).y(), 0.0, 1.0e-10 * kStep * kSlope * room);
 }
 
-/// Liquid below a height, at rest.
+/// The bath's liquid below a height only, at rest.
 void fillBelow(Bath& bath, double height)
 {
     for (int b = 0; b < bath.scene.grid.count(); ++b) {
         std::fill_n(bath.scene.liquid.inside.block(b), BlockBits<>::kWords, 0);
         std::fill_n(bath.scene.liquid.faces.sums.block(b), 6 * kBlockCells, 0.0);
     }
-    bath.scene.fill([&](const Vec3& x) { return x.y() - height; });
+    const Vec3 middle = bath.scene.corner(Vec3i(8, 8, 8));
+    bath.scene.fill([&](const Vec3& x) { return std::max(x.y() - height, (x - middle).cwiseAbs().maxCoeff() - 6.4 * bath.scene.grid.dx); });
     bath.scene.setRandomVelocities(0.0);
 }
 
