@@ -25,8 +25,7 @@ void Mixture::forEachShared(Body&& body) const
 }
 
 Mixture::Mixture(const Fabric& fabric, const Settings& settings, SortedVertices& vertices)
-    : fabric_(fabric),
-      law_(settings.porous, settings.liquid, settings.coupling),
+    : law_(settings.porous, settings.liquid, settings.coupling),
       liquidDensity_(settings.liquid.density),
       settings_(settings.coupling),
       suction_(fabric, settings),

@@ -17,7 +17,8 @@ class Mixture {
     Mixture(const Fabric& fabric, const Settings& settings, SortedVertices& vertices);
 
     /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the vertices are sorted and the liquid's
-    /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing else is to be called then.
+    /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing
+    /// else is to be called then.
     bool find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state, LiquidGrid& liquid);
     /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
@@ -46,7 +47,6 @@ class Mixture {
     template <class Of>
     double sumOver(const LiquidGrid& liquid, int block, int axis, Of&& of) const;
 
-    const Fabric& fabric_;
     PorousLaw law_;
     double liquidDensity_;                           ///< [g/cm^3]
     CouplingSettings settings_;
