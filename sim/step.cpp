@@ -223,7 +223,7 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
     report.particles = particles.count;
     report.liquidMass += report.drippedMass;
     report.absorbedMass = parallelSum(state.fabric.absorbed.size(), [&](std::size_t v) { return state.fabric.absorbed[v]; });
-    const Ledger& ledger = state.ledger;
+    [[maybe_unused]] const Ledger& ledger = state.ledger;
     SIM_CHECK(std::abs(report.liquidMass + report.absorbedMass + ledger.leftMass - ledger.emittedMass) <= 1.0e-12 * ledger.emittedMass);  // model-fluid 9.4
 }
 

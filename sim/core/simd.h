@@ -113,6 +113,24 @@ template <class V>
 [[gnu::always_inline]] inline Pack absPack(Pack v) { return v < 0.0 ? -v : v; }
 [[gnu::always_inline]] inline Pack maxPack(Pack a, Pack b) { return b > a ? b : a; }
 
+[[gnu::always_inline]] inline void storePack(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
+
+/// Store past the caches, to an address that is a multiple of 64 bytes. Other threads see it after streamFence().
+[[gnu::always_inline]] inline void streamPack(double* p, Pack v)
+{
+#ifdef __AVX512F__
+    _mm512_stream_pd(p, (__m512d)v);
+#else
+    storePack(p, v);
+#endif
+}
+inline void streamFence()
+{
+#ifdef __AVX512F__
+    _mm_sfence();
+#endif
+}
+
 /// Store the first n lanes.
 [[gnu::always_inline]] inline void storeFirst(double* p, Pack v, int n)
 {

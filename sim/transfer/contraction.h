@@ -185,26 +185,30 @@ template <class Set>
     }
 }
 
-/// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (model-fluid 4.7), from orthogonal coefficients.
-template <class Set, int kModes>
+/// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (model-fluid 4.7), from orthogonal coefficients: each square
+/// times the norms of its three factors, gathered axis by axis.
+template <class Set>
 [[gnu::always_inline]] inline Pack modalSquare(const Pack (&r)[3], const Coefficients<Set::kFactors>& c)
 {
-    Pack norm2[3];
-    if constexpr (Set::kFactors > 2)
-        unroll<3>([&](auto a) {
-            const Pack rr = r[a] * r[a];
-            norm2[a] = 0.1875 + rr * (-1.75 + rr * (5.0 - 4.0 * rr));
-        });
+    constexpr int kFactors = Set::kFactors;
+    Pack norm[3][3];
+    unroll<3>([&](auto a) {
+        const Pack rr = r[a] * r[a];
+        norm[a][1] = broadcast(0.25);
+        norm[a][2] = 0.1875 + rr * (-1.75 + rr * (5.0 - 4.0 * rr));
+    });
+    const auto weighted = [&](int axis, int degree, Pack v) { return degree == 0 ? v : norm[axis][degree] * v; };
     Pack sum = broadcast(0.0);
-    forEachMode<kModes>([&](auto mode, auto a, auto b, auto d) {
-        if constexpr (mode > 0) {
-            constexpr int kLinear = (a == 1) + (b == 1) + (d == 1);
-            Pack term = (kLinear == 0 ? 1.0 : kLinear == 1 ? 0.25 : kLinear == 2 ? 0.0625 : 0.015625) * (c[a][b][d] * c[a][b][d]);
-            if constexpr (a == 2) term *= norm2[0];
-            if constexpr (b == 2) term *= norm2[1];
-            if constexpr (d == 2) term *= norm2[2];
-            sum += term;
-        }
+    unroll<kFactors>([&](auto a) {
+        Pack plane = broadcast(0.0);
+        unroll<kFactors>([&](auto b) {
+            Pack row = broadcast(0.0);
+            unroll<kFactors>([&](auto d) {
+                if constexpr (Set::has(a, b, d) && a + b + d > 0) row += weighted(2, d, c[a][b][d] * c[a][b][d]);
+            });
+            if constexpr (Set::has(a, b, 0)) plane += weighted(1, b, row);
+        });
+        sum += weighted(0, a, plane);
     });
     return sum;
 }

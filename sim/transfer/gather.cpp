@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/transfer/contraction.h"
+#include "sim/transfer/mode_window.h"
 #include "sim/transfer/reference.h"
 
 namespace sim {
@@ -41,8 +42,8 @@ struct LaneSums {
 };
 
 /// Gather one component of n ≤ 8 particles starting at s: monomials, in c and in the particles' rows.
-template <int kAxis, class Set, int kModes, bool kFold>
-[[gnu::always_inline]] inline void gatherAxis(const Context& ctx, int node, const Operators<Set::kFactors>* op, int s, int n,
+template <int kAxis, class Set, int kModes, bool kFold, class Rows>
+[[gnu::always_inline]] inline void gatherAxis(const Context& ctx, int node, const Operators<Set::kFactors>* op, int s, int n, Rows& rows,
                                               Coefficients<Set::kFactors>& c)
 {
     contract<kAxis, Set>(ctx.tile.v[kAxis] + node, op, c);
@@ -52,7 +53,7 @@ template <int kAxis, class Set, int kModes, bool kFold>
             Coefficients<1> old;
             contract<kAxis, Set>(ctx.flipTile->v[kAxis] + node, op, old);
             const Pack flip = loadPack(ctx.scratch.oldVelocity[kAxis].data() + s) + (c[0][0][0] - old[0][0][0]);
-            storeFirst(ctx.particles.mode(kAxis, 0) + s, ctx.settings.flipRatio * flip + (1.0 - ctx.settings.flipRatio) * c[0][0][0], n);
+            storeFirst(rows.at(kAxis, 0, s), ctx.settings.flipRatio * flip + (1.0 - ctx.settings.flipRatio) * c[0][0][0], n);
             return;
         }
     }
@@ -69,7 +70,7 @@ template <int kAxis, class Set, int kModes, bool kFold>
         forEachMode<kModes>([&](auto, auto a, auto b, auto d) { c[a][b][d] *= ctx.settings.keep; });
         c[0][0][0] += (1.0 - ctx.settings.keep) * mean;
     }
-    forEachMode<kModes>([&](auto r, auto a, auto b, auto d) { storeFirst(ctx.particles.mode(kAxis, r) + s, c[a][b][d], n); });
+    forEachMode<kModes>([&](auto r, auto a, auto b, auto d) { storeFirst(rows.at(kAxis, r, s), c[a][b][d], n); });
 }
 
 /// Orthogonal offset of a new position xi (in cells, any cell) from its middle node: face-like along its own axis.
@@ -95,14 +96,16 @@ template <int kAxis>
     });
 }
 
+constexpr int kMostDirect = 8;  ///< modes; more leave through a window
 constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
-template <class Set, int kModes, bool kFold>
-[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, int s, int n, LaneSums& sums)
+template <class Set, int kModes, bool kFold, class Rows>
+[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, int s, int n, Rows& rows, LaneSums& sums)
 {
     LiquidParticles& particles = ctx.particles;
-    for (int a = 0; a < kAxes; ++a)
-        for (int r = 0; r < kModes; ++r) __builtin_prefetch(particles.mode(a, r) + s + kPrefetchAhead, 1);
+    if constexpr (std::is_same_v<Rows, DirectModes>)
+        for (int a = 0; a < kAxes; ++a)
+            for (int r = 0; r < kModes; ++r) __builtin_prefetch(rows.at(a, r, s + kPrefetchAhead), 1);
 
     Operators<Set::kFactors> op[3];
     Pack x[3];
@@ -112,9 +115,9 @@ template <class Set, int kModes, bool kFold>
         setOperators<Set::kFactors, kFold>(inCells - floorPack(inCells), op[a]);
     }
     Coefficients<Set::kFactors> c[3];
-    gatherAxis<0, Set, kModes, kFold>(ctx, node, op, s, n, c[0]);
-    gatherAxis<1, Set, kModes, kFold>(ctx, node, op, s, n, c[1]);
-    gatherAxis<2, Set, kModes, kFold>(ctx, node, op, s, n, c[2]);
+    gatherAxis<0, Set, kModes, kFold>(ctx, node, op, s, n, rows, c[0]);
+    gatherAxis<1, Set, kModes, kFold>(ctx, node, op, s, n, rows, c[1]);
+    gatherAxis<2, Set, kModes, kFold>(ctx, node, op, s, n, rows, c[2]);
 
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
@@ -126,7 +129,7 @@ template <class Set, int kModes, bool kFold>
         if (ctx.settings.displacement != nullptr) x[a] += loadPack(ctx.settings.displacement[a].data() + s);
         storeFirst(particles.x[a].data() + s, x[a], n);
         xi[a] = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
-        const Pack carried = ctx.flipTile != nullptr ? loadPack(particles.mode(a, 0) + s) : v;
+        const Pack carried = ctx.flipTile != nullptr ? loadPack(rows.at(a, 0, s)) : v;
         speedSquared += carried * carried;
     }
     speedSquared = select(lanes, speedSquared, zero);
@@ -145,7 +148,7 @@ template <class Set, int kModes, bool kFold>
                 });
                 convert<Set>(1.0, skew, c[axis]);
             }
-            modal += modalSquare<Set, kModes>(r, c[axis]);
+            modal += modalSquare<Set>(r, c[axis]);
         });
         sums.modal += mass * select(lanes, modal, zero);
     }
@@ -156,6 +159,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
 {
     LaneSums lanes;
     GatherSums sums;
+    std::conditional_t<(kModes > kMostDirect), ModeWindow<kModes>, DirectModes> rows(ctx.particles, order.begin(block));
     for (int i = box.low[0]; i <= box.high[0]; ++i)
         for (int j = box.low[1]; j <= box.high[1]; ++j)
             for (int k = box.low[2]; k <= box.high[2]; ++k) {
@@ -166,15 +170,19 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
                     if (ctx.settings.manyModes != nullptr && !ctx.settings.manyModes->test(block, cellInBlock(i, j, k))) {
                         for (int s = start[0]; s < start[1]; s += kLanes) {
                             const int n = std::min(kLanes, start[1] - s);
-                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, node, s, n, lanes);
+                            rows.advanceTo(s);
+                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, node, s, n, rows, lanes);
                             for (int a = 0; a < kAxes; ++a)
-                                for (int r = kModesAtSurface; r < kModes; ++r) std::fill_n(ctx.particles.mode(a, r) + s, n, 0.0);
+                                for (int r = kModesAtSurface; r < kModes; ++r) storeFirst(rows.at(a, r, s), broadcast(0.0), n);
                         }
                         continue;
                     }
-                for (int s = start[0]; s < start[1]; s += kLanes)
-                    gatherPack<Set, kModes, kFold>(ctx, node, s, std::min(kLanes, start[1] - s), lanes);
+                for (int s = start[0]; s < start[1]; s += kLanes) {
+                    rows.advanceTo(s);
+                    gatherPack<Set, kModes, kFold>(ctx, node, s, std::min(kLanes, start[1] - s), rows, lanes);
+                }
             }
+    rows.finish(order.end(block));
     sums.kinetic += 0.5 * sumLanes(lanes.kinetic);
     sums.modal += 0.5 * sumLanes(lanes.modal);
     for (int l = 0; l < kLanes; ++l)
