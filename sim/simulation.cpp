@@ -87,7 +87,7 @@ void Simulation::prepareWorkspace()
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
         work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
-        work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles);
+        work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
 }
 
 Energies Simulation::energies() const

@@ -11,6 +11,7 @@
 #include "sim/transfer/scatter_affine.h"
 
 #include <cmath>
+#include <optional>
 
 namespace sim {
 
@@ -84,6 +85,12 @@ struct LiquidPlan {
     bool isMixed = false;      ///< with fabric on some faces
 };
 
+/// Of fabric that is solved for on faces.
+std::optional<FabricFaces> facesOf(const Workspace& work)
+{
+    return work.gridFabric ? std::optional(work.gridFabric->faces()) : std::nullopt;
+}
+
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
 LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock)
 {
@@ -132,8 +139,10 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     divideAndAddGravity(grid, settings.gravity, dt, plan.flips, work.grid);
 
     if (plan.meetsFabric) {
+        if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
         clock.start(Stage::Mixture);
-        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, work.grid);
+        const std::optional<FabricFaces> faces = facesOf(work);
+        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
     }
 
     clock.start(Stage::Cells);
@@ -186,18 +195,25 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
 }
 
+/// The fabric, and the liquid between it.
 void stepFabric(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
 {
-    const LiquidLoads* loads = nullptr;
-    if (plan.isMixed) {
-        clock.start(Stage::Mixture);
-        loads = &work.coupling->mixture.loads(work.grid);
-    }
-    if (work.fabric) report.fabric = work.fabric->step(state.time, dt, settings.gravity, state.fabric, clock, loads);
-    if (work.gridFabric) report.fabric = work.gridFabric->step(state.time, dt, settings.gravity, state.fabric, clock);
-    if (plan.isMixed) {
+    if (plan.isMixed) clock.start(Stage::Mixture);
+    if (work.fabric) {
+        const LiquidLoads* loads = plan.isMixed ? &work.coupling->mixture.loads(work.grid) : nullptr;
+        report.fabric = work.fabric->step(state.time, dt, settings.gravity, state.fabric, clock, loads);
+        if (!plan.isMixed) return;
         clock.start(Stage::Mixture);
         work.coupling->mixture.separate(state.fabric, work.grid);
+    }
+    if (work.gridFabric) {
+        std::optional<FaceLoads> loads;
+        if (plan.isMixed) loads.emplace(work.coupling->mixture.faceLoads(work.grid));
+        if (!plan.meetsFabric) work.gridFabric->spread(state.fabric, clock);
+        report.fabric = work.gridFabric->advance(state.time, dt, settings.gravity, state.fabric, clock, loads ? &*loads : nullptr);
+        if (!plan.isMixed) return;
+        clock.start(Stage::Mixture);
+        work.coupling->mixture.separate(work.gridFabric->faces(), work.grid);
     }
 }
 

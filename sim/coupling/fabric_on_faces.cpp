@@ -75,6 +75,21 @@ void FabricOnFaces::divideByMass(BlockArray<double, 3>& u) const
     });
 }
 
+void FabricOnFaces::spreadVelocity(const FabricState& state)
+{
+    scatter([&](int v) { return Vec3(massOf_[v] * state.v[v]); }, velocity);
+    divideByMass(velocity);
+}
+
+void FabricOnFaces::takeVelocity(const FabricFaces& faces)
+{
+    parallelFor(grid().count(), 8, [&](std::size_t i) {
+        const int b = static_cast<int>(i), from = faces.grid.find(grid().coords(b));
+        if (from == BlockGrid::kNone) return;  // fabric is in blocks beside it only
+        std::copy_n(faces.velocity.block(from), kAxes * kBlockCells, velocity.block(b));
+    });
+}
+
 void FabricOnFaces::spread(const FabricState& state)
 {
     const std::size_t n = vertices_.count();

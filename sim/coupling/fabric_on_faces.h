@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/coupling/sorted_vertices.h"
+#include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/grid/block_points.h"
 #include "sim/transfer/scatter.h"
 
@@ -16,6 +17,10 @@ class FabricOnFaces {
 
     /// P2G of all fields, of vertices that have been sorted.
     void spread(const FabricState& state);
+    /// The velocity again: that of the vertices as they are now …
+    void spreadVelocity(const FabricState& state);
+    /// … or as a solver has it on faces.
+    void takeVelocity(const FabricFaces& faces);
 
     const BlockGrid& grid() const { return vertices_.grid; }
     double massOf(int vertex) const { return massOf_[vertex]; }    ///< with what it has absorbed [g]

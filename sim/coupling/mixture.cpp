@@ -44,12 +44,13 @@ bool Mixture::findShared(const BlockGrid& grid)
 }
 
 bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state,
-                   LiquidGrid& liquid)
+                   const FabricFaces* faces, LiquidGrid& liquid)
 {
     if (!findShared(grid)) return false;
     dt_ = dt;
     onFaces_.spread(state);
-    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &perMass_, &pull_, &push_})
+    if (faces) onFaces_.takeVelocity(*faces);
+    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &onFabric_, &pull_, &push_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, obstacles, liquid);
     if (settings_.capillary) suck(grid, obstacles, state, liquid);
@@ -164,10 +165,11 @@ void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArr
     });
 }
 
-const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
+/// What pressure did to the mixture, from the change of its velocities; what the liquid alone would move at, and pull with.
+void Mixture::applyPressure(const LiquidGrid& liquid)
 {
     parallelFor(liquidBlock_.size(), [&](std::size_t b) {
-        for (Faces* u : {&perMass_, &pull_, &push_}) std::fill_n(u->block(static_cast<int>(b)), Faces::kStride, 0.0);
+        for (Faces* u : {&onFabric_, &pull_, &push_}) std::fill_n(u->block(static_cast<int>(b)), Faces::kStride, 0.0);
     });
     forEachShared([&](int b, int m, int a, int c) {
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], mobility = mobility_.block(b, a)[c];
@@ -176,26 +178,53 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
         double& u = predicted_.block(b, a)[c];
         u -= liquidVolume_.block(b, a)[c] / mass * push;
         push_.block(b, a)[c] = push;
-        perMass_.block(b, a)[c] = drag * mass / ((mass + drag) * onFaces_.mass.block(b, a)[c]);
-        pull_.block(b, a)[c] = perMass_.block(b, a)[c] * u;
-        if (settings_.capillary && settings_.capillaryReaction) pull_.block(b, a)[c] -= sucked_.block(b, a)[c] / onFaces_.mass.block(b, a)[c];
+        onFabric_.block(b, a)[c] = drag * mass / (mass + drag);
+        pull_.block(b, a)[c] = onFabric_.block(b, a)[c] * u;
+        if (settings_.capillary && settings_.capillaryReaction) pull_.block(b, a)[c] -= sucked_.block(b, a)[c];
+    });
+}
+
+const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
+{
+    applyPressure(liquid);
+    forEachShared([&](int b, int, int a, int c) {  // what a vertex gets of it is by its share of the mass
+        const double mass = onFaces_.mass.block(b, a)[c];
+        onFabric_.block(b, a)[c] /= mass;
+        pull_.block(b, a)[c] /= mass;
     });
     // Vertices far from the liquid are not asked.
     std::ranges::fill(loads_.drag, Vec3::Zero());
     std::ranges::fill(loads_.impulse, Vec3::Zero());
-    onFaces_.gather(perMass_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
+    onFaces_.gather(onFabric_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
     onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
     if (settings_.pressureOnFabric) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
     return loads_;
 }
 
+FaceLoads Mixture::faceLoads(const LiquidGrid& liquid)
+{
+    applyPressure(liquid);
+    if (settings_.pressureOnFabric)
+        forEachShared([&](int b, int, int a, int c) { pull_.block(b, a)[c] -= onFaces_.solid.block(b, a)[c] * push_.block(b, a)[c]; });
+    return {onFaces_.grid(), onFabric_, pull_};
+}
+
 void Mixture::separate(const FabricState& state, LiquidGrid& liquid)
 {
-    Faces& momentum = push_;
-    onFaces_.scatter([&](int v) { return Vec3(onFaces_.massOf(v) * state.v[v]); }, momentum);
+    onFaces_.spreadVelocity(state);
+    separate(liquid);
+}
+
+void Mixture::separate(const FabricFaces& faces, LiquidGrid& liquid)
+{
+    onFaces_.takeVelocity(faces);
+    separate(liquid);
+}
+
+void Mixture::separate(LiquidGrid& liquid) const
+{
     forEachShared([&](int b, int m, int a, int c) {
-        const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c];
-        const double fabric = momentum.block(b, a)[c] / onFaces_.mass.block(b, a)[c];
+        const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
         liquid.faces.velocity.block(m, a)[c] = (mass * predicted_.block(b, a)[c] + drag * fabric) / (mass + drag);
     });
 }

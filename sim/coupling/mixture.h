@@ -19,14 +19,19 @@ class Mixture {
     /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the vertices are sorted and the liquid's
     /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing
     /// else is to be called then.
-    bool find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state, LiquidGrid& liquid);
+    /// @param faces  the fabric's velocities, of a solver that has its unknowns on faces; else null
+    bool find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state,
+              const FabricFaces* faces, LiquidGrid& liquid);
     /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
     void blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
-    /// After the pressure: what it and drag do to the fabric.
+    /// After the pressure: what it and drag do to the fabric, by vertices or by faces.
     const LiquidLoads& loads(const LiquidGrid& liquid);
-    /// After the fabric: the liquid's own velocities on these faces, given those of the vertices at the end of the step.
+    FaceLoads faceLoads(const LiquidGrid& liquid);
+    /// After the fabric: the liquid's own velocities on these faces, given those of the vertices, or of the fabric's faces, at the end of
+    /// the step.
     void separate(const FabricState& state, LiquidGrid& liquid);
+    void separate(const FabricFaces& faces, LiquidGrid& liquid);
 
     /// Momentum and kinetic energy of the liquid on the shared faces [g cm/s, erg].
     Vec3 liquidMomentum(const LiquidGrid& liquid) const;
@@ -41,6 +46,8 @@ class Mixture {
     void suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid);
     void mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
     void addDisplaced(LiquidGrid& liquid) const;
+    void applyPressure(const LiquidGrid& liquid);
+    void separate(LiquidGrid& liquid) const;
     double speedAt(int block, int axis, int cell) const;
     template <class Body>
     void forEachShared(Body&& body) const;
@@ -64,7 +71,9 @@ class Mixture {
     Faces predicted_;                                ///< u_f*, later ũ_f: after the pressure [cm/s]
     Faces mixed_, mobility_;                         ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
     Faces sucked_;                                   ///< impulse of suction on the liquid [g cm/s]
-    Faces perMass_, pull_, push_;                    ///< D'/M_s [-], that times ũ_f [cm/s], dt ∇p [g/(cm^2 s)]
+    Faces onFabric_;                                 ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
+    Faces pull_;                                     ///< D' ũ_f, less the reaction of suction [g cm/s]
+    Faces push_;                                     ///< dt ∇p [g/(cm^2 s)]
     LiquidLoads loads_;
 };
 

@@ -76,9 +76,10 @@ struct FabricState {
     std::vector<Vec3> reference;          ///< first axis u of the reference frame, across the tangent [-]
     std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 
+    std::vector<Vec3> acceleration;       ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
+
     // Of solver vertex only.
     double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
-    std::vector<Vec3> acceleration;       ///< of each vertex by all forces but gravity, over the last step [cm/s^2]
 
     // Of solver grid only; empty until its first step.
     std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/core/types.h"
+#include "sim/grid/block_grid.h"
 
 #include <vector>
 
@@ -11,6 +12,19 @@ namespace sim {
 struct LiquidLoads {
     std::vector<Vec3> drag;     ///< Σ D' of the faces around; 0 where there is no liquid [g]
     std::vector<Vec3> impulse;  ///< Σ D' ũ of the liquid and of its pressure [g cm/s]
+};
+
+/// The same on the faces of a grid with the fabric's cells (model-fabric 4.3).
+struct FaceLoads {
+    const BlockGrid& grid;
+    const BlockArray<double, 3>& drag;     ///< D' [g]
+    const BlockArray<double, 3>& impulse;  ///< D' ũ and of pressure [g cm/s]
+};
+
+/// Velocities of the fabric on the faces of a grid of its own [cm/s].
+struct FabricFaces {
+    const BlockGrid& grid;
+    const BlockArray<double, 3>& velocity;
 };
 
 }  // namespace sim

@@ -82,8 +82,6 @@ void checkCoupling(const Scene& scene)
     const bool isWet = std::ranges::any_of(scene.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
     if (scene.fabrics.empty() || (scene.sources.empty() && !isWet)) return;
     const std::string& where = scene.fabrics[0].where;
-    if (scene.settings.fabric.solver == FabricSolver::Grid)
-        fail(where, "fabrics: liquid does not act on fabric.solver grid in this version; choose vertex");
     const CouplingSettings& coupling = scene.settings.coupling;
     if (coupling.drag == DragLaw::Nonlinear && coupling.dragExponent > 1.0 && scene.settings.liquid.viscosity == 0.0)
         fail(where, fmt::format("fabrics: nonlinear drag with exponent {} is infinite at liquid.viscosity 0; give a viscosity, "

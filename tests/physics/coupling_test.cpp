@@ -11,7 +11,7 @@ namespace sim::test {
 namespace {
 
 /// A drop of 1 cm that moves at 100 cm/s, and a free square of cloth in its way. No gravity.
-Scene dropAndCloth(DragLaw drag)
+Scene dropAndCloth(DragLaw drag, FabricSolver solver)
 {
     Scene scene;
     scene.name = "drop and cloth";
@@ -19,6 +19,7 @@ Scene dropAndCloth(DragLaw drag)
     scene.settings.gravity.setZero();
     scene.settings.coupling.drag = drag;
     scene.settings.coupling.capillaryReaction = true;  // without it suction makes momentum
+    scene.settings.fabric.solver = solver;
     scene.settings.fabric.tolerance = 1.0e-8;  // what the linear solve leaves is momentum lost
     SourceSettings source;
     source.name = "drop";
@@ -47,9 +48,11 @@ Momenta momentaOf(const Simulation& simulation)
     return sum;
 }
 
-TEST(DropOnCloth, WhatTheLiquidLosesTheClothGains)
+class DropOnCloth : public ::testing::TestWithParam<FabricSolver> {};
+
+TEST_P(DropOnCloth, WhatTheLiquidLosesTheClothGains)
 {
-    Simulation simulation(dropAndCloth(DragLaw::Nonlinear));
+    Simulation simulation(dropAndCloth(DragLaw::Nonlinear, GetParam()));
     const Vec3 start = momentaOf(simulation).liquid;
     double worst = 0.0;
     while (simulation.state().time < 0.03 - 1.0e-12) {
@@ -71,9 +74,9 @@ void expectLedgerCloses(const Simulation& simulation, const StepReport& report)
         << "step " << simulation.state().step;
 }
 
-TEST(DropOnCloth, WaterIsNeitherMadeNorLost)
+TEST_P(DropOnCloth, WaterIsNeitherMadeNorLost)
 {
-    Scene scene = dropAndCloth(DragLaw::Nonlinear);
+    Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());
     scene.domain = Shape::box(Vec3(0.0, 0.0, 0.0), Vec3(2.0, 1.6, 2.0));
     Simulation simulation(scene);
     double captured = 0.0;
@@ -117,9 +120,9 @@ TEST(Towel, DripsWhereItIsLowest)
 }
 
 /// Without drag and pressure on it, and dry, the cloth does not feel the liquid.
-TEST(DropOnCloth, UncoupledClothStandsStill)
+TEST_P(DropOnCloth, UncoupledClothStandsStill)
 {
-    Scene scene = dropAndCloth(DragLaw::Off);
+    Scene scene = dropAndCloth(DragLaw::Off, GetParam());
     scene.settings.coupling.pressureOnFabric = false;
     scene.settings.coupling.capture.rate = 0.0;
     scene.settings.coupling.capillary = false;
@@ -128,11 +131,11 @@ TEST(DropOnCloth, UncoupledClothStandsStill)
     EXPECT_LT(momentaOf(simulation).fabric.norm(), 1.0e-9 * momentaOf(simulation).liquid.norm());
 }
 
-TEST(DropOnCloth, SameBitsOnAnyNumberOfThreads)
+TEST_P(DropOnCloth, SameBitsOnAnyNumberOfThreads)
 {
     const auto hashOn = [](int threads) {
         return onThreads(threads, [] {
-            Simulation simulation(dropAndCloth(DragLaw::Nonlinear));
+            Simulation simulation(dropAndCloth(DragLaw::Nonlinear, GetParam()));
             for (int n = 1; n <= 15; ++n) simulation.step(n * 1.0e-3);
             return stateHash(simulation.state());
         });
@@ -140,6 +143,9 @@ TEST(DropOnCloth, SameBitsOnAnyNumberOfThreads)
     const std::uint64_t one = hashOn(1);
     for (int threads : {2, 8}) EXPECT_EQ(hashOn(threads), one) << threads;
 }
+
+INSTANTIATE_TEST_SUITE_P(Solvers, DropOnCloth, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
+                         [](const auto& tested) { return tested.param == FabricSolver::Vertex ? "Vertex" : "Grid"; });
 
 }  // namespace
 }  // namespace sim::test

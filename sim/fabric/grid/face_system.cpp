@@ -23,7 +23,7 @@ FaceSystem::FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, c
     out_.resize(stiffness.unknowns().size);
 }
 
-void FaceSystem::assemble(const FabricParticles& particles, double h)
+void FaceSystem::assemble(const FabricParticles& particles, double h, const FaceLoads* loads)
 {
     particles_ = &particles;
     grid_ = &particles.grid();
@@ -32,6 +32,9 @@ void FaceSystem::assemble(const FabricParticles& particles, double h)
     parallelFor(blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         std::copy_n(particles.faces().sums.block(block, FaceFields::kMass), kAxes * kBlockCells, mass_.block(block));
+        const int loaded = loads ? loads->grid.find(grid_->coords(block)) : BlockGrid::kNone;
+        if (loaded == BlockGrid::kNone) return;
+        for (int i = 0; i < kAxes * kBlockCells; ++i) mass_.block(block)[i] += loads->drag.block(loaded)[i];
     });
     for (FaceVector* v : {&residual_, &p_, &q_, &inverse_}) v->resize(blocks(), edges());
     rows_.find(mass_);

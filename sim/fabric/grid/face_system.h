@@ -6,6 +6,7 @@
 #include "sim/fabric/grid/fabric_particles.h"
 #include "sim/fabric/grid/pressed_elements.h"
 #include "sim/fabric/grid/vertex_stiffness.h"
+#include "sim/fabric/liquid_loads.h"
 
 #include <span>
 #include <vector>
@@ -49,7 +50,8 @@ class FaceSystem {
 
     /// Takes masses and weights from what toFaces left. Stiffness and contact must be assembled, and stay until the
     /// solve is done.
-    void assemble(const FabricParticles& particles, double h);
+    /// @param loads  of liquid, whose drag then counts as mass; or null
+    void assemble(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
 
     std::size_t edges() const { return fabric_.edges.size(); }
     int blocks() const { return grid_->count(); }
@@ -86,7 +88,7 @@ class FaceSystem {
     const BlockGrid* grid_ = nullptr;
     double h_ = 0.0;  ///< [s]
 
-    BlockArray<double, 3> mass_;          ///< of each face [g]
+    BlockArray<double, 3> mass_;          ///< of each face, with the liquid's drag [g]
     AlignedArray<double> inertia_;        ///< of each twist angle; 1 in unused lanes [g cm^2]
     double totalMass_;                    ///< [g]
     FaceRows rows_;

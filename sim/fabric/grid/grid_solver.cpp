@@ -15,13 +15,15 @@ constexpr int kMaxIterations = 200;
 }  // namespace
 
 GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& settings,
-                                   std::span<const ObstacleSettings> obstacles)
+                                   std::span<const ObstacleSettings> obstacles, bool meetsLiquid)
     : fabric_(fabric),
       settings_(settings.fabric),
       stiffness_(fabric, settings.fabric),
       contact_(fabric),
       particles_(fabric, settings),
-      system_(fabric, stiffness_, contact_)
+      system_(fabric, stiffness_, contact_),
+      meetsLiquid_(meetsLiquid),
+      mass_(fabric.mass)
 {
     if (settings_.contact) obstacles_ = FabricObstacles(fabric, obstacles);
     points_.resize(contact_.size());
@@ -45,45 +47,76 @@ std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, doub
     });
     obstacles_.moveTo(t, t + h);
     if (obstacles_.empty()) return {};
-    return obstacles_.at(fabric_, reached_, state.x, state.v, fabric_.mass, h);
+    return obstacles_.at(fabric_, reached_, state.x, state.v, mass_, h);
 }
 
-/// v0: what P2G gave, fallen for h; the twist goes on as it did.
-void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const FabricState& state)
+/// v0: what P2G gave, fallen for h and moved by the liquid; the twist goes on as it did.
+void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads)
 {
     velocity_.resize(system_.blocks(), system_.edges());
     const BlockArray<double, 3>&mass = system_.mass(), &velocity = particles_.velocity();
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
-        const int block = static_cast<int>(b);
+        const int block = static_cast<int>(b), loaded = loads ? loads->grid.find(particles_.grid().coords(block)) : BlockGrid::kNone;
         for (int a = 0; a < kAxes; ++a) {
             const double *m = mass.block(block, a), *from = velocity.block(block, a);
             double* to = velocity_.faces.block(block, a);
             for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? from[c] + h * gravity[a] : 0.0;
+            if (loaded == BlockGrid::kNone) continue;
+            // The system's mass holds the drag D': (M + D') v0 = M (v + h g) + J.
+            const double *drag = loads->drag.block(loaded, a), *impulse = loads->impulse.block(loaded, a);
+            for (int c = 0; c < kBlockCells; ++c)
+                if (m[c] > 0.0) to[c] += (impulse[c] - drag[c] * to[c]) / m[c];
         }
     });
     velocity_.twist.fill(0.0);
     std::ranges::copy(state.omega, velocity_.twist.begin());
 }
 
-FabricReport GridFabricSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
+/// Accelerations by the fabric's own forces, for liquid to expect in the next step (model-fabric 13.9).
+void GridFabricSolver::keepAccelerations(double h, FabricState& state)
+{
+    const BlockArray<double, 3>& inertia = system_.mass();
+    const auto& mass = particles_.faces().sums;
+    parallelFor(system_.blocks(), 8, [&](std::size_t b) {
+        const int block = static_cast<int>(b);
+        for (int a = 0; a < kAxes; ++a) {
+            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a), *v = velocity_.faces.block(block, a);
+            double* to = start_.block(block, a);
+            for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? m[c] * (v[c] - to[c]) / (h * own[c]) : 0.0;
+        }
+    });
+    const BlockPoints& vertices = particles_.vertices();
+    onVertices_.resize(vertices.size());
+    forEachBlock(particles_.order(), particles_.grid(), start_, [&](std::size_t n, const FaceTile& tile) {
+        gatherValues(tile, vertices, n, onVertices_);
+        for (int s = vertices.begin(n); s < vertices.end(n); ++s)
+            state.acceleration[vertices.id[s]] = {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]};
+    });
+}
+
+void GridFabricSolver::spread(FabricState& state, StageClock& clock)
+{
+    begin(state);
+    clock.start(Stage::FabricToGrid);
+    if (meetsLiquid_) parallelFor(mass_.size(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
+    parallelFor(contact_.size(), 1024, [&](std::size_t e) { points_[e] = contact_.position(e, state.x); });
+    particles_.toFaces(mass_, points_, state);
+}
+
+FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FaceLoads* loads)
 {
     FabricReport report;
-    begin(state);
-
-    clock.start(Stage::FabricToGrid);
-    parallelFor(contact_.size(), 1024, [&](std::size_t e) { points_[e] = contact_.position(e, state.x); });
-    particles_.toFaces(fabric_.mass, points_, state);
-
     clock.start(Stage::FabricContact);
     const std::span<const ObstacleContact> touching = touchObstacles(t, h, gravity, state);
     if (settings_.contact) contact_.assemble(state);
 
     clock.start(Stage::FabricElastic);
     stiffness_.assemble(state, t, h, touching, predicted_);
-    system_.assemble(particles_, h);
+    system_.assemble(particles_, h, loads);
 
     clock.start(Stage::FabricSolve);
-    startVelocities(h, gravity, state);
+    startVelocities(h, gravity, state, loads);
+    if (meetsLiquid_) start_ = velocity_.faces;
     const FaceSolveReport solve =
         system_.solve(settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * h, kMaxIterations, velocity_);
     report.newton = 1;
@@ -93,6 +126,7 @@ FabricReport GridFabricSolver::step(double t, double h, const Vec3& gravity, Fab
     report.obstacleContacts = touching.size();
 
     clock.start(Stage::GridToFabric);
+    if (meetsLiquid_) keepAccelerations(h, state);
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);

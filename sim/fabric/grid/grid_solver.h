@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/grid/face_system.h"
+#include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/scene/scene.h"
 
@@ -15,10 +16,21 @@ namespace sim {
 /// crossing within one. Contact is implicit and acts on the mesh too, and twist angles are unknowns of their own.
 class GridFabricSolver {
  public:
-    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles);
+    /// @param meetsLiquid  is there any in the scene?
+    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles, bool meetsLiquid = false);
 
     /// From t to t + h [s]. h must keep within time.maxCflFabric (chooseTimeStep in step.h).
-    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock);
+    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
+    {
+        spread(state, clock);
+        return advance(t, h, gravity, state, clock, nullptr);
+    }
+    /// The same in two parts: the fabric's masses and velocities on the grid, then all the rest.
+    /// @param loads  of the liquid on the same cells, or null
+    void spread(FabricState& state, StageClock& clock);
+    FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FaceLoads* loads);
+    /// Velocities on the grid: those that the vertices brought after spread, those at the end of the step after advance.
+    FabricFaces faces() const { return {particles_.grid(), particles_.faces().velocity}; }
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Energy that contact on the grid held at the start of the last step [erg].
     double contactEnergy() const { return contact_.energy(); }
@@ -28,7 +40,8 @@ class GridFabricSolver {
  private:
     void begin(FabricState& state);
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
-    void startVelocities(double h, const Vec3& gravity, const FabricState& state);
+    void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
+    void keepAccelerations(double h, FabricState& state);
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -38,6 +51,11 @@ class GridFabricSolver {
     FaceSystem system_;
     FabricObstacles obstacles_;
     FaceVector velocity_;
+    bool meetsLiquid_;
+    std::vector<double> mass_;             ///< of each vertex, with what it has absorbed [g]
+    // Where there is liquid: velocities of the faces without the fabric's own forces [cm/s], then what these add [cm/s^2].
+    BlockArray<double, 3> start_;
+    PointArray<3> onVertices_;
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]

@@ -59,7 +59,7 @@ struct Bath {
     bool find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
-        return mixture.find(scene.grid, scene.field, Vec3::Zero(), kStep, state, scene.liquid);
+        return mixture.find(scene.grid, scene.field, Vec3::Zero(), kStep, state, nullptr, scene.liquid);
     }
 
     GridScene scene;
@@ -91,6 +91,42 @@ TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
     EXPECT_GT(moved.norm(), 1.0e-3 * size);
     EXPECT_LT((mixture.liquidMomentum(bath.scene.liquid) + bath.fabricMomentum() - liquidBefore - fabricBefore).norm(), 1.0e-13 * size);
     EXPECT_LT(energy(), before);
+}
+
+/// The same where the fabric's velocities are on faces (model-fluid 6.5, 6.2).
+TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
+{
+    Bath bath;
+    GridScene& scene = bath.scene;
+    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    ASSERT_TRUE(bath.find(mixture));
+    FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, bath.vertices);
+    fabric.spread(bath.state);
+    const Vec3 liquidBefore = mixture.liquidMomentum(scene.liquid);
+    const double energyBefore = mixture.liquidEnergy(scene.liquid);
+    BlockArray<double, 3> noPressure;
+    noPressure.resize(scene.grid.count());
+    for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
+    mixture.blend(scene.field, scene.liquid, noPressure);
+    const FaceLoads loads = mixture.faceLoads(scene.liquid);
+    Vec3 gained = Vec3::Zero();
+    double gainedEnergy = 0.0;
+    for (int b = 0; b < fabric.grid().count(); ++b)
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                const double mass = fabric.mass.block(b, a)[c];
+                double& u = fabric.velocity.block(b, a)[c];
+                if (!(mass > 0.0)) continue;
+                const double before = u;
+                u = (mass * u + loads.impulse.block(b, a)[c]) / (mass + loads.drag.block(b, a)[c]);
+                gained[a] += mass * (u - before);
+                gainedEnergy += 0.5 * mass * (u * u - before * before);
+            }
+    mixture.separate(FabricFaces{fabric.grid(), fabric.velocity}, scene.liquid);
+    const Vec3 lost = liquidBefore - mixture.liquidMomentum(scene.liquid);
+    EXPECT_GT(gained.norm(), 1.0e-3 * liquidBefore.norm());
+    EXPECT_LT((gained - lost).norm(), 1.0e-13 * (liquidBefore.norm() + gained.norm()));
+    EXPECT_LT(mixture.liquidEnergy(scene.liquid) + gainedEnergy, energyBefore);
 }
 
 /// Pressure moves both phases: what both get is minus its gradient over all the room.

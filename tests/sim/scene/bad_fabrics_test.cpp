@@ -26,11 +26,6 @@ const char* const kBegin = "grid: {cell: 0.1}\nmaterials: {wool: {young: 1.0e+6}
 const BadFabric kBadFabrics[] = {
     {"NoShape", "fabrics: [{name: cloth}]\n",
      "bad.yaml:3: fabrics.cloth: says no fabric; it takes one of cloth_grid, woven_yarns, strand, mesh, points"},
-    {"LiquidOnGridFabric",
-     "fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: 0.1}}]\n"
-     "liquid: {sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n"
-     "fabric: {solver: grid}\n",
-     "bad.yaml:3: fabrics: liquid does not act on fabric.solver grid in this version; choose vertex"},
     {"InfiniteDrag",
      "fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: 0.1}}]\n"
      "liquid: {viscosity: 0, sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n",
