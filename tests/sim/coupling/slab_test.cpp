@@ -1,0 +1,149 @@
+#include "sim/coupling/mixture.h"
+#include "sim/fabric/generators.h"
+#include "tests/sim/fabric/pieces.h"
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+constexpr double kStep = 1.0e-3;       // s
+constexpr double kCell = 0.288;        // cm
+constexpr double kHalfThickness = 0.018;
+
+/// Level sheets of cloth one above the other in a grid of 16 cells each way, half a cell apart, as their vertices are: fibres fill the same
+/// part of every face among them. Liquid fills what they leave, to the last drop.
+struct Stack {
+    explicit Stack(int sheets, double volumeFraction, double density) : scene(Vec3i(0, 0, 0), Vec3i(16, 16, 16), kCell)
+    {
+        std::vector<FabricPiece> pieces;
+        for (int s = 0; s < sheets; ++s) {
+            const Vec3 corner = scene.corner(Vec3i(4, 8, 4)) + Vec3(0.0, 0.5 * kCell * (s - 0.5 * (sheets - 1)), 0.0);
+            FabricPiece sheet = testing::pieceOf(clothGrid({{17, 17}, {0.5 * kCell, 0.5 * kCell}, corner, Vec3::UnitX(), Vec3::UnitZ()}),
+                                                 testing::wool(), {kHalfThickness, kHalfThickness});
+            sheet.material.volumeFraction = volumeFraction;
+            sheet.material.density = density;
+            pieces.push_back(sheet);
+        }
+        fabric = assembleFabric(pieces);
+        state = restState(fabric);
+        settings.cell = kCell;
+        settings.gravity.setZero();
+        settings.coupling.capillary = false;
+    }
+    void find(Mixture& mixture)
+    {
+        vertices.sort(scene.grid, state);
+        ASSERT_TRUE(mixture.find(scene.grid, scene.field, settings.gravity, kStep, state, nullptr, scene.liquid));
+    }
+    /// Liquid on the faces around the fabric, less what the fibres take up.
+    void makeRoom()
+    {
+        scene.setMasses();
+        vertices.sort(scene.grid, state);
+        FabricOnFaces faces(fabric, settings.liquid.density, vertices);
+        faces.spread(state);
+        for (int b = 0; b < faces.grid().count(); ++b) {
+            const int to = scene.grid.find(faces.grid().coords(b));
+            if (to == BlockGrid::kNone) continue;
+            for (int a = 0; a < kAxes; ++a)
+                for (int c = 0; c < kBlockCells; ++c) {
+                    double& mass = scene.liquid.faces.sums.block(to, FaceFields::kMass + a)[c];
+                    mass = std::max(0.0, mass - settings.liquid.density * faces.solid.block(b, a)[c]);
+                }
+        }
+    }
+    /// What the liquid's loads and gravity do to free vertices.
+    void moveFabric(const LiquidLoads& loads)
+    {
+        for (std::size_t v = 0; v < state.v.size(); ++v) {
+            const Vec3 momentum = fabric.mass[v] * (state.v[v] + kStep * settings.gravity) + loads.impulse[v];
+            state.v[v] = momentum.cwiseQuotient(Vec3::Constant(fabric.mass[v]) + loads.drag[v]);
+        }
+    }
+
+    GridScene scene;
+    Fabric fabric;
+    SortedVertices vertices;
+    FabricState state;
+    Settings settings;
+};
+
+/// Model-fluid 14, K5: a pressure gradient drives liquid through cloth that stands still, at (1 − ψ)(k/μ) ∇p: its law with the published
+/// normalisation of drag; Darcy's superficial velocity would be that over (1 − ψ)².
+TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
+{
+    Stack stack(17, 0.4, 1.32);
+    stack.settings.coupling.drag = DragLaw::Linear;
+    GridScene& scene = stack.scene;
+    scene.fill([](const Vec3&) { return -1.0; });
+    Mixture mixture(stack.fabric, stack.settings, stack.vertices);
+    constexpr double kSlope = 300.0;  // dyn/cm^3
+    for (int n = 0; n < 120; ++n) {
+        stack.makeRoom();
+        stack.find(mixture);
+        findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+        mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+        scene.forEachCell([&](const Vec3i& c) {
+            scene.velocity(1, c) += scene.work.coefficient.block(scene.at(c).block, 1)[scene.at(c).cell] * kCell * kCell * kSlope;
+        });
+        mixture.loads(scene.liquid);
+        mixture.separate(stack.state, scene.liquid);  // of vertices that nothing moves
+    }
+    const double fraction = 0.4 * 2.0 * kHalfThickness / (0.5 * kCell);
+    const double expected = (1.0 - fraction) * permeability(fraction, 0.01).across / stack.settings.liquid.viscosity * kSlope;
+    EXPECT_GT(expected, 0.5);
+    for (const Vec3i& c : {Vec3i(8, 8, 8), Vec3i(7, 7, 8), Vec3i(8, 9, 7)}) EXPECT_NEAR(scene.velocity(1, c), expected, 1.0e-3 * expected) << c;
+}
+
+/// A tank of liquid at rest up to the 14th cell, with a sheet amid it; one step under gravity.
+/// @return the largest speed that the liquid takes up [cm/s]
+double standInTank(Stack& stack)
+{
+    GridScene& scene = stack.scene;
+    stack.settings.gravity = Vec3(0.0, -981.0, 0.0);
+    scene.add(tankOfCells(scene, Vec3i(2, 2, 2), Vec3i(14, 16, 14)));
+    scene.fill([&](const Vec3& x) { return x.y() - scene.corner(Vec3i(0, 13, 0)).y(); });
+    stack.makeRoom();
+    scene.setVelocities([&](const Vec3&) { return Vec3(kStep * stack.settings.gravity); });
+    Mixture mixture(stack.fabric, stack.settings, stack.vertices);
+    stack.find(mixture);
+    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+    mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+    solvePressure(scene.grid, scene.field, scene.solver, scene.work, scene.liquid, scene.pressure);
+    stack.moveFabric(mixture.loads(scene.liquid));
+    mixture.separate(stack.state, scene.liquid);
+    return scene.largestError([](const Vec3&) { return Vec3::Zero().eval(); });
+}
+
+/// P6: fabric as dense as the liquid stays where it is, and so does the liquid.
+TEST(Buoyancy, NeutralFabricStays)
+{
+    for (const DragLaw drag : {DragLaw::Off, DragLaw::Nonlinear}) {
+        Stack stack(1, 0.4, 1.0);
+        stack.settings.coupling.drag = drag;
+        const double fall = 981.0 * kStep;
+        EXPECT_LT(standInTank(stack), 1.0e-3 * fall);
+        for (const Vec3& v : stack.state.v) EXPECT_LT(v.norm(), 1.0e-3 * fall);
+    }
+}
+
+/// P6: what is denser starts to sink under the weight of its fibres less that of as much liquid.
+TEST(Buoyancy, DenserFabricSinksByTheDifference)
+{
+    constexpr double kDensity = 1.32, kFraction = 0.02;  // thin: a dense layer would keep the liquid's pressure from being hydrostatic
+    Stack stack(1, kFraction, kDensity);
+    stack.settings.coupling.drag = DragLaw::Off;
+    standInTank(stack);
+    double momentum = 0.0, fibres = 0.0;
+    for (std::size_t v = 0; v < stack.state.v.size(); ++v) {
+        momentum += stack.fabric.mass[v] * stack.state.v[v].y();
+        fibres += kFraction * stack.fabric.volume[v];
+    }
+    const double expected = -(kDensity - 1.0) * fibres * 981.0 * kStep;
+    EXPECT_NEAR(momentum, expected, 0.01 * -expected);
+}
+
+}  // namespace
+}  // namespace sim::test
