@@ -1,16 +1,17 @@
 #include "app/compare.h"
 
+#include "app/child_process.h"
 #include "app/compare_table.h"
 #include "app/energy_plot.h"
 #include "app/output_files.h"
 #include "app/reports.h"
-#include "app/side_by_side.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace app {
 
@@ -39,15 +40,6 @@ std::vector<Variant> wantedVariants(const Options& options, const CompareSetting
         wanted.push_back(*found);
     }
     return wanted;
-}
-
-FrameSequence sequenceOf(const ComparedRun& run)
-{
-    return {.folder = run.folder,
-            .label = run.setup.label,
-            .start = run.setup.scene.settings.time.start,
-            .every = run.setup.pictures.output.every,
-            .last = frameCount(run.setup)};
 }
 
 void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::path& folder)
@@ -100,6 +92,33 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
         arguments.push_back(set);
     }
     return arguments;
+}
+
+FrameSequence sequenceOf(const ComparedRun& run)
+{
+    return {.folder = run.folder,
+            .label = run.setup.label,
+            .start = run.setup.scene.settings.time.start,
+            .every = run.setup.pictures.output.every,
+            .last = frameCount(run.setup)};
+}
+
+std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
+                                const std::function<bool()>& stopWanted)
+{
+    std::vector<ComparedRun> done;
+    for (std::size_t n = 0; n < runs.size() && !stopWanted(); ++n) {
+        const std::string head = fmt::format("[{}/{}] {}", n + 1, runs.size(), runs[n].setup.label);
+        if (!options.force && isDone(runs[n], withFrames)) {
+            fmt::print("{}: already there, in {}\n", head, runs[n].folder.string());
+        } else {
+            fmt::print("{}\n", head);
+            std::fflush(stdout);
+            if (!runChild("/proc/self/exe", runArguments(runs[n], options), {.folder = {}, .quiet = false}).ok()) continue;
+        }
+        done.push_back(runs[n]);
+    }
+    return done;
 }
 
 void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,

@@ -2,6 +2,7 @@
 
 #include "app/options.h"
 #include "app/parts.h"
+#include "app/side_by_side.h"
 
 #include <filesystem>
 #include <functional>
@@ -26,6 +27,14 @@ bool isDone(const ComparedRun& run, bool withFrames);
 
 /// The command line of one variant's own process.
 std::vector<std::string> runArguments(const ComparedRun& run, const Options& options);
+
+/// Run what is not done yet, each in a process of its own, so that its peak memory and its crash are its own. Returns those that got to
+/// their end; of a run that was stopped, those before it.
+std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
+                                const std::function<bool()>& stopWanted);
+
+/// Its pictures.
+FrameSequence sequenceOf(const ComparedRun& run);
 
 /// Table, energy plot with its CSV, contact sheet and side-by-side video of runs that are done, as the scene wishes.
 void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,

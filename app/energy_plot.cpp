@@ -51,14 +51,47 @@ int axisScale(const std::vector<EnergyCurve>& curves)
     return largest > 0.0 ? 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0)) : 0;
 }
 
-/// One panel: `value` is a gnuplot expression of the columns of energy.csv.
-std::string panel(const std::vector<EnergyCurve>& curves, const std::string& name, const std::string& value, int scale)
+/// One panel: value(curve) is a gnuplot expression of the columns of energy.csv.
+template <class Value>
+std::string panel(const std::vector<EnergyCurve>& curves, const std::string& name, Value&& value)
 {
     std::string text = fmt::format("set title {}\nplot", quoted(name));
     for (std::size_t i = 0; i < curves.size(); ++i)
-        text += fmt::format("{} {} skip 1 using 1:(({})*1e{}) with lines lw 2 lc rgb '{}' title {} noenhanced", i == 0 ? "" : ", \\\n    ",
-                            quoted(curves[i].csv.generic_string()), value, -scale, kPalette[i % kPalette.size()], quoted(curves[i].label));
+        text += fmt::format("{} {} skip 1 using 1:({}) with lines lw 2 lc rgb '{}' title {} noenhanced", i == 0 ? "" : ", \\\n    ",
+                            quoted(curves[i].csv.generic_string()), value(curves[i]), kPalette[i % kPalette.size()], quoted(curves[i].label));
     return text + "\n";
+}
+
+/// What all panels have in common.
+std::string head(int panels, const std::string& title, const std::string& unit, const std::string& picture)
+{
+    return fmt::format("set terminal pngcairo size {},580 font 'DejaVu Sans,12' linewidth 1\n"
+                       "set output {}\n"
+                       "set datafile separator ','\n"
+                       "set multiplot layout 1,{} margins 0.085,0.985,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
+                       "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
+                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
+                       "set key at screen 0.5,0.045 center center horizontal maxrows 3 samplen 2\n",
+                       550 * panels, quoted(picture), panels, quoted(title), unit);
+}
+
+/// Draw folder/name.png by script(curves, picture) and leave the script beside it.
+template <class Script>
+void draw(const std::vector<EnergyCurve>& curves, const std::filesystem::path& folder, const std::string& name, Script&& script)
+{
+    const auto program = findProgram("gnuplot");
+    if (!program) throw std::runtime_error("no gnuplot along PATH: install it to get the energy plot");
+    auto relative = curves;
+    for (auto& curve : relative) curve.csv = std::filesystem::relative(curve.csv, folder);
+    const std::string picture = name + ".png", text = name + ".gp";
+    writeWhole(folder / text, script(relative, picture));
+
+    const auto part = partFile(picture);
+    writeWhole(folder / (text + ".part"), script(relative, part.string()));
+    const ChildExit end = runChild(*program, {text + ".part"}, {.folder = folder});
+    std::filesystem::remove(folder / (text + ".part"));
+    if (!end.ok()) throw std::runtime_error(fmt::format("gnuplot could not draw {}: {}", (folder / picture).string(), end.lastWords()));
+    putInPlace(folder / part, folder / picture);
 }
 
 }  // namespace
@@ -80,35 +113,34 @@ std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, 
                              const std::string& picture)
 {
     const std::string unit = scale == 0 ? "erg" : fmt::format("10^{{{}}} erg", scale);
-    return fmt::format("set terminal pngcairo size 1650,580 font 'DejaVu Sans,12' linewidth 1\n"
-                       "set output {}\n"
-                       "set datafile separator ','\n"
-                       "set multiplot layout 1,3 margins 0.085,0.985,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
-                       "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
-                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
-                       "set key at screen 0.5,0.045 center center horizontal samplen 2\n",
-                       quoted(picture), quoted(title), unit) +
-           panel(curves, "kinetic", "$2+$3", scale) + "unset key\nunset ylabel\n" + panel(curves, "potential", "$4", scale) +
-           panel(curves, "total", "$5", scale) + "unset multiplot\n";
+    const auto scaled = [&](const std::string& value) { return [=](const EnergyCurve&) { return fmt::format("({})*1e{}", value, -scale); }; };
+    return head(3, title, unit, picture) + panel(curves, "kinetic", scaled("$2+$3")) + "unset key\nunset ylabel\n" +
+           panel(curves, "potential", scaled("$4")) + panel(curves, "total", scaled("$5")) + "unset multiplot\n";
+}
+
+std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std::string& title, const std::string& picture)
+{
+    const auto perParticle = [](const std::string& value) {
+        return [=](const EnergyCurve& curve) { return fmt::format("{}/($6+{})", value, curve.vertices); };
+    };
+    return head(2, title, "erg per particle", picture) + panel(curves, "kinetic + potential + elastic", perParticle("$5")) +
+           "unset key\nunset ylabel\n" + panel(curves, "as published (no motion of the liquid)", perParticle("$12")) + "unset multiplot\n";
 }
 
 bool canPlot() { return findProgram("gnuplot").has_value(); }
 
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)
 {
-    const auto program = findProgram("gnuplot");
-    if (!program) throw std::runtime_error("no gnuplot along PATH: install it to get the energy plot");
     const int scale = axisScale(curves);
-    auto relative = curves;
-    for (auto& curve : relative) curve.csv = std::filesystem::relative(curve.csv, folder);
-    writeWhole(folder / "energy.gp", energyPlotScript(relative, scale, title, "energy.png"));
+    draw(curves, folder, "energy", [&](const auto& relative, const std::string& picture) {
+        return energyPlotScript(relative, scale, title, picture);
+    });
+}
 
-    const auto part = partFile("energy.png");
-    writeWhole(folder / "energy.gp.part", energyPlotScript(relative, scale, title, part.string()));
-    const ChildExit end = runChild(*program, {"energy.gp.part"}, {.folder = folder});
-    std::filesystem::remove(folder / "energy.gp.part");
-    if (!end.ok()) throw std::runtime_error(fmt::format("gnuplot could not draw {}: {}", (folder / "energy.png").string(), end.lastWords()));
-    putInPlace(folder / part, folder / "energy.png");
+void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder,
+                     const std::string& name)
+{
+    draw(curves, folder, name, [&](const auto& relative, const std::string& picture) { return perParticleScript(relative, title, picture); });
 }
 
 }  // namespace app

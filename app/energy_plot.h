@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@ struct EnergyCurve {
     std::string variant;                 ///< first column of the joined CSV
     std::string label;                   ///< in the legend
     std::filesystem::path csv;           ///< an energy.csv as a run leaves it
+    std::int64_t vertices = 0;           ///< of fabric, which the paper counts with the particles
 };
 
 /// One table of all curves, long form: the columns of energy.csv behind one that names the variant.
@@ -22,11 +24,18 @@ void joinEnergies(const std::vector<EnergyCurve>& curves, const std::filesystem:
 std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title,
                              const std::string& picture);
 
+/// Mean energy per particle as the paper draws it: all of it, and beside it what the published program takes for it.
+std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std::string& title, const std::string& picture);
+
 /// Is there a gnuplot?
 bool canPlot();
 
 /// Draw folder/energy.png, and leave folder/energy.gp beside it to draw it anew with. Throws std::runtime_error with
 /// gnuplot's own words.
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder);
+
+/// The same of energies per particle, as folder/name.png and folder/name.gp.
+void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder,
+                     const std::string& name);
 
 }  // namespace app

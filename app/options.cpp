@@ -56,6 +56,13 @@ void addVerbs(CLI::App& program, Options& options)
     compare->add_flag("--or-run", options.orRun, "where there is nothing to compare, just run");
     compare->callback([&options] { options.verb = Verb::Compare; });
 
+    auto* paper = program.add_subcommand("paper", "the scenes of the PolyPIC paper, each with APIC and PolyPIC, in one report");
+    addOutput(*paper, options);
+    paper->add_flag("--quick", options.quick, "the first moments of each scene, in half an hour");
+    paper->add_flag("--force", options.force, "redo runs that are done");
+    paper->add_option("--set", options.sets, "override a key of all scenes: dotted.key=value")->take_all()->allow_extra_args(false);
+    paper->callback([&options] { options.verb = Verb::Paper; });
+
     auto* check = program.add_subcommand("check", "validate a scene and print it resolved, with units");
     addScene(*check, options);
     addVariant(*check, options);

@@ -9,7 +9,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, Bench };
+enum class Verb { Run, Compare, Check, Bench, Paper };
 
 /// The command line.
 struct Options {
@@ -18,10 +18,11 @@ struct Options {
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
-    int threads = 1;                     ///< run, compare
+    int threads = 1;                     ///< run, compare, paper
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
-    bool force = false;                  ///< compare: redo variants that are done
+    bool force = false;                  ///< compare, paper: redo variants that are done
+    bool quick = false;                  ///< paper: shortened
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
 
     std::vector<int> benchThreads = {1};

@@ -81,14 +81,23 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
 
 constexpr std::string_view kEnergyHeader =
     "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg,"
-    "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg";
+    "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg,published_erg";
 
-std::string energyRow(double time, const sim::Energies& e, std::size_t particles, double liquidMass)
+/// What the published program sums up as energy: without the liquid's motion, elasticity and what fabric has absorbed [erg].
+double publishedEnergy(const sim::FabricState& fabric, const sim::Energies& e, const sim::Vec3& gravity)
+{
+    double absorbed = 0.0;
+    for (std::size_t v = 0; v < fabric.absorbed.size(); ++v)
+        absorbed += fabric.absorbed[v] * (0.5 * fabric.v[v].squaredNorm() - gravity.dot(fabric.x[v]));
+    return e.potential + e.fabric.kinetic + e.fabric.potential - absorbed;
+}
+
+std::string energyRow(double time, const sim::Energies& e, std::size_t particles, double liquidMass, double published)
 {
     const double perParticle = particles > 0 ? e.total() / static_cast<double>(particles) : 0.0;
-    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
+    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
                        e.potential, e.total(), particles, liquidMass, perParticle, e.fabric.kinetic, e.fabric.potential,
-                       e.fabric.elastic());
+                       e.fabric.elastic(), published);
 }
 
 double since(std::chrono::steady_clock::time_point begin)
@@ -127,6 +136,7 @@ Json reportJson(const RunSummary& s)
                  {"iterations", {{"mean", static_cast<double>(s.totalIterations) / steps}, {"max", s.maxIterations}, {"total", s.totalIterations}}},
                  {"fabric",
                   {{"vertices", s.fabricVertices},
+                   {"elements", s.fabricElements},
                    {"iterations_mean", static_cast<double>(s.fabricIterations) / steps},
                    {"halvings", s.fabricHalvings},
                    {"shortened", s.fabricShortened},
@@ -175,6 +185,10 @@ try {
     r.simulatedTime = json.at("simulated_time");
     r.wallSeconds = json.at("wall_seconds");
     r.secondsPerStep = json.at("seconds_per_step").at("median");
+    r.meanSecondsPerStep = json.at("seconds_per_step").at("mean");
+    r.meanParticles = json.at("particles_mean");
+    r.fabricVertices = json.at("fabric").at("vertices");
+    r.fabricElements = json.at("fabric").at("elements");
     r.peakMemoryMegabytes = json.at("peak_memory_mb");
     r.meanIterations = json.at("iterations").at("mean");
     r.maxIterations = json.at("iterations").at("max");
@@ -188,7 +202,7 @@ try {
 }
 
 Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads)
-    : folder_(folder), begin_(setup.scene.settings.time.start)
+    : folder_(folder), begin_(setup.scene.settings.time.start), gravity_(setup.scene.settings.gravity)
 {
     const auto& output = setup.pictures.output;
     if (output.stats) steps_.emplace(folder / "steps.jsonl");
@@ -204,18 +218,22 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     writeReport();
 }
 
-void Reports::initial(const sim::State& state, const sim::Energies& energies)
+void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies)
 {
     summary_.particles = state.liquid.count;
-    summary_.fabricVertices = state.fabric.x.size();
+    summary_.fabricVertices = fabric.vertexCount();
+    summary_.fabricElements = fabric.edges.size() + fabric.faces.size();
     if (energy_)
-        energy_->add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass));
+        energy_->add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass,
+                               publishedEnergy(state.fabric, energies, gravity_)));
 }
 
 void Reports::step(const sim::State& state, const sim::StepReport& report)
 {
     if (steps_) steps_->add(stepLine(state, report));
-    if (energy_) energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass));
+    if (energy_)
+        energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass,
+                               publishedEnergy(state.fabric, report.energies, gravity_)));
 
     ++summary_.steps;
     summary_.simulatedTime = state.time - begin_;

@@ -40,7 +40,7 @@ struct RunSummary {
     std::size_t particles = 0, cells = 0;    ///< at the end
     double particleSum = 0.0;                ///< over the steps
     std::int64_t totalIterations = 0, maxIterations = 0;
-    std::size_t fabricVertices = 0;
+    std::size_t fabricVertices = 0, fabricElements = 0;   ///< elements: edges of yarns and faces of cloth
     std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
     double leastTakenFraction = 1.0;         ///< of the moves that the fabric's Newton asked for, over the steps [-]
     double largestCfl = 0.0;
@@ -52,8 +52,10 @@ struct RunSummary {
 /// The numbers of report.json, as a comparison reads them back.
 struct RunResult {
     std::string variant, label, status, contentHash, stateHash;
-    std::int64_t steps = 0, frames = 0, particles = 0, maxIterations = 0;
-    double simulatedTime = 0.0, wallSeconds = 0.0, secondsPerStep = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
+    std::int64_t steps = 0, frames = 0, particles = 0, maxIterations = 0, fabricVertices = 0, fabricElements = 0;
+    double simulatedTime = 0.0, wallSeconds = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
+    double secondsPerStep = 0.0, meanSecondsPerStep = 0.0;          ///< the first is the median
+    double meanParticles = 0.0;                                     ///< of liquid, over the steps
     std::array<std::optional<double>, sim::kStages> stageSeconds;   ///< medians; nothing for a stage that never ran
 };
 
@@ -68,7 +70,7 @@ class Reports {
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads);
 
     /// The state before the first step: the first row of energy.csv.
-    void initial(const sim::State& state, const sim::Energies& energies);
+    void initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies);
     void step(const sim::State& state, const sim::StepReport& report);
     void frameDone() { ++summary_.frames; }
 
@@ -82,7 +84,8 @@ class Reports {
     const std::filesystem::path folder_;
     std::optional<LineFile> steps_, energy_;       ///< those the scene's output.data asks for
     RunSummary summary_;
-    double begin_ = 0.0;
+    double begin_ = 0.0;                           ///< [s]
+    sim::Vec3 gravity_;                            ///< [cm/s^2]
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -96,7 +96,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
     Reports reports(options.out, setup, options.contentHash, options.threads);
     try {
         writeWhole(options.out / "resolved.yaml", setup.resolved);
-        reports.initial(simulation->state(), simulation->energies());
+        reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
         FrameSink sink(setup, parts, options);
         const bool ended = runFrames(setup, options, *simulation, sink, reports);
         sink.finish();

@@ -75,6 +75,25 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
     return target;
 }
 
+void composeOverview(const std::vector<OverviewRow>& rows, const Parts& parts, const std::filesystem::path& file)
+{
+    std::vector<RgbPicture> pictures;
+    RgbPicture all;
+    for (const OverviewRow& row : rows) {
+        pictures.push_back(pictureAt(row.time, row.sequences, row.pictures, parts));
+        all.width = std::max(all.width, pictures.back().width);
+    }
+    for (const RgbPicture& picture : pictures) {
+        const std::size_t from = std::size_t{3} * picture.width, to = std::size_t{3} * all.width;
+        for (int y = 0; y < picture.height; ++y) {
+            all.rgb.insert(all.rgb.end(), picture.rgb.begin() + y * from, picture.rgb.begin() + (y + 1) * from);
+            all.rgb.insert(all.rgb.end(), to - from, 255);
+        }
+        all.height += picture.height;
+    }
+    parts.writePng(all, file);
+}
+
 void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Parts& parts,
                   const std::filesystem::path& folder)
 {

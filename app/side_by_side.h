@@ -28,6 +28,16 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
                                         const Parts& parts, const std::filesystem::path& folder,
                                         const std::function<bool()>& stopWanted);
 
+/// One row of an overview: variants of one scene at a time [s].
+struct OverviewRow {
+    std::vector<FrameSequence> sequences;
+    PictureSettings pictures;
+    double time = 0.0;
+};
+
+/// Rows of several scenes one below the other in one PNG; narrower ones are filled up with white.
+void composeOverview(const std::vector<OverviewRow>& rows, const Parts& parts, const std::filesystem::path& file);
+
 /// The contact sheet, folder/sheet.png: pictures of `rows` times, evenly spread from beginning to end, one below the other.
 void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Parts& parts,
                   const std::filesystem::path& folder);

@@ -11,5 +11,6 @@ int runVerbRun(const Options& options, const Parts& parts);
 int runVerbCompare(const Options& options, const Parts& parts);
 int runVerbCheck(const Options& options, const Parts& parts);
 int runVerbBench(const Options& options, const Parts& parts);
+int runVerbPaper(const Options& options, const Parts& parts);
 
 }  // namespace app

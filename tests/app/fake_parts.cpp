@@ -1,5 +1,6 @@
 #include "tests/app/fake_parts.h"
 
+#include "app/paper.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
@@ -169,6 +170,10 @@ Parts toyPartsFromFiles()
         *toy = readToy(request);
         SceneSetup setup = toySetup(*toy);
         setup.variant = request.variant.empty() ? "default" : request.variant;
+        if (request.file.starts_with("scenes/")) {
+            setup.pictures.compare.variants.clear();
+            for (const PaperVariant& variant : kPaperVariants) setup.pictures.compare.variants.push_back({variant.name, variant.method, {}});
+        }
         setup.label = request.variant == "b" ? "B|2" : request.variant == "a" ? "A" : "";
         return setup;
     };

@@ -3,6 +3,7 @@
 #include "app/child_process.h"
 #include "app/frame_pipeline.h"
 #include "app/options.h"
+#include "app/paper.h"
 #include "app/video.h"
 #include "sim/core/check.h"
 #include "tests/app/temporary_folder.h"
@@ -121,6 +122,30 @@ TEST_F(Program, CompareLeavesEveryVariantAndItsProducts)
     EXPECT_TRUE(test::contentOf(out / "sheet.png").starts_with("\x89PNG"));
     EXPECT_EQ(std::filesystem::exists(out / "energy.png"), findProgram("gnuplot").has_value());
     EXPECT_EQ(std::filesystem::exists(out / "compare.mp4"), canMakeVideos());
+}
+
+TEST_F(Program, PaperLeavesItsReportAndGoesOnWhereItWas)
+{
+    std::filesystem::create_directory(folder.path() / "scenes");
+    for (const PaperScene& scene : paperScenes())
+        std::filesystem::copy_file(folder.path() / "toy.yaml", folder.path() / "scenes" / (scene.name + ".yaml"));
+    const ChildExit end = run({"paper", "--no-video"});
+    ASSERT_TRUE(end.ok()) << end.errorText;
+    const auto out = folder.path() / "out/paper";
+    const auto table = test::linesOf(out / "table.md");
+    ASSERT_EQ(table.size(), 2u + 2u * paperScenes().size());
+    EXPECT_TRUE(table[2].starts_with("| dam break (small), APIC | ")) << table[2];
+    EXPECT_TRUE(table.back().starts_with("| splash yarn (medium), PolyPIC | ")) << table.back();
+    EXPECT_TRUE(contentOf(out / "sheet.png").starts_with("\x89PNG"));
+    for (const char* plot : {"energy_dam_break.png", "energy_splash.png"})
+        EXPECT_EQ(std::filesystem::exists(out / plot), findProgram("gnuplot").has_value()) << plot;
+
+    const auto cloth = out / "splash_cloth_small/paper_apic", yarn = out / "splash_yarn_small/paper_apic";
+    const std::string ofCloth = contentOf(cloth / "report.json"), ofYarn = contentOf(yarn / "report.json");
+    std::filesystem::remove(yarn / frameFileName(1));
+    ASSERT_TRUE(run({"paper", "--no-video"}).ok());
+    EXPECT_EQ(contentOf(cloth / "report.json"), ofCloth) << "done already";
+    EXPECT_NE(contentOf(yarn / "report.json"), ofYarn) << "a frame was missing";
 }
 
 TEST_F(Program, CompareRunsOnlyWhatIsMissing)
