@@ -71,7 +71,7 @@ std::string head(int panels, const std::string& title, const std::string& unit, 
                        "set multiplot layout 1,{} margins 0.085,0.985,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
                        "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
                        "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
-                       "set key at screen 0.5,0.045 center center horizontal maxrows 3 samplen 2\n",
+                       "set key at screen 0.5,0.045 center center vertical maxrows 2 samplen 2\n",
                        550 * panels, quoted(picture), panels, quoted(title), unit);
 }
 

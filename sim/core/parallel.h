@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #ifdef __SANITIZE_THREAD__
+#include <exception>
 #include <thread>
 #include <vector>
 #else
@@ -41,12 +42,21 @@ template <class Body>
 void parallelForWorkers(std::size_t n, std::size_t grain, Body&& body)
 {
 #ifdef __SANITIZE_THREAD__
-    std::vector<std::jthread> threads;
-    for (int t = 0; t < kPlainThreads; ++t)
-        threads.emplace_back([&, t] {
-            for (std::size_t i = t; i < n; i += kPlainThreads) body(i, t);
-        });
     static_cast<void>(grain);
+    std::array<std::exception_ptr, kPlainThreads> failures{};
+    {
+        std::vector<std::jthread> threads;
+        for (int t = 0; t < kPlainThreads; ++t)
+            threads.emplace_back([&, t] {
+                try {
+                    for (std::size_t i = t; i < n; i += kPlainThreads) body(i, t);
+                } catch (...) {
+                    failures[t] = std::current_exception();
+                }
+            });
+    }
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
 #else
     if (n == 0) return;
     tbb::parallel_for(
