@@ -74,13 +74,13 @@ struct Stack {
 /// normalisation of drag; Darcy's superficial velocity would be that over (1 − ψ)².
 TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
 {
-    Stack stack(17, 0.4, 1.32);
+    Stack stack(9, 0.4, 1.32);  // a stencil in its middle reaches seven
     stack.settings.coupling.drag = DragLaw::Linear;
     GridScene& scene = stack.scene;
     scene.fill([](const Vec3&) { return -1.0; });
     Mixture mixture(stack.fabric, stack.settings, stack.vertices);
     constexpr double kSlope = 300.0;  // dyn/cm^3
-    for (int n = 0; n < 120; ++n) {
+    for (int n = 0; n < 60; ++n) {
         stack.makeRoom();
         stack.find(mixture);
         findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
@@ -94,7 +94,7 @@ TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
     const double fraction = 0.4 * 2.0 * kHalfThickness / (0.5 * kCell);
     const double expected = (1.0 - fraction) * permeability(fraction, 0.01).across / stack.settings.liquid.viscosity * kSlope;
     EXPECT_GT(expected, 0.5);
-    for (const Vec3i& c : {Vec3i(8, 8, 8), Vec3i(7, 7, 8), Vec3i(8, 9, 7)}) EXPECT_NEAR(scene.velocity(1, c), expected, 1.0e-3 * expected) << c;
+    for (const Vec3i& c : {Vec3i(8, 8, 8), Vec3i(7, 8, 8), Vec3i(8, 8, 7)}) EXPECT_NEAR(scene.velocity(1, c), expected, 1.0e-3 * expected) << c;
 }
 
 /// A tank of liquid at rest up to the 14th cell, with a sheet amid it; one step under gravity.
