@@ -77,7 +77,8 @@ TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
     Stack stack(9, 0.4, 1.32);  // a stencil in its middle reaches seven
     stack.settings.coupling.drag = DragLaw::Linear;
     GridScene& scene = stack.scene;
-    scene.fill([](const Vec3&) { return -1.0; });
+    const Vec3 middle = scene.corner(Vec3i(8, 8, 8));
+    scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * kCell; });
     Mixture mixture(stack.fabric, stack.settings, stack.vertices);
     constexpr double kSlope = 300.0;  // dyn/cm^3
     for (int n = 0; n < 60; ++n) {
