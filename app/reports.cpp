@@ -73,7 +73,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"blocks", report.blocks},
         {"cells", report.liquidCells},
         {"energy", energyJson(report.energies)},
-        {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}, {"absorbed_mass", report.absorbedMass}}},
+        {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}, {"absorbed_mass", report.absorbedMass}, {"momentum_to_pins", {report.toPins.x(), report.toPins.y(), report.toPins.z()}}}},
     };
     if (!state.fabric.x.empty()) line["fabric"] = fabricJson(report);
     return line.dump();

@@ -2,6 +2,7 @@
 
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
+#include "sim/coupling/momentum_watch.h"
 #include "sim/liquid/cells.h"
 #include "sim/liquid/energy.h"
 #include "sim/liquid/face_velocity.h"
@@ -116,8 +117,12 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         clock.start(Stage::Capture);
         work.coupling->vertices.sort(grid, state.fabric);
         plan.meetsFabric = !work.coupling->vertices.empty();
-        if (plan.meetsFabric)
+        if (plan.meetsFabric) {
+            const MomentumWatch momentum(work.coupling->fabric, state, &work.order);
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
+            report.toPins = work.coupling->capture.toPins();
+            momentum.expectKept(report.toPins);
+        }
     }
 
     state.unrelaxed += dt;
@@ -227,14 +232,19 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
         if (settings.coupling.drip) {
             clock.start(Stage::Drip);
             const std::size_t before = particles.count;
+            const MomentumWatch momentum(coupling.fabric, state, nullptr);
             report.drippedMass = coupling.drip.drip(state);
+            momentum.expectKept(Vec3::Zero());
             for (std::size_t p = before; p < particles.count; ++p) {
                 report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();
                 report.energies.potential -= particles.mass[p] * settings.gravity.dot(particles.position(p));
             }
         }
         clock.start(Stage::Wicking);
+        const MomentumWatch momentum(coupling.fabric, state, nullptr);
         coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
+        momentum.expectKept(coupling.wicking.toPins());
+        report.toPins += coupling.wicking.toPins();
     }
     report.particles = particles.count;
     report.liquidMass += report.drippedMass;

@@ -100,6 +100,7 @@ struct StepReport {
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
     double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
+    Vec3 toPins = Vec3::Zero();                  ///< momentum of liquid that fabric took up and moved, which pins held back in this step [g cm/s]
     std::string_view failure;                    ///< empty, or why the state can't be trusted …
     Stage failedStage = Stage::GridToParticles;  ///< … and since when
 

@@ -35,6 +35,7 @@ Capture::Capture(const Fabric& fabric, const Settings& settings, double nominalM
     }
     wanted_.resize(fabric.vertexCount());
     around_.resize(fabric.vertexCount());
+    toPins_.resize(fabric.vertexCount());
 }
 
 /// body(vertices' block, vertex, stencil) for the vertices that have room.
@@ -157,11 +158,12 @@ void Capture::settle(const SortedVertices& vertices)
 }
 
 /// Liquid that comes to a vertex with its momentum.
-void Capture::give(std::size_t v, double mass, const Vec3& momentum, FabricState& state) const
+void Capture::give(std::size_t v, double mass, const Vec3& momentum, FabricState& state)
 {
     const double before = fabric_.mass[v] + state.absorbed[v];
     state.absorbed[v] += mass;
-    if (!fabric_.pinned[v]) state.v[v] = (before * state.v[v] + momentum) / (before + mass);
+    if (fabric_.pinned[v]) toPins_[v] += momentum - mass * state.v[v];
+    else state.v[v] = (before * state.v[v] + momentum) / (before + mass);
 }
 
 double Capture::wet(const SortedVertices& vertices, FabricState& state)
@@ -236,6 +238,7 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
                         FabricState& state)
 {
     emptied_.clear();
+    std::ranges::fill(toPins_, Vec3::Zero());
     if (!findThirsty(vertices, state) || !matchBlocks(grid, order, vertices)) return 0.0;
     collect(grid, order, liquid);
     ask(dt, vertices, state);

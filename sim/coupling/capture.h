@@ -4,6 +4,7 @@
 #include "sim/coupling/sorted_vertices.h"
 #include "sim/settings.h"
 
+#include <numeric>
 #include <vector>
 
 namespace sim {
@@ -19,6 +20,8 @@ class Capture {
     /// @return mass taken up [g]
     double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                    FabricState& state);
+    /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
+    Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
     /// Removes the particles that have given all they had; their numbers change.
     void dropEmptied(LiquidParticles& liquid);
 
@@ -35,7 +38,7 @@ class Capture {
     void drain(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid);
     double takeRemnants(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                         FabricState& state);
-    void give(std::size_t v, double mass, const Vec3& momentum, FabricState& state) const;
+    void give(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
     template <class Body>
     void forEachThirsty(const SortedVertices& vertices, Body&& body) const;
     template <class Body>
@@ -52,6 +55,7 @@ class Capture {
     std::vector<std::uint8_t> blockReached_;
     // Of the step.
     std::vector<double> wanted_, around_;       ///< of each vertex [g]
+    std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
     std::vector<std::uint8_t> thirsty_;         ///< of each block of the vertices: has vertices with room
     std::vector<std::array<int, 27>> nearBlocks_;  ///< of each block of the liquid: vertices' blocks around; empty where none is reached
     std::vector<std::uint8_t> isNear_;          ///< of each block of the liquid

@@ -9,6 +9,7 @@ namespace sim {
 
 /// Everything that liquid and fabric do to each other (model-fluid 6, 8, 9), in the order in which a step does it.
 struct Coupling {
+    const Fabric& fabric;
     SortedVertices vertices;
     WetElements elements;
     Capture capture;
@@ -18,8 +19,9 @@ struct Coupling {
     std::vector<Vec3> velocityBefore;  ///< of each vertex, as the fabric's part of the step began [cm/s]
 
     /// @param nominalMass  of a particle of liquid [g]
-    Coupling(const Fabric& fabric, const Settings& settings, double nominalMass)
-        : elements(fabric),
+    Coupling(const Fabric& theFabric, const Settings& settings, double nominalMass)
+        : fabric(theFabric),
+          elements(fabric),
           capture(fabric, settings, nominalMass),
           mixture(fabric, settings, vertices),
           drip(fabric, elements, settings, nominalMass),

@@ -68,7 +68,7 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
     for (std::vector<double>* u : {&head_, &part_, &absorbed_}) u->resize(fabric.vertexCount());
     isWetElement_.resize(elements.size());
     isActive_.resize(fabric.vertexCount());
-    for (std::vector<Vec3>* u : {&acceleration_, &velocity_}) u->resize(fabric.vertexCount());
+    for (std::vector<Vec3>* u : {&acceleration_, &velocity_, &toPins_}) u->resize(fabric.vertexCount());
     for (const FabricMaterial& m : fabric.materials) {
         laws_.emplace_back(PorousSettings{settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling);
         suction_.push_back(laws_.back().suction(m.volumeFraction));
@@ -209,7 +209,9 @@ void Wicking::transport(double h, FabricState& state)
             }
         }
         absorbed_[v] = std::max(mass, 0.0) + gained;
-        if (gained > 0.0 && !fabric_.pinned[v])
+        if (!(gained > 0.0)) return;
+        if (fabric_.pinned[v]) toPins_[v] += momentum - gained * state.v[v];
+        else
             velocity_[v] = ((fabric_.mass[v] + std::max(mass, 0.0)) * state.v[v] + momentum) / (fabric_.mass[v] + absorbed_[v]);
     });
     state.absorbed.swap(absorbed_);
@@ -221,6 +223,7 @@ void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const 
 {
     const int parts = substeps(dt);
     const double h = dt / parts;
+    std::ranges::fill(toPins_, Vec3::Zero());
     parallelFor(before.size(), kGrain, [&](std::size_t v) { acceleration_[v] = (state.v[v] - before[v]) / dt; });
     for (int n = 0; n < parts; ++n) {
         findActive(state);

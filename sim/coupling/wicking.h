@@ -5,6 +5,7 @@
 #include "sim/grid/block_grid.h"
 #include "sim/settings.h"
 
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Wicking {
     /// @param before  velocity of each vertex when the step began [cm/s]
     void move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
               FabricState& state);
+    /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
+    Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
     /// Is there liquid in the fabric?
     bool isWet(const FabricState& state) const;
     int substeps(double dt) const;
@@ -51,6 +54,7 @@ class Wicking {
     std::vector<Vec3> carried_;                   ///< momentum of that [g/cm^2]
     std::vector<double> absorbed_;                ///< of each vertex after the substep [g]
     std::vector<Vec3> velocity_;                  ///< likewise [cm/s]
+    std::vector<Vec3> toPins_;                    ///< of each vertex [g cm/s]
 };
 
 }  // namespace sim

@@ -32,6 +32,7 @@ struct Bath {
     {
         Capture capture(fabric, settings, kParticle);
         const double mass = capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
+        toPins = capture.toPins();
         return mass;
     }
     double liquidMass() const { return std::accumulate(liquid.particles.mass.data(), liquid.particles.mass.data() + liquid.particles.count, 0.0); }
@@ -49,6 +50,7 @@ struct Bath {
     Fabric fabric;
     FabricState state;
     Settings settings;
+    Vec3 toPins = Vec3::Zero();  ///< of the last capture [g cm/s]
 };
 
 /// Model-fluid E1, of short steps and of those that empty cells.
@@ -106,13 +108,16 @@ TEST(Capture, FarLiquidStays)
     EXPECT_GT(far, 1000);
 }
 
-TEST(Capture, PinnedVerticesKeepTheirVelocity)
+TEST(Capture, PinnedVerticesKeepTheirVelocityAndBookTheRest)
 {
     Bath bath;
     bath.fabric.pinned.assign(bath.fabric.vertexCount(), 1);
     const std::vector<Vec3> before = bath.state.v;
+    const Vec3 momentum = bath.momentum();
     EXPECT_GT(bath.capture(1.0e-2), 0.0);
     EXPECT_EQ(bath.state.v, before);
+    EXPECT_GT(bath.toPins.norm(), 1.0e-6 * momentum.norm());
+    EXPECT_LT((bath.momentum() + bath.toPins - momentum).norm(), 1.0e-12 * momentum.norm());
 }
 
 TEST(Capture, FullOrCompactFabricTakesNothing)
