@@ -58,7 +58,7 @@ void addVerbs(CLI::App& program, Options& options)
 
     auto* paper = program.add_subcommand("paper", "the scenes of the PolyPIC paper, each with APIC and PolyPIC, in one report");
     addOutput(*paper, options);
-    paper->add_flag("--quick", options.quick, "the first moments of each scene, in half an hour");
+    paper->add_flag("--quick", options.quick, "only the first moments of each scene");
     paper->add_flag("--force", options.force, "redo runs that are done");
     paper->add_option("--set", options.sets, "override a key of all scenes: dotted.key=value")->take_all()->allow_extra_args(false);
     paper->callback([&options] { options.verb = Verb::Paper; });

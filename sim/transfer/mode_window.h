@@ -3,6 +3,8 @@
 #include "sim/core/simd.h"
 #include "sim/particles/liquid_particles.h"
 
+#include <algorithm>
+
 namespace sim {
 
 /// Rows of modes on their way to memory, for the particles of one block in the order of their rows. They collect in a window that the
