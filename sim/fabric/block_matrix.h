@@ -3,6 +3,7 @@
 #include "sim/core/aligned_array.h"
 #include "sim/core/simd.h"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -35,22 +36,38 @@ class BlockMatrix {
     const double* block(int entry) const { return values_.data() + std::size_t{9} * entry; }
     void clear() { values_.fill(0.0); }
 
-    /// A row of the product with a vector of which at(column) gives the three numbers and a 0; the fourth that comes out is void.
-    template <class At>
-    HalfPack timesRow(int row, At&& at) const
+    /// Rows of the product that are found together: most blocks tie two of them and are read once.
+    static constexpr int kRowsAtOnce = 512;
+    int chunks() const { return (rows() + kRowsAtOnce - 1) / kRowsAtOnce; }
+    /// give(row, product) for each row of a chunk, in ascending order, of the product with a vector of which at(column) gives the three
+    /// numbers and a 0; the fourth that comes out is void.
+    template <class At, class Give>
+    void timesChunk(int chunk, At&& at, Give&& give) const
     {
+        struct Columns {
+            HalfPack x, y, z;  ///< whose sums are the three numbers
+        };
+        const int first = chunk * kRowsAtOnce, last = std::min(first + kRowsAtOnce, rows());
         const auto of = [&](int entry, int from) { return *reinterpret_cast<const HalfPack*>(block(entry) + from); };
-        HalfPack right{}, x{}, y{}, z{};
-        for (int e = begin_[row]; e < begin_[row + 1]; ++e) {
-            const HalfPack u = at(column_[e]);
-            right += u[0] * of(e, 0) + u[1] * of(e, 3) + u[2] * of(e, 6);
-        }
-        for (const Mirror& m : left(row)) {
-            const HalfPack u = at(m.column);
-            x += u * of(m.entry, 0), y += u * of(m.entry, 3), z += u * of(m.entry, 6);
-        }
         const auto sum = [](const HalfPack& v) { return v[0] + v[1] + v[2]; };
-        return right + HalfPack{sum(x), sum(y), sum(z), 0.0};
+        const auto addTransposed = [&](Columns& to, int entry, const HalfPack& u) {
+            to.x += u * of(entry, 0), to.y += u * of(entry, 3), to.z += u * of(entry, 6);
+        };
+        Columns left[kRowsAtOnce];
+        std::fill_n(left, last - first, Columns{});
+        for (int row = first; row < last; ++row) {
+            const HalfPack own = at(row);
+            HalfPack right{};
+            for (int e = begin_[row]; e < begin_[row + 1]; ++e) {
+                const HalfPack u = at(column_[e]);
+                right += u[0] * of(e, 0) + u[1] * of(e, 3) + u[2] * of(e, 6);
+                if (e > begin_[row] && column_[e] < last) addTransposed(left[column_[e] - first], e, own);
+            }
+            Columns& before = left[row - first];
+            for (int m = mirrorBegin_[row]; m < mirrorBegin_[row + 1] && mirrors_[m].column < first; ++m)
+                addTransposed(before, mirrors_[m].entry, at(mirrors_[m].column));
+            give(row, right + HalfPack{sum(before.x), sum(before.y), sum(before.z), 0.0});
+        }
     }
 
  private:

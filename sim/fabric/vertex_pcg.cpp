@@ -121,18 +121,23 @@ double VertexSystem::applyLinks()
 double VertexSystem::multiplyCloth()
 {
     const std::vector<int>& vertices = shells_.vertices();
-    return parallelSum(vertices.size(), [&](std::size_t n) {
-        const int row = static_cast<int>(n), v = vertices[n], slot = unknowns_.slot[v];
-        if (fabric_.pinned[v]) return 0.0;
-        HalfPack sum = cloth_.timesRow(row, [&](int column) { return quad(pOfVertex_, vertices[column]); });
-        if (!ownsDiagonal_[row] && !pairs_.empty())
-            for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
-                sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);
-        for (int a = 0; a < 3; ++a) {
-            double& q = q_[slot + a * kLanes];
-            q = (ownsDiagonal_[row] ? q : 0.0) + sum[a];
-        }
-        return dot(quad(pOfVertex_, v), sum);
+    return parallelSum(cloth_.chunks(), [&](std::size_t chunk) {
+        double product = 0.0;
+        cloth_.timesChunk(
+            static_cast<int>(chunk), [&](int row) { return quad(pOfVertex_, vertices[row]); },
+            [&](int row, HalfPack sum) {
+                const int v = vertices[row], slot = unknowns_.slot[v];
+                if (fabric_.pinned[v]) return;
+                if (!ownsDiagonal_[row] && !pairs_.empty())
+                    for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
+                        sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);
+                for (int a = 0; a < 3; ++a) {
+                    double& q = q_[slot + a * kLanes];
+                    q = (ownsDiagonal_[row] ? q : 0.0) + sum[a];
+                }
+                product += dot(quad(pOfVertex_, v), sum);
+            });
+        return product;
     });
 }
 

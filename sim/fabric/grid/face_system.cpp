@@ -161,17 +161,25 @@ void FaceSystem::impulses(FaceVector& q)
     });
 }
 
-/// inverse_ = 1 / (M + h² (Σ w² K_pp + Σ of contact)).
+/// inverse_ = 1 / (M + h² (Σ of slopes + Σ w² of springs + Σ of contact)). Where cloth is folded slopes may come out below 0.
 void FaceSystem::findDiagonal()
 {
-    stiffness_.diagonal(out_);
+    stiffness_.findSlopes(grid_->dx, slopes_);
+    stiffness_.springDiagonal(out_);
     pressedEdges_.diagonalForms(edgeForms_);
     pressedFaces_.diagonalForms(faceForms_);
     const BlockPoints& vertices = particles_->vertices();
+    vertexForms_.resize(vertices.size());
+    const double perCell2 = 1.0 / (grid_->dx * grid_->dx);
     sumOverBlocks(particles_->order(), *grid_, rows_, inverse_.faces, [&](std::size_t n, FaceTile& tile) {
-        for (int s = vertices.begin(n); s < vertices.end(n); ++s)
-            for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = stiffness_.at(out_, vertices.id[s])[a];
+        for (int s = vertices.begin(n); s < vertices.end(n); ++s) {
+            const int v = vertices.id[s];
+            const Vec3 value = stiffness_.at(out_, v) + slopes_.value(v);
+            for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = value[a];
+            for (int i = 0; i < 18; ++i) vertexForms_.of[i][s] = perCell2 * slopes_.slope(i, v);
+        }
         scatterSquaredValues(vertices, n, onVertices_, tile);
+        scatterSquaredGradients(vertices, n, vertexForms_, tile);
         scatterSquaredGradients(pressedEdges_.points(), n, edgeForms_, tile);
         scatterSquaredGradients(pressedFaces_.points(), n, faceForms_, tile);
     });
@@ -181,7 +189,8 @@ void FaceSystem::findDiagonal()
     forEachPack([&](auto isFace, std::size_t i, Pack&) {
         const Pack m = mass(isFace, i);
         Pack& out = inverse_.pack(isFace, i);
-        out = select(m > 0.0, 1.0 / (m + h2 * out), broadcast(0.0));
+        const Pack k = select(out > 0.0, out, broadcast(0.0));
+        out = select(m > 0.0, 1.0 / (m + h2 * k), broadcast(0.0));
     });
 }
 

@@ -100,7 +100,8 @@ class FaceSystem {
     std::vector<int> pushBegin_, pushOf_;  ///< on each vertex in the order of the blocks: in pushes_
     PointArray<3> onVertices_;             ///< of each vertex, in the order of the blocks
     PointArray<9> onElements_;
-    PointArray<18> edgeForms_, faceForms_;
+    SlopeForms slopes_;
+    PointArray<18> vertexForms_, edgeForms_, faceForms_;
     std::vector<int> first_;         ///< of each element: its first push
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;

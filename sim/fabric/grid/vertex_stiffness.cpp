@@ -77,6 +77,7 @@ void VertexStiffness::addPins(const FabricState& state, double end)
 void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
                                std::span<const Vec3> predicted)
 {
+    x_ = state.x;
     gradient_.fill(0.0);
     springs_.clear();
     rods_.startStep(state);
@@ -103,12 +104,10 @@ void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray
         for (int a = 0; a < kAxes; ++a) clothIn_[4 * row + a] = p[a * kLanes];
         clothIn_[4 * row + 3] = 0.0;
     });
-    parallelFor(vertices.size(), 128, [&](std::size_t n) {
-        const int row = static_cast<int>(n);
-        const HalfPack product = cloth_.timesRow(row, [&](int column) {
-            return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * column);
-        });
-        add(out, vertices[n], {product[0], product[1], product[2]});
+    parallelFor(cloth_.chunks(), [&](std::size_t chunk) {
+        cloth_.timesChunk(
+            static_cast<int>(chunk), [&](int row) { return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * row); },
+            [&](int row, const HalfPack& product) { add(out, vertices[row], {product[0], product[1], product[2]}); });
     });
 }
 
@@ -133,18 +132,10 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     }
 }
 
-void VertexStiffness::diagonal(AlignedArray<double>& out) const
+void VertexStiffness::springDiagonal(AlignedArray<double>& out) const
 {
-    std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
-    parallelFor(rods_.layout().rows, 512, [&](std::size_t row) {
-        for (int l = 0; l < kLanes; ++l) out[row * kLanes + l] = strands_.at(static_cast<int>(row), 0, l);
-    });
-    addToOwners(out);
-    const std::vector<int>& vertices = shells_.vertices();
-    parallelFor(vertices.size(), 512, [&](std::size_t row) {
-        const double* m = cloth_.block(cloth_.begin(static_cast<int>(row)));
-        add(out, vertices[row], Vec3(m[0], m[4], m[8]));
-    });
+    out.fill(0.0);
+    for (int slot : unknowns_.twistSlot) out[slot] = strands_.at(slot / kLanes, 0, slot % kLanes);
     for (const Spring& s : springs_) add(out, s.vertex, s.stiffness.diagonal());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) out[unknowns_.twistSlot[heldEdges_[i]]] += heldStiffness_[i];
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/grid/slope_forms.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
@@ -30,8 +31,10 @@ class VertexStiffness {
     const AlignedArray<double>& gradient() const { return gradient_; }
     /// out = K in, forces per displacement. `in` is completed for shared vertices.
     void multiply(AlignedArray<double>& in, AlignedArray<double>& out) const;
-    /// Diagonal of K.
-    void diagonal(AlignedArray<double>& out) const;
+    /// K on smooth fields, without what springs do.
+    void findSlopes(double cell, SlopeForms& slopes) const { slopes.assemble(rods_.layout(), strands_, shells_.vertices(), cloth_, x_, cell); }
+    /// Diagonal of the springs, and of K for twist.
+    void springDiagonal(AlignedArray<double>& out) const;
 
     Vec3 at(const AlignedArray<double>& u, int vertex) const
     {
@@ -75,6 +78,7 @@ class VertexStiffness {
     std::vector<int> heldEdges_;
     std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm]
     AlignedArray<double> gradient_;
+    std::span<const Vec3> x_;            ///< of the vertices, at the start of the step [cm]
 };
 
 }  // namespace sim

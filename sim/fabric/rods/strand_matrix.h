@@ -42,6 +42,8 @@ class StrandMatrix {
     /// Entry (row, row − k) of one lane; `row` counts through all groups.
     double& at(int row, int k, int lane) { return band_[(static_cast<std::size_t>(row) * kBand + k) * kLanes + lane]; }
     double at(int row, int k, int lane) const { return band_[(static_cast<std::size_t>(row) * kBand + k) * kLanes + lane]; }
+    /// That entry of all lanes.
+    const double* lanes(int row, int k) const { return band_.data() + (static_cast<std::size_t>(row) * kBand + k) * kLanes; }
     /// The rows of a group, kBand packs each.
     Pack* rows(int firstRow) { return packs(band_, firstRow * kBand); }
 
