@@ -2,7 +2,9 @@
 
 #include "sim/core/parallel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sim {
 
@@ -28,6 +30,23 @@ FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleS
             body.friction.push_back(obstacle.frictionAngle ? std::sqrt(own * std::tan(*obstacle.frictionAngle)) : own);
         }
     }
+    if (!bodies_.empty()) findEdges(fabric);
+}
+
+void FabricObstacles::findEdges(const Fabric& fabric)
+{
+    edges_ = fabric.edges.vertices;
+    for (const Vec3i& f : fabric.faces.vertices)
+        for (int k = 0; k < 3; ++k) edges_.emplace_back(f[k], f[(k + 1) % 3]);
+    for (Vec2i& e : edges_) e = {e.minCoeff(), e.maxCoeff()};
+    const auto before = [](const Vec2i& a, const Vec2i& b) { return std::pair(a[0], a[1]) < std::pair(b[0], b[1]); };
+    std::ranges::sort(edges_, before);
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    share_.assign(fabric.vertexCount(), 0.0);
+    for (const Vec2i& e : edges_)
+        for (int v : e) share_[v] += 1.0;
+    for (double& share : share_) share = share > 0.0 ? 1.0 / share : 0.0;
+    nearest_.resize(fabric.vertexCount());
 }
 
 void FabricObstacles::moveTo(double t0, double t1)
@@ -35,48 +54,71 @@ void FabricObstacles::moveTo(double t0, double t1)
     for (Body& body : bodies_) body.pose.moveTo(t0, t1);
 }
 
+/// give(gradient [dyn], stiffness [dyn/cm]) of the contacts of a point.
+void FabricObstacles::touch(const Point& point, double h, auto&& give) const
+{
+    for (const Body& body : bodies_) {
+        const double overlap = point.reach - body.pose.distance(point.x);
+        if (!(overlap > 0.0)) continue;
+        const double stiffness = kStiffness * point.mass / (h * h), push = stiffness * overlap;
+        const Vec3 n = body.pose.normal(point.x);
+        const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
+        const Vec3 carriedBy = h * body.pose.velocity(point.x), slip = along(point.x - point.start - carriedBy);
+        double pressed = push, usualSlip = slip.norm();
+        if (point.velocity) {
+            pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(point.start + carriedBy));
+            usualSlip = along(h * *point.velocity - carriedBy).norm();
+        }
+        const double friction = body.friction[point.material] * pressed * frictionPerSlip(usualSlip, h * kSmoothingSpeed);
+        const Mat3 across = n * n.transpose();
+        give(friction * slip - push * n, stiffness * across + friction * (Mat3::Identity() - across));
+    }
+}
+
 const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, std::span<const Vec3> start,
                                                         std::span<const Vec3> velocity, std::span<const double> mass, double h)
 {
-    const Chunks chunks(x.size());
-    ofChunk_.resize(chunks.count());
-    parallelFor(chunks.count(), [&](std::size_t c) {
-        std::vector<ObstacleContact>& out = ofChunk_[c];
-        out.clear();
-        for (std::size_t v = chunks.begin(c); v < chunks.end(c); ++v) {
-            if (fabric.pinned[v]) continue;
-            const double activation = kActivation * fabric.radius[v];
-            for (const Body& body : bodies_) {
-                const double overlap = activation + fabric.radius[v] - body.pose.distance(x[v]);
-                if (!(overlap > 0.0)) continue;
-                const double stiffness = kStiffness * mass[v] / (h * h), push = stiffness * overlap;
-                const Vec3 n = body.pose.normal(x[v]);
-                ObstacleContact contact{static_cast<int>(v), -push * n, stiffness * n * n.transpose()};
-                const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
-                const Vec3 carriedBy = h * body.pose.velocity(x[v]), slip = along(x[v] - start[v] - carriedBy);
-                double pressed = push, usualSlip = slip.norm();
-                if (!velocity.empty()) {
-                    pressed = stiffness * std::max(0.0, activation + fabric.radius[v] - body.pose.distance(start[v] + carriedBy));
-                    usualSlip = along(h * velocity[v] - carriedBy).norm();
-                }
-                const double friction =
-                    body.friction[fabric.vertexMaterial[v]] * pressed * frictionPerSlip(usualSlip, h * kSmoothingSpeed);
-                contact.gradient += friction * slip;
-                contact.stiffness += friction * (Mat3::Identity() - n * n.transpose());
-                out.push_back(contact);
-            }
-        }
-    });
     contacts_.clear();
-    for (const std::vector<ObstacleContact>& part : ofChunk_) contacts_.insert(contacts_.end(), part.begin(), part.end());
+    const auto collect = [&](std::size_t n, auto&& body) {
+        const Chunks chunks(n);
+        ofChunk_.resize(std::max(ofChunk_.size(), chunks.count()));
+        parallelFor(chunks.count(), [&](std::size_t c) {
+            ofChunk_[c].clear();
+            for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i) body(i, ofChunk_[c]);
+        });
+        for (std::size_t c = 0; c < chunks.count(); ++c) contacts_.insert(contacts_.end(), ofChunk_[c].begin(), ofChunk_[c].end());
+    };
+    collect(x.size(), [&](std::size_t v, std::vector<ObstacleContact>& out) {
+        nearest_[v] = std::numeric_limits<double>::infinity();
+        for (const Body& body : bodies_) nearest_[v] = std::min(nearest_[v], body.pose.distance(x[v]));
+        const double reach = (1.0 + kActivation) * fabric.radius[v];
+        if (fabric.pinned[v] || nearest_[v] >= reach) return;
+        const Point point{x[v], start[v], reach, mass[v], fabric.vertexMaterial[v], velocity.empty() ? nullptr : &velocity[v]};
+        touch(point, h, [&](const Vec3& gradient, const Mat3& stiffness) { out.push_back({static_cast<int>(v), ObstacleContact::kNone, gradient, stiffness}); });
+    });
+    collect(edges_.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
+        const int a = edges_[i][0], b = edges_[i][1];
+        // Where an obstacle is flat the ends, which begin to feel it earlier, keep it away from the middle.
+        const double reach = 0.5 * (fabric.radius[a] + fabric.radius[b]);
+        if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() >= reach) return;
+        const Vec3 middle = velocity.empty() ? Vec3::Zero().eval() : Vec3(0.5 * (velocity[a] + velocity[b]));
+        const Point point{0.5 * (x[a] + x[b]),         0.5 * (start[a] + start[b]),        reach, share_[a] * mass[a] + share_[b] * mass[b],
+                          fabric.vertexMaterial[a], velocity.empty() ? nullptr : &middle};
+        touch(point, h, [&](const Vec3& gradient, const Mat3& stiffness) {
+            out.push_back({a, b, gradient, stiffness});
+        });
+    });
     return contacts_;
 }
 
 double FabricObstacles::deepest(const Fabric& fabric, std::span<const Vec3> x) const
 {
     double deepest = -std::numeric_limits<double>::infinity();
-    for (const Body& body : bodies_)
-        for (std::size_t v = 0; v < x.size(); ++v) deepest = std::max(deepest, fabric.radius[v] - body.pose.distance(x[v]));
+    const auto look = [&](const Vec3& at, double radius) {
+        for (const Body& body : bodies_) deepest = std::max(deepest, radius - body.pose.distance(at));
+    };
+    for (std::size_t v = 0; v < x.size(); ++v) look(x[v], fabric.radius[v]);
+    for (const Vec2i& e : edges_) look(0.5 * (x[e[0]] + x[e[1]]), 0.5 * (fabric.radius[e[0]] + fabric.radius[e[1]]));
     return deepest;
 }
 

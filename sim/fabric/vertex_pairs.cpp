@@ -47,7 +47,6 @@ void VertexSystem::sortIncidence()
 /// What the solver reads of the pairs.
 void VertexSystem::copyPairs(const ActiveContacts* contacts)
 {
-    constexpr int kNextVertex = 4 * kLanes;  // how far the next vertex of a strand is in a vector
     pairs_.resize(contacts ? contacts->size() : 0);
     pairForce_.resize(8 * pairs_.size());
     parallelFor(pairs_.size(), 1024, [&](std::size_t n) {
@@ -69,7 +68,6 @@ void VertexSystem::copyPairs(const ActiveContacts* contacts)
 /// Gradient, and what S or the preconditioner of the cloth takes of the matrix.
 void VertexSystem::addContacts(const ActiveContacts& c)
 {
-    constexpr int kNextVertex = 4 * kLanes;
     sortIncidence();
     parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
         if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;

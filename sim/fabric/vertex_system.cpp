@@ -161,16 +161,36 @@ void VertexSystem::addToDiagonal(int vertex, const Mat3& block)
 
 void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
 {
+    const auto add = [&](int v, const Vec3& gradient, const Mat3& stiffness) {
+        const int slot = unknowns_.slot[v];
+        for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += gradient[a];
+        if (unknowns_.isOnStrand(v)) addToDiagonal(v, stiffness);
+        else asBlock(cloth_.begin(clothRow_[v])) += stiffness;
+    };
     for (const ObstacleContact& contact : obstacles) {
-        const int slot = unknowns_.slot[contact.vertex];
-        for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += contact.gradient[a];
-        if (unknowns_.isOnStrand(contact.vertex)) {
-            addToDiagonal(contact.vertex, contact.stiffness);
+        const int a = contact.vertex, b = contact.other;
+        if (!contact.isEdge()) {
+            add(a, contact.gradient, contact.stiffness);
             continue;
         }
-        double* block = cloth_.block(cloth_.begin(clothRow_[contact.vertex]));
-        for (int e = 0; e < 9; ++e) block[e] += contact.stiffness(e / 3, e % 3);
+        const Mat3 quarter = 0.25 * contact.stiffness;
+        const double own = tie(a, b, quarter) ? 0.25 : 0.5;
+        for (int v : {a, b}) add(v, 0.5 * contact.gradient, own * contact.stiffness);
     }
+}
+
+/// Adds a block between the ends of an edge, if the matrix has a place for it.
+bool VertexSystem::tie(int a, int b, const Mat3& block)
+{
+    if (!unknowns_.isOnStrand(a) && !unknowns_.isOnStrand(b)) {
+        asBlock(cloth_.find(std::min(clothRow_[a], clothRow_[b]), std::max(clothRow_[a], clothRow_[b]))) += block;
+        return true;
+    }
+    if (std::abs(unknowns_.slot[a] - unknowns_.slot[b]) != kNextVertex) return false;
+    const int later = unknowns_.slot[a] > unknowns_.slot[b] ? a : b, row = unknowns_.row(later), lane = unknowns_.lane(later);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) strands_.at(row + i, 4 + i - j, lane) += block(i, j);
+    return true;
 }
 
 /// Rows and columns of what is held become those of the identity; the gradient there 0.

@@ -58,6 +58,8 @@ class VertexSystem {
     const AlignedArray<double>& gradient() const { return gradient_; }
 
  private:
+    static constexpr int kNextVertex = 4 * kLanes;  ///< how far the next vertex of a strand is in a vector
+
     /// A vertex's rows in a strand that does not own it: they are emptied, and what they held acts through this.
     struct Link {
         int vertex, strandRow, lane;
@@ -71,6 +73,8 @@ class VertexSystem {
     void emptySharedRows();
     void addToDiagonal(int vertex, const Mat3& block);
     void addObstacles(std::span<const ObstacleContact> obstacles);
+    bool tie(int a, int b, const Mat3& block);
+    Eigen::Map<Mat3> asBlock(int entry) { return Eigen::Map<Mat3>(cloth_.block(entry)); }
     void copyPairs(const ActiveContacts* contacts);
     void addContacts(const ActiveContacts& contacts);
     void sortIncidence();

@@ -203,5 +203,30 @@ TEST(ClothOnABall, RestsWithinTheReachOfContact)
     }
 }
 
+/// An upright blade, thinner than the meshes of what falls on it, stands between two rows of vertices: the middles of edges hang on it.
+TEST(FabricOnABlade, DoesNotFallThrough)
+{
+    constexpr int kNodes = 12;
+    constexpr double kSpacing = 0.15, kRadius = 0.03, kFirst = -0.5 * (kNodes - 1) * kSpacing;
+    ClothGrid grid;
+    grid.nodes = Vec2i(kNodes, kNodes);
+    grid.spacing = {kSpacing, kSpacing};
+    grid.origin = Vec3(kFirst, 0.1, kFirst);
+    const FabricPiece pieces[] = {
+        pieceOf(clothGrid(grid), testing::wool(), {kRadius, kRadius}),
+        pieceOf(strand(Vec3(kFirst, 0.1, 0.0), Vec3(-kFirst, 0.1, 0.0), kNodes - 1), testing::wool(), {kRadius, kRadius})};
+    for (FabricPiece piece : pieces) {
+        piece.material.frictionAngle = std::atan(0.6);
+        FabricRun run(piece, FabricSettings{}, {obstacle(Shape::box(Vec3(0.0, -2.0, 0.0), Vec3(0.01, 2.0, 3.0)))});
+        double deepest = -1.0;
+        for (int i = 0; i < 300; ++i) {
+            run.step(1.0e-3);
+            deepest = std::max(deepest, run.solver.deepestInObstacles(run.state));
+        }
+        EXPECT_LT(deepest, kRadius) << run.fabric.vertexCount();  // the blade's edge comes nowhere through
+        RecordProperty("deepest" + std::to_string(run.fabric.vertexCount()), std::to_string(deepest));
+    }
+}
+
 }  // namespace
 }  // namespace sim::test

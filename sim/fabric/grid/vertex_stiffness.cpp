@@ -65,7 +65,7 @@ void VertexStiffness::addPins(const FabricState& state, double end)
     const std::vector<Vec3> targets = pinTargets(fabric_, end);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
-        springs_.push_back({v, pinStiffness_[i] * Mat3::Identity()});
+        springs_.push_back({v, v, pinStiffness_[i] * Mat3::Identity()});
         add(gradient_, v, pinStiffness_[i] * (state.x[v] - targets[i]));
     }
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
@@ -90,9 +90,12 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     addToOwners(gradient_);
     addPins(state, t + h);
     for (const ObstacleContact& contact : obstacles) {
-        springs_.push_back({contact.vertex, contact.stiffness});
+        const int a = contact.vertex, b = contact.isEdge() ? contact.other : a;
+        springs_.push_back({a, b, contact.stiffness});
         // Known at the predicted position; by its derivative, at the present one.
-        add(gradient_, contact.vertex, contact.gradient - contact.stiffness * (h * predicted[contact.vertex]));
+        const Vec3 half = 0.5 * (contact.gradient - contact.stiffness * (0.5 * h * (predicted[a] + predicted[b])));
+        add(gradient_, a, half);
+        add(gradient_, b, half);
     }
 }
 
@@ -125,7 +128,11 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
     addToOwners(out);
     if (!shells_.empty()) multiplyCloth(in, out);
-    for (const Spring& s : springs_) add(out, s.vertex, s.stiffness * at(in, s.vertex));
+    for (const Spring& s : springs_) {
+        const Vec3 half = 0.25 * (s.stiffness * (at(in, s.vertex) + at(in, s.other)));
+        add(out, s.vertex, half);
+        add(out, s.other, half);
+    }
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
         const int slot = unknowns_.twistSlot[heldEdges_[i]];
         out[slot] += heldStiffness_[i] * in[slot];
@@ -136,7 +143,8 @@ void VertexStiffness::springDiagonal(AlignedArray<double>& out) const
 {
     out.fill(0.0);
     for (int slot : unknowns_.twistSlot) out[slot] = strands_.at(slot / kLanes, 0, slot % kLanes);
-    for (const Spring& s : springs_) add(out, s.vertex, s.stiffness.diagonal());
+    for (const Spring& s : springs_)  // the ends of an edge are in the same cell: as if all of it were on either
+        for (int v : {s.vertex, s.other}) add(out, v, 0.5 * s.stiffness.diagonal());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) out[unknowns_.twistSlot[heldEdges_[i]]] += heldStiffness_[i];
 }
 

@@ -53,9 +53,9 @@ class VertexStiffness {
     struct Shared {
         int slot, ownerSlot;
     };
-    /// What acts on single vertices and angles.
+    /// What acts on a vertex, or on the middle between two.
     struct Spring {
-        int vertex;
+        int vertex, other;
         Mat3 stiffness;  ///< [dyn/cm]
     };
     void findShared();
