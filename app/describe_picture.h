@@ -175,10 +175,10 @@ void describe(V& v, OutputSettings& o)
     v.flags("data",
             {{"energy", &o.energy},
              {"stats", &o.stats},
-             {"ledger", nullptr},
+             {"ledger", &o.ledger},
              {"geometry", nullptr},
              {"checkpoint", nullptr}},
-            "Data files of a run beside report.json: energy.csv, steps.jsonl");
+            "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow)");
     v.withoutEffect([](auto& w) { w.other("geometry_format", ""); });
     v.group("video", "", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");

@@ -49,6 +49,7 @@ class RealSimulation : public Steppable {
     const sim::Fabric& fabric() const override { return simulation_.fabric(); }
     sim::StepReport step(double until) override { return simulation_.step(until); }
     sim::Energies energies() const override { return simulation_.energies(); }
+    void bookEnergy() override { simulation_.bookEnergy(); }
     std::uint64_t stateHash() const override { return sim::stateHash(simulation_.state()); }
 
  private:

@@ -21,6 +21,7 @@ class Steppable {
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
     virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]
+    virtual void bookEnergy() = 0;                ///< from now on reports tell where energy goes
     virtual std::uint64_t stateHash() const = 0;
 };
 

@@ -63,6 +63,7 @@ struct OutputSettings {
     double every = 4.0e-3;                  ///< simulated time per frame [s]
     bool frames = true;                     ///< write frame_00000.png, …
     bool energy = true, stats = true;       ///< energy.csv, steps.jsonl
+    bool ledger = false;                    ///< energy_ledger.csv
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

@@ -118,6 +118,15 @@ Json secondsPerStepJson(const StageTimes& times)
             {"stages", stages}};
 }
 
+Json ledgerJson(const EnergyLedger::Summary& s)
+{
+    Json changes = Json::object();
+    for (int i = 0; i < sim::kEnergyChanges; ++i) changes[std::string(sim::kEnergyChangeNames[i])] = s.changes.of[i];
+    return {{"changes", changes},
+            {"largest_kinetic", s.largestKinetic},
+            {"unbooked", s.largestKinetic > 0.0 ? s.largestUnbooked / s.largestKinetic : 0.0}};
+}
+
 Json reportJson(const RunSummary& s)
 {
     const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
@@ -147,6 +156,7 @@ Json reportJson(const RunSummary& s)
                  {"threads", s.threads},
                  {"version", s.version},
                  {"content_hash", s.contentHash}});
+    if (s.energyLedger) json["energy_ledger"] = ledgerJson(*s.energyLedger);
     return json;
 }
 
@@ -207,6 +217,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     const auto& output = setup.pictures.output;
     if (output.stats) steps_.emplace(folder / "steps.jsonl");
     if (output.energy) energy_.emplace(folder / "energy.csv");
+    if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv");
     summary_.scene = setup.scene.name;
     summary_.title = setup.scene.title;
     summary_.variant = setup.variant;
@@ -220,6 +231,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
 
 void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies)
 {
+    if (energyLedger_) energyLedger_->initial(state.time, energies);
     summary_.particles = state.liquid.count;
     summary_.fabricVertices = fabric.vertexCount();
     summary_.fabricElements = fabric.edges.size() + fabric.faces.size();
@@ -231,6 +243,7 @@ void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const 
 void Reports::step(const sim::State& state, const sim::StepReport& report)
 {
     if (steps_) steps_->add(stepLine(state, report));
+    if (energyLedger_) energyLedger_->step(state.time, report);
     if (energy_)
         energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass,
                                publishedEnergy(state.fabric, report.energies, gravity_)));
@@ -265,6 +278,7 @@ void Reports::writeReport()
 {
     summary_.wallSeconds = since(start_);
     summary_.peakMemoryMegabytes = peakMemoryMegabytes();
+    if (energyLedger_) summary_.energyLedger = energyLedger_->summary();
     writeWhole(folder_ / "report.json", reportJson(summary_).dump(2) + '\n');
 }
 

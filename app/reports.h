@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/energy_ledger.h"
 #include "app/output_files.h"
 #include "app/scene_setup.h"
 #include "sim/state.h"
@@ -45,6 +46,7 @@ struct RunSummary {
     double leastTakenFraction = 1.0;         ///< of the moves that the fabric's Newton asked for, over the steps [-]
     double largestCfl = 0.0;
     double massError = 0.0;                  ///< (entered − left − there) / entered, largest over the steps [-]
+    std::optional<EnergyLedger::Summary> energyLedger;    ///< where it was asked for
     std::string stateHash;
     int threads = 0;
 };
@@ -83,6 +85,7 @@ class Reports {
     void writeReport();
     const std::filesystem::path folder_;
     std::optional<LineFile> steps_, energy_;       ///< those the scene's output.data asks for
+    std::optional<EnergyLedger> energyLedger_;     ///< likewise
     RunSummary summary_;
     double begin_ = 0.0;                           ///< [s]
     sim::Vec3 gravity_;                            ///< [cm/s^2]

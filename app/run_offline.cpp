@@ -92,6 +92,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
 {
     // First what the user may have got wrong: earlier results stay until this run can begin.
     const auto simulation = parts.startSimulation(setup);
+    if (setup.pictures.output.ledger) simulation->bookEnergy();
     claimFolder(options.out, {setup.scene.name, setup.variant});
     Reports reports(options.out, setup, options.contentHash, options.threads);
     try {

@@ -3,6 +3,7 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/coupling/momentum_watch.h"
+#include "sim/energy_book.h"
 #include "sim/liquid/cells.h"
 #include "sim/liquid/energy.h"
 #include "sim/liquid/face_velocity.h"
@@ -93,7 +94,7 @@ std::optional<FabricFaces> facesOf(const Workspace& work)
 }
 
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
-LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock)
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock, EnergyBook& energy)
 {
     const Settings& settings = scene.settings;
     LiquidPlan plan;
@@ -105,6 +106,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
 
     clock.start(Stage::Sort);
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
+    energy.sorted();
     carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
     work.grid.resize(grid.count(), plan.flips);
     work.grid.fullMass = work.packing * settings.liquid.density * grid.dx * grid.dx * grid.dx;
@@ -122,6 +124,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
             report.toPins = work.coupling->capture.toPins();
             momentum.expectKept(report.toPins);
+            energy.after(EnergyChange::Capture);
         }
     }
 
@@ -141,7 +144,9 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         particlesToFacesAffine(particles, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
     else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
     if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
+    energy.toGrid();
     divideAndAddGravity(grid, settings.gravity, dt, plan.flips, work.grid);
+    energy.after(EnergyChange::Gravity);
 
     if (plan.meetsFabric) {
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
@@ -169,7 +174,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
 }
 
 /// The rest, when the fabric has done what it does.
-void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
+void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
+                  EnergyBook& energy)
 {
     const Settings& settings = scene.settings;
     LiquidParticles& particles = state.liquid;
@@ -177,6 +183,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
         finishAtWalls(grid, settings.liquid.wallFriction, plan.flips, work);
+        energy.after(EnergyChange::Walls);
     }
 
     clock.start(Stage::GridToParticles);
@@ -190,6 +197,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
     }
+    energy.toParticles(dt);
 
     const WeightSums weights = weightSums(particles, settings.gravity);
     report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
@@ -223,7 +231,8 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
 }
 
 /// Liquid that leaves the fabric, and that moves in it.
-void exchange(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
+void exchange(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
+              EnergyBook& energy)
 {
     Coupling& coupling = *work.coupling;
     LiquidParticles& particles = state.liquid;
@@ -239,12 +248,14 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
                 report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();
                 report.energies.potential -= particles.mass[p] * settings.gravity.dot(particles.position(p));
             }
+            energy.after(EnergyChange::Drip);
         }
         clock.start(Stage::Wicking);
         const MomentumWatch momentum(coupling.fabric, state, nullptr);
         coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
         momentum.expectKept(coupling.wicking.toPins());
         report.toPins += coupling.wicking.toPins();
+        energy.after(EnergyChange::Wicking);
     }
     report.particles = particles.count;
     report.liquidMass += report.drippedMass;
@@ -269,6 +280,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     StepReport report;
     report.dt = dt;
     StageClock clock(report);
+    EnergyBook energy(state, scene.settings.gravity, work, report);
 
     if (emits(scene, state, state.time, state.time + dt)) {
         clock.start(Stage::Emit);
@@ -276,11 +288,12 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     }
     const bool isWet = hasLiquid(state);
     LiquidPlan plan;
-    if (isWet) plan = startLiquid(state, scene, work, dt, report, clock);
+    if (isWet) plan = startLiquid(state, scene, work, dt, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     stepFabric(state, scene.settings, work, dt, plan, report, clock);
-    if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock);
-    if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock);
+    energy.solved(plan.isMixed);
+    if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);
+    if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock, energy);
     findFabricEnergies(state, scene.settings, work, report);
 
     state.time += dt;

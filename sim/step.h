@@ -33,6 +33,7 @@ struct Workspace {
     RelaxScratch relax;
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
+    bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
     std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these two …
     std::unique_ptr<GridFabricSolver> gridFabric;          ///< … or neither, where there is no fabric that moves

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string_view>
 
 namespace sim {
@@ -85,6 +86,31 @@ struct Energies {
     double total() const { return kinetic + modal + potential + fabric.total(); }
 };
 
+/// Where energy goes in a step (model-fluid 9.5).
+enum class EnergyChange {
+    Sources,      ///< liquid that was emitted, or left the domain
+    Capture,      ///< velocities mix where fabric takes up liquid
+    ToGrid,       ///< liquid from particles to faces
+    Gravity,      ///< its work on the faces, and what the particles fell for it
+    Drag,         ///< between liquid and fabric
+    Solves,       ///< pressure, suction, and all of the fabric: elasticity, damping, contact, friction, its transfers
+    Walls,        ///< on the faces
+    ToParticles,  ///< liquid from faces to particles
+    Places,       ///< particles moved by relaxation, for their volume, and out of obstacles
+    Drip,
+    Wicking,
+    Count
+};
+inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
+inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
+    "sources", "capture", "to_grid", "gravity", "drag", "solves", "walls", "to_particles", "places", "drip", "wicking"};
+
+/// Energy that each gave, or took if negative [erg].
+struct EnergyChanges {
+    std::array<double, kEnergyChanges> of{};
+    double& operator[](EnergyChange change) { return of[static_cast<int>(change)]; }
+};
+
 /// What one step did.
 struct StepReport {
     std::array<double, kStages> stageSeconds{};  ///< 0 for a stage that did not run …
@@ -97,6 +123,7 @@ struct StepReport {
     FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     Energies energies;                           ///< at the end of the step
+    std::optional<EnergyChanges> energyChanges;  ///< where they are booked
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
     double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]

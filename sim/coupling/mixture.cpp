@@ -245,6 +245,20 @@ double Mixture::liquidEnergy(const LiquidGrid& liquid) const
     return sum;
 }
 
+double Mixture::dragLoss(const LiquidGrid& liquid) const
+{
+    return parallelSum(liquidBlock_.size(), [&](std::size_t n) {
+        const int b = static_cast<int>(n), m = liquidBlock_[b];
+        double sum = 0.0;
+        if (m == BlockGrid::kNone) return sum;
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c)
+                if (liquidMass_.block(b, a)[c] > 0.0)
+                    sum += drag_.block(b, a)[c] * std::pow(liquid.faces.velocity.block(m, a)[c] - onFaces_.velocity.block(b, a)[c], 2);
+        return sum;
+    });
+}
+
 /// Σ of(mass, velocity) over the shared faces of a block.
 template <class Of>
 double Mixture::sumOver(const LiquidGrid& liquid, int block, int axis, Of&& of) const

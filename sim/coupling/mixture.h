@@ -36,6 +36,8 @@ class Mixture {
     /// Momentum and kinetic energy of the liquid on the shared faces [g cm/s, erg].
     Vec3 liquidMomentum(const LiquidGrid& liquid) const;
     double liquidEnergy(const LiquidGrid& liquid) const;
+    /// Energy that drag has taken from both phases in this step, by its impulse on each face and the speed it acts at [erg].
+    double dragLoss(const LiquidGrid& liquid) const;
     /// Are both phases on the lower face of a cell?
     bool isShared(int axis, const Vec3i& cell) const;
 

@@ -30,18 +30,19 @@ double squareNorm(const Basis1D& basis, int degree)
 
 }  // namespace
 
-Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity)
+Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order)
 {
+    const auto rowOf = [&](std::size_t p) { return order ? static_cast<std::size_t>(order->source[p]) : p; };
     Energies total;
     total.potential = weightSums(particles, gravity).potential;
-    total.kinetic = parallelSum(particles.count, [&](std::size_t p) { return 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm(); });
+    total.kinetic = parallelSum(particles.count, [&](std::size_t p) { return 0.5 * particles.mass[p] * particles.velocity(rowOf(p)).squaredNorm(); });
     if (particles.modeCount == 1) return total;
     total.modal = parallelSum(particles.count, [&](std::size_t p) {
         double square = 0.0;
         for (int axis = 0; axis < kAxes; ++axis) {
             const Stencil stencil(grid, axis, particles.position(p));
             Modes c{};
-            for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[p];
+            for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[rowOf(p)];
             c = toOrthogonal(stencil.basis, c);
             for (int r = 1; r < kMaxModes; ++r) {
                 double norm = c[r] * c[r];

@@ -2,6 +2,7 @@
 
 #include "sim/grid/block_grid.h"
 #include "sim/particles/liquid_particles.h"
+#include "sim/particles/particle_order.h"
 #include "sim/step_report.h"
 
 namespace sim {
@@ -14,6 +15,7 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity);
 
 /// All energies of the liquid at the present positions, from the modes in the particles' own rows (model-fluid 4.7). The step itself
 /// takes kinetic and modal energy from G2P, where they cost nothing; this is for the initial state and for tests.
-Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity);
+/// @param order  of particles whose modes are not sorted yet; else null
+Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);
 
 }  // namespace sim

@@ -47,6 +47,19 @@ TEST(RunOffline, WritesOnlyTheLogsTheSceneWants)
     }
 }
 
+TEST(RunOffline, LedgerOfEnergyTellsWhatIsNotBooked)
+{
+    TemporaryFolder folder;
+    SceneSetup setup = test::toySetup({});
+    setup.pictures.output.ledger = true;
+    runOffline(setup, test::toyParts({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
+    EXPECT_EQ(test::linesOf(folder / "energy_ledger.csv").size(), 1u + 1u + 15u) << "header, initial state, steps";
+    const json report = reportOf(folder.path()), ledger = report.at("energy_ledger");
+    const double time = report.at("simulated_time");
+    EXPECT_NEAR(ledger.at("changes").at("gravity").get<double>(), -0.75 * time, 1e-12);
+    EXPECT_NEAR(ledger.at("unbooked").get<double>(), 0.25 * time, 1e-12) << "relative to a kinetic energy of 1";
+}
+
 TEST(RunOffline, StepLinesTellTimeStagesEnergyAndLedger)
 {
     TemporaryFolder folder;

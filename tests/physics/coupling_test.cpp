@@ -131,6 +131,34 @@ TEST_P(DropOnCloth, UncoupledClothStandsStill)
     EXPECT_LT(momentaOf(simulation).fabric.norm(), 1.0e-9 * momentaOf(simulation).liquid.norm());
 }
 
+/// What the parts of a step give and take is what the energy changes by (model-fluid 9.5); to look changes nothing.
+TEST_P(DropOnCloth, EnergyGoesWhereTheBookSays)
+{
+    Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());
+    scene.settings.gravity = Vec3(0.0, -981.0, 0.0);
+    scene.domain = Shape::box(Vec3(0.0, 0.0, 0.0), Vec3(2.0, 1.6, 2.0));
+    Simulation simulation(scene), unwatched(scene);
+    simulation.bookEnergy();
+    double last = simulation.energies().total();
+    const double first = last;
+    EnergyChanges all;
+    for (int n = 0; n < 30; ++n) {
+        StepReport report = simulation.step(simulation.state().time + 1.0e-3);
+        unwatched.step(unwatched.state().time + 1.0e-3);
+        ASSERT_TRUE(report.energyChanges);
+        double sum = 0.0;
+        for (int i = 0; i < kEnergyChanges; ++i) {
+            sum += report.energyChanges->of[i];
+            all.of[i] += report.energyChanges->of[i];
+        }
+        ASSERT_NEAR(report.energies.total() - last, sum, 1.0e-9 * first) << "step " << n;
+        last = report.energies.total();
+    }
+    for (EnergyChange loss : {EnergyChange::Capture, EnergyChange::ToGrid, EnergyChange::Drag}) EXPECT_LT(all[loss], 0.0);
+    EXPECT_LT(all[EnergyChange::Drag], -0.01 * first);
+    EXPECT_EQ(stateHash(simulation.state()), stateHash(unwatched.state()));
+}
+
 TEST_P(DropOnCloth, SameBitsOnAnyNumberOfThreads)
 {
     const auto hashOn = [](int threads) {

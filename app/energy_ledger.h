@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/output_files.h"
+#include "sim/step_report.h"
+
+#include <filesystem>
+
+namespace app {
+
+/// energy_ledger.csv: where the energy of a run has gone up to each step (model-fluid 9.5).
+class EnergyLedger {
+ public:
+    struct Summary {
+        sim::EnergyChanges changes;       ///< since the start [erg]
+        double largestKinetic = 0.0;      ///< of liquid and fabric [erg]
+        double largestUnbooked = 0.0;     ///< change of the energy that no part of the steps has booked [erg]
+    };
+
+    explicit EnergyLedger(const std::filesystem::path& file);
+    /// The state before the first step.
+    void initial(double time, const sim::Energies& energies);
+    /// The report must have its energies booked.
+    void step(double time, const sim::StepReport& report);
+    const Summary& summary() const { return summary_; }
+
+ private:
+    void add(double time, const sim::Energies& energies);
+
+    LineFile file_;
+    double first_ = 0.0;  ///< energy at the start [erg]
+    Summary summary_;
+};
+
+}  // namespace app

@@ -1,0 +1,91 @@
+#include "sim/energy_book.h"
+
+#include "sim/core/parallel.h"
+#include "sim/liquid/energy.h"
+
+namespace sim {
+
+EnergyBook::EnergyBook(const State& state, const Vec3& gravity, const Workspace& work, StepReport& report)
+    : state_(state), gravity_(gravity), work_(work), changes_(report.energyChanges)
+{
+    if (!work.booksEnergy) return;
+    changes_.emplace();
+    last_ = look();
+}
+
+double EnergyBook::particlesKinetic() const
+{
+    const Energies e = liquidEnergies(state_.liquid, state_.grid, gravity_, isSorted_ ? &work_.order : nullptr);
+    return e.kinetic + e.modal;
+}
+
+double EnergyBook::facesKinetic() const
+{
+    return parallelSum(mass_.size(), [&](std::size_t i) { return 0.5 * mass_.block(0)[i] * std::pow(work_.grid.faces.velocity.block(0)[i], 2); });
+}
+
+EnergyBook::Energy EnergyBook::look() const
+{
+    Energy e;
+    e.liquidKinetic = isOnFaces_ ? facesKinetic() : particlesKinetic();
+    e.potential = weightSums(state_.liquid, gravity_).potential;
+    if (work_.fabric) e.fabric = work_.fabric->energies(state_.fabric, gravity_).total();
+    if (work_.gridFabric) e.fabric = work_.gridFabric->energies(state_.fabric, gravity_).total();
+    return e;
+}
+
+void EnergyBook::after(EnergyChange change)
+{
+    if (!changes_) return;
+    const Energy now = look();
+    book(change, now.sum() - last_.sum());
+    last_ = now;
+}
+
+void EnergyBook::sorted()
+{
+    isSorted_ = true;
+    after(EnergyChange::Sources);
+}
+
+void EnergyBook::toGrid()
+{
+    if (!changes_) return;
+    const auto& sums = work_.grid.faces.sums;
+    mass_.resize(state_.grid.count());
+    double kinetic = 0.0;
+    for (int b = 0; b < state_.grid.count(); ++b)
+        for (int a = 0; a < kAxes; ++a) {
+            const double *m = sums.block(b, FaceFields::kMass + a), *p = sums.block(b, FaceFields::kMomentum + a);
+            std::copy_n(m, kBlockCells, mass_.block(b, a));
+            for (int c = 0; c < kBlockCells; ++c)
+                if (m[c] > 0.0) kinetic += 0.5 * p[c] * p[c] / m[c];
+        }
+    isOnFaces_ = true;
+    book(EnergyChange::ToGrid, kinetic - last_.liquidKinetic);
+    last_.liquidKinetic = kinetic;
+}
+
+void EnergyBook::solved(bool isMixed)
+{
+    if (!changes_) return;
+    const double drag = isMixed ? work_.coupling->mixture.dragLoss(work_.grid) : 0.0;
+    after(EnergyChange::Solves);
+    book(EnergyChange::Drag, -drag);
+    book(EnergyChange::Solves, drag);
+}
+
+void EnergyBook::toParticles(double dt)
+{
+    if (!changes_) return;
+    isOnFaces_ = isSorted_ = false;
+    const Energy now = look();
+    const LiquidParticles& liquid = state_.liquid;
+    const double fallen = -dt * parallelSum(liquid.count, [&](std::size_t p) { return liquid.mass[p] * gravity_.dot(liquid.velocity(p)); });
+    book(EnergyChange::ToParticles, now.liquidKinetic - last_.liquidKinetic);
+    book(EnergyChange::Gravity, fallen);
+    book(EnergyChange::Places, now.potential - last_.potential - fallen);
+    last_ = now;
+}
+
+}  // namespace sim

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "sim/step.h"
+
+namespace sim {
+
+/// Books what each part of a step does to the energy of liquid and fabric, as the difference before and after it on the carrier it works
+/// on, particles or faces (model-fluid 9.5). Does nothing, and measures nothing, unless the workspace asks for it.
+class EnergyBook {
+ public:
+    EnergyBook(const State& state, const Vec3& gravity, const Workspace& work, StepReport& report);
+
+    /// Particles have come, gone, and been sorted: their modes are where they were.
+    void sorted();
+    /// The liquid's momenta are on the faces, gravity not yet.
+    void toGrid();
+    /// Back on the particles, which moved for dt [s].
+    void toParticles(double dt);
+    /// All that has changed since the last look.
+    void after(EnergyChange change);
+    /// Liquid and fabric have been solved for; what drag took is its own.
+    void solved(bool isMixed);
+
+ private:
+    struct Energy {
+        double liquidKinetic = 0.0, potential = 0.0, fabric = 0.0;  ///< fabric: all of its own
+        double sum() const { return liquidKinetic + potential + fabric; }
+    };
+    Energy look() const;
+    double particlesKinetic() const;
+    double facesKinetic() const;
+    void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
+
+    const State& state_;
+    const Vec3& gravity_;
+    const Workspace& work_;
+    std::optional<EnergyChanges>& changes_;
+    bool isSorted_ = false, isOnFaces_ = false;
+    BlockArray<double, 3> mass_;     ///< of the liquid on the faces [g]
+    Energy last_;
+};
+
+}  // namespace sim
