@@ -9,9 +9,10 @@ namespace sim {
 
 namespace {
 
+constexpr int kParticlesPerPart = 1024;
 constexpr double kLeastShare = 1.0e-3;  ///< of the nominal mass, below which a particle gives all it has (model-fluid 9.1) [-]
 
-/// body(block) for all blocks of an order, those of a colour in parallel: bodies of the same colour reach no common cell.
+/// body(block) for all blocks of an order that hold something, those of a colour in parallel: they reach no common cell.
 template <class Body>
 void forEachColored(const ParticleOrder& order, Body&& body)
 {
@@ -38,30 +39,25 @@ Capture::Capture(const Fabric& fabric, const Settings& settings, double nominalM
     toPins_.resize(fabric.vertexCount());
 }
 
-/// body(vertices' block, vertex, stencil) for the vertices that have room.
+/// body(vertex, stencil) for the vertices of a block that have room.
 template <class Body>
-void Capture::forEachThirsty(const SortedVertices& vertices, Body&& body) const
+void Capture::forEachThirsty(const SortedVertices& vertices, int block, Body&& body) const
 {
-    forEachColored(vertices.order, [&](int block) {
-        if (!thirsty_[block]) return;
-        const Vec3 corner = vertices.grid.lowerCorner(block);
-        for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
-            const std::size_t v = vertices.particles.id[s];
-            if (wanted_[v] > 0.0) body(block, v, CellStencil(vertices.particles.position(s), corner, vertices.grid.dx));
-        }
-    });
+    if (!thirsty_[block]) return;
+    const Vec3 corner = vertices.grid.lowerCorner(block);
+    for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
+        const std::size_t v = vertices.particles.id[s];
+        if (wanted_[v] > 0.0) body(v, CellStencil(vertices.particles.position(s), corner, vertices.grid.dx));
+    }
 }
 
-/// body(liquid's block, particle, stencil) for the particles whose stencils may reach cells that thirsty vertices reach.
+/// body(particle, stencil) for the particles of a part.
 template <class Body>
-void Capture::forEachNear(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid, Body&& body) const
+void Capture::forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, std::size_t part, Body&& body) const
 {
-    forEachColored(order, [&](int block) {
-        if (!isNear_[block]) return;
-        const Vec3 corner = grid.lowerCorner(block);
-        for (int s = order.begin(block); s < order.end(block); ++s)
-            body(block, static_cast<std::size_t>(s), CellStencil(liquid.position(s), corner, grid.dx));
-    });
+    const auto [block, begin, end] = near_[part];
+    const Vec3 corner = grid.lowerCorner(block);
+    for (int s = begin; s < end; ++s) body(static_cast<std::size_t>(s), CellStencil(liquid.position(s), corner, grid.dx));
 }
 
 /// The vertices that have room, and the cells that they reach. wanted_ is that room for now.
@@ -80,14 +76,17 @@ bool Capture::findThirsty(const SortedVertices& vertices, const FabricState& sta
     });
     if (std::find(thirsty_.begin(), thirsty_.end(), 1) == thirsty_.end()) return false;
 
-    cells_.resize(blocks);
+    cells_.resize((static_cast<std::size_t>(blocks) + 1) * kBlockCells * kLanes);
     reached_.resize(blocks);
+    std::fill_n(&cellOf(blocks, 0), kBlockCells, Pack{});
     parallelFor(blocks, [&](std::size_t b) {
-        std::fill_n(cells_.block(static_cast<int>(b)), kKinds * kBlockCells, 0.0);
+        std::fill_n(&cellOf(static_cast<int>(b), 0), kBlockCells, Pack{});
         std::fill_n(reached_.block(static_cast<int>(b)), kBlockCells, std::uint8_t{0});
     });
-    forEachThirsty(vertices, [&](int block, std::size_t, const CellStencil& stencil) {
-        stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double) { reached_.block(b)[c] = 1; });
+    forEachColored(vertices.order, [&](int block) {
+        forEachThirsty(vertices, block, [&](std::size_t, const CellStencil& stencil) {
+            stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double) { reached_.block(b)[c] = 1; });
+        });
     });
     blockReached_.assign(blocks + 1, 0);
     parallelFor(blocks, [&](std::size_t b) {
@@ -97,52 +96,83 @@ bool Capture::findThirsty(const SortedVertices& vertices, const FabricState& sta
     return true;
 }
 
-/// Which blocks of the liquid lie at cells that are reached?
-bool Capture::matchBlocks(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices)
+/// The particles in blocks that lie at cells that are reached, in parts of similar size.
+bool Capture::findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices)
 {
     nearBlocks_.resize(grid.count());
-    isNear_.assign(grid.count(), 0);
-    parallelFor(order.occupied.size(), 16, [&](std::size_t n) {
-        const int block = order.occupied[n];
+    nearBegin_.clear();
+    near_.clear();
+    for (int block = 0; block < grid.count(); ++block) {
+        nearBegin_.push_back(static_cast<int>(near_.size()));
+        if (order.begin(block) == order.end(block)) continue;
+        bool isNear = false;
         for (int z = -1; z <= 1; ++z)
             for (int y = -1; y <= 1; ++y)
                 for (int x = -1; x <= 1; ++x) {
                     const int at = vertices.grid.find(grid.coords(block) + Vec3i(x, y, z));
                     const int known = at == BlockGrid::kNone ? vertices.grid.count() : at;
                     nearBlocks_[block][neighbourIndex(x, y, z)] = known;
-                    if (blockReached_[known]) isNear_[block] = 1;
+                    if (blockReached_[known]) isNear = true;
                 }
-    });
-    return std::find(isNear_.begin(), isNear_.end(), 1) != isNear_.end();
+        if (!isNear) continue;
+        for (int s = order.begin(block); s < order.end(block); s += kParticlesPerPart)
+            near_.push_back({block, s, std::min(s + kParticlesPerPart, order.end(block))});
+    }
+    nearBegin_.push_back(static_cast<int>(near_.size()));
+    return !near_.empty();
+}
+
+/// What a tile has of the cells that are reached; `blocks`: the 27 around the tile's.
+void Capture::addTile(const Pack* tile, const std::array<int, 27>& blocks)
+{
+    constexpr int kEdge = CellStencil::kTileEdge;
+    for (int k = 0; k < kEdge; ++k)
+        for (int j = 0; j < kEdge; ++j)
+            for (int i = 0; i < kEdge; ++i) {
+                const int x = i - 1, y = j - 1, z = k - 1;
+                const int b = blocks[neighbourIndex(x >> 3, y >> 3, z >> 3)], c = cellInBlock(x & 7, y & 7, z & 7);
+                if (reached_.block(b)[c]) cellOf(b, c) += tile[(k * kEdge + j) * kEdge + i];
+            }
 }
 
 /// Mass and momentum of the liquid in the cells that are reached.
 void Capture::collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid)
 {
-    forEachNear(grid, order, liquid, [&](int block, std::size_t p, const CellStencil& stencil) {
-        const Vec3 v = liquid.velocity(order.source[p]);
-        const double mass = liquid.mass[p];
-        stencil.forEach(nearBlocks_[block], [&](int b, int c, double weight) {
-            if (!reached_.block(b)[c]) return;
-            double* cell = cells_.block(b) + c;
-            cell[kMass * kBlockCells] += weight * mass;
-            for (int a = 0; a < kAxes; ++a) cell[(kMomentum + a) * kBlockCells] += weight * mass * v[a];
+    constexpr int kTile = CellStencil::kTileEdge * CellStencil::kTileEdge * CellStencil::kTileEdge;
+    tiles_.resize(near_.size() * kTile * kLanes);
+    const auto tileOf = [&](std::size_t part) { return reinterpret_cast<Pack*>(tiles_.data()) + part * kTile; };
+    parallelFor(near_.size(), [&](std::size_t part) {
+        Pack* tile = tileOf(part);
+        std::fill_n(tile, kTile, Pack{});
+        forEachNear(grid, liquid, part, [&](std::size_t p, const CellStencil& stencil) {
+            const Vec3 v = liquid.velocity(order.source[p]);
+            const double mass = liquid.mass[p];
+            const Pack all = {mass, mass * v.x(), mass * v.y(), mass * v.z()};
+            stencil.forEachInTile([&](int place, double weight) { tile[place] += weight * all; });
         });
+    });
+    forEachColored(order, [&](int block) {
+        for (int part = nearBegin_[block]; part < nearBegin_[block + 1]; ++part) addTile(tileOf(part), nearBlocks_[block]);
     });
 }
 
 /// What each vertex wants, and of which cells: in proportion to what it sees of them.
 void Capture::ask(double dt, const SortedVertices& vertices, const FabricState& state)
 {
-    forEachThirsty(vertices, [&](int block, std::size_t v, const CellStencil& stencil) {
-        const std::array<int, 27>& blocks = vertices.grid.neighbours(block);
-        double around = 0.0;
-        stencil.forEach(blocks, [&](int b, int c, double weight) { around += weight * cells_.block(b, kMass)[c]; });
-        around_[v] = around;
-        wanted_[v] = std::min(roomOf(v, state), around * std::min(1.0, ratePerVertex_[v] * dt));
-        if (!(around > 0.0)) return;
-        stencil.forEach(blocks, [&](int b, int c, double weight) {
-            cells_.block(b, kDemand)[c] += wanted_[v] / around * weight * cells_.block(b, kMass)[c];
+    parallelFor(vertices.order.occupied.size(), [&](std::size_t n) {
+        const int block = vertices.order.occupied[n];
+        forEachThirsty(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
+            double around = 0.0;
+            stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) { around += weight * cellOf(b, c)[kMass]; });
+            around_[v] = around;
+            wanted_[v] = std::min(roomOf(v, state), around * std::min(1.0, ratePerVertex_[v] * dt));
+        });
+    });
+    forEachColored(vertices.order, [&](int block) {
+        forEachThirsty(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
+            stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
+                cellOf(b, c)[kDemand] += wanted_[v] / around_[v] * weight * cellOf(b, c)[kMass];
+            });
         });
     });
 }
@@ -151,9 +181,10 @@ void Capture::ask(double dt, const SortedVertices& vertices, const FabricState& 
 void Capture::settle(const SortedVertices& vertices)
 {
     parallelFor(vertices.grid.count(), 8, [&](std::size_t n) {
-        const double* mass = cells_.block(static_cast<int>(n), kMass);
-        double* demand = cells_.block(static_cast<int>(n), kDemand);
-        for (int c = 0; c < kBlockCells; ++c) demand[c] = mass[c] > 0.0 ? demand[c] / mass[c] : 0.0;
+        for (int c = 0; c < kBlockCells; ++c) {
+            Pack& cell = cellOf(static_cast<int>(n), c);
+            cell[kDemand] = cell[kMass] > 0.0 ? cell[kDemand] / cell[kMass] : 0.0;
+        }
     });
 }
 
@@ -171,31 +202,32 @@ double Capture::wet(const SortedVertices& vertices, FabricState& state)
     parallelFor(around_.size(), 4096, [&](std::size_t v) {
         if (!(wanted_[v] > 0.0)) around_[v] = 0.0;
     });
-    forEachThirsty(vertices, [&](int block, std::size_t v, const CellStencil& stencil) {
-        if (!(around_[v] > 0.0)) return;
-        double mass = 0.0;
-        Vec3 momentum = Vec3::Zero();
-        stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
-            const double* cell = cells_.block(b) + c;
-            if (!(cell[kMass * kBlockCells] > 0.0)) return;
-            // Of what is asked of the cell it gives all, or as much as it has.
-            const double share = wanted_[v] / around_[v] * weight / std::max(1.0, cell[kDemand * kBlockCells]);
-            mass += share * cell[kMass * kBlockCells];
-            for (int a = 0; a < kAxes; ++a) momentum[a] += share * cell[(kMomentum + a) * kBlockCells];
+    parallelFor(vertices.order.occupied.size(), [&](std::size_t n) {
+        const int block = vertices.order.occupied[n];
+        forEachThirsty(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
+            Pack got{};
+            stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
+                const Pack& cell = cellOf(b, c);
+                // Of what is asked of the cell it gives all, or as much as it has.
+                if (cell[kMass] > 0.0) got += wanted_[v] / around_[v] * weight / std::max(1.0, cell[kDemand]) * cell;
+            });
+            around_[v] = got[kMass];  // now: what it got
+            give(v, got[kMass], {got[kMomentum], got[kMomentum + 1], got[kMomentum + 2]}, state);
         });
-        around_[v] = mass;  // now: what it got
-        give(v, mass, momentum, state);
     });
     return parallelSum(around_.size(), [&](std::size_t v) { return around_[v]; });
 }
 
 /// Particles give what the cells around them gave.
-void Capture::drain(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid)
+void Capture::drain(const BlockGrid& grid, LiquidParticles& liquid)
 {
-    forEachNear(grid, order, liquid, [&](int block, std::size_t p, const CellStencil& stencil) {
-        double share = 0.0;
-        stencil.forEach(nearBlocks_[block], [&](int b, int c, double weight) { share += weight * std::min(1.0, cells_.block(b, kDemand)[c]); });
-        liquid.mass[p] *= std::max(0.0, 1.0 - share);
+    parallelFor(near_.size(), [&](std::size_t part) {
+        const std::array<int, 27>& blocks = nearBlocks_[near_[part].block];
+        forEachNear(grid, liquid, part, [&](std::size_t p, const CellStencil& stencil) {
+            double share = 0.0;
+            stencil.forEach(blocks, [&](int b, int c, double weight) { share += weight * std::min(1.0, cellOf(b, c)[kDemand]); });
+            liquid.mass[p] *= std::max(0.0, 1.0 - share);
+        });
     });
 }
 
@@ -204,9 +236,8 @@ double Capture::takeRemnants(const BlockGrid& grid, const ParticleOrder& order, 
                              FabricState& state)
 {
     double sum = 0.0;
-    for (int block : order.occupied) {
-        if (!isNear_[block]) continue;
-        for (int s = order.begin(block); s < order.end(block); ++s) {
+    for (const auto& [block, begin, end] : near_) {
+        for (int s = begin; s < end; ++s) {
             if (liquid.mass[s] >= leastMass_) continue;
             if (liquid.mass[s] == 0.0) {
                 emptied_.push_back(s);
@@ -239,12 +270,12 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
 {
     emptied_.clear();
     std::ranges::fill(toPins_, Vec3::Zero());
-    if (!findThirsty(vertices, state) || !matchBlocks(grid, order, vertices)) return 0.0;
+    if (!findThirsty(vertices, state) || !findNear(grid, order, vertices)) return 0.0;
     collect(grid, order, liquid);
     ask(dt, vertices, state);
     settle(vertices);
     const double mass = wet(vertices, state);
-    drain(grid, order, liquid);
+    drain(grid, liquid);
     return mass + takeRemnants(grid, order, vertices, liquid, state);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/core/simd.h"
 #include "sim/coupling/porous_law.h"
 #include "sim/coupling/sorted_vertices.h"
 #include "sim/settings.h"
@@ -26,23 +27,26 @@ class Capture {
     void dropEmptied(LiquidParticles& liquid);
 
  private:
-    enum Kind { kMass, kMomentum, kDemand = kMomentum + kAxes, kKinds };  ///< of liquid in a cell; what vertices want of it, then the share taken
+    /// What a pack tells of a cell: its liquid, and what vertices want of that, later the share that they took.
+    enum Lane { kMass, kMomentum, kDemand = kMomentum + kAxes };
 
     double roomOf(std::size_t v, const FabricState& state) const { return capacity_[v] - state.absorbed[v]; }
     bool findThirsty(const SortedVertices& vertices, const FabricState& state);
-    bool matchBlocks(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
     void collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid);
     void ask(double dt, const SortedVertices& vertices, const FabricState& state);
     void settle(const SortedVertices& vertices);
     double wet(const SortedVertices& vertices, FabricState& state);
-    void drain(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid);
+    void drain(const BlockGrid& grid, LiquidParticles& liquid);
     double takeRemnants(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                         FabricState& state);
+    Pack& cellOf(int block, int cell) { return reinterpret_cast<Pack*>(cells_.data())[block * kBlockCells + cell]; }
     void give(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
+    bool findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
+    void addTile(const Pack* tile, const std::array<int, 27>& blocks);
     template <class Body>
-    void forEachThirsty(const SortedVertices& vertices, Body&& body) const;
+    void forEachThirsty(const SortedVertices& vertices, int block, Body&& body) const;
     template <class Body>
-    void forEachNear(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid, Body&& body) const;
+    void forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, std::size_t part, Body&& body) const;
 
     const Fabric& fabric_;
     std::vector<double> capacity_;              ///< of each vertex [g]
@@ -50,7 +54,7 @@ class Capture {
     double leastMass_;                          ///< of a particle that stays [g]
 
     // Of the vertices' blocks.
-    BlockArray<double, kKinds> cells_;
+    AlignedArray<double> cells_;                ///< a pack (Lane) for each cell, and for those of an empty block behind the last
     BlockArray<std::uint8_t> reached_;          ///< by a vertex that has room
     std::vector<std::uint8_t> blockReached_;
     // Of the step.
@@ -58,7 +62,13 @@ class Capture {
     std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
     std::vector<std::uint8_t> thirsty_;         ///< of each block of the vertices: has vertices with room
     std::vector<std::array<int, 27>> nearBlocks_;  ///< of each block of the liquid: vertices' blocks around; empty where none is reached
-    std::vector<std::uint8_t> isNear_;          ///< of each block of the liquid
+    /// Particles of one block whose stencils may reach cells that thirsty vertices reach.
+    struct Part {
+        int block, begin, end;
+    };
+    std::vector<Part> near_;                    ///< in the order of the blocks
+    std::vector<int> nearBegin_;                ///< of each block of the liquid: its first part; it has none if the next block's is the same
+    AlignedArray<double> tiles_;                ///< of each part: what its particles bring to the cells of a tile
     std::vector<std::size_t> emptied_;          ///< particles, ascending
 };
 
