@@ -302,24 +302,4 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     return report;
 }
 
-double cflNumber(const Settings& settings, double maxSpeed, double dt)
-{
-    return dt * (maxSpeed + std::sqrt(settings.cell * settings.gravity.norm())) / settings.cell;
-}
-
-double chooseTimeStep(const Settings& settings, const State& state, double maxSpeed)
-{
-    const TimeSettings& time = settings.time;
-    double dt = time.dt;
-    if (settings.fabric.solver == FabricSolver::Grid) {
-        const std::vector<Vec3>& v = state.fabric.v;
-        const double fastest = std::sqrt(parallelMax(v.size(), [&](std::size_t i) { return v[i].squaredNorm(); }));
-        if (fastest > 0.0) dt = std::min(dt, time.maxCflFabric * settings.cell / fastest);
-    }
-    if (!hasLiquid(state)) return dt;
-    const double perCfl = 1.0 / cflNumber(settings, maxSpeed, 1.0);
-    const double bound = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(time.cfl, time.maxCflLiquid);
-    return std::min(dt, bound * perCfl);
-}
-
 }  // namespace sim
