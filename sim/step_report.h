@@ -58,7 +58,7 @@ struct FabricReport {
     int scalings = 0;            ///< moves that had to be scaled as a whole
     std::size_t candidates = 0;  ///< pairs that may touch, at the end
     std::size_t contacts = 0;    ///< pairs that do, at the last look
-    std::size_t obstacleContacts = 0;  ///< vertices that touch obstacles, at the last look
+    std::size_t obstacleContacts = 0;  ///< vertices and edges that touch obstacles, at the last look
 };
 
 /// Liquid that has entered and left so far; particles and fabric hold the rest.
