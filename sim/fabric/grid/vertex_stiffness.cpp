@@ -143,7 +143,7 @@ void VertexStiffness::springDiagonal(AlignedArray<double>& out) const
 {
     out.fill(0.0);
     for (int slot : unknowns_.twistSlot) out[slot] = strands_.at(slot / kLanes, 0, slot % kLanes);
-    for (const Spring& s : springs_)  // the ends of an edge are in the same cell: as if all of it were on either
+    for (const Spring& s : springs_)  // of an edge in a smooth field: (w_a + w_b)² / 4 is about half of w_a² + w_b²
         for (int v : {s.vertex, s.other}) add(out, v, 0.5 * s.stiffness.diagonal());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) out[unknowns_.twistSlot[heldEdges_[i]]] += heldStiffness_[i];
 }
