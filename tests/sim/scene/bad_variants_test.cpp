@@ -94,7 +94,7 @@ render: {camera: {eye: [0, 0, 1], look_at: [0, 0, 0], orbit: {target: [0, 0, 0],
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [energy, geometry]}
 )",
-     "bad.yaml:3: output.data: geometry does not run in this version; there is energy, stats"},
+     "bad.yaml:3: output.data: geometry does not run in this version; there is energy, stats, ledger"},
     {"OutputDataUnknown", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [enrgy]}
