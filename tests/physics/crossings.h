@@ -89,7 +89,7 @@ class Crossings {
             if (p.distance > 1.0e-9) return;
             // Once only where the shadows meet in vertices of both.
             if (p.s > 1.0 - 1.0e-9 || p.t > 1.0 - 1.0e-9) return;
-            all_.push_back({i, j, sideOf(i, j, p, fabric.rest)});
+            all_.push_back({i, j, sideOf(i, j, p, fabric.rest), false});
         });
     }
 
@@ -98,12 +98,13 @@ class Crossings {
         int undecided = 0;  ///< the yarns run nearly alongside each other there: no sign
     };
     /// Over and under at every crossing: within a few edges of where it was, where the two yarns come nearest, by the
-    /// sign of their distance along the normal of both.
-    Count count(std::span<const Vec3> x) const
+    /// sign of their distance along the normal of both. Yarns that turn past each other while they run alongside change that sign without
+    /// crossing: it is taken anew after a look at which they did (nearness tells whether they came through each other meanwhile).
+    Count count(std::span<const Vec3> x)
     {
         Count n;
-        for (const Crossing& c : all_) {
-            double nearest = std::numeric_limits<double>::infinity(), side = 0.0;
+        for (Crossing& c : all_) {
+            double nearest = std::numeric_limits<double>::infinity(), side = 0.0, sine = 1.0;
             constexpr int kAround = 3;  // edges that a crossing may slip along
             for (int i = around(c.first, -kAround); i <= around(c.first, kAround); ++i)
                 for (int j = around(c.second, -kAround); j <= around(c.second, kAround); ++j) {
@@ -112,11 +113,15 @@ class Crossings {
                     if (p.distance >= nearest) continue;
                     nearest = p.distance;
                     side = sideOf(i, j, p, x);
+                    sine = sineBetween(i, j, x);
                 }
-            if (std::abs(side) < 0.1)
+            if (std::abs(side) < kUndecided) {
                 ++n.undecided;
-            else if (side * c.side < 0.0)
-                ++n.flipped;
+                c.ranAlongside = c.ranAlongside || sine < kUndecided;
+                continue;
+            }
+            if (c.ranAlongside) c.side = side, c.ranAlongside = false;
+            if (side * c.side < 0.0) ++n.flipped;
         }
         return n;
     }
@@ -149,7 +154,9 @@ class Crossings {
     struct Crossing {
         int first, second;  ///< yarn edges
         double side;
+        bool ranAlongside;  ///< since the side was last seen
     };
+    static constexpr double kUndecided = 0.1;  ///< sine of the angle between yarns below which over and under mean nothing [-]
 
     double largestRadius() const { return *std::ranges::max_element(fabric_.radius); }
     /// The edge some way along the same yarn, or its end.
@@ -164,6 +171,12 @@ class Crossings {
         if (fabric_.edges.strand[i] == fabric_.edges.strand[j] && std::abs(i - j) <= 2) return true;
         const Vec2i &a = fabric_.edges.vertices[i], &b = fabric_.edges.vertices[j];
         return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+    }
+    double sineBetween(int i, int j, std::span<const Vec3> x) const
+    {
+        const Vec2i &a = fabric_.edges.vertices[i], &b = fabric_.edges.vertices[j];
+        const Vec3 da = x[a[1]] - x[a[0]], db = x[b[1]] - x[b[0]];
+        return da.cross(db).norm() / (da.norm() * db.norm());
     }
     /// Distance of the first above the second along the normal of both directions, in parts of their distance and times
     /// the sine between them: small where they are parallel.

@@ -39,7 +39,7 @@ ObstacleSettings ball(const Vec3& center, double radius, const Motion& motion = 
 TEST(CrossingChecker, SeesWhatHasPassedThrough)
 {
     const Fabric fabric = testing::fabricOf(weave(Weave::Plain));
-    const Crossings crossings(fabric, Vec3::UnitY());
+    Crossings crossings(fabric, Vec3::UnitY());
     EXPECT_EQ(crossings.size(), 18u * 18u);
     EXPECT_EQ(crossings.count(fabric.rest).flipped, 0);
     EXPECT_GT(crossings.nearness(fabric.rest).spare, 0.0);
@@ -66,6 +66,27 @@ TEST(CrossingChecker, SeesFacesThatArePierced)
     EXPECT_GT(piercedFaces(fabric, x), 0);
 }
 
+/// Two yarns, one above the other, turned about the vertical by an angle; heights of the upper one.
+std::vector<Vec3> turnedYarns(const Fabric& fabric, double degrees, double height)
+{
+    std::vector<Vec3> x = fabric.rest;
+    const double c = std::cos(degrees * kPi / 180.0), s = std::sin(degrees * kPi / 180.0);
+    for (std::size_t v = x.size() / 2; v < x.size(); ++v) x[v] = Vec3(c * x[v].z(), height, s * x[v].z());
+    return x;
+}
+
+TEST(CrossingChecker, TellsYarnsThatTurnFromYarnsThatPass)
+{
+    const auto yarn = [](const Vec3& from, const Vec3& to) { return pieceOf(strand(from, to, 9), testing::wool(), {0.02, 0.02}); };
+    const Fabric fabric = assembleFabric(std::vector<FabricPiece>{yarn(Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)), yarn(Vec3(0.0, 0.05, -1.0), Vec3(0.0, 0.05, 1.0))});
+    Crossings turned(fabric, Vec3::UnitY()), passed(fabric, Vec3::UnitY());
+    ASSERT_EQ(turned.size(), 1u);
+    for (double angle : {90.0, 40.0, 3.0, -3.0, -40.0, -90.0}) EXPECT_EQ(turned.count(turnedYarns(fabric, angle, 0.05)).flipped, 0) << angle;
+    EXPECT_EQ(turned.count(turnedYarns(fabric, -90.0, -0.05)).flipped, 1) << "through each other after they turned";
+    EXPECT_EQ(passed.count(turnedYarns(fabric, 90.0, 0.05)).flipped, 0);
+    EXPECT_EQ(passed.count(turnedYarns(fabric, 90.0, -0.05)).flipped, 1);
+}
+
 /// A ball of 1.44 cm across strikes the weave at 300 cm/s and drives it 1.2 cm ahead.
 TEST(Weave, NoYarnPassesAnotherWhenABallStrikes)
 {
@@ -75,7 +96,7 @@ TEST(Weave, NoYarnPassesAnotherWhenABallStrikes)
     const FabricPiece piece = weave();
     FabricSettings settings;
     FabricRun run(piece, settings, {ball(Vec3(middle, radius + 0.3, middle), radius, strike)});
-    const Crossings crossings(run.fabric, Vec3::UnitY());
+    Crossings crossings(run.fabric, Vec3::UnitY());
     ASSERT_EQ(crossings.size(), 18u * 18u);
     int undecided = 0, halvings = 0, scalings = 0, shortened = 0;
     double spare = 1.0, nearest = 1.0, fastest = 0.0, deepest = -1.0;
