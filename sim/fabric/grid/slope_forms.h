@@ -26,7 +26,9 @@ class SlopeForms {
     /// Component i of B(a) of a vertex, at 6 a + i [dyn cm].
     double slope(int component, int vertex) const { return form_.of[component][vertex]; }
     /// What acts on w itself [dyn/cm].
-    Vec3 value(int vertex) const { return {form_.of[18][vertex], form_.of[19][vertex], form_.of[20][vertex]}; }
+    Vec3 value(int vertex) const {
+        return {form_.of[kSlopes][vertex], form_.of[kSlopes + 1][vertex], form_.of[kSlopes + 2][vertex]};
+    }
 
  private:
     void addCloth(std::span<const int> vertices, const BlockMatrix& cloth, std::span<const Vec3> x);
