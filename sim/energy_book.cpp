@@ -34,6 +34,13 @@ EnergyBook::Energy EnergyBook::look() const
     return e;
 }
 
+void EnergyBook::gravity()
+{
+    if (!changes_) return;
+    fallen_ = work_.grid.faces.velocity;
+    after(EnergyChange::Gravity);
+}
+
 void EnergyBook::after(EnergyChange change)
 {
     if (!changes_) return;
@@ -66,13 +73,19 @@ void EnergyBook::toGrid()
     last_.liquidKinetic = kinetic;
 }
 
-void EnergyBook::solved(bool isMixed)
+void EnergyBook::solved(bool isMixed, const FabricReport& fabric)
 {
     if (!changes_) return;
-    const double drag = isMixed ? work_.coupling->mixture.dragLoss(work_.grid) : 0.0;
-    after(EnergyChange::Solves);
-    book(EnergyChange::Drag, -drag);
-    book(EnergyChange::Solves, drag);
+    const Energy now = look();
+    double alone = now.liquidKinetic - last_.liquidKinetic;  // of faces that only liquid is on
+    if (fabric.energyChanges) *changes_ += *fabric.energyChanges;
+    if (isMixed) {
+        const Mixture& mixture = work_.coupling->mixture;
+        *changes_ += mixture.energyChanges(work_.grid, fallen_);
+        alone -= mixture.kinetic(work_.grid.faces.velocity) - mixture.kinetic(fallen_);
+    }
+    book(EnergyChange::Pressure, alone);
+    last_ = now;
 }
 
 void EnergyBook::toParticles(double dt)

@@ -14,12 +14,14 @@ class EnergyBook {
     void sorted();
     /// The liquid's momenta are on the faces, gravity not yet.
     void toGrid();
+    /// It has acted on the faces.
+    void gravity();
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt);
     /// All that has changed since the last look.
     void after(EnergyChange change);
-    /// Liquid and fabric have been solved for; what drag took is its own.
-    void solved(bool isMixed);
+    /// Liquid and fabric have been solved for.
+    void solved(bool isMixed, const FabricReport& fabric);
 
  private:
     struct Energy {
@@ -36,7 +38,7 @@ class EnergyBook {
     const Workspace& work_;
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
-    BlockArray<double, 3> mass_;     ///< of the liquid on the faces [g]
+    BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity has acted [cm/s]
     Energy last_;
 };
 

@@ -90,6 +90,13 @@ void Simulation::prepareWorkspace()
         work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
 }
 
+void Simulation::bookEnergy()
+{
+    work_.booksEnergy = true;
+    if (work_.fabric) work_.fabric->bookEnergy();
+    if (work_.gridFabric) work_.gridFabric->bookEnergy();
+}
+
 Energies Simulation::energies() const
 {
     Energies energies = liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity);

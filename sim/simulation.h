@@ -22,7 +22,7 @@ class Simulation {
     /// Energies of the initial state; afterwards the step's report tells them.
     Energies energies() const;
     /// From now on reports tell where energy goes (model-fluid 9.5).
-    void bookEnergy() { work_.booksEnergy = true; }
+    void bookEnergy();
 
     /// One time step towards `until` [s]: what is left is cut into equal parts no longer than the largest stable step, so that the time
     /// is hit exactly and no step is tiny. Throws RunError naming scene, step, stage and why; the state then is that of the last good

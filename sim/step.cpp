@@ -146,7 +146,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
     energy.toGrid();
     divideAndAddGravity(grid, settings.gravity, dt, plan.flips, work.grid);
-    energy.after(EnergyChange::Gravity);
+    energy.gravity();
 
     if (plan.meetsFabric) {
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
@@ -291,7 +291,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (isWet) plan = startLiquid(state, scene, work, dt, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     stepFabric(state, scene.settings, work, dt, plan, report, clock);
-    energy.solved(plan.isMixed);
+    energy.solved(plan.isMixed, report.fabric);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);
     if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock, energy);
     findFabricEnergies(state, scene.settings, work, report);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/core/types.h"
+#include "sim/energy_changes.h"
 
 #include <array>
 #include <chrono>
@@ -59,6 +60,7 @@ struct FabricReport {
     std::size_t candidates = 0;  ///< pairs that may touch, at the end
     std::size_t contacts = 0;    ///< pairs that do, at the last look
     std::size_t obstacleContacts = 0;  ///< vertices and edges that touch obstacles, at the last look
+    std::optional<EnergyChanges> energyChanges;  ///< where they are booked; what liquid did is all under Drag
 };
 
 /// Liquid that has entered and left so far; particles and fabric hold the rest.
@@ -84,31 +86,6 @@ struct Energies {
     double potential = 0.0;  ///< −m g·x
     FabricEnergies fabric;
     double total() const { return kinetic + modal + potential + fabric.total(); }
-};
-
-/// Where energy goes in a step (model-fluid 9.5).
-enum class EnergyChange {
-    Sources,      ///< liquid that was emitted, or left the domain
-    Capture,      ///< velocities mix where fabric takes up liquid
-    ToGrid,       ///< liquid from particles to faces
-    Gravity,      ///< its work on the faces, and what the particles fell for it
-    Drag,         ///< between liquid and fabric
-    Solves,       ///< pressure, suction, and all of the fabric: elasticity, damping, contact, friction, its transfers
-    Walls,        ///< on the faces
-    ToParticles,  ///< liquid from faces to particles
-    Places,       ///< particles moved by relaxation, for their volume, and out of obstacles
-    Drip,
-    Wicking,
-    Count
-};
-inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
-inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources", "capture", "to_grid", "gravity", "drag", "solves", "walls", "to_particles", "places", "drip", "wicking"};
-
-/// Energy that each gave, or took if negative [erg].
-struct EnergyChanges {
-    std::array<double, kEnergyChanges> of{};
-    double& operator[](EnergyChange change) { return of[static_cast<int>(change)]; }
 };
 
 /// What one step did.

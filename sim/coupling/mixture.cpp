@@ -233,38 +233,47 @@ Vec3 Mixture::liquidMomentum(const LiquidGrid& liquid) const
 {
     Vec3 sum = Vec3::Zero();
     for (std::size_t b = 0; b < liquidBlock_.size(); ++b)
-        for (int a = 0; a < kAxes; ++a) sum[a] += sumOver(liquid, static_cast<int>(b), a, [](double m, double u) { return m * u; });
+        for (int a = 0; a < kAxes; ++a) sum[a] += sumOver(liquid.faces.velocity, static_cast<int>(b), a, [](double m, double u) { return m * u; });
     return sum;
 }
 
-double Mixture::liquidEnergy(const LiquidGrid& liquid) const
+double Mixture::kinetic(const BlockArray<double, 3>& velocity) const
 {
     double sum = 0.0;
     for (std::size_t b = 0; b < liquidBlock_.size(); ++b)
-        for (int a = 0; a < kAxes; ++a) sum += sumOver(liquid, static_cast<int>(b), a, [](double m, double u) { return 0.5 * m * u * u; });
+        for (int a = 0; a < kAxes; ++a) sum += sumOver(velocity, static_cast<int>(b), a, [](double m, double u) { return 0.5 * m * u * u; });
     return sum;
 }
 
-double Mixture::dragLoss(const LiquidGrid& liquid) const
+EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<double, 3>& before) const
 {
-    return parallelSum(liquidBlock_.size(), [&](std::size_t n) {
+    EnergyChanges sum;
+    for (std::size_t n = 0; n < liquidBlock_.size(); ++n) {
         const int b = static_cast<int>(n), m = liquidBlock_[b];
-        double sum = 0.0;
-        if (m == BlockGrid::kNone) return sum;
+        if (m == BlockGrid::kNone) continue;
         for (int a = 0; a < kAxes; ++a)
-            for (int c = 0; c < kBlockCells; ++c)
-                if (liquidMass_.block(b, a)[c] > 0.0)
-                    sum += drag_.block(b, a)[c] * std::pow(liquid.faces.velocity.block(m, a)[c] - onFaces_.velocity.block(b, a)[c], 2);
-        return sum;
-    });
+            for (int c = 0; c < kBlockCells; ++c) {
+                const double mass = liquidMass_.block(b, a)[c];
+                if (!(mass > 0.0)) continue;
+                const double u = liquid.faces.velocity.block(m, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
+                const double push = push_.block(b, a)[c], onLiquid = liquidVolume_.block(b, a)[c] * push;
+                const double onFabric = settings_.pressureOnFabric ? onFaces_.solid.block(b, a)[c] * push : 0.0;
+                const double sucked = settings_.capillary ? sucked_.block(b, a)[c] : 0.0, back = settings_.capillaryReaction ? sucked : 0.0;
+                sum[EnergyChange::Pressure] -= onLiquid * u + onFabric * fabric;
+                sum[EnergyChange::Suction] += sucked * u - back * fabric;
+                sum[EnergyChange::Drag] += drag_.block(b, a)[c] * (fabric - u) * u + (onFabric + back) * fabric;
+                sum[EnergyChange::Implicit] -= 0.5 * mass * std::pow(u - before.block(m, a)[c], 2);
+            }
+    }
+    return sum;
 }
 
 /// Σ of(mass, velocity) over the shared faces of a block.
 template <class Of>
-double Mixture::sumOver(const LiquidGrid& liquid, int block, int axis, Of&& of) const
+double Mixture::sumOver(const BlockArray<double, 3>& velocity, int block, int axis, Of&& of) const
 {
     if (liquidBlock_[block] == BlockGrid::kNone) return 0.0;
-    const double *mass = liquidMass_.block(block, axis), *u = liquid.faces.velocity.block(liquidBlock_[block], axis);
+    const double *mass = liquidMass_.block(block, axis), *u = velocity.block(liquidBlock_[block], axis);
     double sum = 0.0;
     for (int c = 0; c < kBlockCells; ++c) sum += of(mass[c], u[c]);
     return sum;

@@ -3,6 +3,7 @@
 #include "sim/coupling/fabric_on_faces.h"
 #include "sim/coupling/porous_law.h"
 #include "sim/coupling/suction.h"
+#include "sim/energy_changes.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/grid/obstacle_field.h"
 #include "sim/liquid/liquid_grid.h"
@@ -33,11 +34,14 @@ class Mixture {
     void separate(const FabricState& state, LiquidGrid& liquid);
     void separate(const FabricFaces& faces, LiquidGrid& liquid);
 
-    /// Momentum and kinetic energy of the liquid on the shared faces [g cm/s, erg].
+    /// Momentum of the liquid on the shared faces [g cm/s].
     Vec3 liquidMomentum(const LiquidGrid& liquid) const;
-    double liquidEnergy(const LiquidGrid& liquid) const;
-    /// Energy that drag has taken from both phases in this step, by its impulse on each face and the speed it acts at [erg].
-    double dragLoss(const LiquidGrid& liquid) const;
+    /// Where the energy of the liquid on shared faces went in this step, by the impulses on each and the velocities they act at; and its
+    /// part of what acted between both: with the work of all that liquid did to the fabric these are pressure, suction and drag.
+    /// @param before  the liquid's velocities when nothing but gravity had acted
+    EnergyChanges energyChanges(const LiquidGrid& liquid, const BlockArray<double, 3>& before) const;
+    /// Kinetic energy of the liquid on the shared faces at these velocities [erg].
+    double kinetic(const BlockArray<double, 3>& velocity) const;
     /// Are both phases on the lower face of a cell?
     bool isShared(int axis, const Vec3i& cell) const;
 
@@ -54,7 +58,7 @@ class Mixture {
     template <class Body>
     void forEachShared(Body&& body) const;
     template <class Of>
-    double sumOver(const LiquidGrid& liquid, int block, int axis, Of&& of) const;
+    double sumOver(const BlockArray<double, 3>& velocity, int block, int axis, Of&& of) const;
 
     PorousLaw law_;
     double liquidDensity_;                           ///< [g/cm^3]

@@ -21,4 +21,26 @@ FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, co
     return e;
 }
 
+InnerGradient innerGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
+                            const Shells& shells)
+{
+    AlignedArray<double> all;
+    all.resize(unknowns.size);
+    all.fill(0.0);
+    if (!rods.empty()) rods.forces(state, h, reinterpret_cast<Pack*>(all.data()), nullptr);
+    if (!shells.empty()) shells.forces(state.x, h, unknowns.slot, all.data(), nullptr);
+
+    InnerGradient gradient{std::vector<Vec3>(fabric.vertexCount(), Vec3::Zero()), std::vector<double>(fabric.edges.size())};
+    const auto add = [&](int v, int slot) { gradient.byPosition[v] += Vec3(all[slot], all[slot + kLanes], all[slot + 2 * kLanes]); };
+    const StrandLayout& layout = rods.layout();
+    for (const StrandLayout::Group& group : layout.groups)  // a vertex on several strands has a part in each
+        for (int j = 0; j < group.vertices; ++j)
+            for (int l = 0; l < kLanes; ++l)
+                if (const int v = layout.vertex[group.firstVertex + j][l]; v >= 0) add(v, (group.firstRow + 4 * j) * kLanes + l);
+    for (int v : shells.vertices())
+        if (!unknowns.isOnStrand(v)) add(v, unknowns.slot[v]);
+    for (std::size_t e = 0; e < fabric.edges.size(); ++e) gradient.byAngle[e] = all[unknowns.twistSlot[e]];
+    return gradient;
+}
+
 }  // namespace sim

@@ -2,12 +2,25 @@
 
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
+#include "sim/fabric/vertex_unknowns.h"
 #include "sim/step_report.h"
+
+#include <vector>
 
 namespace sim {
 
 /// Kinetic, potential and elastic energies (model-fabric 6.6); what contact and pins hold is not among them.
 FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const Rods& rods, const Shells& shells,
                               const Vec3& gravity);
+
+/// Gradient of the elastic and viscous energy by positions [dyn] and twist angles [dyn cm].
+struct InnerGradient {
+    std::vector<Vec3> byPosition;
+    std::vector<double> byAngle;
+};
+
+/// At a state whose step of length h [s] began when the rods and shells were told; with an infinite h the elastic gradient alone.
+InnerGradient innerGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
+                            const Shells& shells);
 
 }  // namespace sim

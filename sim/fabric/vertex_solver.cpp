@@ -46,6 +46,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
 FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads)
 {
     FabricReport report;
+    if (booksEnergy_) report.energyChanges.emplace();
     loads_ = loads;
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
@@ -151,15 +152,15 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
 /// Newton's move from where the state is, into move_.
 void VertexSolver::solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock)
 {
-    const ActiveContacts* contacts = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
-    std::span<const ObstacleContact> touching;
+    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
+    touching_ = {};
     if (!obstacles_.empty()) {
         clock.start(Stage::FabricContact);
         const std::span<const Vec3> frictionFrom = newton.count == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
-        touching = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h);
+        touching_ = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h);
     }
     clock.start(Stage::FabricElastic);
-    system_.assemble({state, free_, freeAngle_, inertia_, h}, touching, contacts);
+    system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
     clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
     const LinearTolerance tolerance = {share, kAccelerationTolerance * h * share / kTolerance, kMoveTolerance * meanRadius_ / h};
@@ -169,8 +170,8 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     ++report.newton;
     report.iterations += linear.iterations;
     report.speedError = std::max(report.speedError, linear.speedError);
-    report.contacts = contacts ? contacts->size() : 0;
-    report.obstacleContacts = touching.size();
+    report.contacts = contacts_ ? contacts_->size() : 0;
+    report.obstacleContacts = touching_.size();
 }
 
 /// Has the last move left nothing worth another? One by which nothing moved far, or much less far than before.
@@ -223,6 +224,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
         state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
     });
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
+    if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
     return true;
 }
 

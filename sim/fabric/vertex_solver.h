@@ -22,6 +22,8 @@ class VertexSolver {
     /// From t to t + h [s]. A step that could not be taken is redone as two halves, and so on; each then takes its part of the loads.
     /// @param loads  of the liquid over the whole step; null without liquid
     FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads = nullptr);
+    /// From now on reports tell where energy goes: takes as long as a Newton iteration.
+    void bookEnergy() { booksEnergy_ = true; }
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
     double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
@@ -49,6 +51,7 @@ class VertexSolver {
     double rmsInRadii(std::span<const Vec3> move) const;
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
+    EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state);
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -57,6 +60,9 @@ class VertexSolver {
     FabricObstacles obstacles_;
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
+    bool booksEnergy_ = false;
+    const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …
+    std::span<const ObstacleContact> touching_;  ///< … and with obstacles
     LimitReport limits_;                         ///< of the attempt under way
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 // Liquid and fabric together, whole steps.
 
 namespace sim::test {
@@ -131,7 +133,8 @@ TEST_P(DropOnCloth, UncoupledClothStandsStill)
     EXPECT_LT(momentaOf(simulation).fabric.norm(), 1.0e-9 * momentaOf(simulation).liquid.norm());
 }
 
-/// What the parts of a step give and take is what the energy changes by (model-fluid 9.5); to look changes nothing.
+/// What the parts of a step give and take is what the energy changes by, up to the error of the solves (model-fluid 9.5); to look changes
+/// nothing.
 TEST_P(DropOnCloth, EnergyGoesWhereTheBookSays)
 {
     Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());
@@ -139,23 +142,20 @@ TEST_P(DropOnCloth, EnergyGoesWhereTheBookSays)
     scene.domain = Shape::box(Vec3(0.0, 0.0, 0.0), Vec3(2.0, 1.6, 2.0));
     Simulation simulation(scene), unwatched(scene);
     simulation.bookEnergy();
-    double last = simulation.energies().total();
-    const double first = last;
+    const double start = simulation.energies().total(), kinetic = simulation.energies().kinetic;
+    double last = start;
     EnergyChanges all;
     for (int n = 0; n < 30; ++n) {
-        StepReport report = simulation.step(simulation.state().time + 1.0e-3);
+        const StepReport report = simulation.step(simulation.state().time + 1.0e-3);
         unwatched.step(unwatched.state().time + 1.0e-3);
         ASSERT_TRUE(report.energyChanges);
-        double sum = 0.0;
-        for (int i = 0; i < kEnergyChanges; ++i) {
-            sum += report.energyChanges->of[i];
-            all.of[i] += report.energyChanges->of[i];
-        }
-        ASSERT_NEAR(report.energies.total() - last, sum, 1.0e-9 * first) << "step " << n;
+        all += *report.energyChanges;
         last = report.energies.total();
     }
-    for (EnergyChange loss : {EnergyChange::Capture, EnergyChange::ToGrid, EnergyChange::Drag}) EXPECT_LT(all[loss], 0.0);
-    EXPECT_LT(all[EnergyChange::Drag], -0.01 * first);
+    const double unbooked = last - start - std::accumulate(all.of.begin(), all.of.end(), 0.0);
+    EXPECT_LT(std::abs(unbooked), 1.0e-3 * kinetic);  // vertex, with two Newton iterations: 1e-4; grid: 7e-9
+    for (EnergyChange loss : {EnergyChange::Capture, EnergyChange::ToGrid, EnergyChange::Drag, EnergyChange::Implicit}) EXPECT_LT(all[loss], 0.0);
+    EXPECT_LT(all[EnergyChange::Drag], -0.01 * kinetic);
     EXPECT_EQ(stateHash(simulation.state()), stateHash(unwatched.state()));
 }
 

@@ -137,6 +137,36 @@ TEST(ClothOnCloth, SlidesAtCoulombsAcceleration)
     }
 }
 
+/// Friction takes its force times the way, from obstacles and from fabric alike (model-fluid 9.5).
+TEST(Incline, FrictionTakesItsForceTimesTheWay)
+{
+    Incline incline(30.0, 0.3);
+    incline.run->steps(300, 1.0e-3);
+    incline.run->solver.bookEnergy();
+    const double from = incline.run->state.x[0].x(), before = incline.run->energies().total();
+    EnergyChanges all;
+    for (int i = 0; i < 200; ++i) all += *incline.run->step(1.0e-3).energyChanges;
+    const double weight = incline.totalMass() * kEarthGravity * std::cos(30.0 * kPi180), way = incline.run->state.x[0].x() - from;
+    EXPECT_NEAR(all[EnergyChange::Obstacles], -0.3 * weight * way, 0.01 * 0.3 * weight * way);
+    const double unbooked = incline.run->energies().total() - before - std::accumulate(all.of.begin(), all.of.end(), 0.0);
+    EXPECT_LT(std::abs(unbooked), 0.01 * 0.3 * weight * way);
+}
+
+TEST(ClothOnCloth, FrictionTakesItsForceTimesTheWay)
+{
+    ClothOnCloth cloth(30.0, 0.3);
+    cloth.run->steps(50, 1.0e-3);
+    cloth.run->solver.bookEnergy();
+    const double before = cloth.run->energies().total(), potential = cloth.run->energies().potential, from = cloth.speed();
+    EnergyChanges all;
+    for (int i = 0; i < 100; ++i) all += *cloth.run->step(1.0e-3).energyChanges;
+    const double given = potential - cloth.run->energies().potential;
+    // Of what gravity gives friction takes tan 17°/tan 30°, and up to 7 % more (see above).
+    EXPECT_NEAR(-all[EnergyChange::Friction] / given, 1.03 * 0.3 / std::tan(30.0 * kPi180), 0.04 * 0.52) << from;
+    const double unbooked = cloth.run->energies().total() - before - std::accumulate(all.of.begin(), all.of.end(), 0.0);
+    EXPECT_LT(std::abs(unbooked), 0.01 * given);
+}
+
 TEST(ClothOnCloth, CreepsBelowTheFrictionAngleByTheSmoothingOnly)
 {
     for (double h : {1.0e-3, 2.0e-4}) {

@@ -127,13 +127,34 @@ void FaceSystem::spread(FaceVector& q)
     parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { q.twist[e] = out_[twistSlot[e]]; });
 }
 
+AlignedArray<double>& FaceSystem::onVertices(const FaceVector& u)
+{
+    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = u.twist[e]; });
+    gather(u.faces);
+    return in_;
+}
+
+double FaceSystem::contactWork(const FaceVector& u)
+{
+    onVertices(u);
+    out_.fill(0.0);
+    const auto power = [&] {
+        spread(q_);
+        return forEachPack([&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
+    };
+    pressedEdges_.multiply(in_, pushes_);
+    pressedFaces_.multiply(in_, pushes_);
+    const double byStiffness = power();
+    pressedEdges_.impulses(contact_, pushes_);
+    pressedFaces_.impulses(contact_, pushes_);
+    return h_ * power() - h_ * h_ * byStiffness;
+}
+
 /// q = A p; returns p·q.
 double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
 {
-    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = p.twist[e]; });
-    gather(p.faces);
-    stiffness_.multiply(in_, out_);
+    stiffness_.multiply(onVertices(p), out_);
     pressedEdges_.multiply(in_, pushes_);
     pressedFaces_.multiply(in_, pushes_);
     spread(q);

@@ -65,6 +65,10 @@ class FaceSystem {
     /// the rms error of the velocities is below `tolerance` [cm/s].
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
 
+    /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
+    AlignedArray<double>& onVertices(const FaceVector& u);
+    /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness [erg].
+    double contactWork(const FaceVector& u);
     /// ∇u of all elements, those without full stencils as in multiply [1/s].
     void elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
 

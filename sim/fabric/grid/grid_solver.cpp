@@ -124,6 +124,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     report.speedError = solve.speedError;
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
+    if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());
 
     clock.start(Stage::GridToFabric);
     if (meetsLiquid_) keepAccelerations(h, state);
@@ -137,6 +138,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     }
     state.sinceGather = h;
     stiffness_.rods().transportFrames(state);
+    if (booksEnergy_) bookVertices(gravity, state, *report.energyChanges);
 
     clock.start(Stage::FabricStrain);
     if (settings_.contact) {

@@ -31,6 +31,8 @@ class GridFabricSolver {
     FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FaceLoads* loads);
     /// Velocities on the grid: those that the vertices brought after spread, those at the end of the step after advance.
     FabricFaces faces() const { return {particles_.grid(), particles_.faces().velocity}; }
+    /// From now on reports tell where energy goes: takes as long as some iterations of the solve.
+    void bookEnergy() { booksEnergy_ = true; }
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Energy that contact on the grid held at the start of the last step [erg].
     double contactEnergy() const { return contact_.energy(); }
@@ -42,6 +44,9 @@ class GridFabricSolver {
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     void keepAccelerations(double h, FabricState& state);
+    void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads, EnergyChanges& changes);
+    void bookVertices(const Vec3& gravity, const FabricState& state, EnergyChanges& changes) const;
+    double facesKinetic(const BlockArray<double, 3>& velocity) const;
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -51,7 +56,7 @@ class GridFabricSolver {
     FaceSystem system_;
     FabricObstacles obstacles_;
     FaceVector velocity_;
-    bool meetsLiquid_;
+    bool meetsLiquid_, booksEnergy_ = false;
     std::vector<double> mass_;             ///< of each vertex, with what it has absorbed [g]
     // Where there is liquid: velocities of the faces without the fabric's own forces [cm/s], then what these add [cm/s^2].
     BlockArray<double, 3> start_;

@@ -4,6 +4,7 @@
 #include "sim/fabric/pins.h"
 
 #include <cmath>
+#include <limits>
 
 namespace sim {
 
@@ -60,43 +61,74 @@ void VertexStiffness::addToOwners(AlignedArray<double>& u) const
         }
 }
 
-void VertexStiffness::addPins(const FabricState& state, double end)
+void VertexStiffness::findPins(const FabricState& state, double end)
 {
     const std::vector<Vec3> targets = pinTargets(fabric_, end);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
-        springs_.push_back({v, v, pinStiffness_[i] * Mat3::Identity()});
-        add(gradient_, v, pinStiffness_[i] * (state.x[v] - targets[i]));
+        springs_.push_back({v, v, pinStiffness_[i] * Mat3::Identity(), pinStiffness_[i] * (state.x[v] - targets[i])});
     }
-    for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
-        const int e = heldEdges_[i], slot = unknowns_.twistSlot[e];
-        gradient_[slot] += heldStiffness_[i] * (state.theta[e] - heldAngle(fabric_, restReference_, end, state, e));
-    }
+    heldTorque_.resize(heldEdges_.size());
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i)
+        heldTorque_[i] = heldStiffness_[i] * (state.theta[heldEdges_[i]] - heldAngle(fabric_, restReference_, end, state, heldEdges_[i]));
 }
 
-void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
-                               std::span<const Vec3> predicted)
+/// Gradient and derivatives of the material's own forces.
+void VertexStiffness::sumInner(const FabricState& state, double h)
 {
-    x_ = state.x;
     gradient_.fill(0.0);
-    springs_.clear();
-    rods_.startStep(state);
-    shells_.startStep(state.x);
     if (!rods_.empty()) rods_.forces(state, h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
     if (!shells_.empty()) {
         cloth_.clear();
         shells_.forces(state.x, h, unknowns_.slot, gradient_.data(), &cloth_);
     }
     addToOwners(gradient_);
-    addPins(state, t + h);
+}
+
+void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
+                               std::span<const Vec3> predicted)
+{
+    x_ = state.x;
+    springs_.clear();
+    rods_.startStep(state);
+    shells_.startStep(state.x);
+    sumInner(state, h);
+    findPins(state, t + h);
     for (const ObstacleContact& contact : obstacles) {
         const int a = contact.vertex, b = contact.isEdge() ? contact.other : a;
-        springs_.push_back({a, b, contact.stiffness});
         // Known at the predicted position; by its derivative, at the present one.
-        const Vec3 half = 0.5 * (contact.gradient - contact.stiffness * (0.5 * h * (predicted[a] + predicted[b])));
-        add(gradient_, a, half);
-        add(gradient_, b, half);
+        springs_.push_back({a, b, contact.stiffness, contact.gradient - contact.stiffness * (0.5 * h * (predicted[a] + predicted[b]))});
     }
+    for (const Spring& s : springs_)
+        for (int v : {s.vertex, s.other}) add(gradient_, v, 0.5 * s.gradient);
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
+}
+
+VertexStiffness::Work VertexStiffness::work(const FabricState& state, double h, AlignedArray<double>& u)
+{
+    AlignedArray<double> product;
+    product.resize(unknowns_.size);
+    const auto given = [&](auto&& multiply) {
+        multiply();
+        double sum = 0.0;
+        for (std::size_t i = 0; i < product.size(); ++i) sum -= u[i] * (h * gradient_[i] + h * h * product[i]);
+        return sum;
+    };
+    Work work;
+    const double all = given([&] { multiply(u, product); });
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+        const Spring& s = springs_[i];
+        const Vec3 mean = 0.5 * (at(u, s.vertex) + at(u, s.other));
+        (i < pinStiffness_.size() ? work.pins : work.obstacles) -= mean.dot(h * s.gradient + h * h * (s.stiffness * mean));
+    }
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
+        const double speed = u[unknowns_.twistSlot[heldEdges_[i]]];
+        work.pins -= speed * (h * heldTorque_[i] + h * h * heldStiffness_[i] * speed);
+    }
+    sumInner(state, std::numeric_limits<double>::infinity());
+    work.elastic = given([&] { multiplyInner(u, product); });
+    work.damping = all - work.pins - work.obstacles - work.elastic;
+    return work;
 }
 
 void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const
@@ -114,7 +146,7 @@ void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray
     });
 }
 
-void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& out) const
+void VertexStiffness::multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const
 {
     for (const Shared& s : shared_)
         for (int a = 0; a < kAxes; ++a) in[s.slot + a * kLanes] = in[s.ownerSlot + a * kLanes];
@@ -128,6 +160,11 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
     addToOwners(out);
     if (!shells_.empty()) multiplyCloth(in, out);
+}
+
+void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& out) const
+{
+    multiplyInner(in, out);
     for (const Spring& s : springs_) {
         const Vec3 half = 0.25 * (s.stiffness * (at(in, s.vertex) + at(in, s.other)));
         add(out, s.vertex, half);

@@ -33,6 +33,13 @@ class VertexStiffness {
     void multiply(AlignedArray<double>& in, AlignedArray<double>& out) const;
     /// K on smooth fields, without what springs do.
     void findSlopes(double cell, SlopeForms& slopes) const { slopes.assemble(rods_.layout(), strands_, shells_.vertices(), cloth_, x_, cell); }
+    /// Energy that forces give to moves h u, −u·(h gradient + h² K u), in assemble's step of h [s] from the state: all that the material's own
+    /// forces, its damping, obstacles and pins do. Elastic forces are told apart, their energy is the fabric's. What is multiplied with
+    /// afterwards is undamped, until the next assemble.
+    struct Work {
+        double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
+    };
+    Work work(const FabricState& state, double h, AlignedArray<double>& u);
     /// Diagonal of the springs, and of K for twist.
     void springDiagonal(AlignedArray<double>& out) const;
 
@@ -57,12 +64,15 @@ class VertexStiffness {
     struct Spring {
         int vertex, other;
         Mat3 stiffness;  ///< [dyn/cm]
+        Vec3 gradient;   ///< at the state [dyn]
     };
     void findShared();
     void findPinStiffness(const Fabric& fabric);
     void addToOwners(AlignedArray<double>& u) const;
     void multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const;
-    void addPins(const FabricState& state, double end);
+    void sumInner(const FabricState& state, double h);
+    void multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const;
+    void findPins(const FabricState& state, double end);
 
     const Fabric& fabric_;
     Rods rods_;
@@ -72,11 +82,12 @@ class VertexStiffness {
     BlockMatrix cloth_;
     mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
     std::vector<Shared> shared_;
-    std::vector<Spring> springs_;
+    std::vector<Spring> springs_;       ///< those of pins first
     std::vector<Vec3> restReference_;   ///< of each yarn edge
     std::vector<double> pinStiffness_;  ///< of each pin [dyn/cm]
     std::vector<int> heldEdges_;
-    std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm]
+    std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm] …
+    std::vector<double> heldTorque_;     ///< … and gradient at the state
     AlignedArray<double> gradient_;
     std::span<const Vec3> x_;            ///< of the vertices, at the start of the step [cm]
 };

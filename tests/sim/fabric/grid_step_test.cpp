@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <numeric>
+
 namespace sim::testing {
 namespace {
 
@@ -46,6 +48,35 @@ TEST(GridFabric, KeepsLinearMomentum)
         for (std::size_t v = 0; v < run.state.v.size(); ++v) scale += run.fabric.mass[v] * run.state.v[v].norm();
         for (int n = 0; n < 10; ++n) run.step(kStep);
         EXPECT_LT((run.momentum() - before).norm(), 1e-9 * scale);
+    }
+}
+
+/// What the book names is what the energy changes by (model-fluid 9.5), up to the error of the solves.
+TEST(GridFabric, EnergyGoesWhereTheBookSays)
+{
+    for (TransferMethod method : kMethods) {
+        Settings settings = gridSettings(method);
+        settings.fabric.tolerance = 1.0e-9;
+        settings.gravity = Vec3(0.0, -981.0, 0.0);
+        FabricPiece pinnedWeave = weave(6, 1.0e3);
+        Motion lift;
+        lift.addTranslation(0.0, 1.0, Vec3(0.0, 20.0, 0.0), 0.0, 0.0);
+        PinGroup corner;
+        corner.vertices = {0, 1};
+        corner.twist = true;
+        corner.motion = lift;
+        pinnedWeave.pins = {corner};
+        GridRun run({pinnedWeave, cloth(6, Vec3(0.0, 0.2, 0.0))}, settings);
+        run.solver.bookEnergy();
+        giveNoise(run.state, 30.0);
+        const double start = run.energies().total(), kinetic = run.energies().kinetic;
+        EnergyChanges all;
+        for (int n = 0; n < 30; ++n) all += *run.step(kStep).energyChanges;
+        const double unbooked = run.energies().total() - start - std::accumulate(all.of.begin(), all.of.end(), 0.0);
+        EXPECT_LT(std::abs(unbooked), 1.0e-9 * kinetic);
+        for (EnergyChange loss : {EnergyChange::Implicit, EnergyChange::FabricToVertices}) EXPECT_LT(all[loss], 0.0);
+        EXPECT_LT(all[EnergyChange::Damping], -0.001 * kinetic);
+        EXPECT_GT(all[EnergyChange::Pins], 0.0);
     }
 }
 
