@@ -16,6 +16,7 @@ constexpr double kAccelerationTolerance = 10.0;  ///< rms error at which a linea
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii]
 constexpr double kQuietAcceleration = 250.0;  ///< largest change that a Newton iteration makes after which no other is made [cm/s^2]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
+constexpr double kExpectedTurn = 0.01;        ///< farthest that twist angles are expected to go on as they did [rad]
 constexpr double kSettledMove = 0.25;         ///< rms move of a Newton iteration that may be the last [radii] …
 constexpr double kSmallMove = 0.03;           ///< … or this, where moves do not become smaller [radii]
 constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
@@ -130,8 +131,9 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
         if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t, state, static_cast<int>(e));
 }
 
-/// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin at their free flight; carried on
-/// with the last step's forces they diverge.
+/// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin next to where they are:
+/// twist is so stiff and light that its rate tells little of where it will be, that of a halved step nothing; from there Newton wound up
+/// the free ends of yarns, a little in every step.
 void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
     start_ = state;
@@ -145,7 +147,9 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
 
     limit(state, report, clock);
     commit(state, clock);
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] = freeAngle_[e]; });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
+        state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn);
+    });
     turnHeldEdges(t + h, state);
 }
 
