@@ -90,6 +90,28 @@ double growthAtTwist(double moment)  // in units of EI/L
     return run.largestIn(1000, 2.0e-3, [&] { return offAxis(run); }) / before;
 }
 
+/// A crimped yarn whose last edge was left spinning, as by a step that was cut short: in a long step, too, energy only falls. From the
+/// free flight of its angle, one turn further, Newton ended wound up, with six times the energy.
+TEST(CrimpedYarn, IsNotWoundUpByTheSpinOfItsEnd)
+{
+    std::vector<Vec3> path;
+    for (int i = 0; i <= 20; ++i) path.emplace_back(0.144 * i, i % 2 == 0 ? 0.0 : 0.07, 0.0);
+    FabricPiece piece = pieceOf(strand(path), testing::wool(), {0.048, 0.048});
+    piece.material.young = 6.6e8;
+    piece.pins = {pinned({0, 1}, true)};
+    FabricRun run(piece);
+    run.gravity.setZero();
+    constexpr double h = 4.0e-3;
+    run.state.omega.back() = 2.0 * kPi / h;
+    double before = run.energies().total();
+    for (int n = 0; n < 6; ++n) {
+        run.step(h);
+        const double now = run.energies().total();
+        EXPECT_LT(now, before) << "step " << n;
+        before = now;
+    }
+}
+
 /// Clamped at both ends and not pulled, a straight yarn bears a moment of 8.987 EI/L.
 TEST(TwistedYarn, BucklesAtGreenhillsMoment)
 {
