@@ -240,8 +240,9 @@ Vec3 Mixture::liquidMomentum(const LiquidGrid& liquid) const
 double Mixture::kinetic(const BlockArray<double, 3>& velocity) const
 {
     double sum = 0.0;
+    const auto energy = [](double m, double u) { return 0.5 * m * u * u; };
     for (std::size_t b = 0; b < liquidBlock_.size(); ++b)
-        for (int a = 0; a < kAxes; ++a) sum += sumOver(velocity, static_cast<int>(b), a, [](double m, double u) { return 0.5 * m * u * u; });
+        for (int a = 0; a < kAxes; ++a) sum += sumOver(velocity, static_cast<int>(b), a, energy);
     return sum;
 }
 
@@ -258,7 +259,8 @@ EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<
                 const double u = liquid.faces.velocity.block(m, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
                 const double push = push_.block(b, a)[c], onLiquid = liquidVolume_.block(b, a)[c] * push;
                 const double onFabric = settings_.pressureOnFabric ? onFaces_.solid.block(b, a)[c] * push : 0.0;
-                const double sucked = settings_.capillary ? sucked_.block(b, a)[c] : 0.0, back = settings_.capillaryReaction ? sucked : 0.0;
+                const double sucked = settings_.capillary ? sucked_.block(b, a)[c] : 0.0;
+                const double back = settings_.capillaryReaction ? sucked : 0.0;
                 sum[EnergyChange::Pressure] -= onLiquid * u + onFabric * fabric;
                 sum[EnergyChange::Suction] += sucked * u - back * fabric;
                 sum[EnergyChange::Drag] += drag_.block(b, a)[c] * (fabric - u) * u + (onFabric + back) * fabric;

@@ -51,7 +51,8 @@ class VertexSolver {
     double rmsInRadii(std::span<const Vec3> move) const;
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
-    EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state);
+    EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
+    void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
 
     const Fabric& fabric_;
     FabricSettings settings_;
