@@ -15,7 +15,8 @@ struct PairEnergy {
 inline constexpr double kSoftShare = 0.5;  ///< part of the spring's way over which its stiffness grows from 0; 0.2 still chatters [-]
 
 /// A spring from the reach R inwards whose stiffness grows over the first part of its way; below the wall τ a logarithm that no
-/// distance above the core can pay. C2 at R, C1 at τ, convex. Source: contact-design 3.2, but for the soft beginning: a spring that is
+/// distance above the core can pay, and right at the core the parabola that touches it there, so that one Newton step leads a pair out that
+/// a limited move has left below. C2 at R, C1 at τ, convex. Source: contact-design 3.2, but for the soft beginning: a spring that is
 /// stiff at once chatters under light loads, and cloth that should slide on cloth sticks (ClothOnCloth tests).
 inline PairEnergy pairEnergy(double distance, const PairRange& range, double stiffness)
 {
@@ -26,11 +27,13 @@ inline PairEnergy pairEnergy(double distance, const PairRange& range, double sti
         return {stiffness * gap * gap * gap / (6.0 * soft), -0.5 * stiffness * gap * gap / soft, stiffness * gap / soft};
     const double spring = 0.5 * stiffness * firm * firm + stiffness * soft * soft / 24.0;
     if (distance >= wall) return {spring, -stiffness * firm, stiffness};
-    constexpr double kLeastDepth = 0.02;  // of the wall: nearer the core the force stays what it is there
-    const double left = std::max(distance - range.core, kLeastDepth * depth);
+    constexpr double kLeastDepth = 0.02;  // of the wall: where the parabola begins
+    const double least = kLeastDepth * depth, left = std::max(distance - range.core, least);
+    const double beyond = std::max(1.0 - (distance - range.core) / least, 0.0);  // into the parabola, in parts of that depth
     const double firmest = pressed - 0.5 * soft, strength = stiffness * firmest * depth;
     const double atWall = 0.5 * stiffness * firmest * firmest + stiffness * soft * soft / 24.0;
-    return {atWall - strength * std::log(left / depth), -strength / left, strength / (left * left)};
+    return {atWall + strength * (beyond + 0.5 * beyond * beyond - std::log(left / depth)), -strength / left * (1.0 + beyond),
+            strength / (left * left)};
 }
 
 /// Stiffness of a pair [dyn/cm]: of the fibres where they are soft; what a step of h [s] can resolve where they are hard, and no less than it
