@@ -94,7 +94,7 @@ struct FabricSettings {
     TorsionModel torsion = TorsionModel::Ellipse;  ///< Ellipse: St-Venant; Polar: G times the polar moment, as published
     bool twist = true;                ///< yarns resist twisting
     int newton = 2;                   ///< Newton iterations per step, vertex only
-    double tolerance = 0.0;           ///< of the linear solve. vertex: relative [-], 0 = 2e-2; grid: of speeds [cm/s], 0 = 5 cm/s^2 times the step
+    double tolerance = 0.0;           ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5 cm/s^2 times the step
     bool contact = true;              ///< fabric touches itself and obstacles
     int maxHalvings = 4;              ///< of a step that could not be taken, vertex only
 };

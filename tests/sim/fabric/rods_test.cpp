@@ -14,20 +14,20 @@ namespace {
 
 using testing::Noise;
 
-/// Three yarns of different length in a curved and twisted state, elliptic, with a section that is turned.
+/// Three yarns of different length in a curved and twisted state, with a section that is turned: elliptic unless told otherwise.
 struct CurvedYarns {
     FabricPiece piece;
     Fabric fabric;
     FabricSettings settings;
     FabricState rest, state;
 
-    explicit CurvedYarns(unsigned seed, double amount = 0.3)
+    explicit CurvedYarns(unsigned seed, double amount = 0.3, std::array<double, 2> radius = {0.048, 0.03})
     {
         Noise noise(seed);
         std::vector<FabricGeometry> all;
         piece.material = testing::wool();
         piece.material.sectionRotation = 0.4;
-        piece.radius = {0.048, 0.03};
+        piece.radius = radius;
         for (int n : {4, 7, 3}) {
             std::vector<int> strand;
             for (int j = 0; j < n; ++j) {
@@ -210,6 +210,35 @@ TEST(Rods, HessianOfATwistedStraightRodIsExact)
     FabricState twisted = rest;
     for (std::size_t e = 0; e < twisted.theta.size(); ++e) twisted.theta[e] = 0.8 * static_cast<double>(e);
     EXPECT_LT(hessianError(rods, fabric, twisted), 1.0e-6);
+}
+
+/// Newton never turns a round yarn beyond where its energy falls: as a function of one twist angle it lies below the quadratic model, also
+/// where the yarn is straighter than at rest and the squares of its curvature tell little of how it holds the angle.
+TEST(Rods, EnergyOfATurnLiesBelowItsModel)
+{
+    CurvedYarns yarns(11, 0.3, {0.048, 0.048});
+    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    for (double straight : {0.0, 0.7, 0.95, 0.999}) {
+        FabricState state = yarns.state;
+        for (Vec3& x : state.x) x.tail<2>() *= 1.0 - straight;
+        rods.transportFrames(state);
+        StrandMatrix matrix;
+        matrix.resize(rods.layout());
+        const std::vector<double> gradient = gradientOf(rods, state, &matrix);
+        const double before = totalEnergy(rods, state);
+        const StrandLayout::Group& group = rods.layout().groups[0];
+        for (int j = 0; j < group.edges(); ++j)
+            for (int l = 0; l < kLanes; ++l) {
+                const int e = rods.layout().edge[group.firstEdge + j][l];
+                if (e < 0) continue;
+                const std::size_t unknown = 3 * state.x.size() + e;
+                const double stiffness = matrix.at(group.firstRow + 4 * j + 3, 0, l);
+                for (double turn : {-3.0, -1.0, -0.3, 0.3, 1.0, 3.0}) {
+                    const double model = before + gradient[unknown] * turn + 0.5 * stiffness * turn * turn;
+                    EXPECT_LE(movedEnergy(rods, state, unknown, turn), model + 1.0e-9 * before) << "edge " << e << " turned by " << turn;
+                }
+            }
+    }
 }
 
 TEST(Rods, FactorsSolveWhatTheMatrixMultiplies)
