@@ -2,11 +2,15 @@
 
 #include "sim/core/parallel.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sim {
 
 namespace {
 
 constexpr std::size_t kGrain = 1024;
+constexpr double kRoundOff = 1.0e-12;  ///< relative [-]
 
 /// Numbers of the elements at each vertex.
 template <class Corners>
@@ -42,6 +46,11 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedV
         }
         shapeOf_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
     }
+    isOneShape_ = std::ranges::all_of(shapeOf_, [&](double one) { return one == shapeOf_[0]; });
+    const double first = fibresOf_[0] / fabric.mass[0];
+    bool isUniform = true;
+    for (std::size_t v = 0; v < n; ++v) isUniform &= std::abs(fibresOf_[v] / fabric.mass[v] - first) < kRoundOff * first;
+    if (isUniform) fibresPerMass_ = first;
 }
 
 /// Squares of the components of tangents and normals, weighted by lengths and areas.
@@ -116,13 +125,36 @@ void FabricOnFaces::spread(const FabricState& state)
     findDirections(state);
     divideByMass(velocity);
     scatter([&](int v) { return Vec3(massOf_[v] * state.acceleration[v]); }, acceleration);
-    scatter([&](int v) { return Vec3::Constant(fibresOf_[v]); }, fibres);
-    scatter([&](int v) { return Vec3::Constant(solidOf_[v]); }, solid);
-    scatter([&](int v) { return Vec3::Constant(massOf_[v] * shapeOf_[v]); }, shape);
     scatter([&](int v) { return Vec3(massOf_[v] * squaresOf_[v]); }, squares);
     divideByMass(acceleration);
-    divideByMass(shape);
     divideByMass(squares);
+    findVolumes(state);
+    if (isOneShape_) {
+        parallelFor(grid().count(), 8, [&](std::size_t b) { std::fill_n(shape.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, shapeOf_[0]); });
+        return;
+    }
+    scatter([&](int v) { return Vec3::Constant(massOf_[v] * shapeOf_[v]); }, shape);
+    divideByMass(shape);
+}
+
+/// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.
+void FabricOnFaces::findVolumes(const FabricState& state)
+{
+    const std::size_t n = vertices_.count();
+    const bool isWet = parallelMax(n, [&](std::size_t s) { return state.absorbed[vertices_.particles.id[s]]; }) > 0.0;
+    if (isWet) scatter([&](int v) { return Vec3::Constant(state.absorbed[v] / liquidDensity_); }, solid);
+    if (!fibresPerMass_) scatter([&](int v) { return Vec3::Constant(fibresOf_[v]); }, fibres);
+    parallelFor(grid().count(), 8, [&](std::size_t i) {
+        const int b = static_cast<int>(i);
+        const double* m = mass.block(b);
+        double *fibre = fibres.block(b), *volume = solid.block(b);
+        for (std::size_t c = 0; c < BlockArray<double, 3>::kStride; ++c) {
+            if (!(m[c] > 0.0)) continue;
+            const double absorbed = isWet ? volume[c] : 0.0;
+            if (fibresPerMass_) fibre[c] = *fibresPerMass_ * (m[c] - liquidDensity_ * absorbed);
+            volume[c] = fibre[c] + absorbed;
+        }
+    });
 }
 
 }  // namespace sim

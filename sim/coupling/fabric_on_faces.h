@@ -5,6 +5,7 @@
 #include "sim/fabric/grid/block_points.h"
 #include "sim/transfer/scatter.h"
 
+#include <optional>
 #include <vector>
 
 namespace sim {
@@ -43,6 +44,7 @@ class FabricOnFaces {
     void gather(const BlockArray<double, 3>& u, To&& to);
 
  private:
+    void findVolumes(const FabricState& state);
     void findDirections(const FabricState& state);
     void divideByMass(BlockArray<double, 3>& u) const;
 
@@ -50,6 +52,8 @@ class FabricOnFaces {
     double liquidDensity_;                          ///< [g/cm^3]
     SortedVertices& vertices_;
     std::vector<double> fibresOf_, shapeOf_;        ///< of each vertex [cm^3, -]
+    std::optional<double> fibresPerMass_;           ///< of the dry fabric, where all vertices have the same [cm^3/g]
+    bool isOneShape_ = false;                       ///< all yarns, or all cloth
     std::vector<double> massOf_, solidOf_;          ///< of each vertex, of the step [g, cm^3]
     std::vector<Vec3> squaresOf_;                   ///< of each vertex
     std::vector<int> edgesBegin_, edgesAt_;         ///< of each vertex: yarn edges that end there
