@@ -1,14 +1,18 @@
 #include "sim/fabric/contact/pair_search.h"
 
+#include "sim/core/check.h"
 #include "sim/core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace sim::contact {
 
 namespace {
 
 constexpr std::size_t kLeavesPerTask = 4;
+/// For each edge, vertex and face of the fabric. A weave at rest has a dozen; with more than this it has burst, and would fill the memory.
+constexpr std::size_t kMostPairs = 500;
 
 template <class Corners>
 std::vector<int> flat(const Corners& corners)
@@ -104,13 +108,19 @@ void PairSearch::run(const Sweep& sweep, std::span<const char> dirtyVertices, co
     if (isAnyClean) listDirtyLeaves(Query::FacesToVertices, faces_);  // dirty vertices find their faces themselves
     tasks_ = (dirtyLeaves_.size() + kLeavesPerTask - 1) / kLeavesPerTask;
     if (found_.size() < tasks_) found_.resize(tasks_);
+    const std::size_t most = kMostPairs * primitives_.count();
+    std::atomic<std::size_t> all = 0;
     parallelFor(tasks_, [&](std::size_t task) {
         found_[task].clear();
+        if (all > most) return;
         Filter filter(*this, sweep, restPairs, found_[task]);
         const std::size_t end = std::min(dirtyLeaves_.size(), (task + 1) * kLeavesPerTask);
         for (std::size_t i = task * kLeavesPerTask; i < end; ++i) searchFrom(dirtyLeaves_[i], filter);
         filter.flush();
+        all += found_[task].size();
     });
+    if (all > most)
+        throw RunError("more than 500 pieces of fabric are near each one, or would be after this step: it has burst; a smaller time step may help");
 }
 
 void PairSearch::searchFrom(const DirtyLeaf& dirty, Filter& filter) const

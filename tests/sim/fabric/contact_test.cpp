@@ -1,3 +1,4 @@
+#include "sim/core/check.h"
 #include "sim/fabric/contact/candidate_list.h"
 #include "sim/fabric/contact/pair_energy.h"
 #include "tests/sim/fabric/contact_scenes.h"
@@ -245,6 +246,17 @@ TEST(CandidateList, HoldsNoPairTwice)
         for (std::size_t v = 0; v < u.size(); ++v) x[v] += u[v];
         list.moved();
     }
+}
+
+/// Cloth whose every piece is near every other would fill the memory with pairs: it says so instead.
+TEST(CandidateList, GivesUpOnFabricThatHasBurst)
+{
+    ContactScene scene;
+    scene.addCloth({0, 0, 0}, {0.1, 0, 0}, {0, 0, 0.1}, 40, 40, 0.02);
+    CandidateList list(scene.fabric);
+    std::vector<Vec3> burst = scene.fabric.rest;
+    for (Vec3& x : burst) x *= 1.0e-3;
+    EXPECT_THROW(list.coverPlace(burst), RunError);
 }
 
 TEST(CandidateList, MeasuresAtX)
