@@ -29,8 +29,9 @@ class Rods {
     bool isDamped() const { return damped_; }
 
     /// Gradient of the elastic and viscous energy at the present positions, whose frames are up to date, added to `gradient` (laid out
-    /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian with the tensile part of the stretching's
-    /// geometric stiffness replaces what the matrix held. h: length of the step [s], read by the damping only.
+    /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian, with the tensile part of the stretching's
+    /// geometric stiffness and with what opposes the turning of straightened yarns, replaces what the matrix held. h: length of the step
+    /// [s], read by the damping only.
     void forces(const FabricState& state, double h, Pack* gradient, StrandMatrix* matrix) const;
     /// From now on the matrix has the torque's part too, the second derivatives of the twist: without it Newton overshoots on rods
     /// that are twisted hard. It may be indefinite.
