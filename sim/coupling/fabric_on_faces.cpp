@@ -129,12 +129,17 @@ void FabricOnFaces::spread(const FabricState& state)
     divideByMass(acceleration);
     divideByMass(squares);
     findVolumes(state);
-    if (isOneShape_) {
-        parallelFor(grid().count(), 8, [&](std::size_t b) { std::fill_n(shape.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, shapeOf_[0]); });
+    findShapes();
+}
+
+void FabricOnFaces::findShapes()
+{
+    if (!isOneShape_) {
+        scatter([&](int v) { return Vec3::Constant(massOf_[v] * shapeOf_[v]); }, shape);
+        divideByMass(shape);
         return;
     }
-    scatter([&](int v) { return Vec3::Constant(massOf_[v] * shapeOf_[v]); }, shape);
-    divideByMass(shape);
+    parallelFor(grid().count(), 8, [&](std::size_t b) { std::fill_n(shape.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, shapeOf_[0]); });
 }
 
 /// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.

@@ -45,6 +45,7 @@ class FabricOnFaces {
 
  private:
     void findVolumes(const FabricState& state);
+    void findShapes();
     void findDirections(const FabricState& state);
     void divideByMass(BlockArray<double, 3>& u) const;
 

@@ -11,7 +11,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative (contact-design 3.3) [-]
+constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
 constexpr double kAccelerationTolerance = 10.0;  ///< rms error at which a linear solve is good enough: 1 % of gravity [cm/s^2]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii]
 constexpr double kQuietAcceleration = 250.0;  ///< largest change that a Newton iteration makes after which no other is made [cm/s^2]

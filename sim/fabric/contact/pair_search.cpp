@@ -3,6 +3,8 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -11,7 +13,8 @@ namespace sim::contact {
 namespace {
 
 constexpr std::size_t kLeavesPerTask = 4;
-/// For each edge, vertex and face of the fabric. A weave at rest has a dozen; with more than this it has burst, and would fill the memory.
+/// For each edge, vertex and face of the fabric, on average [-]. A weave at rest has a dozen; with more than this it has burst, and would
+/// fill the memory.
 constexpr std::size_t kMostPairs = 500;
 
 template <class Corners>
@@ -120,7 +123,8 @@ void PairSearch::run(const Sweep& sweep, std::span<const char> dirtyVertices, co
         all += found_[task].size();
     });
     if (all > most)
-        throw RunError("more than 500 pieces of fabric are near each one, or would be after this step: it has burst; a smaller time step may help");
+        throw RunError(fmt::format("pieces of fabric have more than {} others near them on average, or would in this step: it has burst; "
+                                   "a smaller time step may help", kMostPairs));
 }
 
 void PairSearch::searchFrom(const DirtyLeaf& dirty, Filter& filter) const
