@@ -52,14 +52,18 @@ Vec3 stiffness(const ContactModuli& m, const Vec3& r)
     return {m.shear, m.shear, 2.0 * m.normal() * pressed};
 }
 
+double held(const ContactModuli& m, const Vec3& r)
+{
+    const double pressed = 1.0 - std::clamp(r[2], kLeastThickness, 1.0);
+    const double friction = m.shear * std::hypot(r[0], r[1]), bound = m.coulomb * m.normal() * pressed * pressed;
+    return friction > bound ? bound / friction : 1.0;
+}
+
 Vec3 returned(const ContactModuli& m, const Vec3& r)
 {
     if (r[2] >= 1.0) return Vec3::UnitZ();
-    Vec3 kept(r[0], r[1], std::max(r[2], kLeastThickness));
-    const double pressed = 1.0 - kept[2], pressure = m.normal() * pressed * pressed;
-    const double friction = m.shear * std::hypot(r[0], r[1]), bound = m.coulomb * pressure;
-    if (friction > bound) kept.head<2>() *= bound / friction;
-    return kept;
+    const double share = held(m, r);
+    return {share * r[0], share * r[1], std::max(r[2], kLeastThickness)};
 }
 
 }  // namespace sheet
@@ -171,26 +175,47 @@ bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness&
     return true;
 }
 
+Section slid(const Section& section, double across)
+{
+    Section slid = section;
+    const Vector2d middle = Vector2d::Constant(0.5 * section.log.sum());
+    slid.log = middle + across * (section.log - middle);
+    slid.sigma = slid.log.array().exp();
+    return slid;
+}
+
+void slide(const Section& section, double across, SectionStiffness& k)
+{
+    const Eigen::Vector4d scaled = entries(section.u * section.sigma.asDiagonal() * section.vt), answer = k * scaled;
+    const double own = scaled.dot(answer);
+    k *= across;
+    if (own > 0.0) k += (1.0 - across) / own * answer * answer.transpose();
+}
+
+Held held(const ContactModuli& m, const Strain& r, const Section& section)
+{
+    const double sum = section.log.sum();
+    if (sum >= 0.0) return {0.0, 0.0};
+    Held held;
+    const double deviator = std::abs(0.5 * (section.log[0] - section.log[1])) * std::sqrt(2.0);
+    const double excess = deviator + (m.lame + m.shear) / m.shear * sum * m.cone;
+    if (excess > 0.0) held.across = (deviator - excess) / deviator;
+    const double friction = m.shear * r.row(0).norm();
+    const double bound = m.coulomb * 0.5 * principal(m, slid(section, held.across).log).norm();
+    if (friction > bound) held.along = bound / friction;
+    return held;
+}
+
 Strain returned(const ContactModuli& m, const Strain& r)
 {
-    const Section section(r.bottomRows<2>());
-    Vector2d log = section.log;
-    const double sum = log.sum();
-    Strain kept = Strain::Zero();
-    if (sum >= 0.0) {
+    const Section section = sectionOf(r);
+    const Held share = held(m, r, section);
+    Strain kept;
+    kept.row(0) = share.along * r.row(0);
+    if (section.log.sum() >= 0.0)
         kept.bottomRows<2>() = section.u * section.vt;
-        return kept;
-    }
-    const double deviator = std::abs(0.5 * (log[0] - log[1])) * std::sqrt(2.0);
-    const double excess = deviator + (m.lame + m.shear) / m.shear * sum * m.cone;
-    if (excess > 0.0) {
-        const double share = (deviator - excess) / deviator;
-        const Vector2d middle = Vector2d::Constant(0.5 * sum);
-        log = middle + share * (log - middle);
-    }
-    kept.bottomRows<2>() = section.u * Vector2d(std::exp(log[0]), std::exp(log[1])).asDiagonal() * section.vt;
-    const double friction = m.shear * r.row(0).norm(), bound = m.coulomb * 0.5 * principal(m, log).norm();
-    kept.row(0) = friction > bound ? Eigen::RowVector2d(bound / friction * r.row(0)) : Eigen::RowVector2d(r.row(0));
+    else
+        kept.bottomRows<2>() = section.u * slid(section, share.across).sigma.asDiagonal() * section.vt;
     return kept;
 }
 

@@ -43,6 +43,8 @@ double energy(const ContactModuli& m, const Vec3& r);
 Vec3 stress(const ContactModuli& m, const Vec3& r);
 /// Diagonal of ∂²ψ/∂r², which has nothing beside it and nothing negative [dyn/cm^2].
 Vec3 stiffness(const ContactModuli& m, const Vec3& r);
+/// Share of the shear stress at r that friction holds [0..1].
+double held(const ContactModuli& m, const Vec3& r);
 /// r after separation and friction.
 Vec3 returned(const ContactModuli& m, const Vec3& r);
 
@@ -76,6 +78,16 @@ Strain stress(const ContactModuli& m, const Strain& r, const Section& section);
 /// ∂²ψ/∂B² with its negative eigenvalues set to 0; that by row 0 is `m.shear` where this is not zero. False, and 0,
 /// without compression.
 bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness& k);
+
+/// Shares that friction holds [0..1]: of the shear along the yarn, and of what makes log σ1 and log σ2 differ.
+struct Held {
+    double along = 1.0, across = 1.0;
+};
+Held held(const ContactModuli& m, const Strain& r, const Section& section);
+/// The section with `across` of the difference of its log σ.
+Section slid(const Section& section, double across);
+/// Leaves `across` of what K has beside the answer to scaling the whole section.
+void slide(const Section& section, double across, SectionStiffness& k);
 Strain returned(const ContactModuli& m, const Strain& r);
 
 }  // namespace yarn

@@ -56,6 +56,19 @@ Symmetric<T> mixed(const Triple<T>& a, const Triple<T>& b)
             a.x * b.y + a.y * b.x, a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z};
 }
 
+/// Angular velocity of an edge whose ends move apart at `along`.
+template <class T>
+Triple<T> turnOfEdge(const Triple<T>& reciprocal, const Triple<T>& along)
+{
+    return cross(reciprocal, along);
+}
+/// That of a face's normal, where the edges from its first corner change at u1 and u2.
+template <class T>
+Triple<T> turnOfFace(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1, const Triple<T>& u2)
+{
+    return cross(dot(normal, u1) * reciprocal[0] + dot(normal, u2) * reciprocal[1], normal);
+}
+
 /// What acts on an element's surroundings: through the velocity gradient, with rows by the component of the force
 /// [erg, erg/s …], and on its corners [dyn …].
 template <class T, int kCorners>
@@ -79,7 +92,7 @@ struct EdgeContact {
     /// Change of the stress when the surroundings move: d by G and the corners by u.
     Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
     {
-        const Triple<T> turn = cross(reciprocal, u[1] - u[0]);
+        const Triple<T> turn = turnOfEdge(reciprocal, u[1] - u[0]);
         const Triple<T> first = g * d[0] - cross(turn, d[0]), second = g * d[1] - cross(turn, d[1]);
         return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
     }
@@ -111,8 +124,7 @@ struct FaceContact {
 
     Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
     {
-        const Triple<T> tilt = dot(normal, u[1] - u[0]) * reciprocal[0] + dot(normal, u[2] - u[0]) * reciprocal[1];
-        return k * (g * d + cross(cross(normal, tilt), d));
+        return k * (g * d - cross(turnOfFace(normal, reciprocal, u[1] - u[0], u[2] - u[0]), d));
     }
     Symmetric<T> diagonalForm(int a) const { return T(0.5 * k.diagonal(a)) * mixed(d, d); }
     Push push(const Stress& y) const

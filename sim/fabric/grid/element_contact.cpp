@@ -1,6 +1,7 @@
 #include "sim/fabric/grid/element_contact.h"
 
 #include "sim/core/parallel.h"
+#include "sim/fabric/grid/contact_push.h"
 
 #include <Eigen/Geometry>
 
@@ -30,6 +31,10 @@ yarn::Strain yarnStrain(const Mat3& q, const std::array<Vec3, 2>& d)
 
 ElementContact::ElementContact(const Fabric& fabric) : edges_(fabric.edges.size())
 {
+    const auto addVolume = [&](double envelope, const FabricMaterial& m) {
+        volume_.push_back(m.packing() * envelope);
+        mass_.push_back(m.envelopeDensity() * envelope);
+    };
     for (const FabricMaterial& m : fabric.materials) moduli_.emplace_back(m);
     for (std::size_t e = 0; e < fabric.edges.size(); ++e) {
         const int strand = fabric.edges.strand[e];
@@ -37,7 +42,7 @@ ElementContact::ElementContact(const Fabric& fabric) : edges_(fabric.edges.size(
         corners_.push_back({fabric.edges.vertices[e][0], fabric.edges.vertices[e][1], -1});
         shares_.push_back({0.5, 0.5, 0.0});
         material_.push_back(fabric.strands.material[strand]);
-        volume_.push_back(fabric.materials[material_.back()].packing() * kPi * a * b * fabric.edges.restLength[e]);
+        addVolume(kPi * a * b * fabric.edges.restLength[e], fabric.materials[material_.back()]);
     }
     for (std::size_t f = 0; f < fabric.faces.size(); ++f) {
         const Vec3i& c = fabric.faces.vertices[f];
@@ -46,7 +51,7 @@ ElementContact::ElementContact(const Fabric& fabric) : edges_(fabric.edges.size(
         shares_.push_back({angleShare(x0, x1, x2), angleShare(x1, x2, x0), angleShare(x2, x0, x1)});
         material_.push_back(fabric.faces.material[f]);
         const double area = 0.5 * (x1 - x0).cross(x2 - x0).norm();
-        volume_.push_back(fabric.materials[material_.back()].packing() * area * fabric.faces.thickness[f]);
+        addVolume(area * fabric.faces.thickness[f], fabric.materials[material_.back()]);
     }
 
     incidenceBegin_.assign(fabric.vertexCount() + 1, 0);
@@ -77,55 +82,107 @@ std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
     return across;
 }
 
-ElementContact::Stress ElementContact::assemble(std::size_t e, const FabricState& state, Local& at) const
+/// Changes of the directions that the outlook expects, seen from the mesh.
+std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const
+{
+    const auto change = [&](int corner) {
+        return toTriple(outlook.motion.velocity[corners_[e][corner]] - outlook.motion.velocity[corners_[e][0]]);
+    };
+    const std::array<Triple<double>, 2> reciprocal = {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])};
+    const Vec3 turn = toVec3(isEdge(e) ? turnOfEdge(reciprocal[0], change(1)) : turnOfFace(toTriple(at.normal), reciprocal, change(1), change(2)));
+    const Mat3& g = outlook.motion.gradient[e];
+    return {outlook.h * (g * at.d[0] - turn.cross(at.d[0])), outlook.h * (g * at.d[1] - turn.cross(at.d[1]))};
+}
+
+/// Whether the stresses at the start or at the expected end would be felt: spread over a cell they give accelerations
+/// below 4 |σ| / (m Δx).
+bool ElementContact::counts(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+                            const StepOutlook& outlook) const
+{
+    const std::array<Vec3, 2> last = {found.stress[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
+                                      found.stress[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1]};
+    const auto size = [](const std::array<Vec3, 2>& s) { return std::sqrt(s[0].squaredNorm() + s[1].squaredNorm()); };
+    return 4.0 * std::max(size(found.stress), size(last)) > outlook.negligible * mass_[e] * outlook.cell;
+}
+
+ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
 {
     const ContactModuli& m = moduli_[material_[e]];
-    const double volume = volume_[e];
-    const Vec3& x0 = state.x[corners_[e][0]];
-    const Vec3 t0 = state.x[corners_[e][1]] - x0;
-    Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
-    at.d = {state.across[direction(e)], Vec3::Zero()};
+    const Vec3 along = state.x[corners_[e][1]] - state.x[corners_[e][0]];
+    at.d = {state.across[direction(e)], state.across[direction(e) + 1]};
+    const Mat3 q = yarn::frameOf(along, at.d[0]);
+    at.reciprocal = {q.col(0) / along.norm(), Vec3::Zero()};
+    at.normal.setZero();
     for (Mat3& k : at.stiffness) k.setZero();
-    if (isEdge(e)) {
-        at.d[1] = state.across[direction(e) + 1];
-        const Mat3 q = yarn::frameOf(t0, at.d[0]);
-        at.reciprocal = {q.col(0) / t0.norm(), Vec3::Zero()};
-        at.normal.setZero();
-        const yarn::Strain r = yarnStrain(q, at.d);
-        const yarn::Section section = yarn::sectionOf(r);
-        yarn::SectionStiffness k;
-        found.isActive = yarn::stiffness(m, section, k);
-        if (!found.isActive) return found;
-        const yarn::Strain p = yarn::stress(m, r, section);
-        found.energy = volume * yarn::energy(m, r, section);
-        for (int n = 0; n < 3; ++n) {
-            const int column = n / 2, other = (n + 1) / 2;
-            Mat3 local = Mat3::Zero();
-            if (column == other) {
-                found.stress[column] = volume * (q * p.col(column));
-                local(0, 0) = m.shear;
-            }
-            local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
-            at.stiffness[n] = volume * (q * local * q.transpose());
-        }
-        return found;
+    Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
+    yarn::Strain r = yarnStrain(q, at.d);
+    yarn::Section section = yarn::sectionOf(r);
+    yarn::SectionStiffness k;
+    if (!yarn::stiffness(m, section, k)) return found;
+    found.energy = volume_[e] * yarn::energy(m, r, section);
+
+    std::array<Vec3, 2> moves;
+    yarn::Held held;
+    if (outlook) {
+        moves = expectedMoves(e, at, *outlook);
+        const yarn::Strain expected = r + yarnStrain(q, moves);
+        const yarn::Section last = yarn::sectionOf(expected);
+        held = yarn::held(m, expected, last);
+        yarn::slide(section, held.across, k);
+        // What parts takes its stress along no further than to 0.
+        const double sum = section.log.sum(), change = last.log.sum() - sum;
+        if (change > -sum) k *= -sum / change;
+        section = yarn::slid(section, held.across);
+        r.row(0) *= held.along;
     }
-    const Vec3 t1 = state.x[corners_[e][2]] - x0;
-    const Mat3 q = sheet::frameOf(t0, t1);
-    const Vec3 r = q.transpose() * at.d[0];
-    const double area = t0.cross(t1).norm();
-    at.normal = q.col(2);
-    at.reciprocal = {t1.cross(at.normal) / area, at.normal.cross(t0) / area};
-    found.energy = volume * sheet::energy(m, r);
-    found.isActive = 1.0 - r[2] >= kLeastCompression;
-    found.stress[0] = volume * (q * sheet::stress(m, r));
-    at.stiffness[0] = volume * (q * sheet::stiffness(m, r).asDiagonal() * q.transpose());
+    const yarn::Strain p = yarn::stress(m, r, section);
+    for (int n = 0; n < 3; ++n) {
+        const int column = n / 2, other = (n + 1) / 2;
+        Mat3 local = Mat3::Zero();
+        if (column == other) {
+            found.stress[column] = volume_[e] * (q * p.col(column));
+            local(0, 0) = held.along * m.shear;
+        }
+        local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
+        at.stiffness[n] = volume_[e] * (q * local * q.transpose());
+    }
+    found.isActive = !outlook || counts(e, at, found, moves, *outlook);
     return found;
 }
 
-void ElementContact::assemble(const FabricState& state)
+ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
 {
-    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assemble(e, state, local_[e]); });
+    const ContactModuli& m = moduli_[material_[e]];
+    const Vec3& x0 = state.x[corners_[e][0]];
+    const Vec3 t0 = state.x[corners_[e][1]] - x0, t1 = state.x[corners_[e][2]] - x0;
+    const Mat3 q = sheet::frameOf(t0, t1);
+    const double area = t0.cross(t1).norm();
+    at.d = {state.across[direction(e)], Vec3::Zero()};
+    at.normal = q.col(2);
+    at.reciprocal = {t1.cross(at.normal) / area, at.normal.cross(t0) / area};
+    for (Mat3& k : at.stiffness) k.setZero();
+    Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
+    const Vec3 r = q.transpose() * at.d[0];
+    if (1.0 - r[2] < kLeastCompression) return found;
+    found.energy = volume_[e] * sheet::energy(m, r);
+
+    std::array<Vec3, 2> moves;
+    Vec3 held = Vec3::Ones();
+    if (outlook) {
+        moves = expectedMoves(e, at, *outlook);
+        held.head<2>().setConstant(sheet::held(m, r + q.transpose() * moves[0]));
+    }
+    found.stress[0] = volume_[e] * (q * held.cwiseProduct(sheet::stress(m, r)));
+    at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r)).asDiagonal() * q.transpose());
+    found.isActive = !outlook || counts(e, at, found, moves, *outlook);
+    return found;
+}
+
+void ElementContact::assemble(const FabricState& state, const StepOutlook* outlook)
+{
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
+        stress_[e] = isEdge(e) ? assembleEdge(e, state, outlook, local_[e]) : assembleFace(e, state, outlook, local_[e]);
+    });
     active_.clear();
     for (std::size_t e = 0; e < size(); ++e)
         if (stress_[e].isActive) active_.push_back(static_cast<int>(e));

@@ -9,6 +9,20 @@
 
 namespace sim {
 
+/// What a velocity field does to the fabric.
+struct FabricMotion {
+    std::vector<Mat3> gradient;  ///< ∇u of each element [1/s]
+    std::vector<Vec3> velocity;  ///< of each vertex [cm/s]
+};
+
+/// How a step would go without the fabric's own forces.
+struct StepOutlook {
+    const FabricMotion& motion;
+    double h;           ///< [s]
+    double cell;        ///< of the grid [cm]
+    double negligible;  ///< acceleration that does not count [cm/s^2]
+};
+
 /// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (model-fabric 3). An
 /// element's material directions across the fabric are carried by the velocity gradient on the grid, its directions in
 /// the mesh by the vertices. Both are in the gradient and in the Hessian: since the energy does not change when all
@@ -24,9 +38,11 @@ class ElementContact {
     /// Quadrature point of an element [cm].
     Vec3 position(std::size_t e, std::span<const Vec3> x) const { return mean(e, x); }
 
-    /// Energies, stresses and stiffnesses at the present directions and positions.
-    void assemble(const FabricState& state);
-    /// Elements that are pressed, ascending.
+    /// Energies, stresses and stiffnesses at the present directions and positions. Given an outlook, shear has the secant of what
+    /// friction holds in the end, and elements that would accelerate nothing are left out: an elastic tangent makes what is
+    /// barely pressed stick, where the return after the step lets it slide.
+    void assemble(const FabricState& state, const StepOutlook* outlook = nullptr);
+    /// Elements that are pressed and count, ascending.
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble
 
@@ -68,7 +84,10 @@ class ElementContact {
  private:
     /// First of an element's directions in FabricState::across.
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
-    Stress assemble(std::size_t e, const FabricState& state, Local& at) const;
+    Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
+    Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
+    std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;
+    bool counts(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const;
 
     std::size_t edges_ = 0;
     std::vector<std::array<int, 3>> corners_;
@@ -77,6 +96,7 @@ class ElementContact {
     std::vector<ContactModuli> moduli_;  ///< of each material
     std::vector<int> material_;          ///< of each element
     std::vector<double> volume_;         ///< packing factor times rest envelope volume [cm^3]
+    std::vector<double> mass_;           ///< when dry [g]
     std::vector<Local> local_;
     std::vector<Stress> stress_;
     std::vector<int> active_;

@@ -23,7 +23,7 @@ FaceSystem::FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, c
     out_.resize(stiffness.unknowns().size);
 }
 
-void FaceSystem::assemble(const FabricParticles& particles, double h, const FaceLoads* loads)
+void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoads* loads)
 {
     particles_ = &particles;
     grid_ = &particles.grid();
@@ -38,9 +38,13 @@ void FaceSystem::assemble(const FabricParticles& particles, double h, const Face
     });
     for (FaceVector* v : {&residual_, &p_, &q_, &inverse_}) v->resize(blocks(), edges());
     rows_.find(mass_);
-    findMissing();
-    findPushes();
     onVertices_.resize(particles.vertices().size());
+    findMissing();
+}
+
+void FaceSystem::assemble()
+{
+    findPushes();
     findDiagonal();
 }
 
@@ -215,19 +219,20 @@ void FaceSystem::findDiagonal()
     });
 }
 
-void FaceSystem::elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients)
+void FaceSystem::findMotion(const BlockArray<double, 3>& u, FabricMotion& motion)
 {
-    gather(u);
-    gatherElements(u, gradients);
+    const BlockPoints& vertices = particles_->vertices();
+    motion.velocity.resize(vertices.size());
+    forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
+        gatherValues(tile, vertices, n, onVertices_);
+        for (int s = vertices.begin(n); s < vertices.end(n); ++s)
+            motion.velocity[vertices.id[s]] = {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]};
+    });
+    gatherElements(u, motion.gradient);
     parallelFor(contact_.size(), kElementsPerTask, [&](std::size_t e) {
-        if (!missing_[e].isZero(0.0)) {
-            Vec3 mean = Vec3::Zero();
-            for (int k = 0; k < 3; ++k)
-                if (contact_.corners(e)[k] >= 0)
-                    mean += contact_.shares(e)[k] * stiffness_.at(in_, contact_.corners(e)[k]);
-            gradients[e] -= mean.asDiagonal() * missing_[e];
-        }
-        gradients[e] /= grid_->dx;
+        Mat3& gradient = motion.gradient[e];
+        if (!missing_[e].isZero(0.0)) gradient -= contact_.mean(e, motion.velocity).asDiagonal() * missing_[e];
+        gradient /= grid_->dx;
     });
 }
 

@@ -48,10 +48,11 @@ class FaceSystem {
  public:
     FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, const ElementContact& contact);
 
-    /// Takes masses and weights from what toFaces left. Stiffness and contact must be assembled, and stay until the
-    /// solve is done.
+    /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
-    void assemble(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
+    void begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
+    /// Stiffness and contact must be assembled, and stay until the solve is done.
+    void assemble();
 
     std::size_t edges() const { return fabric_.edges.size(); }
     int blocks() const { return grid_->count(); }
@@ -69,8 +70,8 @@ class FaceSystem {
     AlignedArray<double>& onVertices(const FaceVector& u);
     /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness [erg].
     double contactWork(const FaceVector& u);
-    /// ∇u of all elements, those without full stencils as in multiply [1/s].
-    void elementGradients(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
+    /// What u does to vertices and elements, those without full stencils as in multiply. Of the last begin().
+    void findMotion(const BlockArray<double, 3>& u, FabricMotion& motion);
 
  private:
     void clearInactive(BlockArray<double, 3>& u) const;

@@ -11,6 +11,7 @@ namespace {
 /// 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
 constexpr double kAccelerationTolerance = 5.0;
 constexpr int kMaxIterations = 200;
+constexpr double kNegligible = 0.01;  ///< of that error: accelerations that contact is left out for [-]
 
 }  // namespace
 
@@ -106,19 +107,24 @@ void GridFabricSolver::spread(FabricState& state, StageClock& clock)
 FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FaceLoads* loads)
 {
     FabricReport report;
+    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * h;
     clock.start(Stage::FabricContact);
     const std::span<const ObstacleContact> touching = touchObstacles(t, h, gravity, state);
-    if (settings_.contact) contact_.assemble(state);
+    system_.begin(particles_, h, loads);
+    startVelocities(h, gravity, state, loads);
+    if (settings_.contact) {
+        system_.findMotion(velocity_.faces, motion_);
+        const StepOutlook outlook{motion_, h, particles_.grid().dx, kNegligible * tolerance / h};
+        contact_.assemble(state, &outlook);
+    }
 
     clock.start(Stage::FabricElastic);
     stiffness_.assemble(state, t, h, touching, predicted_);
-    system_.assemble(particles_, h, loads);
+    system_.assemble();
 
     clock.start(Stage::FabricSolve);
-    startVelocities(h, gravity, state, loads);
     if (meetsLiquid_) start_ = velocity_.faces;
-    const FaceSolveReport solve =
-        system_.solve(settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * h, kMaxIterations, velocity_);
+    const FaceSolveReport solve = system_.solve(tolerance, kMaxIterations, velocity_);
     report.newton = 1;
     report.iterations = solve.iterations;
     report.speedError = solve.speedError;
@@ -142,8 +148,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 
     clock.start(Stage::FabricStrain);
     if (settings_.contact) {
-        system_.elementGradients(particles_.velocity(), gradients_);
-        contact_.carry(gradients_, h, state);
+        system_.findMotion(particles_.velocity(), motion_);
+        contact_.carry(motion_.gradient, h, state);
     }
     return report;
 }

@@ -64,7 +64,7 @@ class GridFabricSolver {
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
-    std::vector<Mat3> gradients_;  ///< of each element [1/s]
+    FabricMotion motion_;
 };
 
 }  // namespace sim

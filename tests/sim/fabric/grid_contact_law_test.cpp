@@ -144,6 +144,27 @@ TEST(GridContactLaw, FrictionIsBoundedByThePressure)
     }
 }
 
+TEST(GridContactLaw, SlidingSectionsStillAnswerToPressure)
+{
+    const ContactModuli m(material());
+    Noise noise(7);
+    for (double across : {0.0, 0.3, 1.0}) {
+        const yarn::Strain r = squeezed(noise);
+        const yarn::Section section = yarn::sectionOf(r);
+        yarn::SectionStiffness whole, left;
+        ASSERT_TRUE(yarn::stiffness(m, section, whole));
+        left = whole;
+        yarn::slide(section, across, left);
+        const Eigen::Vector4d scaling(r(1, 0), r(2, 0), r(1, 1), r(2, 1));
+        EXPECT_LT((left * scaling - whole * scaling).norm(), 1e-12 * (whole * scaling).norm());
+        EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(left).eigenvalues().minCoeff(), -1e-12);
+        Eigen::Vector4d change(noise(), noise(), noise(), noise());
+        change -= change.dot(whole * scaling) / scaling.dot(whole * scaling) * scaling;  // no work with scaling
+        const double expected = across * change.dot(whole * change);
+        EXPECT_NEAR(change.dot(left * change), expected, 1e-12 * change.dot(whole * change));
+    }
+}
+
 TEST(GridContactLaw, SeparationLeavesNoStress)
 {
     const ContactModuli m(material());
@@ -190,6 +211,101 @@ TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
         const double pressure = -n.dot(gradientOf(contact, e).onGrid * n) / (volume * r33);
         EXPECT_NEAR(pressure, piece.material.packing() * m.normal() * 0.2 * 0.2, 1e-9 * pressure);
     }
+}
+
+/// A sheet and a yarn, squeezed to a share of their thickness across, and where a step would take them with u = G x and the mesh at rest.
+struct Pressed {
+    Pressed(FabricMaterial material, double share, const Mat3& gradient)
+        : pieces{pieceOf(clothGrid({{3, 3}, {0.144, 0.144}}), material, {0.017, 0.017}),
+                 pieceOf(strand(Vec3(1.0, 0.0, 0.0), Vec3(1.5, 0.0, 0.0), 3), material, {0.05, 0.05})},
+          fabric(assembleFabric(pieces)),
+          state(restState(fabric)),
+          contact(fabric)
+    {
+        state.across = contact.unstrained(state);
+        for (Vec3& d : state.across) d *= share;
+        motion.gradient.assign(contact.size(), gradient);
+        motion.velocity.assign(state.x.size(), Vec3::Zero());
+    }
+    void assemble(double h, double negligible = 0.0)
+    {
+        const StepOutlook outlook{motion, h, kCell, negligible};
+        contact.assemble(state, &outlook);
+    }
+    /// ∂E/∂d where the step is expected to end, by the stiffness.
+    std::array<Vec3, 2> lastStress(std::size_t e, double h) const
+    {
+        const ElementContact::Local& at = contact.local(e);
+        std::array<Vec3, 2> last = contact.stress(e).stress;
+        const Mat3 step = h * motion.gradient[e];
+        last[0] += at.stiffness[0] * (step * at.d[0]) + at.stiffness[1] * (step * at.d[1]);
+        last[1] += at.stiffness[1].transpose() * (step * at.d[0]) + at.stiffness[2] * (step * at.d[1]);
+        return last;
+    }
+    std::vector<FabricPiece> pieces;
+    Fabric fabric;
+    FabricState state;
+    ElementContact contact;
+    FabricMotion motion;
+};
+
+/// Surfaces that slide past each other along x, in the plane of the sheet and along the yarn.
+TEST(GridContactLaw, ShearIsHeldByFrictionAlone)
+{
+    constexpr double h = 1.0e-3, kShare = 0.99;
+    const Mat3 sliding = 200.0 * (Vec3::UnitX() * Vec3::UnitY().transpose() + Vec3::UnitX() * Vec3::UnitZ().transpose());
+    for (double angle : {0.0, 0.4}) {
+        FabricMaterial material = wool();
+        material.frictionAngle = angle;
+        Pressed pressed(material, kShare, sliding);
+        pressed.assemble(h);
+        const ContactModuli m(material);
+        for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
+            const double volume = pressed.contact.isEdge(e)
+                                      ? material.packing() * kPi * 0.05 * 0.05 * 0.5 / 3.0
+                                      : material.packing() * 0.5 * 0.144 * 0.144 * 0.034;
+            const std::array<Vec3, 2> last = pressed.lastStress(e, h);
+            const double along = std::hypot(last[0][0], last[1][0]) / volume;
+            const double log = std::log(kShare);
+            const double bound = pressed.contact.isEdge(e)
+                                     ? m.coulomb * 0.5 * std::sqrt(2.0) * std::abs(2.0 * (m.shear + m.lame) * log / kShare)
+                                     : m.coulomb * m.normal() * (1.0 - kShare) * (1.0 - kShare);
+            EXPECT_NEAR(along, bound, 1e-9 * m.normal()) << "element " << e;
+        }
+    }
+}
+
+/// Yarns that part keep no stress that would hold them together.
+TEST(GridContactLaw, PartingTakesStressNoFurtherThanToZero)
+{
+    constexpr double h = 1.0e-3, kShare = 0.999;
+    Pressed pressed(wool(), kShare, 100.0 * Mat3::Identity());
+    pressed.assemble(h);
+    for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
+        if (!pressed.contact.isEdge(e)) continue;
+        const double start = pressed.contact.stress(e).stress[0].norm();
+        EXPECT_GT(start, 0.0);
+        EXPECT_LT(pressed.lastStress(e, h)[0].norm(), 0.1 * start);
+    }
+}
+
+TEST(GridContactLaw, WhatWouldNotBeFeltIsLeftOut)
+{
+    constexpr double h = 1.0e-3;
+    Pressed pressed(wool(), 1.0 - 1.0e-6, Mat3::Zero());
+    pressed.assemble(h);
+    EXPECT_EQ(pressed.contact.active().size(), pressed.contact.size());
+    double largest = 0.0;
+    for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
+        const double thickness = pressed.contact.isEdge(e) ? 0.25 * kPi * 0.1 * 0.1 : 0.034;
+        const double mass = wool().envelopeDensity() * thickness * (pressed.contact.isEdge(e) ? 0.5 / 3.0 : 0.5 * 0.144 * 0.144);
+        const std::array<Vec3, 2>& stress = pressed.contact.stress(e).stress;
+        largest = std::max(largest, 4.0 * std::hypot(stress[0].norm(), stress[1].norm()) / (mass * kCell));
+    }
+    pressed.assemble(h, 1.01 * largest);
+    EXPECT_TRUE(pressed.contact.active().empty());
+    pressed.assemble(h, 0.99 * largest);
+    EXPECT_FALSE(pressed.contact.active().empty());
 }
 
 /// Moves of the corners and of the directions by a gradient.

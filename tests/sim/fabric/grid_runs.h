@@ -93,7 +93,8 @@ struct GridParts {
     {
         toFaces();
         assembleForces(h);
-        system.assemble(particles, h);
+        system.begin(particles, h);
+        system.assemble();
     }
     /// Random numbers at faces with mass and twist angles.
     FaceVector randomVector(unsigned seed) const

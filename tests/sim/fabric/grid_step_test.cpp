@@ -159,6 +159,30 @@ TEST(GridFabric, ContactStopsSheetsThatMeet)
     EXPECT_LT(lowerSpeed, -5.0) << "the upper sheet takes the lower one along";
 }
 
+/// Elastic shear of a barely pressed sheet would take the other one along as if they were glued.
+TEST(GridFabric, SheetsSlideWithoutFriction)
+{
+    const auto speedAfterStep = [](bool contact) {
+        FabricPiece lower = cloth(12), upper = cloth(12, Vec3(0.05, 0.2, 0.03));
+        upper.velocity = Vec3(20.0, 0.0, 0.0);
+        for (FabricPiece* piece : {&lower, &upper}) {
+            piece->material.contactStiffness = 1.0;
+            piece->material.frictionAngle = 0.0;
+        }
+        Settings settings = gridSettings(TransferMethod::PolyPic);
+        settings.fabric.contact = contact;
+        GridRun run({lower, upper}, settings);
+        run.state.across = ElementContact(run.fabric).unstrained(run.state);
+        press(run.state, 1.0e-3, 1, 0.0);
+        EXPECT_EQ(run.step(kStep).contacts > 0, contact);
+        const std::size_t half = run.state.x.size() / 2;
+        double speed = 0.0;
+        for (std::size_t v = 0; v < half; ++v) speed += run.state.v[half + v][0] / static_cast<double>(half);
+        return speed;
+    };
+    EXPECT_NEAR(speedAfterStep(true), speedAfterStep(false), 1.0e-3);
+}
+
 TEST(GridFabric, TwistSpreadsWithPolyPic)
 {
     GridRun run({pieceOf(strand(Vec3::Zero(), Vec3(2.88, 0.0, 0.0), 20), wool(), {0.048, 0.048})},

@@ -46,17 +46,9 @@ double relativeErrorOfSystem(std::vector<FabricPiece> pieces, double pressed)
     parts.system.multiply(p, ap);
 
     const FabricState start = parts.state;
-    std::vector<Mat3> g;
-    parts.system.elementGradients(p.faces, g);
-    std::vector<Vec3> u(start.x.size(), Vec3::Zero());
-    const BlockPoints& points = parts.particles.vertices();
-    PointArray<3> gathered;
-    gathered.resize(points.size());
-    forEachBlock(parts.particles.order(), parts.particles.grid(), p.faces, [&](std::size_t n, const FaceTile& tile) {
-        gatherValues(tile, points, n, gathered);
-        for (int s = points.begin(n); s < points.end(n); ++s)
-            u[points.id[s]] = {gathered.of[0][s], gathered.of[1][s], gathered.of[2][s]};
-    });
+    FabricMotion motion;
+    parts.system.findMotion(p.faces, motion);
+    const auto& [g, u] = motion;
     const auto impulsesAt = [&](double step, FaceVector& out) {
         parts.state = start;
         for (std::size_t v = 0; v < u.size(); ++v) parts.state.x[v] += step * kStep * u[v];
