@@ -66,7 +66,7 @@ Shells::Shells(const Fabric& fabric, const FabricSettings& settings) : settings_
         const std::array<int, kShellVertices> six = sixOf(f);
         for (int i = 0; i < kShellVertices; ++i)
             for (int j = 0; j < kShellVertices; ++j) {
-                if (six[i] < 0 || six[j] < 0) continue;
+                if (six[i] < 0 || six[j] < 0 || !areTied(i, j)) continue;
                 pattern_[six[i]].push_back(six[j]);
                 if (i < 3 && j < 3) neighbors_[six[i]].push_back(six[j]);
             }
@@ -126,7 +126,7 @@ void Shells::fill(const Fabric& fabric, const FabricSettings& settings, std::siz
         batch.bendDamping[l] = material.dampBending ? viscous : 0.0;
         for (int i = 0; i < kShellVertices; ++i)
             for (int j = i; j < kShellVertices; ++j) {
-                if (batch.vertex[i][l] < 0 || batch.vertex[j][l] < 0) continue;
+                if (batch.vertex[i][l] < 0 || batch.vertex[j][l] < 0 || !areTied(i, j)) continue;
                 const int ri = row_[batch.vertex[i][l]], rj = row_[batch.vertex[j][l]];
                 batch.entry[blockOf(i, j)][l] = pattern.find(std::min(ri, rj), std::max(ri, rj));
                 if (ri > rj) batch.isTransposed[blockOf(i, j)] |= 1u << l;
@@ -242,6 +242,7 @@ void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, st
             for (int k = 0; k < 3; ++k) bendRow[k][a] = column[k];
         }
         for (int j = i; j < kShellVertices; ++j) {
+            if (!areTied(i, j)) continue;
             std::array<Pack, 9> block;
             for (int a = 0; a < 3; ++a)
                 for (int b = 0; b < 3; ++b) {

@@ -56,6 +56,8 @@ class Shells {
               Batch& batch) const;
     void colorTasks(std::size_t vertices);
     void addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const;
+    /// Whether the Hessian has a block of vertices i and j of a triangle: hinges tie none that lie across different edges.
+    bool areTied(int i, int j) const { return i == j || std::min(i, j) < 3 || settings_.bending != BendingModel::Hinge; }
     void addBlock(const Batch& batch, int n, const std::array<Pack, 9>& block, BlockMatrix& matrix) const;
     MembraneStress<Pack> stressOf(const Batch& batch, const MembraneStrain<Pack>& strain) const;
     /// Φ(θ) − Φ(θ̄), Φ' and the factor of the Gauss-Newton matrix by the chosen measure, for each edge.

@@ -181,6 +181,21 @@ TEST(Shells, ShapeOperatorHasThePlatesStiffness)
         }
 }
 
+/// A vertex inside a regular mesh: those of the faces around it, those across one edge more, those across two edges of one face.
+TEST(Shells, HessianOfHingesTiesFewerVertices)
+{
+    const CrumpledSheet sheet(5, 0.1, {9, 9});
+    FabricSettings settings;
+    constexpr int kMiddle = 4 * 9 + 4;
+    const auto blocksInRow = [&](BendingModel bending) {
+        settings.bending = bending;
+        const BlockMatrix matrix = Shells(sheet.fabric, settings).matrix();
+        return matrix.begin(kMiddle + 1) - matrix.begin(kMiddle) + static_cast<int>(matrix.left(kMiddle).size());
+    };
+    EXPECT_EQ(blocksInRow(BendingModel::ShapeOperator), 1 + 6 + 6 + 6);
+    EXPECT_EQ(blocksInRow(BendingModel::Hinge), 1 + 6 + 6);
+}
+
 TEST(Shells, MeshesOfMixedOrientationAreRefused)
 {
     const std::vector<Vec3i> faces = {{0, 1, 2}, {0, 1, 3}};
