@@ -38,9 +38,9 @@ class ElementContact {
     /// Quadrature point of an element [cm].
     Vec3 position(std::size_t e, std::span<const Vec3> x) const { return mean(e, x); }
 
-    /// Energies, stresses and stiffnesses at the present directions and positions. Given an outlook, shear has the secant of what
-    /// friction holds in the end, and elements that would accelerate nothing are left out: an elastic tangent makes what is
-    /// barely pressed stick, where the return after the step lets it slide.
+    /// Energies, stresses and stiffnesses at the present directions and positions. Given an outlook, shear has the
+    /// secant of what friction holds in the end, and elements that would accelerate nothing are left out: an elastic
+    /// tangent makes what is barely pressed stick, where the return after the step lets it slide.
     void assemble(const FabricState& state, const StepOutlook* outlook = nullptr);
     /// Elements that are pressed and count, ascending.
     const std::vector<int>& active() const { return active_; }
@@ -87,7 +87,8 @@ class ElementContact {
     Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;
-    bool counts(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const;
+    bool counts(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+                const StepOutlook& outlook) const;
 
     std::size_t edges_ = 0;
     std::vector<std::array<int, 3>> corners_;

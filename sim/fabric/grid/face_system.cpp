@@ -145,7 +145,8 @@ double FaceSystem::contactWork(const FaceVector& u)
     out_.fill(0.0);
     const auto power = [&] {
         spread(q_);
-        return forEachPack([&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
+        return forEachPack(
+            [&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
     };
     pressedEdges_.multiply(in_, pushes_);
     pressedFaces_.multiply(in_, pushes_);
@@ -186,7 +187,8 @@ void FaceSystem::impulses(FaceVector& q)
     });
 }
 
-/// inverse_ = 1 / (M + h² (Σ of slopes + Σ w² of springs + Σ of contact)). Where cloth is folded slopes may come out below 0.
+/// inverse_ = 1 / (M + h² (Σ of slopes + Σ w² of springs + Σ of contact)). Where cloth is folded slopes may come out
+/// below 0.
 void FaceSystem::findDiagonal()
 {
     stiffness_.findSlopes(grid_->dx, slopes_);

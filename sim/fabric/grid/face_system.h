@@ -68,7 +68,8 @@ class FaceSystem {
 
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
     AlignedArray<double>& onVertices(const FaceVector& u);
-    /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness [erg].
+    /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness
+    /// [erg].
     double contactWork(const FaceVector& u);
     /// What u does to vertices and elements, those without full stencils as in multiply. Of the last begin().
     void findMotion(const BlockArray<double, 3>& u, FabricMotion& motion);
@@ -93,9 +94,9 @@ class FaceSystem {
     const BlockGrid* grid_ = nullptr;
     double h_ = 0.0;  ///< [s]
 
-    BlockArray<double, 3> mass_;          ///< of each face, with the liquid's drag [g]
-    AlignedArray<double> inertia_;        ///< of each twist angle; 1 in unused lanes [g cm^2]
-    double totalMass_;                    ///< [g]
+    BlockArray<double, 3> mass_;    ///< of each face, with the liquid's drag [g]
+    AlignedArray<double> inertia_;  ///< of each twist angle; 1 in unused lanes [g cm^2]
+    double totalMass_;              ///< [g]
     FaceRows rows_;
 
     std::vector<Mat3> missing_;  ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]

@@ -57,7 +57,8 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     velocity_.resize(system_.blocks(), system_.edges());
     const BlockArray<double, 3>&mass = system_.mass(), &velocity = particles_.velocity();
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
-        const int block = static_cast<int>(b), loaded = loads ? loads->grid.find(particles_.grid().coords(block)) : BlockGrid::kNone;
+        const int block = static_cast<int>(b),
+                  loaded = loads ? loads->grid.find(particles_.grid().coords(block)) : BlockGrid::kNone;
         for (int a = 0; a < kAxes; ++a) {
             const double *m = mass.block(block, a), *from = velocity.block(block, a);
             double* to = velocity_.faces.block(block, a);
@@ -81,7 +82,8 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a), *v = velocity_.faces.block(block, a);
+            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a),
+                         *v = velocity_.faces.block(block, a);
             double* to = start_.block(block, a);
             for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? m[c] * (v[c] - to[c]) / (h * own[c]) : 0.0;
         }
@@ -99,12 +101,14 @@ void GridFabricSolver::spread(FabricState& state, StageClock& clock)
 {
     begin(state);
     clock.start(Stage::FabricToGrid);
-    if (meetsLiquid_) parallelFor(mass_.size(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
+    if (meetsLiquid_)
+        parallelFor(mass_.size(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
     parallelFor(contact_.size(), 1024, [&](std::size_t e) { points_[e] = contact_.position(e, state.x); });
     particles_.toFaces(mass_, points_, state);
 }
 
-FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FaceLoads* loads)
+FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock,
+                                       const FaceLoads* loads)
 {
     FabricReport report;
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * h;

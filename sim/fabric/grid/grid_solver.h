@@ -17,7 +17,8 @@ namespace sim {
 class GridFabricSolver {
  public:
     /// @param meetsLiquid  is there any in the scene?
-    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles, bool meetsLiquid = false);
+    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles,
+                     bool meetsLiquid = false);
 
     /// From t to t + h [s]. h must keep within time.maxCflFabric (chooseTimeStep in step.h).
     FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
@@ -28,8 +29,10 @@ class GridFabricSolver {
     /// The same in two parts: the fabric's masses and velocities on the grid, then all the rest.
     /// @param loads  of the liquid on the same cells, or null
     void spread(FabricState& state, StageClock& clock);
-    FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FaceLoads* loads);
-    /// Velocities on the grid: those that the vertices brought after spread, those at the end of the step after advance.
+    FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock,
+                         const FaceLoads* loads);
+    /// Velocities on the grid: those that the vertices brought after spread, those at the end of the step after
+    /// advance.
     FabricFaces faces() const { return {particles_.grid(), particles_.faces().velocity}; }
     /// From now on reports tell where energy goes: takes as long as some iterations of the solve.
     void bookEnergy() { booksEnergy_ = true; }
@@ -44,7 +47,8 @@ class GridFabricSolver {
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     void keepAccelerations(double h, FabricState& state);
-    void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads, EnergyChanges& changes);
+    void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads,
+                   EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const FabricState& state, EnergyChanges& changes) const;
     double facesKinetic(const BlockArray<double, 3>& velocity) const;
 
@@ -57,8 +61,9 @@ class GridFabricSolver {
     FabricObstacles obstacles_;
     FaceVector velocity_;
     bool meetsLiquid_, booksEnergy_ = false;
-    std::vector<double> mass_;             ///< of each vertex, with what it has absorbed [g]
-    // Where there is liquid: velocities of the faces without the fabric's own forces [cm/s], then what these add [cm/s^2].
+    std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
+    // Where there is liquid: velocities of the faces without the fabric's own forces [cm/s], then what these add
+    // [cm/s^2].
     BlockArray<double, 3> start_;
     PointArray<3> onVertices_;
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]

@@ -213,7 +213,8 @@ TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
     }
 }
 
-/// A sheet and a yarn, squeezed to a share of their thickness across, and where a step would take them with u = G x and the mesh at rest.
+/// A sheet and a yarn, squeezed to a share of their thickness across, and where a step would take them with u = G x and
+/// the mesh at rest.
 struct Pressed {
     Pressed(FabricMaterial material, double share, const Mat3& gradient)
         : pieces{pieceOf(clothGrid({{3, 3}, {0.144, 0.144}}), material, {0.017, 0.017}),
@@ -253,7 +254,8 @@ struct Pressed {
 TEST(GridContactLaw, ShearIsHeldByFrictionAlone)
 {
     constexpr double h = 1.0e-3, kShare = 0.99;
-    const Mat3 sliding = 200.0 * (Vec3::UnitX() * Vec3::UnitY().transpose() + Vec3::UnitX() * Vec3::UnitZ().transpose());
+    const Mat3 sliding =
+        200.0 * (Vec3::UnitX() * Vec3::UnitY().transpose() + Vec3::UnitX() * Vec3::UnitZ().transpose());
     for (double angle : {0.0, 0.4}) {
         FabricMaterial material = wool();
         material.frictionAngle = angle;
@@ -261,15 +263,14 @@ TEST(GridContactLaw, ShearIsHeldByFrictionAlone)
         pressed.assemble(h);
         const ContactModuli m(material);
         for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
-            const double volume = pressed.contact.isEdge(e)
-                                      ? material.packing() * kPi * 0.05 * 0.05 * 0.5 / 3.0
-                                      : material.packing() * 0.5 * 0.144 * 0.144 * 0.034;
+            const double volume = pressed.contact.isEdge(e) ? material.packing() * kPi * 0.05 * 0.05 * 0.5 / 3.0
+                                                            : material.packing() * 0.5 * 0.144 * 0.144 * 0.034;
             const std::array<Vec3, 2> last = pressed.lastStress(e, h);
             const double along = std::hypot(last[0][0], last[1][0]) / volume;
             const double log = std::log(kShare);
-            const double bound = pressed.contact.isEdge(e)
-                                     ? m.coulomb * 0.5 * std::sqrt(2.0) * std::abs(2.0 * (m.shear + m.lame) * log / kShare)
-                                     : m.coulomb * m.normal() * (1.0 - kShare) * (1.0 - kShare);
+            const double bound = pressed.contact.isEdge(e) ? m.coulomb * 0.5 * std::sqrt(2.0) *
+                                                                 std::abs(2.0 * (m.shear + m.lame) * log / kShare)
+                                                           : m.coulomb * m.normal() * (1.0 - kShare) * (1.0 - kShare);
             EXPECT_NEAR(along, bound, 1e-9 * m.normal()) << "element " << e;
         }
     }
@@ -298,7 +299,8 @@ TEST(GridContactLaw, WhatWouldNotBeFeltIsLeftOut)
     double largest = 0.0;
     for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
         const double thickness = pressed.contact.isEdge(e) ? 0.25 * kPi * 0.1 * 0.1 : 0.034;
-        const double mass = wool().envelopeDensity() * thickness * (pressed.contact.isEdge(e) ? 0.5 / 3.0 : 0.5 * 0.144 * 0.144);
+        const double mass =
+            wool().envelopeDensity() * thickness * (pressed.contact.isEdge(e) ? 0.5 / 3.0 : 0.5 * 0.144 * 0.144);
         const std::array<Vec3, 2>& stress = pressed.contact.stress(e).stress;
         largest = std::max(largest, 4.0 * std::hypot(stress[0].norm(), stress[1].norm()) / (mass * kCell));
     }

@@ -1,5 +1,5 @@
-#include "pieces.h"
 #include "sim/fabric/shells/shells.h"
+#include "pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ struct CrumpledSheet {
         fabric = testing::fabricOf(testing::pieceOf(geometry, testing::wool(), {0.05, 0.05}));
         x = fabric.rest;
         for (Vec3& p : x) p += amount * noise.vector();
-        for (std::size_t v = 0; v < x.size(); ++v) slot.push_back(static_cast<int>(v / kLanes * 3 * kLanes + v % kLanes));
+        for (std::size_t v = 0; v < x.size(); ++v)
+            slot.push_back(static_cast<int>(v / kLanes * 3 * kLanes + v % kLanes));
     }
 
     std::vector<double> gradient(const Shells& shells, std::span<const Vec3> at, BlockMatrix* matrix = nullptr) const
@@ -156,7 +157,8 @@ TEST(Shells, EnergyIsInvariantAndForcesBalance)
     }
 }
 
-/// A sheet rolled onto a cylinder stores ½ D κ² per area (ν = 0 and 0.3): along the threads and, the mesh being what it is, across them.
+/// A sheet rolled onto a cylinder stores ½ D κ² per area (ν = 0 and 0.3): along the threads and, the mesh being what it
+/// is, across them.
 TEST(Shells, ShapeOperatorHasThePlatesStiffness)
 {
     for (const bool alongX : {true, false})
@@ -173,15 +175,18 @@ TEST(Shells, ShapeOperatorHasThePlatesStiffness)
                 const double along = radius * std::sin(s / radius), up = radius * (1.0 - std::cos(s / radius));
                 p = alongX ? Vec3(along, up, p.z()) : Vec3(p.x(), up, along);
             }
-            const double plate = material.packing() * material.young * std::pow(thickness, 3) / (12.0 * (1.0 - nu * nu));
-            const double inner = 3.8 * 3.8;  // the boundary triangles have edges without an angle; they are left out by the bounds below
+            const double plate =
+                material.packing() * material.young * std::pow(thickness, 3) / (12.0 * (1.0 - nu * nu));
+            const double inner =
+                3.8 * 3.8;  // the boundary triangles have edges without an angle; they are left out by the bounds below
             const double energy = shells.energies(x)[1], perArea = 0.5 * plate / (radius * radius);
             EXPECT_GT(energy, 0.98 * perArea * inner);
             EXPECT_LT(energy, 1.02 * perArea * 16.0);
         }
 }
 
-/// A vertex inside a regular mesh: those of the faces around it, those across one edge more, those across two edges of one face.
+/// A vertex inside a regular mesh: those of the faces around it, those across one edge more, those across two edges of
+/// one face.
 TEST(Shells, HessianOfHingesTiesFewerVertices)
 {
     const CrumpledSheet sheet(5, 0.1, {9, 9});
