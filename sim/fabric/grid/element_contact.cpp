@@ -97,7 +97,7 @@ std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at
 
 /// Whether the stresses at the start or at the expected end would be felt: spread over a cell they give accelerations
 /// below 4 |σ| / (m Δx).
-bool ElementContact::counts(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+bool ElementContact::isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
                             const StepOutlook& outlook) const
 {
     const std::array<Vec3, 2> last = {
@@ -149,7 +149,7 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
         local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
         at.stiffness[n] = volume_[e] * (q * local * q.transpose());
     }
-    found.isActive = !outlook || counts(e, at, found, moves, *outlook);
+    found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
     return found;
 }
 
@@ -178,7 +178,7 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     }
     found.stress[0] = volume_[e] * (q * held.cwiseProduct(sheet::stress(m, r)));
     at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r)).asDiagonal() * q.transpose());
-    found.isActive = !outlook || counts(e, at, found, moves, *outlook);
+    found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
     return found;
 }
 

@@ -20,7 +20,7 @@ struct StepOutlook {
     const FabricMotion& motion;
     double h;           ///< [s]
     double cell;        ///< of the grid [cm]
-    double negligible;  ///< acceleration that does not count [cm/s^2]
+    double negligible;  ///< acceleration that is not felt [cm/s^2]
 };
 
 /// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (model-fabric 3). An
@@ -42,7 +42,7 @@ class ElementContact {
     /// secant of what friction holds in the end, and elements that would accelerate nothing are left out: an elastic
     /// tangent makes what is barely pressed stick, where the return after the step lets it slide.
     void assemble(const FabricState& state, const StepOutlook* outlook = nullptr);
-    /// Elements that are pressed and count, ascending.
+    /// Elements that are pressed so that it is felt, ascending.
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble
 
@@ -87,7 +87,7 @@ class ElementContact {
     Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;
-    bool counts(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+    bool isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
                 const StepOutlook& outlook) const;
 
     std::size_t edges_ = 0;

@@ -221,15 +221,20 @@ void FaceSystem::findDiagonal()
     });
 }
 
-void FaceSystem::findMotion(const BlockArray<double, 3>& u, FabricMotion& motion)
+void FaceSystem::gatherVertices(const BlockArray<double, 3>& u, std::span<Vec3> atVertices)
 {
     const BlockPoints& vertices = particles_->vertices();
-    motion.velocity.resize(vertices.size());
     forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
         gatherValues(tile, vertices, n, onVertices_);
         for (int s = vertices.begin(n); s < vertices.end(n); ++s)
-            motion.velocity[vertices.id[s]] = {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]};
+            atVertices[vertices.id[s]] = {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]};
     });
+}
+
+void FaceSystem::findMotion(const BlockArray<double, 3>& u, FabricMotion& motion)
+{
+    motion.velocity.resize(fabric_.vertexCount());
+    gatherVertices(u, motion.velocity);
     gatherElements(u, motion.gradient);
     parallelFor(contact_.size(), kElementsPerTask, [&](std::size_t e) {
         Mat3& gradient = motion.gradient[e];

@@ -71,6 +71,8 @@ class FaceSystem {
     /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness
     /// [erg].
     double contactWork(const FaceVector& u);
+    /// u at the vertices.
+    void gatherVertices(const BlockArray<double, 3>& u, std::span<Vec3> atVertices);
     /// What u does to vertices and elements, those without full stencils as in multiply. Of the last begin().
     void findMotion(const BlockArray<double, 3>& u, FabricMotion& motion);
 

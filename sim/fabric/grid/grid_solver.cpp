@@ -11,7 +11,8 @@ namespace {
 /// 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
 constexpr double kAccelerationTolerance = 5.0;
 constexpr int kMaxIterations = 200;
-constexpr double kNegligible = 0.01;  ///< of that error: accelerations that contact is left out for [-]
+/// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
+constexpr double kNegligible = 0.01;
 
 }  // namespace
 
@@ -88,13 +89,7 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
             for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? m[c] * (v[c] - to[c]) / (h * own[c]) : 0.0;
         }
     });
-    const BlockPoints& vertices = particles_.vertices();
-    onVertices_.resize(vertices.size());
-    forEachBlock(particles_.order(), particles_.grid(), start_, [&](std::size_t n, const FaceTile& tile) {
-        gatherValues(tile, vertices, n, onVertices_);
-        for (int s = vertices.begin(n); s < vertices.end(n); ++s)
-            state.acceleration[vertices.id[s]] = {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]};
-    });
+    system_.gatherVertices(start_, state.acceleration);
 }
 
 void GridFabricSolver::spread(FabricState& state, StageClock& clock)

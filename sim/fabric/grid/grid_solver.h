@@ -65,7 +65,6 @@ class GridFabricSolver {
     // Where there is liquid: velocities of the faces without the fabric's own forces [cm/s], then what these add
     // [cm/s^2].
     BlockArray<double, 3> start_;
-    PointArray<3> onVertices_;
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]

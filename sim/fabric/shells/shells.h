@@ -5,6 +5,7 @@
 #include "sim/fabric/shells/shell_kernel.h"
 #include "sim/settings.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
