@@ -17,7 +17,8 @@ constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond whi
 constexpr double kQuietAcceleration = 250.0;  ///< largest change that a Newton iteration makes after which no other is made [cm/s^2]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
-constexpr double kSettledMove = 0.25;         ///< rms move of a Newton iteration that may be the last [radii] …
+constexpr double kLastMove = 0.1;             ///< rms move of a Newton iteration that may be the last [radii]
+constexpr double kSettledMove = 0.25;         ///< rms move of one after which a step needs no halves [radii] …
 constexpr double kSmallMove = 0.03;           ///< … or this, where moves do not become smaller [radii]
 constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
 constexpr int kMostNewton = 6;                ///< iterations to get there; more ask for halves
@@ -185,6 +186,7 @@ void VertexSolver::judge(double h, Newton& newton) const
     const double move = rmsInRadii(move_);
     newton.isQuiet = largest < kQuietAcceleration * h * h;
     newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
+    newton.isNear = newton.isSettled && move < kLastMove;
     newton.lastMove = move;
     ++newton.count;
 }
@@ -206,7 +208,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     begin(t, h, gravity, state, report, clock);
     Newton newton;
     const auto isDone = [&] {
-        const int most = newton.isSettled ? settings_.newton : std::max(settings_.newton, kMostNewton);
+        const int most = newton.isNear ? settings_.newton : std::max(settings_.newton, kMostNewton);
         return newton.isQuiet || newton.count >= most;
     };
     while (!isDone()) {

@@ -36,7 +36,7 @@ class VertexSolver {
         double firstEnergy = 0.0;                ///< LinearReport::firstEnergy of the first [erg]
         double lastMove = 0.0;                   ///< rms [radii]
         double wanted = 0.0, taken = 0.0;        ///< moves squared, and what the limiter left of them, by mass [g cm^2]
-        bool isSettled = false, isQuiet = false;
+        bool isSettled = false, isNear = false, isQuiet = false;
     };
 
     /// One attempt at a step; false if it should be redone in halves.
