@@ -64,8 +64,8 @@ struct PlaneTables {
     }
 };
 
-/// w (node − point)^d of up to 8 points for the nodes along z, squared weights if asked for.
-template <int kTerms, bool kSquared>
+/// w (node − point)^d of up to 8 points for the nodes along z.
+template <int kTerms>
 struct AlongZ {
     Pack of[2][4][kTerms];  ///< by middles (three) or sides (four)
 
@@ -74,7 +74,7 @@ struct AlongZ {
         Operators<1> op;
         setOperators<1, false>(z, op);
         const auto set = [&](Pack(&to)[kTerms], Pack weight, Pack distance) {
-            to[0] = kSquared ? weight * weight : weight;
+            to[0] = weight;
             for (int d = 1; d < kTerms; ++d) to[d] = to[d - 1] * distance;
         };
         for (int n = 0; n < 3; ++n) set(of[0][n], op.center[n][0], (n - 0.5) - z);
@@ -94,8 +94,8 @@ struct AlongZ {
 }
 
 /// Adds w Σ_d c_d (node − point)_z^d to the faces normal to kAxis, where form(kAxis, s, x, y, c) sets the c_d of point
-/// s at nodes that are at (x, y) from it; with w² for w if kSquared.
-template <int kAxis, int kTerms, bool kSquared, class Form>
+/// s at nodes that are at (x, y) from it.
+template <int kAxis, int kTerms, class Form>
 [[gnu::noinline, gnu::flatten]] void scatterAxis(const PlaneTables& tables, const BlockPoints& points, std::size_t n,
                                                  const Form& form, double* tile)
 {
@@ -108,15 +108,14 @@ template <int kAxis, int kTerms, bool kSquared, class Form>
         const int begin = points.cells[c].begin, end = points.cells[c + 1].begin;
         Pack sum[kPlanes][2] = {};
         for (int first = begin; first < end; first += kLanes) {
-            const AlongZ<kTerms, kSquared> z(loadPack(points.inCell[2].data() + first));
+            const AlongZ<kTerms> z(loadPack(points.inCell[2].data() + first));
             for (int s = first; s < std::min(end, first + kLanes); ++s) {
                 const double atX = points.inCell[0][s], atY = points.inCell[1][s];
                 int kindX, kindY;
                 const double rx = kindAndOffset(kAxis == 0, atX, kindX), ry = kindAndOffset(kAxis == 1, atY, kindY);
                 const Pack wx = tables.x[kindX](rx), x = tables.nodeX[kAxis == 0] - atX;
                 unroll<2>([&](auto half) {
-                    Pack weight = wx * tables.y[kindY][half](ry);
-                    if constexpr (kSquared) weight *= weight;
+                    const Pack weight = wx * tables.y[kindY][half](ry);
                     Pack terms[kTerms];
                     const Pack y = tables.nodeY[kAxis == 1][half] - atY;
                     form(kAxis, s, x, y, terms);
@@ -132,40 +131,28 @@ template <int kAxis, int kTerms, bool kSquared, class Form>
 }
 
 /// scatterAxis for each axis.
-template <int kTerms, bool kSquared, class Form>
+template <int kTerms, class Form>
 void scatter(const BlockPoints& points, std::size_t n, const Form& form, FaceTile& tile)
 {
     const PlaneTables tables;
-    scatterAxis<0, kTerms, kSquared>(tables, points, n, form, tile.v[0]);
-    scatterAxis<1, kTerms, kSquared>(tables, points, n, form, tile.v[1]);
-    scatterAxis<2, kTerms, kSquared>(tables, points, n, form, tile.v[2]);
+    scatterAxis<0, kTerms>(tables, points, n, form, tile.v[0]);
+    scatterAxis<1, kTerms>(tables, points, n, form, tile.v[1]);
+    scatterAxis<2, kTerms>(tables, points, n, form, tile.v[2]);
 }
 
-/// What points give, as polynomials of the place of the node: numbers of their own …
+/// What points give, as polynomials of the place of the node: numbers of their own, …
 struct ValueTerms {
     const PointArray<3>& f;
     [[gnu::always_inline]] void operator()(int a, int s, Pack, Pack, Pack* c) const { c[0] = broadcast(f.of[a][s]); }
 };
 
-/// … linear ones …
+/// … or linear ones.
 struct GradientTerms {
     const PointArray<9>& t;
     [[gnu::always_inline]] void operator()(int a, int s, Pack x, Pack y, Pack* c) const
     {
         c[0] = (4.0 * t.of[3 * a][s]) * x + (4.0 * t.of[3 * a + 1][s]) * y;
         c[1] = broadcast(4.0 * t.of[3 * a + 2][s]);
-    }
-};
-
-/// … and quadratic forms.
-struct SquareTerms {
-    const PointArray<18>& b;
-    [[gnu::always_inline]] void operator()(int a, int s, Pack x, Pack y, Pack* c) const
-    {
-        const auto form = [&](int i) { return 16.0 * b.of[6 * a + i][s]; };
-        c[0] = (form(0) * x + (2.0 * form(3)) * y) * x + form(1) * (y * y);
-        c[1] = (2.0 * form(5)) * x + (2.0 * form(4)) * y;
-        c[2] = broadcast(form(2));
     }
 };
 
@@ -239,22 +226,12 @@ void BlockPoints::find(const LiquidParticles& particles, const ParticleOrder& or
 
 void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>& f, FaceTile& tile)
 {
-    scatter<1, false>(points, n, ValueTerms{f}, tile);
+    scatter<1>(points, n, ValueTerms{f}, tile);
 }
 
 void scatterGradients(const BlockPoints& points, std::size_t n, const PointArray<9>& t, FaceTile& tile)
 {
-    scatter<2, false>(points, n, GradientTerms{t}, tile);
-}
-
-void scatterSquaredValues(const BlockPoints& points, std::size_t n, const PointArray<3>& k, FaceTile& tile)
-{
-    scatter<1, true>(points, n, ValueTerms{k}, tile);
-}
-
-void scatterSquaredGradients(const BlockPoints& points, std::size_t n, const PointArray<18>& b, FaceTile& tile)
-{
-    scatter<3, true>(points, n, SquareTerms{b}, tile);
+    scatter<2>(points, n, GradientTerms{t}, tile);
 }
 
 }  // namespace sim

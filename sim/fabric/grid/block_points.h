@@ -65,12 +65,6 @@ void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>
 /// Transpose of gatherGradients.
 void scatterGradients(const BlockPoints& points, std::size_t n, const PointArray<9>& t, FaceTile& tile);
 
-/// Diagonal of Wᵀ K W from that of K.
-void scatterSquaredValues(const BlockPoints& points, std::size_t n, const PointArray<3>& k, FaceTile& tile);
-/// Diagonal of Gᵀ H G: zᵀ B z on faces normal to a, with z = 4 w (node − point) and B = B(a) of six components each,
-/// xx, yy, zz, xy, yz, zx.
-void scatterSquaredGradients(const BlockPoints& points, std::size_t n, const PointArray<18>& b, FaceTile& tile);
-
 void BlockPoints::select(const BlockPoints& all, auto&& isKept)
 {
     clear();

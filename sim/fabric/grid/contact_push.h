@@ -32,29 +32,12 @@ template <class T>
 struct Symmetric {
     T xx, yy, zz, xy, yz, zx;
 
-    const T& diagonal(int a) const { return a == 0 ? xx : a == 1 ? yy : zz; }
     friend Triple<T> operator*(const Symmetric& m, const Triple<T>& v)
     {
         return {m.xx * v.x + m.xy * v.y + m.zx * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
                 m.zx * v.x + m.yz * v.y + m.zz * v.z};
     }
-    friend Symmetric operator*(const T& s, const Symmetric& m)
-    {
-        return {s * m.xx, s * m.yy, s * m.zz, s * m.xy, s * m.yz, s * m.zx};
-    }
-    friend Symmetric operator+(const Symmetric& a, const Symmetric& b)
-    {
-        return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.zx + b.zx};
-    }
 };
-
-/// a bᵀ + b aᵀ.
-template <class T>
-Symmetric<T> mixed(const Triple<T>& a, const Triple<T>& b)
-{
-    return {2.0 * a.x * b.x,       2.0 * a.y * b.y,       2.0 * a.z * b.z,
-            a.x * b.y + a.y * b.x, a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z};
-}
 
 /// Angular velocity of an edge whose ends move apart at `along`.
 template <class T>
@@ -97,12 +80,6 @@ struct EdgeContact {
         const Triple<T> first = g * d[0] - cross(turn, d[0]), second = g * d[1] - cross(turn, d[1]);
         return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
     }
-    /// B such that a face normal to axis a whose weight has the gradient z has zᵀ B z of the Hessian on its diagonal.
-    Symmetric<T> diagonalForm(int a) const
-    {
-        return T(0.5 * k00.diagonal(a)) * mixed(d[0], d[0]) + k01[a][a] * mixed(d[0], d[1]) +
-               T(0.5 * k11.diagonal(a)) * mixed(d[1], d[1]);
-    }
     /// Transpose of what moves d, applied to a stress.
     Push push(const Stress& y) const
     {
@@ -127,7 +104,6 @@ struct FaceContact {
     {
         return k * (g * d - cross(turnOfFace(normal, reciprocal, u[1] - u[0], u[2] - u[0]), d));
     }
-    Symmetric<T> diagonalForm(int a) const { return T(0.5 * k.diagonal(a)) * mixed(d, d); }
     Push push(const Stress& y) const
     {
         const Triple<T> lever = cross(cross(y, d), normal);

@@ -62,7 +62,7 @@ class FaceSystem {
     void multiply(const FaceVector& p, FaceVector& q) { multiplyAndDot(p, q); }
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
-    /// A v = M v0 + impulses by conjugate gradients, preconditioned by A's diagonal, from v = v0 on. Stops when
+    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on. Stops when
     /// the rms error of the velocities is below `tolerance` [cm/s].
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
 
@@ -81,7 +81,7 @@ class FaceSystem {
     void gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
     void findMissing();
     void findPushes();
-    void findDiagonal();
+    void findPreconditioner();
     void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
     double multiplyAndDot(const FaceVector& p, FaceVector& q);
@@ -108,12 +108,10 @@ class FaceSystem {
     std::vector<int> pushBegin_, pushOf_;  ///< on each vertex in the order of the blocks: in pushes_
     PointArray<3> onVertices_;             ///< of each vertex, in the order of the blocks
     PointArray<9> onElements_;
-    SlopeForms slopes_;
-    PointArray<18> vertexForms_, edgeForms_, faceForms_;
     std::vector<int> first_;         ///< of each element: its first push
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
-    FaceVector residual_, p_, q_, inverse_;  ///< of the solve; inverse of A's diagonal
+    FaceVector residual_, p_, q_, inverse_;  ///< of the solve; the preconditioner
 };
 
 /// Sum over body(isFace, i, sum) for the packs at i of faces with mass, and of twist.

@@ -162,20 +162,6 @@ void PressedElements<Contact>::impulses(const ElementContact& contact, std::vect
     });
 }
 
-template <class Contact>
-void PressedElements<Contact>::diagonalForms(PointArray<18>& b) const
-{
-    b.resize(points_.size());
-    parallelFor(contact_.size(), kPacksPerTask, [&](std::size_t pack) {
-        for (int a = 0; a < kAxes; ++a) {
-            const Symmetric<Pack> form = broadcast(perCell_ * perCell_) * contact_[pack].diagonalForm(a);
-            const Pack* components[] = {&form.xx, &form.yy, &form.zz, &form.xy, &form.yz, &form.zx};
-            for (int i = 0; i < 6; ++i)
-                std::memcpy(b.of[6 * a + i].data() + pack * kLanes, components[i], sizeof(Pack));
-        }
-    });
-}
-
 template class PressedElements<EdgeContact<Pack>>;
 template class PressedElements<FaceContact<Pack>>;
 

@@ -35,8 +35,6 @@ class PressedElements {
     void multiply(const AlignedArray<double>& moves, std::vector<Vec3>& pushes);
     /// What the elements push with by themselves: minus the energy gradient.
     void impulses(const ElementContact& contact, std::vector<Vec3>& pushes);
-    /// Of each element: what scatterSquaredGradients wants for the diagonal of the system.
-    void diagonalForms(PointArray<18>& b) const;
 
  private:
     /// An element that reaches faces without mass.

@@ -88,7 +88,6 @@ void VertexStiffness::sumInner(const FabricState& state, double h)
 void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
                                std::span<const Vec3> predicted)
 {
-    x_ = state.x;
     springs_.clear();
     rods_.startStep(state);
     shells_.startStep(state.x);
@@ -176,13 +175,13 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     }
 }
 
-void VertexStiffness::springDiagonal(AlignedArray<double>& out) const
+void VertexStiffness::twistDiagonal(std::span<double> ofEdge) const
 {
-    out.fill(0.0);
-    for (int slot : unknowns_.twistSlot) out[slot] = strands_.at(slot / kLanes, 0, slot % kLanes);
-    for (const Spring& s : springs_)  // of an edge in a smooth field: (w_a + w_b)² / 4 is about half of w_a² + w_b²
-        for (int v : {s.vertex, s.other}) add(out, v, 0.5 * s.stiffness.diagonal());
-    for (std::size_t i = 0; i < heldEdges_.size(); ++i) out[unknowns_.twistSlot[heldEdges_[i]]] += heldStiffness_[i];
+    for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
+        const int slot = unknowns_.twistSlot[e];
+        ofEdge[e] = strands_.at(slot / kLanes, 0, slot % kLanes);
+    }
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) ofEdge[heldEdges_[i]] += heldStiffness_[i];
 }
 
 }  // namespace sim

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "sim/fabric/grid/slope_forms.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
@@ -31,8 +30,6 @@ class VertexStiffness {
     const AlignedArray<double>& gradient() const { return gradient_; }
     /// out = K in, forces per displacement. `in` is completed for shared vertices.
     void multiply(AlignedArray<double>& in, AlignedArray<double>& out) const;
-    /// K on smooth fields, without what springs do.
-    void findSlopes(double cell, SlopeForms& slopes) const { slopes.assemble(rods_.layout(), strands_, shells_.vertices(), cloth_, x_, cell); }
     /// Energy that forces give to moves h u, −u·(h gradient + h² K u), in assemble's step of h [s] from the state: all that the material's own
     /// forces, its damping, obstacles and pins do. Elastic forces are told apart, their energy is the fabric's. What is multiplied with
     /// afterwards is undamped, until the next assemble.
@@ -40,8 +37,8 @@ class VertexStiffness {
         double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
     };
     Work work(const FabricState& state, double h, AlignedArray<double>& u);
-    /// Diagonal of the springs, and of K for twist.
-    void springDiagonal(AlignedArray<double>& out) const;
+    /// Diagonal of K for the twist angle of each edge [dyn cm].
+    void twistDiagonal(std::span<double> ofEdge) const;
 
     Vec3 at(const AlignedArray<double>& u, int vertex) const
     {
@@ -89,7 +86,6 @@ class VertexStiffness {
     std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm] …
     std::vector<double> heldTorque_;     ///< … and gradient at the state
     AlignedArray<double> gradient_;
-    std::span<const Vec3> x_;            ///< of the vertices, at the start of the step [cm]
 };
 
 }  // namespace sim

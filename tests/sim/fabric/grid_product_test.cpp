@@ -201,57 +201,6 @@ TEST(GridVertexStiffness, ClothEqualsItsMatrix)
         EXPECT_LT((parts.stiffness.at(out, vertices[row]) - expected[row]).norm(), 1e-12 * expected[row].norm());
 }
 
-/// uᵀ K u of displacements u of the vertices.
-double energyOf(GridParts& parts, const std::vector<Vec3>& u)
-{
-    AlignedArray<double> in(parts.stiffness.unknowns().size), out(in.size());
-    for (std::size_t v = 0; v < u.size(); ++v) parts.stiffness.set(in, static_cast<int>(v), u[v]);
-    parts.stiffness.multiply(in, out);
-    double sum = 0.0;
-    for (std::size_t v = 0; v < u.size(); ++v) sum += u[v].dot(parts.stiffness.at(out, static_cast<int>(v)));
-    return sum;
-}
-
-TEST(SlopeForms, TellTheEnergyOfLinearFields)
-{
-    GridParts parts(allKinds(), gridSettings(TransferMethod::PolyPic));
-    assemble(parts);
-    SlopeForms forms;
-    parts.stiffness.findSlopes(1.0e3, forms);  // all neighbours are within a cell
-    Noise noise(7);
-    for (int a = 0; a < kAxes; ++a) {
-        const Vec3 g = noise.vector();
-        std::vector<Vec3> u;
-        double found = 0.0;
-        for (std::size_t v = 0; v < parts.state.x.size(); ++v) {
-            u.push_back(g.dot(parts.state.x[v]) * Vec3::Unit(a));
-            const auto b = [&](int i) { return forms.slope(6 * a + i, static_cast<int>(v)); };
-            found += b(0) * g[0] * g[0] + b(1) * g[1] * g[1] + b(2) * g[2] * g[2] +
-                     2.0 * (b(3) * g[0] * g[1] + b(4) * g[1] * g[2] + b(5) * g[2] * g[0]);
-        }
-        const double expected = energyOf(parts, u);
-        EXPECT_NEAR(found, expected, 1e-10 * expected) << "axis " << a;
-    }
-}
-
-TEST(SlopeForms, LeaveTheDiagonalToFarNeighbours)
-{
-    GridParts parts(allKinds(), gridSettings(TransferMethod::PolyPic));
-    assemble(parts);
-    SlopeForms forms;
-    parts.stiffness.findSlopes(1.0e-3, forms);  // none is
-    std::vector<Vec3> u(parts.state.x.size(), Vec3::Zero());
-    for (std::size_t v = 0; v < u.size(); v += 7) {
-        for (int a = 0; a < kAxes; ++a) {
-            u[v] = Vec3::Unit(a);
-            const double expected = energyOf(parts, u);
-            EXPECT_NEAR(forms.value(static_cast<int>(v))[a], expected, 1e-10 * expected);
-            for (int i = 0; i < 6; ++i) EXPECT_EQ(forms.slope(6 * a + i, static_cast<int>(v)), 0.0);
-        }
-        u[v].setZero();
-    }
-}
-
 TEST(StrandMatrix, ProductEqualsAPlainLoop)
 {
     for (int vertices : {2, 3, 4, 30}) {
