@@ -9,11 +9,10 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kElementsPerTask = 256, kEdgesPerTask = 4096;
-constexpr double kTwistWeight = 0.05;  ///< of twist in the preconditioner, see there [-]
 
 }  // namespace
 
-FaceSystem::FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, const ElementContact& contact)
+FaceSystem::FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact)
     : fabric_(fabric), stiffness_(stiffness), contact_(contact)
 {
     const std::size_t edges = fabric.edges.size(), padded = (edges + kLanes - 1) / kLanes * kLanes;
@@ -37,7 +36,7 @@ void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoa
         if (loaded == BlockGrid::kNone) return;
         for (int i = 0; i < kAxes * kBlockCells; ++i) mass_.block(block)[i] += loads->drag.block(loaded)[i];
     });
-    for (FaceVector* v : {&residual_, &p_, &q_, &inverse_}) v->resize(blocks(), edges());
+    for (FaceVector* v : {&residual_, &p_, &q_}) v->resize(blocks(), edges());
     rows_.find(mass_);
     onVertices_.resize(particles.vertices().size());
     findMissing();
@@ -46,7 +45,7 @@ void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoa
 void FaceSystem::assemble()
 {
     findPushes();
-    findPreconditioner();
+    stiffness_.balanceTwist(inertia_, h_);
 }
 
 /// ∇u of all elements times the cell size.
@@ -160,9 +159,24 @@ double FaceSystem::contactWork(const FaceVector& u)
 /// q = A p; returns p·q.
 double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
 {
-    stiffness_.multiply(onVertices(p), out_);
-    pressedEdges_.multiply(in_, pushes_);
-    pressedFaces_.multiply(in_, pushes_);
+    return productOfVertices(onVertices(p), p, q);
+}
+
+/// The same where twist follows: that of p becomes what leaves none in q.
+double FaceSystem::multiplyFollowed(FaceVector& p, FaceVector& q)
+{
+    gather(p.faces);
+    stiffness_.followWithTwist(in_);
+    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { p.twist[e] = in_[twistSlot[e]]; });
+    return productOfVertices(in_, p, q);
+}
+
+double FaceSystem::productOfVertices(AlignedArray<double>& in, const FaceVector& p, FaceVector& q)
+{
+    stiffness_.multiply(in, out_);
+    pressedEdges_.multiply(in, pushes_);
+    pressedFaces_.multiply(in, pushes_);
     spread(q);
     const double h2 = h_ * h_;
     return forEachPack([&](auto isFace, std::size_t i, Pack& product) {
@@ -171,6 +185,17 @@ double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
         to = select(m > 0.0, m * from + h2 * to, broadcast(0.0));
         product += from * to;
     });
+}
+
+/// Rates of twist for what is left of its equations, faces at rest.
+void FaceSystem::takeUpTwist(const FaceVector& residual, FaceVector& p)
+{
+    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = residual.twist[e]; });
+    stiffness_.takeUpTwist(in_);
+    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { p.twist[e] = in_[twistSlot[e]]; });
+    parallelFor(p.faces.size() / kBlockCells, 8,
+                [&](std::size_t c) { std::fill_n(p.faces.block(0) + c * kBlockCells, kBlockCells, 0.0); });
 }
 
 void FaceSystem::impulses(FaceVector& q)
@@ -185,24 +210,6 @@ void FaceSystem::impulses(FaceVector& q)
         const Pack m = mass(isFace, i);
         Pack& out = q.pack(isFace, i);
         out = select(m > 0.0, h_ * out, broadcast(0.0));
-    });
-}
-
-/// inverse_ = 1 / M on faces. Many vertices of one cell nearly cancel on the fields of a grid, which A's diagonal does
-/// not know of: where cloth is folded it asks for half as many iterations again. The eigenvalues of M⁻¹ A begin at 1
-/// and end at the square of the cells that sound crosses in a step; those of twist, by their diagonal at 2, and
-/// kTwistWeight lifts them to among the others.
-void FaceSystem::findPreconditioner()
-{
-    stiffness_.twistDiagonal(inverse_.twist);
-    const double h2 = h_ * h_;
-    forEachPack([&](auto isFace, std::size_t i, Pack&) {
-        const Pack m = mass(isFace, i);
-        Pack& out = inverse_.pack(isFace, i);
-        if constexpr (isFace)
-            out = select(m > 0.0, 1.0 / m, broadcast(0.0));
-        else
-            out = 1.0 / (kTwistWeight * (m + h2 * out));
     });
 }
 

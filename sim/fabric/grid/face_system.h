@@ -46,7 +46,7 @@ struct FaceSolveReport {
 /// as they do themselves.
 class FaceSystem {
  public:
-    FaceSystem(const Fabric& fabric, const VertexStiffness& stiffness, const ElementContact& contact);
+    FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact);
 
     /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
@@ -62,7 +62,8 @@ class FaceSystem {
     void multiply(const FaceVector& p, FaceVector& q) { multiplyAndDot(p, q); }
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
-    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on. Stops when
+    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on,
+    /// with twist eliminated: it follows the faces. Stops when
     /// the rms error of the velocities is below `tolerance` [cm/s].
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
 
@@ -81,16 +82,25 @@ class FaceSystem {
     void gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
     void findMissing();
     void findPushes();
-    void findPreconditioner();
     void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
     double multiplyAndDot(const FaceVector& p, FaceVector& q);
+    double multiplyFollowed(FaceVector& p, FaceVector& q);
+    double productOfVertices(AlignedArray<double>& in, const FaceVector& p, FaceVector& q);
+    void takeUpTwist(const FaceVector& residual, FaceVector& p);
+    void startSolve(FaceVector& v);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
     template <class Body>
     double forEachPack(Body&& body) const;
+    double forEachFacePack(auto&& body) const
+    {
+        return forEachPack([&](auto isFace, std::size_t i, Pack& sum) {
+            if constexpr (isFace) body(i, sum);
+        });
+    }
 
     const Fabric& fabric_;
-    const VertexStiffness& stiffness_;
+    VertexStiffness& stiffness_;
     const ElementContact& contact_;
     const FabricParticles* particles_ = nullptr;
     const BlockGrid* grid_ = nullptr;
@@ -111,7 +121,7 @@ class FaceSystem {
     std::vector<int> first_;         ///< of each element: its first push
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
-    FaceVector residual_, p_, q_, inverse_;  ///< of the solve; the preconditioner
+    FaceVector residual_, p_, q_;  ///< of the solve
 };
 
 /// Sum over body(isFace, i, sum) for the packs at i of faces with mass, and of twist.

@@ -61,6 +61,20 @@ void VertexStiffness::addToOwners(AlignedArray<double>& u) const
         }
 }
 
+/// The transpose: shared vertices in all their strands.
+void VertexStiffness::copyFromOwners(AlignedArray<double>& u) const
+{
+    for (const Shared& s : shared_)
+        for (int a = 0; a < kAxes; ++a) u[s.slot + a * kLanes] = u[s.ownerSlot + a * kLanes];
+}
+
+/// body(g, rows of strand group g in u), in parallel.
+void VertexStiffness::forEachGroup(AlignedArray<double>& u, auto&& body) const
+{
+    const std::vector<StrandLayout::Group>& groups = rods_.layout().groups;
+    parallelFor(groups.size(), [&](std::size_t g) { body(g, reinterpret_cast<Pack*>(u.data()) + groups[g].firstRow); });
+}
+
 void VertexStiffness::findPins(const FabricState& state, double end)
 {
     const std::vector<Vec3> targets = pinTargets(fabric_, end);
@@ -70,7 +84,8 @@ void VertexStiffness::findPins(const FabricState& state, double end)
     }
     heldTorque_.resize(heldEdges_.size());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i)
-        heldTorque_[i] = heldStiffness_[i] * (state.theta[heldEdges_[i]] - heldAngle(fabric_, restReference_, end, state, heldEdges_[i]));
+        heldTorque_[i] = heldStiffness_[i] *
+                         (state.theta[heldEdges_[i]] - heldAngle(fabric_, restReference_, end, state, heldEdges_[i]));
 }
 
 /// Gradient and derivatives of the material's own forces.
@@ -96,7 +111,8 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     for (const ObstacleContact& contact : obstacles) {
         const int a = contact.vertex, b = contact.isEdge() ? contact.other : a;
         // Known at the predicted position; by its derivative, at the present one.
-        springs_.push_back({a, b, contact.stiffness, contact.gradient - contact.stiffness * (0.5 * h * (predicted[a] + predicted[b]))});
+        springs_.push_back({a, b, contact.stiffness,
+                            contact.gradient - contact.stiffness * (0.5 * h * (predicted[a] + predicted[b]))});
     }
     for (const Spring& s : springs_)
         for (int v : {s.vertex, s.other}) add(gradient_, v, 0.5 * s.gradient);
@@ -118,7 +134,8 @@ VertexStiffness::Work VertexStiffness::work(const FabricState& state, double h, 
     for (std::size_t i = 0; i < springs_.size(); ++i) {
         const Spring& s = springs_[i];
         const Vec3 mean = 0.5 * (at(u, s.vertex) + at(u, s.other));
-        (i < pinStiffness_.size() ? work.pins : work.obstacles) -= mean.dot(h * s.gradient + h * h * (s.stiffness * mean));
+        (i < pinStiffness_.size() ? work.pins : work.obstacles) -=
+            mean.dot(h * s.gradient + h * h * (s.stiffness * mean));
     }
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
         const double speed = u[unknowns_.twistSlot[heldEdges_[i]]];
@@ -140,21 +157,21 @@ void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray
     });
     parallelFor(cloth_.chunks(), [&](std::size_t chunk) {
         cloth_.timesChunk(
-            static_cast<int>(chunk), [&](int row) { return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * row); },
-            [&](int row, const HalfPack& product) { add(out, vertices[row], {product[0], product[1], product[2]}); });
+            static_cast<int>(chunk),
+            [&](int row) { return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * row); },
+            [&](int row, const HalfPack& product) {
+                add(out, vertices[row], {product[0], product[1], product[2]});
+            });
     });
 }
 
 void VertexStiffness::multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const
 {
-    for (const Shared& s : shared_)
-        for (int a = 0; a < kAxes; ++a) in[s.slot + a * kLanes] = in[s.ownerSlot + a * kLanes];
+    copyFromOwners(in);
     const StrandLayout& layout = rods_.layout();
-    parallelFor(layout.groups.size(), [&](std::size_t g) {
+    forEachGroup(in, [&](std::size_t g, const Pack* rows) {
         const StrandLayout::Group& group = layout.groups[g];
-        const std::size_t first = static_cast<std::size_t>(group.firstRow) * kLanes;
-        strands_.multiply(group, reinterpret_cast<const Pack*>(in.data() + first),
-                          reinterpret_cast<Pack*>(out.data() + first));
+        strands_.multiply(group, rows, reinterpret_cast<Pack*>(out.data()) + group.firstRow);
     });
     std::fill(out.begin() + unknowns_.strandSize, out.end(), 0.0);
     addToOwners(out);
@@ -175,13 +192,22 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     }
 }
 
-void VertexStiffness::twistDiagonal(std::span<double> ofEdge) const
+void VertexStiffness::balanceTwist(std::span<const double> inertia, double h)
 {
-    for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
-        const int slot = unknowns_.twistSlot[e];
-        ofEdge[e] = strands_.at(slot / kLanes, 0, slot % kLanes);
-    }
-    for (std::size_t i = 0; i < heldEdges_.size(); ++i) ofEdge[heldEdges_[i]] += heldStiffness_[i];
+    std::vector<double> held(fabric_.edges.size(), 0.0);
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) held[heldEdges_[i]] = heldStiffness_[i];
+    twist_.factor(rods_.layout(), strands_, inertia, held, h);
+}
+
+void VertexStiffness::followWithTwist(AlignedArray<double>& u) const
+{
+    copyFromOwners(u);
+    forEachGroup(u, [&](std::size_t g, Pack* rows) { twist_.follow(g, rows); });
+}
+
+void VertexStiffness::takeUpTwist(AlignedArray<double>& u) const
+{
+    forEachGroup(u, [&](std::size_t g, Pack* rows) { twist_.solve(g, rows); });
 }
 
 }  // namespace sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/grid/twist_balance.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
@@ -37,8 +38,12 @@ class VertexStiffness {
         double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
     };
     Work work(const FabricState& state, double h, AlignedArray<double>& u);
-    /// Diagonal of K for the twist angle of each edge [dyn cm].
-    void twistDiagonal(std::span<double> ofEdge) const;
+    /// Makes twist ready to follow vertices in steps of h [s], or to take impulses, with inertia of each edge [g cm^2].
+    void balanceTwist(std::span<const double> inertia, double h);
+    /// Sets the rates of twist in u to what goes with the vertices' velocities. u is completed for shared vertices.
+    void followWithTwist(AlignedArray<double>& u) const;
+    /// Turns impulses on twist into rates, vertices at rest.
+    void takeUpTwist(AlignedArray<double>& u) const;
 
     Vec3 at(const AlignedArray<double>& u, int vertex) const
     {
@@ -66,6 +71,8 @@ class VertexStiffness {
     void findShared();
     void findPinStiffness(const Fabric& fabric);
     void addToOwners(AlignedArray<double>& u) const;
+    void copyFromOwners(AlignedArray<double>& u) const;
+    void forEachGroup(AlignedArray<double>& u, auto&& body) const;
     void multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const;
     void sumInner(const FabricState& state, double h);
     void multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const;
@@ -76,6 +83,7 @@ class VertexStiffness {
     Shells shells_;
     VertexUnknowns unknowns_;
     StrandMatrix strands_;
+    TwistBalance twist_;
     BlockMatrix cloth_;
     mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
     std::vector<Shared> shared_;

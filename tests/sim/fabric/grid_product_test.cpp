@@ -160,6 +160,10 @@ TEST(GridFabricProduct, SolutionSatisfiesTheEquations)
         const double wanted = mass[i] * start.faces.block(0)[i] + impulses.faces.block(0)[i];
         ASSERT_NEAR(product.faces.block(0)[i], wanted, 10.0 * kExact * heaviest);
     }
+    for (std::size_t e = 0; e < parts.system.edges(); ++e) {
+        const double wanted = parts.fabric.edges.twistInertia[e] * start.twist[e] + impulses.twist[e];
+        ASSERT_NEAR(product.twist[e], wanted, 1e-9 * std::abs(wanted)) << "edge " << e;
+    }
 
     FaceVector v = start;
     const FaceSolveReport report = parts.system.solve(kTolerance, 1000, v);
@@ -246,6 +250,46 @@ TEST(GridVertexStiffness, ClothEqualsItsMatrix)
         }
     for (int row = 0; row < matrix.rows(); ++row)
         EXPECT_LT((parts.stiffness.at(out, vertices[row]) - expected[row]).norm(), 1e-12 * expected[row].norm());
+}
+
+/// Strands of two vertices, of more, and held ones.
+TEST(TwistBalance, LeavesNoTorque)
+{
+    std::vector<FabricPiece> pieces;
+    for (int edges : {1, 2, 7, 3}) {
+        pieces.push_back(
+            pieceOf(strand(Vec3(0.0, edges, 0.0), Vec3(0.3 * edges, edges, 0.4), edges), wool(), {0.06, 0.04}));
+        PinGroup pin;
+        pin.vertices = {0};
+        pin.twist = edges == 7;
+        pieces.back().pins = {pin};
+    }
+    GridParts parts(pieces, gridSettings(TransferMethod::PolyPic));
+    Noise noise(8);
+    for (Vec3& x : parts.state.x) x += 0.03 * noise.vector();
+    parts.stiffness.rods().transportFrames(parts.state);
+    parts.assembleForces(kStep);
+    const std::vector<double>& inertia = parts.fabric.edges.twistInertia;
+    parts.stiffness.balanceTwist(inertia, kStep);
+    AlignedArray<double> u(parts.stiffness.unknowns().size), torque(u.size());
+    for (std::size_t v = 0; v < parts.state.x.size(); ++v) parts.stiffness.set(u, static_cast<int>(v), noise.vector());
+    const std::vector<int>& slot = parts.stiffness.unknowns().twistSlot;
+    const auto impulse = [&](std::size_t e) { return inertia[e] * u[slot[e]] + kStep * kStep * torque[slot[e]]; };
+
+    for (int s : slot) u[s] = noise();
+    parts.stiffness.followWithTwist(u);
+    parts.stiffness.multiply(u, torque);
+    double size = 0.0;
+    for (std::size_t e = 0; e < slot.size(); ++e) size = std::max(size, std::abs(inertia[e] * u[slot[e]]));
+    ASSERT_GT(size, 0.0);
+    for (std::size_t e = 0; e < slot.size(); ++e) EXPECT_NEAR(impulse(e), 0.0, 1e-10 * size) << "edge " << e;
+
+    std::vector<double> given;
+    u.fill(0.0);
+    for (int s : slot) given.push_back(u[s] = noise());
+    parts.stiffness.takeUpTwist(u);
+    parts.stiffness.multiply(u, torque);
+    for (std::size_t e = 0; e < slot.size(); ++e) EXPECT_NEAR(impulse(e), given[e], 1e-10) << "edge " << e;
 }
 
 TEST(StrandMatrix, ProductEqualsAPlainLoop)
