@@ -156,27 +156,28 @@ double FaceSystem::contactWork(const FaceVector& u)
     return h_ * power() - h_ * h_ * byStiffness;
 }
 
-/// q = A p; returns p·q.
-double FaceSystem::multiplyAndDot(const FaceVector& p, FaceVector& q)
+void FaceSystem::multiply(const FaceVector& p, FaceVector& q)
 {
-    return productOfVertices(onVertices(p), p, q);
+    onVertices(p);
+    finishProduct(p, q);
 }
 
-/// The same where twist follows: that of p becomes what leaves none in q.
+/// q = A p where twist follows: that of p becomes what leaves none in q. Returns p·q.
 double FaceSystem::multiplyFollowed(FaceVector& p, FaceVector& q)
 {
     gather(p.faces);
     stiffness_.followWithTwist(in_);
     const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
     parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { p.twist[e] = in_[twistSlot[e]]; });
-    return productOfVertices(in_, p, q);
+    return finishProduct(p, q);
 }
 
-double FaceSystem::productOfVertices(AlignedArray<double>& in, const FaceVector& p, FaceVector& q)
+/// q = A p of a p that has been gathered; returns p·q.
+double FaceSystem::finishProduct(const FaceVector& p, FaceVector& q)
 {
-    stiffness_.multiply(in, out_);
-    pressedEdges_.multiply(in, pushes_);
-    pressedFaces_.multiply(in, pushes_);
+    stiffness_.multiply(in_, out_);
+    pressedEdges_.multiply(in_, pushes_);
+    pressedFaces_.multiply(in_, pushes_);
     spread(q);
     const double h2 = h_ * h_;
     return forEachPack([&](auto isFace, std::size_t i, Pack& product) {

@@ -59,12 +59,11 @@ class FaceSystem {
     const BlockArray<double, 3>& mass() const { return mass_; }
 
     /// q = A p. Entries of p at faces without mass must be 0.
-    void multiply(const FaceVector& p, FaceVector& q) { multiplyAndDot(p, q); }
+    void multiply(const FaceVector& p, FaceVector& q);
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
-    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on,
-    /// with twist eliminated: it follows the faces. Stops when
-    /// the rms error of the velocities is below `tolerance` [cm/s].
+    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on, with twist eliminated:
+    /// it follows the faces. Stops when the rms error of the velocities is below `tolerance` [cm/s].
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
 
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
@@ -84,9 +83,8 @@ class FaceSystem {
     void findPushes();
     void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
-    double multiplyAndDot(const FaceVector& p, FaceVector& q);
     double multiplyFollowed(FaceVector& p, FaceVector& q);
-    double productOfVertices(AlignedArray<double>& in, const FaceVector& p, FaceVector& q);
+    double finishProduct(const FaceVector& p, FaceVector& q);
     void takeUpTwist(const FaceVector& residual, FaceVector& p);
     void startSolve(FaceVector& v);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
