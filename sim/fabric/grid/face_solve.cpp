@@ -43,13 +43,31 @@ void FaceSystem::startSolve(FaceVector& v)
     });
 }
 
+/// v and r as far along the expected change as makes eᵀ A e least.
+void FaceSystem::goAlong(const BlockArray<double, 3>& expected, FaceVector& v)
+{
+    p_.faces = expected;
+    clearInactive(p_.faces);
+    const double curvature = multiplyFollowed(p_, q_);
+    if (!(curvature > 0.0)) return;
+    const double part = forEachFacePack([&](std::size_t i, Pack& product) {
+        product += residual_.pack(true, i) * p_.pack(true, i);
+    }) / curvature;
+    forEachPack([&](auto isFace, std::size_t i, Pack&) {
+        v.pack(isFace, i) += part * p_.pack(isFace, i);
+        if constexpr (isFace) residual_.pack(true, i) -= part * q_.pack(true, i);
+    });
+}
+
 // Preconditioned by M: many vertices of one cell nearly cancel on the fields of a grid, which A's diagonal does not
 // know of; where cloth is folded it asks for half as many iterations again. The eigenvalues of M⁻¹ A begin at 1 and end
 // at the square of the cells that sound crosses in a step. Twist would have them far from there and is eliminated.
-FaceSolveReport FaceSystem::solve(double tolerance, int maxIterations, FaceVector& v)
+FaceSolveReport FaceSystem::solve(double tolerance, int maxIterations, FaceVector& v,
+                                  const BlockArray<double, 3>* expected)
 {
     FaceSolveReport report;
     startSolve(v);
+    if (expected) goAlong(*expected, v);
     const auto inverseMass = [&](std::size_t i) {
         const Pack m = mass(true, i);
         return select(m > 0.0, 1.0 / m, broadcast(0.0));

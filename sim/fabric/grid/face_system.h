@@ -64,7 +64,10 @@ class FaceSystem {
     void impulses(FaceVector& q);
     /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on, with twist eliminated:
     /// it follows the faces. Stops when the rms error of the velocities is below `tolerance` [cm/s].
-    FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v);
+    /// @param expected  a change of the faces' velocities to start from, by that multiple of it that comes nearest to the
+    ///                  solution in A's norm; or null
+    FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v,
+                          const BlockArray<double, 3>* expected = nullptr);
 
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
     AlignedArray<double>& onVertices(const FaceVector& u);
@@ -87,6 +90,7 @@ class FaceSystem {
     double finishProduct(const FaceVector& p, FaceVector& q);
     void takeUpTwist(const FaceVector& residual, FaceVector& p);
     void startSolve(FaceVector& v);
+    void goAlong(const BlockArray<double, 3>& expected, FaceVector& v);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
     template <class Body>
     double forEachPack(Body&& body) const;

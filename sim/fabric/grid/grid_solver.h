@@ -46,7 +46,8 @@ class GridFabricSolver {
     void begin(FabricState& state);
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
-    void keepAccelerations(double h, FabricState& state);
+    const BlockArray<double, 3>* expectedChange(const FabricState& state);
+    void keepChange(double h, FabricState& state);
     void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads,
                    EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const FabricState& state, EnergyChanges& changes) const;
@@ -62,9 +63,7 @@ class GridFabricSolver {
     FaceVector velocity_;
     bool meetsLiquid_, booksEnergy_ = false;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
-    // Where there is liquid: velocities of the faces without the fabric's own forces [cm/s], then what these add
-    // [cm/s^2].
-    BlockArray<double, 3> start_;
+    BlockArray<double, 3> start_, expected_, acceleration_;
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
