@@ -8,7 +8,7 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kElementsPerTask = 256, kEdgesPerTask = 4096;
+constexpr std::size_t kElementsPerTask = 256;
 
 }  // namespace
 
@@ -127,14 +127,12 @@ void FaceSystem::spread(FaceVector& q)
         scatterGradients(pressedEdges_.points(), n, pressedEdges_.onGrid(), tile);
         scatterGradients(pressedFaces_.points(), n, pressedFaces_.onGrid(), tile);
     });
-    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { q.twist[e] = out_[twistSlot[e]]; });
+    forEachTwist([&](std::size_t e, int slot) { q.twist[e] = out_[slot]; });
 }
 
 AlignedArray<double>& FaceSystem::onVertices(const FaceVector& u)
 {
-    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = u.twist[e]; });
+    forEachTwist([&](std::size_t e, int slot) { in_[slot] = u.twist[e]; });
     gather(u.faces);
     return in_;
 }
@@ -167,8 +165,7 @@ double FaceSystem::multiplyFollowed(FaceVector& p, FaceVector& q)
 {
     gather(p.faces);
     stiffness_.followWithTwist(in_);
-    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { p.twist[e] = in_[twistSlot[e]]; });
+    forEachTwist([&](std::size_t e, int slot) { p.twist[e] = in_[slot]; });
     return finishProduct(p, q);
 }
 
@@ -191,10 +188,9 @@ double FaceSystem::finishProduct(const FaceVector& p, FaceVector& q)
 /// Rates of twist for what is left of its equations, faces at rest.
 void FaceSystem::takeUpTwist(const FaceVector& residual, FaceVector& p)
 {
-    const std::vector<int>& twistSlot = stiffness_.unknowns().twistSlot;
-    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { in_[twistSlot[e]] = residual.twist[e]; });
+    forEachTwist([&](std::size_t e, int slot) { in_[slot] = residual.twist[e]; });
     stiffness_.takeUpTwist(in_);
-    parallelFor(edges(), kEdgesPerTask, [&](std::size_t e) { p.twist[e] = in_[twistSlot[e]]; });
+    forEachTwist([&](std::size_t e, int slot) { p.twist[e] = in_[slot]; });
     parallelFor(p.faces.size() / kBlockCells, 8,
                 [&](std::size_t c) { std::fill_n(p.faces.block(0) + c * kBlockCells, kBlockCells, 0.0); });
 }

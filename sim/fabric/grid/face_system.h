@@ -37,7 +37,7 @@ struct FaceVector {
 /// A linear solve on the faces.
 struct FaceSolveReport {
     int iterations = 0;
-    double speedError = 0.0;  ///< rms, weighted by mass, not below what it is [cm/s]
+    double speedError = 0.0;  ///< rms in the norm of the system's matrix, weighted by mass; not below what it is [cm/s]
 };
 
 /// The linear system of one implicit step on the grid (model-fabric 4.2, 13.5): A = M + h² (Wᵀ K W + Gᵀ H G), with K
@@ -62,9 +62,10 @@ class FaceSystem {
     void multiply(const FaceVector& p, FaceVector& q);
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
-    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on, with twist eliminated:
-    /// it follows the faces. Stops when the rms error of the velocities is below `tolerance` [cm/s].
-    /// @param expected  a change of the faces' velocities to start from, by that multiple of it that comes nearest to the
+    /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on, with twist
+    /// eliminated: it follows the faces. Stops when the error is not above `tolerance` [cm/s].
+    /// @param expected  a change of the faces' velocities to start from, by that multiple of it that comes nearest to
+    /// the
     ///                  solution in A's norm; or null
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v,
                           const BlockArray<double, 3>* expected = nullptr);
@@ -92,6 +93,12 @@ class FaceSystem {
     void startSolve(FaceVector& v);
     void goAlong(const BlockArray<double, 3>& expected, FaceVector& v);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
+    /// body(e, slot of its twist in a vector of VertexUnknowns), in parallel.
+    void forEachTwist(auto&& body) const
+    {
+        const std::vector<int>& slot = stiffness_.unknowns().twistSlot;
+        parallelFor(edges(), 4096, [&](std::size_t e) { body(e, slot[e]); });
+    }
     template <class Body>
     double forEachPack(Body&& body) const;
     double forEachFacePack(auto&& body) const

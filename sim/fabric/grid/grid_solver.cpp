@@ -83,8 +83,10 @@ const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState&
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b), before = state.changedBlocks.find(particles_.grid().coords(block));
         double* to = expected_.block(block);
-        if (before == BlockGrid::kNone) std::fill_n(to, kAxes * kBlockCells, 0.0);
-        else std::copy_n(state.faceChange.block(before), kAxes * kBlockCells, to);
+        if (before == BlockGrid::kNone)
+            std::fill_n(to, kAxes * kBlockCells, 0.0);
+        else
+            std::copy_n(state.faceChange.block(before), kAxes * kBlockCells, to);
     });
     return &expected_;
 }

@@ -63,6 +63,8 @@ class GridFabricSolver {
     FaceVector velocity_;
     bool meetsLiquid_, booksEnergy_ = false;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
+    // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did
+    // [cm/s^2].
     BlockArray<double, 3> start_, expected_, acceleration_;
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
     std::vector<Vec3> predicted_,

@@ -108,6 +108,16 @@ struct GridParts {
         for (std::size_t e = 0; e < system.edges(); ++e) v.twist[e] = 10.0 * noise();
         return v;
     }
+    /// Rms error of v in the norm of the system's matrix, weighted by mass [cm/s].
+    double error(const FaceVector& v, const FaceVector& exact)
+    {
+        FaceVector d = v, product;
+        for (std::size_t i = 0; i < d.faces.size(); ++i) d.faces.block(0)[i] -= exact.faces.block(0)[i];
+        for (std::size_t e = 0; e < system.edges(); ++e) d.twist[e] -= exact.twist[e];
+        product.resize(system.blocks(), system.edges());
+        system.multiply(d, product);
+        return std::sqrt(dot(d, product) / std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0));
+    }
     static double dot(const FaceVector& a, const FaceVector& b)
     {
         double sum = 0.0;

@@ -265,6 +265,31 @@ TEST(GridFabric, GoesOnFromItsStateAlone)
     EXPECT_EQ(run.state.across, other.state.across);
 }
 
+/// What forces did in the last step is found again on the grid of this one, whose blocks may be others.
+TEST(GridFabric, ForcesGoOnAsTheyWere)
+{
+    FabricPiece sheet = cloth(16, Vec3(0.1, 10.0 * kCell, 0.0));  // falls into the blocks below
+    PinGroup corners;
+    corners.vertices = {0, 15};
+    sheet.pins.push_back(corners);
+    Settings settings = gridSettings(TransferMethod::PolyPic);
+    settings.gravity = Vec3(0.0, -981.0, 0.0);
+    GridRun run({sheet}, settings);
+    for (Vec3& v : run.state.v) v = Vec3(0.0, -40.0, 0.0);
+    int blocksChanged = 0;
+    for (int i = 0; i < 40; ++i) {
+        const std::vector<Vec3i> before = run.state.changedBlocks.coords();
+        GridRun forgetful({sheet}, settings);
+        forgetful.state = run.state;
+        forgetful.state.changedBlocks = BlockGrid();
+        const int without = forgetful.step(kStep).iterations, with = run.step(kStep).iterations;
+        if (i < 3) continue;  // the corners' jolt
+        EXPECT_LT(with, without) << "step " << i;
+        if (before != run.state.changedBlocks.coords()) ++blocksChanged;
+    }
+    EXPECT_GT(blocksChanged, 0);
+}
+
 TEST(GridFabric, ClothStaysOnABall)
 {
     std::vector<FabricPiece> pieces = {cloth(12)};
