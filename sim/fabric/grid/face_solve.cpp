@@ -33,7 +33,9 @@ void FaceSystem::startSolve(FaceVector& v)
 /// v and r as far along the expected change as makes eᵀ A e least.
 void FaceSystem::goAlong(const BlockArray<double, 3>& expected, FaceVector& v)
 {
-    p_.faces = expected;
+    forEachFacePack([&](std::size_t i, Pack&) {
+        p_.pack(true, i) = select(mass(true, i) > 0.0, loadPack(expected.block(0) + i), broadcast(0.0));
+    });
     clearInactive(p_.faces);
     const double curvature = multiplyFollowed(p_, q_);
     if (!(curvature > 0.0)) return;
