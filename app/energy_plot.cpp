@@ -57,8 +57,9 @@ std::string panel(const std::vector<EnergyCurve>& curves, const std::string& nam
 {
     std::string text = fmt::format("set title {}\nplot", quoted(name));
     for (std::size_t i = 0; i < curves.size(); ++i)
-        text += fmt::format("{} {} skip 1 using 1:({}) with lines lw 2 lc rgb '{}' title {} noenhanced", i == 0 ? "" : ", \\\n    ",
-                            quoted(curves[i].csv.generic_string()), value(curves[i]), kPalette[i % kPalette.size()], quoted(curves[i].label));
+        text += fmt::format("{} {} skip 1 using 1:({}) with lines lw 2 lc rgb '{}' dt {} title {} noenhanced", i == 0 ? "" : ", \\\n    ",
+                            quoted(curves[i].csv.generic_string()), value(curves[i]), kPalette[i % kPalette.size()],
+                            i % 2 == 0 ? "1" : "(8,4)", quoted(curves[i].label));  // dashes show what lies below them
     return text + "\n";
 }
 
@@ -68,7 +69,7 @@ std::string head(int panels, const std::string& title, const std::string& unit, 
     return fmt::format("set terminal pngcairo size {},580 font 'DejaVu Sans,12' linewidth 1\n"
                        "set output {}\n"
                        "set datafile separator ','\n"
-                       "set multiplot layout 1,{} margins 0.085,0.985,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
+                       "set multiplot layout 1,{} margins 0.085,0.975,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
                        "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
                        "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
                        "set key at screen 0.5,0.045 center center vertical maxrows 2 samplen 2\n",

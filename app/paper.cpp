@@ -52,7 +52,7 @@ const std::vector<PaperScene>& paperScenes()
         {"dam_break_small", "dam break (small)", false, {"time.duration=0.3", "output.every=1e-2"}},
         {"splash_cloth_small", "splash cloth (small)", true, {"time.duration=0.25", "time.dt=5e-4"}},
         {"splash_yarn_small", "splash yarn (small)", true, {"time.duration=0.25", "time.dt=5e-4"}},
-        {"splash_yarn_medium", "splash yarn (medium)", true, {"time.duration=0.2", "time.dt=5e-4"}},
+        {"splash_yarn_medium", "splash yarn (medium)", true, {"time.duration=0.3", "time.dt=5e-4"}},
     };
     return scenes;
 }
