@@ -2,7 +2,7 @@
 
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
-#include "sim/coupling/momentum_watch.h"
+#include "sim/coupling/exchange_watch.h"
 #include "sim/energy_book.h"
 #include "sim/liquid/cells.h"
 #include "sim/liquid/energy.h"
@@ -120,10 +120,10 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         work.coupling->vertices.sort(grid, state.fabric);
         plan.meetsFabric = !work.coupling->vertices.empty();
         if (plan.meetsFabric) {
-            const MomentumWatch momentum(work.coupling->fabric, state, &work.order);
+            const ExchangeWatch watch(work.coupling->fabric, state, &work.order);
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
             report.toPins = work.coupling->capture.toPins();
-            momentum.expectKept(report.toPins);
+            watch.expectKept(report.toPins);
             energy.after(EnergyChange::Capture);
         }
     }
@@ -241,9 +241,9 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
         if (settings.coupling.drip) {
             clock.start(Stage::Drip);
             const std::size_t before = particles.count;
-            const MomentumWatch momentum(coupling.fabric, state, nullptr);
+            const ExchangeWatch watch(coupling.fabric, state, nullptr);
             report.drippedMass = coupling.drip.drip(state);
-            momentum.expectKept(Vec3::Zero());
+            watch.expectKept(Vec3::Zero());
             for (std::size_t p = before; p < particles.count; ++p) {
                 report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();
                 report.energies.potential -= particles.mass[p] * settings.gravity.dot(particles.position(p));
@@ -251,9 +251,9 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
             energy.after(EnergyChange::Drip);
         }
         clock.start(Stage::Wicking);
-        const MomentumWatch momentum(coupling.fabric, state, nullptr);
+        const ExchangeWatch watch(coupling.fabric, state, nullptr);
         coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
-        momentum.expectKept(coupling.wicking.toPins());
+        watch.expectKept(coupling.wicking.toPins());
         report.toPins += coupling.wicking.toPins();
         energy.after(EnergyChange::Wicking);
     }
