@@ -93,8 +93,8 @@ struct AlongZ {
     }
 }
 
-/// Adds w Σ_d c_d (node − point)_z^d to the faces normal to kAxis, where form(kAxis, s, x, y, c) sets the c_d of point
-/// s at nodes that are at (x, y) from it.
+/// Adds w Σ_d c_d (node − point)_z^d to the faces normal to kAxis, where form(kAxis, s)(x, y, c) sets the c_d of
+/// point s at nodes that are at (x, y) from it.
 template <int kAxis, int kTerms, class Form>
 [[gnu::noinline, gnu::flatten]] void scatterAxis(const PlaneTables& tables, const BlockPoints& points, std::size_t n,
                                                  const Form& form, double* tile)
@@ -114,11 +114,12 @@ template <int kAxis, int kTerms, class Form>
                 int kindX, kindY;
                 const double rx = kindAndOffset(kAxis == 0, atX, kindX), ry = kindAndOffset(kAxis == 1, atY, kindY);
                 const Pack wx = tables.x[kindX](rx), x = tables.nodeX[kAxis == 0] - atX;
+                const auto termsAt = form(kAxis, s);
                 unroll<2>([&](auto half) {
                     const Pack weight = wx * tables.y[kindY][half](ry);
                     Pack terms[kTerms];
                     const Pack y = tables.nodeY[kAxis == 1][half] - atY;
-                    form(kAxis, s, x, y, terms);
+                    termsAt(x, y, terms);
                     unroll<kTerms>([&](auto d) {
                         const Pack value = weight * terms[d];
                         unroll<kPlanes>([&](auto k) { sum[k][half] += z.of[kAxis == 2][k][d][s - first] * value; });
@@ -143,16 +144,27 @@ void scatter(const BlockPoints& points, std::size_t n, const Form& form, FaceTil
 /// What points give, as polynomials of the place of the node: numbers of their own, …
 struct ValueTerms {
     const PointArray<3>& f;
-    [[gnu::always_inline]] void operator()(int a, int s, Pack, Pack, Pack* c) const { c[0] = broadcast(f.of[a][s]); }
+    [[gnu::always_inline]] auto operator()(int a, int s) const
+    {
+        return [value = f.of[a][s]](Pack, Pack, Pack* c) { c[0] = broadcast(value); };
+    }
 };
 
-/// … or linear ones.
-struct GradientTerms {
-    const PointArray<9>& t;
-    [[gnu::always_inline]] void operator()(int a, int s, Pack x, Pack y, Pack* c) const
+/// … or linear ones: numbers f_k of each point times its directions d_k.
+template <int kDirections>
+struct AlongTerms {
+    const PointArray<3 * kDirections>&d, &f;
+    [[gnu::always_inline]] auto operator()(int a, int s) const
     {
-        c[0] = (4.0 * t.of[3 * a][s]) * x + (4.0 * t.of[3 * a + 1][s]) * y;
-        c[1] = broadcast(4.0 * t.of[3 * a + 2][s]);
+        std::array<double, kAxes> slope{};
+        unroll<kDirections>([&](auto k) {
+            const double four = 4.0 * f.of[3 * k + a][s];
+            unroll<kAxes>([&](auto b) { slope[b] += four * d.of[3 * k + b][s]; });
+        });
+        return [slope](Pack x, Pack y, Pack* c) {
+            c[0] = slope[0] * x + slope[1] * y;
+            c[1] = broadcast(slope[2]);
+        };
     }
 };
 
@@ -229,9 +241,30 @@ void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>
     scatter<1>(points, n, ValueTerms{f}, tile);
 }
 
-void scatterGradients(const BlockPoints& points, std::size_t n, const PointArray<9>& t, FaceTile& tile)
+template <int kDirections>
+[[gnu::flatten]] void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n,
+                                  const PointArray<3 * kDirections>& d, PointArray<3 * kDirections>& carried)
 {
-    scatter<2>(points, n, GradientTerms{t}, tile);
+    gather<ModeSet<4>>(tile, points, n, [&](int a, int s, int count, const Coefficients<2>& found) {
+        unroll<kDirections>([&](auto k) {
+            const auto direction = [&](int b) { return loadPack(d.of[3 * k + b].data() + s); };
+            storeFirst(carried.of[3 * k + a].data() + s,
+                       found[1][0][0] * direction(0) + found[0][1][0] * direction(1) + found[0][0][1] * direction(2),
+                       count);
+        });
+    });
 }
+
+template <int kDirections>
+void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
+                  const PointArray<3 * kDirections>& f, FaceTile& tile)
+{
+    scatter<2>(points, n, AlongTerms<kDirections>{d, f}, tile);
+}
+
+template void gatherAlong<1>(const FaceTile&, const BlockPoints&, std::size_t, const PointArray<3>&, PointArray<3>&);
+template void gatherAlong<2>(const FaceTile&, const BlockPoints&, std::size_t, const PointArray<6>&, PointArray<6>&);
+template void scatterAlong<1>(const BlockPoints&, std::size_t, const PointArray<3>&, const PointArray<3>&, FaceTile&);
+template void scatterAlong<2>(const BlockPoints&, std::size_t, const PointArray<6>&, const PointArray<6>&, FaceTile&);
 
 }  // namespace sim

@@ -62,8 +62,15 @@ void gatherGradients(const FaceTile& tile, const BlockPoints& points, std::size_
 
 /// Wᵀ: f given to the faces around.
 void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>& f, FaceTile& tile);
-/// Transpose of gatherGradients.
-void scatterGradients(const BlockPoints& points, std::size_t n, const PointArray<9>& t, FaceTile& tile);
+
+/// G d for kDirections directions d of each point, over the cell size: component 3 k + a is ∂u_a along d_k.
+template <int kDirections>
+void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n,
+                 const PointArray<3 * kDirections>& d, PointArray<3 * kDirections>& carried);
+/// Transpose of gatherAlong.
+template <int kDirections>
+void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
+                  const PointArray<3 * kDirections>& f, FaceTile& tile);
 
 void BlockPoints::select(const BlockPoints& all, auto&& isKept)
 {

@@ -7,8 +7,9 @@
 namespace sim {
 
 // How a pressed element answers to a move of what is around it (model-fabric 13.5), for one element or a pack of them.
-// Its directions across the fabric d go with the velocity gradient G on the grid, those in the mesh with the corners;
-// the mesh turning one way acts as d turning the other way.
+// Its directions across the fabric d are carried by the velocity gradient G on the grid, those in the mesh by the
+// corners; the mesh turning one way acts as d turning the other way. All that the grid knows of an element is how it
+// carries d, and the stress that d answers with: what the element gives to the faces is the stress times d.
 
 /// 3x3, by rows.
 template <class T>
@@ -53,62 +54,57 @@ Triple<T> turnOfFace(const Triple<T>& normal, const std::array<Triple<T>, 2>& re
     return cross(dot(normal, u1) * reciprocal[0] + dot(normal, u2) * reciprocal[1], normal);
 }
 
-/// What acts on an element's surroundings: through the velocity gradient, with rows by the component of the force
-/// [erg, erg/s …], and on its corners [dyn …].
-template <class T, int kCorners>
-struct ContactPush {
-    Rows<T> onGrid;
-    std::array<Triple<T>, kCorners> onCorners;
-};
+template <class T, int kCount>
+using Triples = std::array<Triple<T>, kCount>;
 
 /// An edge of a yarn.
 template <class T>
 struct EdgeContact {
-    static constexpr int kCorners = 2;
-    using Stress = std::array<Triple<T>, 2>;  ///< ∂E/∂d [erg]
-    using Push = ContactPush<T, kCorners>;
+    static constexpr int kCorners = 2, kDirections = 2;
+    using Across = Triples<T, kDirections>;  ///< G d, or stresses ∂E/∂d [erg]
+    using Corners = Triples<T, kCorners>;
 
-    std::array<Triple<T>, 2> d;
+    Across d;
     Triple<T> reciprocal;   ///< direction of the edge over its length [1/cm]
     Symmetric<T> k00, k11;  ///< ∂²E/∂d² [erg]
     Rows<T> k01;
 
-    /// Change of the stress when the surroundings move: d by G and the corners by u.
-    Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
+    /// Change of the stress when the surroundings move: G carries d, the corners move by u.
+    Across change(const Across& carried, const Corners& u) const
     {
         const Triple<T> turn = turnOfEdge(reciprocal, u[1] - u[0]);
-        const Triple<T> first = g * d[0] - cross(turn, d[0]), second = g * d[1] - cross(turn, d[1]);
+        const Triple<T> first = carried[0] - cross(turn, d[0]), second = carried[1] - cross(turn, d[1]);
         return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
     }
-    /// Transpose of what moves d, applied to a stress.
-    Push push(const Stress& y) const
+    /// What a stress does to the corners: transpose of how they turn d [dyn …].
+    Corners onCorners(const Across& stress) const
     {
-        const Triple<T> lever = cross(cross(y[0], d[0]) + cross(y[1], d[1]), reciprocal);
-        return {{y[0].x * d[0] + y[1].x * d[1], y[0].y * d[0] + y[1].y * d[1], y[0].z * d[0] + y[1].z * d[1]},
-                {-lever, lever}};
+        const Triple<T> lever = cross(cross(stress[0], d[0]) + cross(stress[1], d[1]), reciprocal);
+        return {-lever, lever};
     }
 };
 
 /// A face of cloth.
 template <class T>
 struct FaceContact {
-    static constexpr int kCorners = 3;
-    using Stress = Triple<T>;
-    using Push = ContactPush<T, kCorners>;
+    static constexpr int kCorners = 3, kDirections = 1;
+    using Across = Triples<T, kDirections>;
+    using Corners = Triples<T, kCorners>;
 
-    Triple<T> d, normal;
+    Across d;
+    Triple<T> normal;
     std::array<Triple<T>, 2> reciprocal;  ///< in the plane, of the two edges from the first corner [1/cm]
     Symmetric<T> k;
 
-    Stress change(const Rows<T>& g, const std::array<Triple<T>, kCorners>& u) const
+    Across change(const Across& carried, const Corners& u) const
     {
-        return k * (g * d - cross(turnOfFace(normal, reciprocal, u[1] - u[0], u[2] - u[0]), d));
+        return {k * (carried[0] - cross(turnOfFace(normal, reciprocal, u[1] - u[0], u[2] - u[0]), d[0]))};
     }
-    Push push(const Stress& y) const
+    Corners onCorners(const Across& stress) const
     {
-        const Triple<T> lever = cross(cross(y, d), normal);
+        const Triple<T> lever = cross(cross(stress[0], d[0]), normal);
         const Triple<T> second = -(dot(lever, reciprocal[0]) * normal), third = -(dot(lever, reciprocal[1]) * normal);
-        return {{y.x * d, y.y * d, y.z * d}, {-(second + third), second, third}};
+        return {-(second + third), second, third};
     }
 };
 

@@ -85,8 +85,7 @@ void FaceSystem::findPushes()
     const int none = static_cast<int>(pressedEdges_.pushes() + pressedFaces_.pushes());
     pushes_.resize(none);
     first_.assign(contact_.size(), none);
-    pressedEdges_.tellPushes(first_);
-    pressedFaces_.tellPushes(first_);
+    forEachPressed([&](auto& pressed) { pressed.tellPushes(first_); });
     const BlockPoints& vertices = particles_->vertices();
     const std::vector<int>& begin = contact_.incidenceBegin();
     pushOf_.clear();
@@ -108,8 +107,9 @@ void FaceSystem::gather(const BlockArray<double, 3>& u)
         gatherValues(tile, vertices, n, onVertices_);
         for (int s = vertices.begin(n); s < vertices.end(n); ++s)
             stiffness_.set(in_, vertices.id[s], {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]});
-        gatherGradients(tile, pressedEdges_.points(), n, pressedEdges_.onGrid());
-        gatherGradients(tile, pressedFaces_.points(), n, pressedFaces_.onGrid());
+        forEachPressed([&](auto& pressed) {
+            gatherAlong<pressed.kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried());
+        });
     });
 }
 
@@ -124,8 +124,9 @@ void FaceSystem::spread(FaceVector& q)
             for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = sum[a];
         }
         scatterValues(vertices, n, onVertices_, tile);
-        scatterGradients(pressedEdges_.points(), n, pressedEdges_.onGrid(), tile);
-        scatterGradients(pressedFaces_.points(), n, pressedFaces_.onGrid(), tile);
+        forEachPressed([&](auto& pressed) {
+            scatterAlong<pressed.kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile);
+        });
     });
     forEachTwist([&](std::size_t e, int slot) { q.twist[e] = out_[slot]; });
 }
@@ -146,11 +147,9 @@ double FaceSystem::contactWork(const FaceVector& u)
         return forEachPack(
             [&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
     };
-    pressedEdges_.multiply(in_, pushes_);
-    pressedFaces_.multiply(in_, pushes_);
+    forEachPressed([&](auto& pressed) { pressed.multiply(in_, pushes_); });
     const double byStiffness = power();
-    pressedEdges_.impulses(contact_, pushes_);
-    pressedFaces_.impulses(contact_, pushes_);
+    forEachPressed([&](auto& pressed) { pressed.impulses(contact_, pushes_); });
     return h_ * power() - h_ * h_ * byStiffness;
 }
 
@@ -173,8 +172,7 @@ double FaceSystem::multiplyFollowed(FaceVector& p, FaceVector& q)
 double FaceSystem::finishProduct(const FaceVector& p, FaceVector& q)
 {
     stiffness_.multiply(in_, out_);
-    pressedEdges_.multiply(in_, pushes_);
-    pressedFaces_.multiply(in_, pushes_);
+    forEachPressed([&](auto& pressed) { pressed.multiply(in_, pushes_); });
     spread(q);
     const double h2 = h_ * h_;
     return forEachPack([&](auto isFace, std::size_t i, Pack& product) {
@@ -200,8 +198,7 @@ void FaceSystem::impulses(FaceVector& q)
     q.resize(blocks(), edges());
     const AlignedArray<double>& gradient = stiffness_.gradient();
     for (std::size_t i = 0; i < out_.size(); ++i) out_[i] = -gradient[i];
-    pressedEdges_.impulses(contact_, pushes_);
-    pressedFaces_.impulses(contact_, pushes_);
+    forEachPressed([&](auto& pressed) { pressed.impulses(contact_, pushes_); });
     spread(q);
     forEachPack([&](auto isFace, std::size_t i, Pack&) {
         const Pack m = mass(isFace, i);

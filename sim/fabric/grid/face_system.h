@@ -93,6 +93,12 @@ class FaceSystem {
     void startSolve(FaceVector& v);
     void goAlong(const BlockArray<double, 3>& expected, FaceVector& v);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
+    /// body(pressed elements of one kind).
+    void forEachPressed(auto&& body)
+    {
+        body(pressedEdges_);
+        body(pressedFaces_);
+    }
     /// body(e, slot of its twist in a vector of VertexUnknowns), in parallel.
     void forEachTwist(auto&& body) const
     {

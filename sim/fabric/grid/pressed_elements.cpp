@@ -30,20 +30,10 @@ void setElement(EdgeContact<Pack>& to, int lane, const ElementContact::Local& fr
 
 void setElement(FaceContact<Pack>& to, int lane, const ElementContact::Local& from)
 {
-    setLane(to.d, lane, from.d[0]);
+    setLane(to.d[0], lane, from.d[0]);
     setLane(to.normal, lane, from.normal);
     for (int k = 0; k < 2; ++k) setLane(to.reciprocal[k], lane, from.reciprocal[k]);
     setLane(to.k, lane, from.stiffness[0]);
-}
-
-void setStress(EdgeContact<Pack>::Stress& to, int lane, const ElementContact::Stress& from)
-{
-    for (int k = 0; k < 2; ++k) setLane(to[k], lane, from.stress[k]);
-}
-
-void setStress(FaceContact<Pack>::Stress& to, int lane, const ElementContact::Stress& from)
-{
-    setLane(to, lane, from.stress[0]);
 }
 
 }  // namespace
@@ -61,10 +51,10 @@ void PressedElements<Contact>::assemble(const ElementContact& contact, const Ver
                                         const BlockPoints& elements, const std::vector<Mat3>& missing, double dx,
                                         int firstPush)
 {
-    perCell_ = 1.0 / dx;
     firstPush_ = firstPush;
     points_.select(elements, [&](int e) { return contact.isEdge(e) == (kCorners == 2) && contact.stress(e).isActive; });
-    onGrid_.resize(points_.size());
+    across_.resize(points_.size());
+    carried_.resize(points_.size());
     const std::size_t packs = packsOf(points_.size());
     contact_.resize(packs);
     cornerSlot_.resize(packs * kLanes);
@@ -77,55 +67,56 @@ void PressedElements<Contact>::assemble(const ElementContact& contact, const Ver
         if (missing[e].isZero(0.0)) continue;
         loose_[s] = static_cast<int>(looseElements_.size());
         anyLoose_[s / kLanes] = 1;
-        Loose& loose = looseElements_.emplace_back(Loose{{}, missing[e]});
+        Loose& loose = looseElements_.emplace_back();
         for (int k = 0; k < kCorners; ++k) loose.share[k] = contact.shares(e)[k];
+        for (int k = 0; k < kDirections; ++k) loose.missing[k] = missing[e] * (contact.local(e).d[k] / dx);
     }
     parallelFor(packs, kPacksPerTask, [&](std::size_t pack) {
         contact_[pack] = Contact();
         lanesOf(pack, [&](int lane, std::size_t s) {
             const int e = points_.id[s];
             setElement(contact_[pack], lane, contact.local(e));
+            for (int i = 0; i < 3 * kDirections; ++i) across_.of[i][s] = contact.local(e).d[i / 3][i % 3] / dx;
             for (int k = 0; k < kCorners; ++k) cornerSlot_[s][k] = stiffness.unknowns().slot[contact.corners(e)[k]];
         });
         for (std::size_t s = points_.size(); s < (pack + 1) * kLanes; ++s) cornerSlot_[s].fill(0);
     });
 }
 
-/// Gathered gradients, faces without mass moving like the mean of the corners [1/s].
+/// How the directions are carried [1/s], faces without mass moving like the mean of the corners.
 template <class Contact>
-Rows<Pack> PressedElements<Contact>::relative(std::size_t pack, const Moves& u) const
+auto PressedElements<Contact>::carriedAt(std::size_t pack, const Corners& u) const -> Across
 {
-    Rows<Pack> g;
-    for (int a = 0; a < kAxes; ++a)
-        for (int b = 0; b < kAxes; ++b) g[a][b] = loadPack(onGrid_.of[3 * a + b].data() + pack * kLanes);
+    Across w;
+    for (int k = 0; k < kDirections; ++k)
+        for (int a = 0; a < kAxes; ++a) w[k][a] = loadPack(carried_.of[3 * k + a].data() + pack * kLanes);
     if (anyLoose_[pack])
         lanesOf(pack, [&](int lane, std::size_t s) {
             if (loose_[s] < 0) return;
             const Loose& loose = looseElements_[loose_[s]];
             Vec3 mean = Vec3::Zero();
             for (int k = 0; k < kCorners; ++k) mean += loose.share[k] * laneOf(u[k], lane);
-            for (int a = 0; a < kAxes; ++a)
-                for (int b = 0; b < kAxes; ++b) g[a][b][lane] -= mean[a] * loose.missing(a, b);
+            for (int k = 0; k < kDirections; ++k)
+                for (int a = 0; a < kAxes; ++a) w[k][a][lane] -= mean[a] * loose.missing[k][a];
         });
-    for (Triple<Pack>& row : g) row = broadcast(perCell_) * row;
-    return g;
+    return w;
 }
 
-/// Transpose of `relative`: what a pack gives to the faces, and to its corners.
+/// Transpose of `carriedAt`: what a pack gives to the faces, and to its corners.
 template <class Contact>
-void PressedElements<Contact>::store(std::size_t pack, Push push, std::vector<Vec3>& pushes)
+void PressedElements<Contact>::store(std::size_t pack, const Across& stress, Corners onCorners,
+                                     std::vector<Vec3>& pushes)
 {
-    for (Triple<Pack>& row : push.onGrid) row = broadcast(perCell_) * row;
-    for (int a = 0; a < kAxes; ++a)
-        for (int b = 0; b < kAxes; ++b)
-            std::memcpy(onGrid_.of[3 * a + b].data() + pack * kLanes, &push.onGrid[a][b], sizeof(Pack));
+    for (int k = 0; k < kDirections; ++k)
+        for (int a = 0; a < kAxes; ++a)
+            std::memcpy(carried_.of[3 * k + a].data() + pack * kLanes, &stress[k][a], sizeof(Pack));
     lanesOf(pack, [&](int lane, std::size_t s) {
         Vec3* at = pushes.data() + firstPush_ + kCorners * s;
-        for (int k = 0; k < kCorners; ++k) at[k] = laneOf(push.onCorners[k], lane);
+        for (int k = 0; k < kCorners; ++k) at[k] = laneOf(onCorners[k], lane);
         if (loose_[s] < 0) return;
         const Loose& loose = looseElements_[loose_[s]];
-        Vec3 onMean;
-        for (int a = 0; a < kAxes; ++a) onMean[a] = -laneOf(push.onGrid[a], lane).dot(loose.missing.row(a));
+        Vec3 onMean = Vec3::Zero();
+        for (int k = 0; k < kDirections; ++k) onMean -= laneOf(stress[k], lane).cwiseProduct(loose.missing[k]);
         for (int k = 0; k < kCorners; ++k) at[k] += loose.share[k] * onMean;
     });
 }
@@ -134,14 +125,15 @@ template <class Contact>
 void PressedElements<Contact>::multiply(const AlignedArray<double>& moves, std::vector<Vec3>& pushes)
 {
     parallelFor(contact_.size(), kPacksPerTask, [&](std::size_t pack) {
-        Moves u;
+        Corners u;
         for (int k = 0; k < kCorners; ++k)
             for (int l = 0; l < kLanes; ++l) {
                 const double* from = moves.data() + cornerSlot_[pack * kLanes + l][k];
                 u[k].x[l] = from[0], u[k].y[l] = from[kLanes], u[k].z[l] = from[2 * kLanes];
             }
         const Contact& contact = contact_[pack];
-        store(pack, contact.push(contact.change(relative(pack, u), u)), pushes);
+        const Across stress = contact.change(carriedAt(pack, u), u);
+        store(pack, stress, contact.onCorners(stress), pushes);
     });
 }
 
@@ -149,16 +141,11 @@ template <class Contact>
 void PressedElements<Contact>::impulses(const ElementContact& contact, std::vector<Vec3>& pushes)
 {
     parallelFor(contact_.size(), kPacksPerTask, [&](std::size_t pack) {
-        Contact at{};
-        typename Contact::Stress stress{};
+        Across stress{};
         lanesOf(pack, [&](int lane, std::size_t s) {
-            setElement(at, lane, contact.local(points_.id[s]));
-            setStress(stress, lane, contact.stress(points_.id[s]));
+            for (int k = 0; k < kDirections; ++k) setLane(stress[k], lane, -contact.stress(points_.id[s]).stress[k]);
         });
-        Push push = at.push(stress);
-        for (Triple<Pack>& row : push.onGrid) row = -row;
-        for (Triple<Pack>& corner : push.onCorners) corner = -corner;
-        store(pack, push, pushes);
+        store(pack, stress, contact_[pack].onCorners(stress), pushes);
     });
 }
 

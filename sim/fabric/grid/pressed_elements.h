@@ -14,7 +14,8 @@ namespace sim {
 template <class Contact>
 class PressedElements {
  public:
-    static constexpr int kCorners = Contact::kCorners;
+    static constexpr int kCorners = Contact::kCorners, kDirections = Contact::kDirections;
+    using Directions = PointArray<3 * kDirections>;
 
     /// @param firstPush  where this kind's pushes begin in the array of all
     void assemble(const ElementContact& contact, const VertexStiffness& stiffness, const BlockPoints& elements,
@@ -28,30 +29,32 @@ class PressedElements {
         for (std::size_t s = 0; s < points_.size(); ++s)
             first[points_.id[s]] = firstPush_ + kCorners * static_cast<int>(s);
     }
-    /// Gathered gradients times the cell size; then what the elements give to the faces.
-    PointArray<9>& onGrid() { return onGrid_; }
+    /// Directions across over the cell size [-].
+    const Directions& across() const { return across_; }
+    /// How the grid carries the directions [1/s]; then the stresses that the faces feel.
+    Directions& carried() { return carried_; }
 
-    /// From gradients on the grid and moves of the vertices to what the elements push with: in onGrid and `pushes`.
+    /// From how the grid carries the directions and the moves of the vertices to what the elements push with: in carried
+    /// and `pushes`.
     void multiply(const AlignedArray<double>& moves, std::vector<Vec3>& pushes);
     /// What the elements push with by themselves: minus the energy gradient.
     void impulses(const ElementContact& contact, std::vector<Vec3>& pushes);
 
  private:
+    using Across = typename Contact::Across;
+    using Corners = typename Contact::Corners;
     /// An element that reaches faces without mass.
     struct Loose {
         std::array<double, kCorners> share;
-        Mat3 missing;  ///< gradient of a 1 on faces with mass [-]
+        std::array<Vec3, kDirections> missing;  ///< how a 1 on faces with mass carries the directions [1/s]
     };
-    using Push = typename Contact::Push;
-    using Moves = std::array<PackTriple, kCorners>;
-    Rows<Pack> relative(std::size_t pack, const Moves& u) const;
-    void store(std::size_t pack, Push push, std::vector<Vec3>& pushes);
+    Across carriedAt(std::size_t pack, const Corners& u) const;
+    void store(std::size_t pack, const Across& stress, Corners onCorners, std::vector<Vec3>& pushes);
     void lanesOf(std::size_t pack, auto&& body) const;
 
-    double perCell_ = 1.0;  ///< [1/cm]
     int firstPush_ = 0;
     BlockPoints points_;
-    PointArray<9> onGrid_;
+    Directions across_, carried_;
     std::vector<Contact> contact_;                       ///< of each pack
     std::vector<std::array<int, kCorners>> cornerSlot_;  ///< of each element: in a vector of VertexUnknowns
     std::vector<int> loose_;                             ///< of each element: in looseElements_, or −1

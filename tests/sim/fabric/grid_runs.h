@@ -153,21 +153,23 @@ inline FaceContact<double> faceOf(const ElementContact& contact, std::size_t e)
 {
     const ElementContact::Local& at = contact.local(e);
     const Mat3& m = at.stiffness[0];
-    return {toTriple(at.d[0]),
+    return {{toTriple(at.d[0])},
             toTriple(at.normal),
             {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])},
             {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}};
 }
 
-/// What an element gives to the grid and to its corners.
+/// What an element gives to the grid, through the velocity gradient, and to its corners.
 struct PlainPush {
-    template <int kCorners>
-    explicit PlainPush(const ContactPush<double, kCorners>& push)
+    template <class Contact>
+    PlainPush(const Contact& contact, const typename Contact::Across& stress)
     {
-        for (int a = 0; a < 3; ++a) onGrid.row(a) = toVec3(push.onGrid[a]).transpose();
-        for (int k = 0; k < kCorners; ++k) onCorners[k] = toVec3(push.onCorners[k]);
+        for (int k = 0; k < Contact::kDirections; ++k)
+            onGrid += toVec3(stress[k]) * toVec3(contact.d[k]).transpose();
+        const auto corners = contact.onCorners(stress);
+        for (int k = 0; k < Contact::kCorners; ++k) onCorners[k] = toVec3(corners[k]);
     }
-    Mat3 onGrid;
+    Mat3 onGrid = Mat3::Zero();
     std::array<Vec3, 3> onCorners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
@@ -175,20 +177,20 @@ struct PlainPush {
 inline PlainPush gradientOf(const ElementContact& contact, std::size_t e)
 {
     const std::array<Vec3, 2>& stress = contact.stress(e).stress;
-    if (contact.isEdge(e)) return PlainPush(edgeOf(contact, e).push({toTriple(stress[0]), toTriple(stress[1])}));
-    return PlainPush(faceOf(contact, e).push(toTriple(stress[0])));
+    if (contact.isEdge(e)) return PlainPush(edgeOf(contact, e), {toTriple(stress[0]), toTriple(stress[1])});
+    return PlainPush(faceOf(contact, e), {toTriple(stress[0])});
 }
 
 /// Its Hessian times a move by G and of the corners by u.
 inline PlainPush changeOf(const ElementContact& contact, std::size_t e, const Mat3& g, const std::array<Vec3, 3>& u)
 {
-    const Rows<double> rows = {toTriple(g.row(0)), toTriple(g.row(1)), toTriple(g.row(2))};
+    const std::array<Vec3, 2>& d = contact.local(e).d;
     if (contact.isEdge(e)) {
         const EdgeContact<double> edge = edgeOf(contact, e);
-        return PlainPush(edge.push(edge.change(rows, {toTriple(u[0]), toTriple(u[1])})));
+        return PlainPush(edge, edge.change({toTriple(g * d[0]), toTriple(g * d[1])}, {toTriple(u[0]), toTriple(u[1])}));
     }
     const FaceContact<double> face = faceOf(contact, e);
-    return PlainPush(face.push(face.change(rows, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2])})));
+    return PlainPush(face, face.change({toTriple(g * d[0])}, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2])}));
 }
 
 /// Squeezes and shears what lies across the fabric.
