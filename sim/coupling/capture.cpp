@@ -22,7 +22,7 @@ void forEachColored(const ParticleOrder& order, Body&& body)
 }  // namespace
 
 Capture::Capture(const Fabric& fabric, const Settings& settings, double nominalMass)
-    : fabric_(fabric), leastMass_(kLeastShare * nominalMass)
+    : fabric_(fabric), capacity_(poreCapacity(fabric, settings.liquid.density)), leastMass_(kLeastShare * nominalMass)
 {
     const CaptureSettings& capture = settings.coupling.capture;
     std::vector<double> rates;  // of each material [1/s]
@@ -30,10 +30,7 @@ Capture::Capture(const Fabric& fabric, const Settings& settings, double nominalM
         const PorousLaw law({settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling);
         rates.push_back(m.volumeFraction < 1.0 ? capture.compatFactor * capture.rate * law.captureRate(m.volumeFraction, settings.cell) : 0.0);
     }
-    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) {
-        capacity_.push_back(poreVolume(fabric, v) * settings.liquid.density);
-        ratePerVertex_.push_back(rates[fabric.vertexMaterial[v]]);
-    }
+    for (int m : fabric.vertexMaterial) ratePerVertex_.push_back(rates[m]);
     wanted_.resize(fabric.vertexCount());
     around_.resize(fabric.vertexCount());
     toPins_.resize(fabric.vertexCount());

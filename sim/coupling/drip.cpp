@@ -17,9 +17,11 @@ constexpr double kJitter = 0.5;              ///< of the way to a random point o
 }  // namespace
 
 Drip::Drip(const Fabric& fabric, const WetElements& elements, const Settings& settings, double nominalMass)
-    : elements_(elements), excess_(fabric.vertexCount()), nominalMass_(nominalMass)
+    : elements_(elements),
+      capacity_(poreCapacity(fabric, settings.liquid.density)),
+      excess_(fabric.vertexCount()),
+      nominalMass_(nominalMass)
 {
-    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) capacity_.push_back(poreVolume(fabric, v) * settings.liquid.density);
 }
 
 /// One particle made of these masses of the element's corners [g], beside their centre.

@@ -61,6 +61,7 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
       elements_(elements),
       settings_(settings.coupling.wicking),
       density_(settings.liquid.density),
+      capacity_(poreCapacity(fabric, density_)),
       rate_(elements.size()),
       flow_(elements.size()),
       carried_(elements.size())
@@ -74,7 +75,6 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
         suction_.push_back(laws_.back().suction(m.volumeFraction));
         along_.push_back(permeability(m.volumeFraction, settings.porous.fibreDiameter).along);
     }
-    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) capacity_.push_back(poreVolume(fabric, v) * density_);
     longest_ = std::numeric_limits<double>::infinity();
     for (const std::array<int, 3>& v : elements.vertices) {
         const int m = fabric.vertexMaterial[v[0]];

@@ -208,14 +208,22 @@ FabricState restState(const Fabric& fabric)
     return state;
 }
 
+std::vector<double> poreCapacity(const Fabric& fabric, double density)
+{
+    std::vector<double> capacity;
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) capacity.push_back(poreVolume(fabric, v) * density);
+    return capacity;
+}
+
 FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces, double liquidDensity)
 {
     FabricState state = restState(fabric);
+    const std::vector<double> capacity = poreCapacity(fabric, liquidDensity);
     std::size_t v = 0;
     for (const FabricPiece& piece : pieces) {
         for (const std::size_t end = v + piece.points.size(); v < end; ++v) {
             state.v[v] = piece.velocity;
-            state.absorbed[v] = piece.wetness * poreVolume(fabric, v) * liquidDensity;
+            state.absorbed[v] = piece.wetness * capacity[v];
         }
     }
     for (const int vertex : fabric.pins.vertex) state.v[vertex].setZero();

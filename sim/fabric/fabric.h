@@ -104,5 +104,8 @@ inline double poreVolume(const Fabric& fabric, std::size_t v)
 {
     return fabric.volume[v] * (1.0 - fabric.materials[fabric.vertexMaterial[v]].volumeFraction);
 }
+/// Liquid that the pores of each vertex hold [g].
+/// @param density  of the liquid [g/cm^3]
+std::vector<double> poreCapacity(const Fabric& fabric, double density);
 
 }  // namespace sim
