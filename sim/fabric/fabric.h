@@ -86,8 +86,8 @@ struct FabricState {
     std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
     std::vector<double> modes;            ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as LiquidParticles has them [cm/s]
     double sinceGather = 0.0;             ///< for how long the vertices have moved since their modes were gathered [s]
-    BlockGrid changedBlocks;              ///< of the last step, and …
-    BlockArray<double, 3> faceChange;     ///< … by how much forces on the fabric changed velocities on their faces [cm/s]
+    BlockGrid faceBlocks;                 ///< of the grid in the last step, and …
+    BlockArray<double, 3> faceChange;     ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
 };
 
 /// Puts the pieces together. Throws InputError for a strand of one vertex, edges or faces without extent, indices out of range.

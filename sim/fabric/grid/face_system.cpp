@@ -183,14 +183,12 @@ double FaceSystem::finishProduct(const FaceVector& p, FaceVector& q)
     });
 }
 
-/// Rates of twist for what is left of its equations, faces at rest.
+/// The twist of p: rates that take up what is left of its equations, faces at rest.
 void FaceSystem::takeUpTwist(const FaceVector& residual, FaceVector& p)
 {
     forEachTwist([&](std::size_t e, int slot) { in_[slot] = residual.twist[e]; });
     stiffness_.takeUpTwist(in_);
     forEachTwist([&](std::size_t e, int slot) { p.twist[e] = in_[slot]; });
-    parallelFor(p.faces.size() / kBlockCells, 8,
-                [&](std::size_t c) { std::fill_n(p.faces.block(0) + c * kBlockCells, kBlockCells, 0.0); });
 }
 
 void FaceSystem::impulses(FaceVector& q)

@@ -64,9 +64,8 @@ class FaceSystem {
     void impulses(FaceVector& q);
     /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on, with twist
     /// eliminated: it follows the faces. Stops when the error is not above `tolerance` [cm/s].
-    /// @param expected  a change of the faces' velocities to start from, by that multiple of it that comes nearest to
-    /// the
-    ///                  solution in A's norm; or null
+    /// @param expected  a change of the faces' velocities, of which the solve starts with the multiple that comes
+    ///                  nearest to the solution in A's norm; or null
     FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v,
                           const BlockArray<double, 3>* expected = nullptr);
 

@@ -78,10 +78,10 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
 /// What forces did in the last step, on the faces of this one; null in the first.
 const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState& state)
 {
-    if (state.changedBlocks.count() == 0) return nullptr;
+    if (state.faceBlocks.count() == 0) return nullptr;
     expected_.resize(system_.blocks());
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
-        const int block = static_cast<int>(b), before = state.changedBlocks.find(particles_.grid().coords(block));
+        const int block = static_cast<int>(b), before = state.faceBlocks.find(particles_.grid().coords(block));
         double* to = expected_.block(block);
         if (before == BlockGrid::kNone)
             std::fill_n(to, kAxes * kBlockCells, 0.0);
@@ -91,28 +91,35 @@ const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState&
     return &expected_;
 }
 
-/// How the solve changed velocities, for the next; as accelerations by the fabric's own forces, for liquid to expect
-/// there (model-fabric 13.9).
-void GridFabricSolver::keepChange(double h, FabricState& state)
+/// How the solve changed velocities, for that of the next step.
+void GridFabricSolver::keepChange(FabricState& state) const
+{
+    state.faceBlocks = particles_.grid();
+    state.faceChange.resize(system_.blocks());
+    parallelFor(system_.blocks(), 8, [&](std::size_t b) {
+        const int block = static_cast<int>(b);
+        const double *start = start_.block(block), *v = velocity_.faces.block(block);
+        double* change = state.faceChange.block(block);
+        for (int c = 0; c < kAxes * kBlockCells; ++c) change[c] = v[c] - start[c];
+    });
+}
+
+/// Accelerations by the fabric's own forces, for liquid to expect in the next step (model-fabric 13.9).
+void GridFabricSolver::keepAccelerations(double h, FabricState& state)
 {
     const BlockArray<double, 3>& inertia = system_.mass();
     const auto& mass = particles_.faces().sums;
-    state.changedBlocks = particles_.grid();
-    state.faceChange.resize(system_.blocks());
     acceleration_.resize(system_.blocks());
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         for (int a = 0; a < kAxes; ++a) {
             const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a),
-                         *start = start_.block(block, a), *v = velocity_.faces.block(block, a);
-            double *change = state.faceChange.block(block, a), *acceleration = acceleration_.block(block, a);
-            for (int c = 0; c < kBlockCells; ++c) {
-                change[c] = v[c] - start[c];
-                acceleration[c] = m[c] > 0.0 ? m[c] * change[c] / (h * own[c]) : 0.0;
-            }
+                         *change = state.faceChange.block(block, a);
+            double* to = acceleration_.block(block, a);
+            for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? m[c] * change[c] / (h * own[c]) : 0.0;
         }
     });
-    if (meetsLiquid_) system_.gatherVertices(acceleration_, state.acceleration);
+    system_.gatherVertices(acceleration_, state.acceleration);
 }
 
 void GridFabricSolver::spread(FabricState& state, StageClock& clock)
@@ -155,7 +162,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());
 
     clock.start(Stage::GridToFabric);
-    keepChange(h, state);
+    keepChange(state);
+    if (meetsLiquid_) keepAccelerations(h, state);
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);

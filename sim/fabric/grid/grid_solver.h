@@ -47,7 +47,8 @@ class GridFabricSolver {
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
-    void keepChange(double h, FabricState& state);
+    void keepChange(FabricState& state) const;
+    void keepAccelerations(double h, FabricState& state);
     void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads,
                    EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const FabricState& state, EnergyChanges& changes) const;

@@ -29,7 +29,7 @@ class PressedElements {
         for (std::size_t s = 0; s < points_.size(); ++s)
             first[points_.id[s]] = firstPush_ + kCorners * static_cast<int>(s);
     }
-    /// Directions across over the cell size [-].
+    /// Directions across over the cell size [1/cm].
     const Directions& across() const { return across_; }
     /// How the grid carries the directions [1/s]; then the stresses that the faces feel.
     Directions& carried() { return carried_; }
@@ -46,7 +46,7 @@ class PressedElements {
     /// An element that reaches faces without mass.
     struct Loose {
         std::array<double, kCorners> share;
-        std::array<Vec3, kDirections> missing;  ///< how a 1 on faces with mass carries the directions [1/s]
+        std::array<Vec3, kDirections> missing;  ///< how a 1 on faces with mass carries the directions [1/cm]
     };
     Across carriedAt(std::size_t pack, const Corners& u) const;
     void store(std::size_t pack, const Across& stress, Corners onCorners, std::vector<Vec3>& pushes);

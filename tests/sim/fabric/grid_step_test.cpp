@@ -278,14 +278,14 @@ TEST(GridFabric, ForcesGoOnAsTheyWere)
     for (Vec3& v : run.state.v) v = Vec3(0.0, -40.0, 0.0);
     int blocksChanged = 0;
     for (int i = 0; i < 40; ++i) {
-        const std::vector<Vec3i> before = run.state.changedBlocks.coords();
+        const std::vector<Vec3i> before = run.state.faceBlocks.coords();
         GridRun forgetful({sheet}, settings);
         forgetful.state = run.state;
-        forgetful.state.changedBlocks = BlockGrid();
+        forgetful.state.faceBlocks = BlockGrid();
         const int without = forgetful.step(kStep).iterations, with = run.step(kStep).iterations;
         if (i < 3) continue;  // the corners' jolt
         EXPECT_LT(with, without) << "step " << i;
-        if (before != run.state.changedBlocks.coords()) ++blocksChanged;
+        if (before != run.state.faceBlocks.coords()) ++blocksChanged;
     }
     EXPECT_GT(blocksChanged, 0);
 }
