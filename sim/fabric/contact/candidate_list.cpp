@@ -12,6 +12,10 @@ namespace {
 constexpr std::size_t kGrain = 1024;
 /// With more dirty vertices than this all are searched for: it is not worth keeping the rest [-].
 constexpr double kMostDirty = 0.6;
+/// How far ahead pairs are searched: as many steps, and the fastest vertex goes no farther than so many times what it
+/// may stray [-].
+constexpr int kMostStepsAhead = 16;
+constexpr double kFarAhead = 12.0;
 
 /// Of each vertex the radius of the thinnest primitive it belongs to [cm].
 std::vector<double> leastRadius(const Primitives& p)
@@ -33,8 +37,8 @@ CandidateList::CandidateList(const Fabric& fabric) : primitives_(fabric), search
         stray_.push_back(ListMargin::stray(r));
         strayAtRest_.push_back(ListMargin::strayAtRest(r));
     }
-    sweep_.from.resize(n), sweep_.move.resize(n), measuredAt_.resize(n);
-    dirtyVertices_.resize(n);
+    sweep_.from.resize(n), sweep_.move.resize(n), measuredAt_.resize(n), ahead_.resize(n);
+    dirtyVertices_.resize(n), strayed_.resize(n);
     dirty_.resize(primitives_.count());
     findRestPairs(fabric.rest);
 }
@@ -63,23 +67,43 @@ void CandidateList::findRestPairs(std::span<const Vec3> rest)
     built_ = false;
 }
 
+void CandidateList::beginStep()
+{
+    isStepStart_ = true;
+    if (stepsAhead_ > 0) return;
+    // All pairs are known where the fabric is, for no move.
+    parallelFor(strayed_.size(), kGrain, [&](std::size_t v) {
+        ahead_.set(v, Vec3::Zero());
+        strayed_[v] = 0;
+    });
+}
+
 bool CandidateList::cover(std::span<const Vec3> x, std::span<const Vec3> u)
 {
-    const int strays = findStrays(x, u);
+    const bool looksAhead = isStepStart_ && stepsAhead_ == 0;
+    if (looksAhead) stepsAhead_ = stepsToLookAhead(u);
+    const int strays = findStrays(x, u, looksAhead ? stepsAhead_ : 1);
     if (strays == 0) return false;
     if (!built_ || strays > kMostDirty * static_cast<double>(x.size())) {
-        parallelFor(x.size(), kGrain, [&](std::size_t v) {
-            dirtyVertices_[v] = 1;
-            sweep_.from.set(v, x[v]);
-            sweep_.move.set(v, u.empty() ? Vec3::Zero().eval() : u[v]);
-        });
+        stepsAhead_ = isStepStart_ ? stepsToLookAhead(u) : 0;
+        parallelFor(x.size(), kGrain,
+                    [&](std::size_t v) { setDirty(v, x[v], u.empty() ? Vec3::Zero().eval() : u[v]); });
     }
     build();
     return true;
 }
 
-/// Vertices too far from where their pairs were searched become dirty and start from here.
-int CandidateList::findStrays(std::span<const Vec3> x, std::span<const Vec3> u)
+int CandidateList::stepsToLookAhead(std::span<const Vec3> u) const
+{
+    const double largest = parallelMax(u.size(), [&](std::size_t v) { return u[v].norm() / stray_[v]; });
+    int steps = 1;
+    while (steps < kMostStepsAhead && (steps + 1) * largest <= kFarAhead) ++steps;
+    return steps;
+}
+
+/// Vertices too far from where their pairs were searched, or that would be after so many moves, become dirty and start
+/// from here.
+int CandidateList::findStrays(std::span<const Vec3> x, std::span<const Vec3> u, int moves)
 {
     const std::vector<double>& limit = u.empty() ? strayAtRest_ : stray_;
     const Chunks chunks(x.size());
@@ -88,14 +112,13 @@ int CandidateList::findStrays(std::span<const Vec3> x, std::span<const Vec3> u)
         for (std::size_t v = chunks.begin(c); v < chunks.end(c); ++v) {
             const double most = limit[v] * limit[v];
             const Vec3 move = u.empty() ? Vec3::Zero().eval() : u[v];
+            const bool isKnown = built_ && !(isStepStart_ && strayed_[v]);
             const bool stays = (x[v] - sweep_.from[v]).squaredNorm() <= most &&
-                               (u.empty() || (move - sweep_.move[v]).squaredNorm() <= most);
-            dirtyVertices_[v] = stays && built_ ? 0 : 1;
-            if (dirtyVertices_[v]) {
-                ++strays[c];
-                sweep_.from.set(v, x[v]);
-                sweep_.move.set(v, move);
-            }
+                               (u.empty() || (moves * (move - expected(v))).squaredNorm() <= most);
+            dirtyVertices_[v] = 0;
+            if (isKnown && stays) continue;
+            ++strays[c];
+            setDirty(v, x[v], move);
         }
     });
     int all = 0;
@@ -103,8 +126,18 @@ int CandidateList::findStrays(std::span<const Vec3> x, std::span<const Vec3> u)
     return all;
 }
 
+void CandidateList::setDirty(std::size_t v, const Vec3& x, const Vec3& move)
+{
+    dirtyVertices_[v] = 1;
+    sweep_.from.set(v, x);
+    (isStepStart_ ? ahead_ : sweep_.move).set(v, move);
+    strayed_[v] = !isStepStart_;
+}
+
 void CandidateList::build()
 {
+    if (isStepStart_)
+        parallelFor(ahead_.size(), kGrain, [&](std::size_t v) { sweep_.move.set(v, stepsAhead_ * ahead_[v]); });
     search_.run(sweep_, dirtyVertices_, restPairs_);
     markDirtyPrimitives();
     for (CandidatePool* pool : {&edgePairs_, &facePairs_}) {
@@ -122,18 +155,23 @@ void CandidateList::markDirtyPrimitives()
         const auto any = [&](const auto& vertices) {
             return std::ranges::any_of(vertices, [&](int v) { return dirtyVertices_[v] != 0; });
         };
-        if (p < primitives_.edgeCount) dirty_[i] = any(primitives_.edges[p]);
-        else if (p < primitives_.firstFace()) dirty_[i] = dirtyVertices_[p - primitives_.firstVertex()];
-        else dirty_[i] = any(primitives_.faces[p - primitives_.firstFace()]);
+        if (p < primitives_.edgeCount)
+            dirty_[i] = any(primitives_.edges[p]);
+        else if (p < primitives_.firstFace())
+            dirty_[i] = dirtyVertices_[p - primitives_.firstVertex()];
+        else
+            dirty_[i] = any(primitives_.faces[p - primitives_.firstFace()]);
     });
 }
 
 void CandidateList::moved()
 {
     parallelFor(sweep_.from.size(), kGrain, [&](std::size_t v) {
-        sweep_.from.set(v, sweep_.from[v] + sweep_.move[v]);
+        sweep_.from.set(v, sweep_.from[v] + expected(v));
         sweep_.move.set(v, Vec3::Zero());
     });
+    if (isStepStart_ && stepsAhead_ > 0) --stepsAhead_;
+    isStepStart_ = false;
 }
 
 void CandidateList::measure(std::span<const Vec3> x)

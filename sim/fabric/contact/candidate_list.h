@@ -8,13 +8,17 @@
 
 namespace sim::contact {
 
-/// The pairs that may act or be hit, kept from move to move: only those of vertices that stray are searched anew.
-/// Whatever its past, it holds all pairs that act at x or that the move u brings near (ListMargin); others among them are inactive.
+/// The pairs that may act or be hit, kept from move to move: only those of vertices that stray are searched anew. At
+/// the start of a step they are searched along the moves of some steps ahead, as if vertices went on; where they do,
+/// the next steps find their pairs there. Whatever its past, it holds all pairs that act at x or that the move u brings
+/// near (ListMargin); others among them are inactive.
 class CandidateList {
  public:
     explicit CandidateList(const Fabric& fabric);
     CandidateList(const CandidateList&) = delete;
 
+    /// The moves covered from now on, until the fabric is moved, are those by which a step begins.
+    void beginStep();
     /// Makes the list good for where the fabric is.
     /// @return whether it had to be built
     bool coverPlace(std::span<const Vec3> x) { return cover(x, {}); }
@@ -34,7 +38,10 @@ class CandidateList {
 
  private:
     bool cover(std::span<const Vec3> x, std::span<const Vec3> u);
-    int findStrays(std::span<const Vec3> x, std::span<const Vec3> u);
+    int findStrays(std::span<const Vec3> x, std::span<const Vec3> u, int moves);
+    int stepsToLookAhead(std::span<const Vec3> u) const;
+    Vec3 expected(std::size_t v) const { return isStepStart_ ? ahead_[v] : sweep_.move[v]; }
+    void setDirty(std::size_t v, const Vec3& x, const Vec3& move);
     void build();
     void markDirtyPrimitives();
     void findRestPairs(std::span<const Vec3> rest);
@@ -42,14 +49,18 @@ class CandidateList {
     Primitives primitives_;
     PairSearch search_;
     RestPairs restPairs_;
-    std::vector<double> stray_, strayAtRest_;   ///< of each vertex (ListMargin) [cm]
+    std::vector<double> stray_, strayAtRest_;  ///< of each vertex (ListMargin) [cm]
 
     bool built_ = false;
-    Sweep sweep_;                               ///< for which each vertex's pairs were searched, moved along since
-    std::vector<char> dirtyVertices_, dirty_;   ///< of vertices, of primitives
+    Sweep sweep_;  ///< from where each vertex's pairs are known, and the move to search along
+    bool isStepStart_ = false;
+    int stepsAhead_ = 0;                       ///< whose first moves the list is good for
+    Points ahead_;                             ///< the first move that was expected of each of these steps [cm] …
+    std::vector<char> strayed_;                ///< … but not of vertices whose pairs were searched at one place since
+    std::vector<char> dirtyVertices_, dirty_;  ///< of vertices, of primitives
     CandidatePool edgePairs_{PairKind::EdgeEdge}, facePairs_{PairKind::VertexFace};
 
-    bool measured_ = false;                     ///< all pairs but the fresh ones, at measuredAt_
+    bool measured_ = false;  ///< all pairs but the fresh ones, at measuredAt_
     Points measuredAt_;
 };
 

@@ -42,6 +42,7 @@ void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> m
     p.start.assign(x.begin(), x.end());
     for (std::size_t v = 0; v < mass.size(); ++v) p.inverseMass[v] = p.list.primitives().pinned[v] ? 0.0 : 1.0 / mass[v];
     p.limiter.setMasses(p.inverseMass);
+    p.list.beginStep();
 }
 
 void FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)

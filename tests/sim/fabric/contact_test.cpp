@@ -38,7 +38,8 @@ TEST(FabricContact, PairsOfTheWeaveAreThoseOfTheDesign)
     EXPECT_EQ(sheet.edges.size(), 19800u);
     const CandidateList list(sheet);
     EXPECT_EQ(list.restPairs().partner.size(), 26460u);  // within 2 r + 0.012 cm (contact-design 1)
-    EXPECT_EQ(std::ranges::count_if(list.restPairs().distance, [](double d) { return d < 0.096; }), 7252);  // overlapping
+    EXPECT_EQ(std::ranges::count_if(list.restPairs().distance, [](double d) { return d < 0.096; }),
+              7252);  // overlapping
 }
 
 TEST(FabricContact, WeaveAtRestIsFreeOfForces)
@@ -119,7 +120,8 @@ TEST(FabricContact, GradientIsThatOfTheEnergy)
             x[pair.vertices[corner]][axis] += eps;
             return pairEnergy(distanceOf(pair, x), pair.range, stiffness);
         };
-        constexpr double kEps = 1.0e-6;  // relative error (ε / depth of the wall)² ≈ 1e-8, and of rounding 1e-16 E / (ε E')
+        constexpr double kEps =
+            1.0e-6;  // relative error (ε / depth of the wall)² ≈ 1e-8, and of rounding 1e-16 E / (ε E')
         const double scale = contacts.force[0].norm();
         for (int c = 0; c < 4; ++c)
             for (int k = 0; k < 3; ++k) {
@@ -127,8 +129,9 @@ TEST(FabricContact, GradientIsThatOfTheEnergy)
                 EXPECT_NEAR(contacts.weights[0][c] * contacts.force[0][k], slope, 1.0e-6 * scale) << gap;
             }
         const double d = distanceOf(pair, run.x);
-        const double curvature = (pairEnergy(d + kEps, pair.range, stiffness).slope - pairEnergy(d - kEps, pair.range, stiffness).slope) /
-                                 (2.0 * kEps);
+        const double curvature =
+            (pairEnergy(d + kEps, pair.range, stiffness).slope - pairEnergy(d - kEps, pair.range, stiffness).slope) /
+            (2.0 * kEps);
         EXPECT_NEAR(contacts.stiffness[0], curvature, 1.0e-6 * curvature) << gap;
     }
 }
@@ -168,7 +171,8 @@ TEST(FabricContact, FrictionOpposesSlidingAndIsBounded)
         for (int v : {2, 3}) run.x[v] += Vec3(slide, 0.0, 0.0);
         const ActiveContacts& contacts = run.active();
         ASSERT_EQ(contacts.size(), 1u);
-        const Vec3 onSecond = contacts.force[0];  // the gradient of the first side is +force: it is pushed by −force, the second by +
+        const Vec3 onSecond =
+            contacts.force[0];  // the gradient of the first side is +force: it is pushed by −force, the second by +
         const double normal = std::abs(onSecond.dot(contacts.normal[0]));
         const double mu = std::tan(run.fabric.materials[0].frictionAngle);
         EXPECT_LT(onSecond.x(), 0.0);
@@ -186,29 +190,26 @@ TEST(FabricContact, FrictionIsZeroForCommonMotion)
     for (Vec3& x : run.x) x += Vec3(0.02, -0.01, 0.03);
     const ActiveContacts& contacts = run.active();
     ASSERT_EQ(contacts.size(), 1u);
-    EXPECT_LT(contacts.force[0].cross(contacts.normal[0]).norm(), 1.0e-9 * contacts.force[0].norm());  // x + 0.02 is rounded: 1e-17 / ε
+    EXPECT_LT(contacts.force[0].cross(contacts.normal[0]).norm(),
+              1.0e-9 * contacts.force[0].norm());  // x + 0.02 is rounded: 1e-17 / ε
 }
 
-/// Pairs that act, and pairs that a move brings near, at any past of the list.
-TEST(CandidateList, HoldsAllPairsThatMatterAfterManyMotions)
-{
-    const Fabric fabric = soup(5, 50, 40);
-    const std::vector<NearPair> all = allPairs(fabric);
-    CandidateList list(fabric);
-    std::vector<Vec3> x = fabric.rest;
-    std::size_t mattered = 0;
-    const auto holds = [&](const NearPair& p) {
+/// A list with all pairs that could be in it, moved along with the fabric.
+struct WatchedList {
+    explicit WatchedList(const Fabric& fabric) : all(allPairs(fabric)), list(fabric), x(fabric.rest) {}
+
+    bool holds(const NearPair& p) const
+    {
         const CandidatePool& pool = p.kind == PairKind::EdgeEdge ? list.edgePairs() : list.facePairs();
         for (std::size_t i = 0; i < pool.size(); ++i)
             if (pool.a[i] == p.a && pool.b[i] == p.b) return true;
         return false;
-    };
-    for (unsigned step = 0; step < 60; ++step) {
-        // Moves of all sizes, some of few vertices only, so that the list is kept, mended and built anew.
-        std::vector<Vec3> u = randomMoves(fabric, std::array{0.002, 0.01, 0.05, 0.3}[step % 4], step);
-        for (std::size_t v = 0; v < u.size(); ++v)
-            if (step % 3 != 0 && v % 5 != step % 5) u[v] *= 0.02;
-        list.coverMove(x, u);
+    }
+    /// Covers the moves u, looks whether pairs are there that they bring near, and makes them.
+    /// @return whether the list had to be built
+    bool move(std::span<const Vec3> u)
+    {
+        const bool isBuilt = list.coverMove(x, u);
         for (const NearPair& p : all) {
             const auto at = [&](std::span<const Vec3> w) {
                 return std::array<Vec3, 4>{w[p.vertices[0]], w[p.vertices[1]], w[p.vertices[2]], w[p.vertices[3]]};
@@ -216,17 +217,88 @@ TEST(CandidateList, HoldsAllPairsThatMatterAfterManyMotions)
             const double floor = p.range.core + 0.15 * (p.range.reach - p.range.core);
             if (!mayComeNearer(p.kind, at(x), at(u), distanceOf(p, x), floor)) continue;
             ++mattered;
-            EXPECT_TRUE(holds(p)) << step;
+            EXPECT_TRUE(holds(p));
         }
         for (std::size_t v = 0; v < u.size(); ++v) x[v] += u[v];
         list.moved();
+        return isBuilt;
+    }
+    /// Looks whether pairs are there that act.
+    void stay()
+    {
         list.coverPlace(x);
         for (const NearPair& p : all)
             if (distanceOf(p, x) < p.range.reach) {
-                EXPECT_TRUE(holds(p)) << step;
+                EXPECT_TRUE(holds(p));
             }
     }
-    EXPECT_GT(mattered, 1000u);
+
+    std::vector<NearPair> all;
+    CandidateList list;
+    std::vector<Vec3> x;
+    std::size_t mattered = 0;
+};
+
+/// Pairs that act, and pairs that a move brings near, at any past of the list.
+TEST(CandidateList, HoldsAllPairsThatMatterAfterManyMotions)
+{
+    const Fabric fabric = soup(5, 50, 40);
+    WatchedList watched(fabric);
+    for (unsigned step = 0; step < 60; ++step) {
+        SCOPED_TRACE(step);
+        // Moves of all sizes, some of few vertices only, so that the list is kept, mended and built anew.
+        std::vector<Vec3> u = randomMoves(fabric, std::array{0.002, 0.01, 0.05, 0.3}[step % 4], step);
+        for (std::size_t v = 0; v < u.size(); ++v)
+            if (step % 3 != 0 && v % 5 != step % 5) u[v] *= 0.02;
+        watched.move(u);
+        watched.stay();
+    }
+    EXPECT_GT(watched.mattered, 1000u);
+}
+
+/// Vertices that go on as they did need no search in every step; some that are knocked off their way, or stop, do.
+TEST(CandidateList, LooksAheadAlongTheStepsToCome)
+{
+    const Fabric fabric = soup(5, 50, 40);
+    WatchedList watched(fabric);
+    std::vector<Vec3> u = randomMoves(fabric, 0.004, 0);
+    int kept = 0;
+    for (unsigned step = 0; step < 120; ++step) {
+        SCOPED_TRACE(step);
+        if (step % 20 == 10) u = randomMoves(fabric, 0.004, step);
+        if (step % 10 == 3)
+            for (std::size_t v = step % 5; v < u.size(); v += 5) u[v] *= -0.5;
+        watched.list.beginStep();
+        kept += watched.move(u) ? 0 : 1;
+        watched.stay();
+        std::vector<Vec3> correction = randomMoves(fabric, 0.0001, step);
+        if (step >= 60 && step % 8 == 1)
+            for (std::size_t v = step % 6; v < u.size(); v += 6) correction[v] *= 100.0;
+        watched.move(correction);
+        watched.stay();
+    }
+    EXPECT_GT(watched.mattered, 1000u);
+    EXPECT_GT(kept, 40);
+}
+
+/// A yarn that would pass another by is knocked before it, and goes on.
+TEST(CandidateList, WhoIsKnockedOffItsWayIsSoughtAlongItsNewOne)
+{
+    constexpr double kRadius = 0.05;
+    ContactScene scene;
+    scene.addYarn({0, 0, 0}, {0, 0, 0.4}, 1, kRadius);
+    scene.addYarn({4.4 * kRadius, -0.2, 0.2}, {4.4 * kRadius, 0.2, 0.2}, 1, kRadius);
+    scene.fabric.rest[0].y() += 20.0 * kRadius, scene.fabric.rest[1].y() += 20.0 * kRadius;
+    WatchedList watched(scene.fabric);
+    std::vector<Vec3> go(4, Vec3::Zero()), knock = go;
+    for (int v : {0, 1}) go[v].x() = 0.6 * kRadius, knock[v].y() = -20.0 * kRadius;
+    for (int step = 0; step < 7; ++step) {
+        SCOPED_TRACE(step);
+        watched.list.beginStep();
+        watched.move(go);
+        if (step == 0) watched.move(knock);
+    }
+    EXPECT_GT(watched.mattered, 0u);
 }
 
 TEST(CandidateList, HoldsNoPairTwice)
