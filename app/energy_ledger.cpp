@@ -38,7 +38,7 @@ void EnergyLedger::initial(double time, const sim::Energies& energies)
 void EnergyLedger::step(double time, const sim::StepReport& report)
 {
     for (int i = 0; i < sim::kEnergyChanges; ++i) summary_.changes.of[i] += report.energyChanges->of[i];
-    add(time, report.energies);
+    if (!report.isReflected) add(time, report.energies);
 }
 
 }  // namespace app

@@ -68,6 +68,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"iterations", report.pressure.iterations},
         {"residual", report.pressure.residual},
         {"converged", report.pressure.converged},
+        {"reflected", report.isReflected},
         {"volume_iterations", report.volume.iterations},
         {"particles", report.particles},
         {"blocks", report.blocks},
@@ -244,7 +245,7 @@ void Reports::step(const sim::State& state, const sim::StepReport& report)
 {
     if (steps_) steps_->add(stepLine(state, report));
     if (energyLedger_) energyLedger_->step(state.time, report);
-    if (energy_)
+    if (energy_ && !report.isReflected)
         energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass,
                                publishedEnergy(state.fabric, report.energies, gravity_)));
 

@@ -105,6 +105,15 @@ Energies Simulation::energies() const
     return energies;
 }
 
+/// Equal parts of what is left, none beyond the largest; two steps between which velocities are reflected are of the same length.
+double Simulation::lengthOfStep(double left, double largest) const
+{
+    constexpr double kRoundOff = 1.0e-9;  // steps may be longer by that much, so that 4e-3 s in steps of 2e-4 s are 20 and not 21
+    if (state_.reflected) return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
+    const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - kRoundOff)));
+    return left / (scene_.settings.time.reflects() ? 2.0 * std::ceil(0.5 * parts) : parts);
+}
+
 StepReport Simulation::step(double until)
 {
     const auto fail = [&](std::string_view stage, std::string_view why) {
@@ -114,10 +123,7 @@ StepReport Simulation::step(double until)
     if (!(largest >= scene_.settings.time.dtMin))
         throw fail("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: a particle moves at {:.3g} cm/s",
                                             largest, scene_.settings.time.dtMin, maxSpeed_));
-    const double left = until - state_.time;
-    // A step may be longer than the bound by round-off, so that 4e-3 s in steps of 2e-4 s are 20 and not 21.
-    const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - 1.0e-9)));
-    const double dt = left / parts;
+    const double left = until - state_.time, dt = lengthOfStep(left, largest);
     const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, maxSpeed_, dt) : 0.0;
     StepReport report;
     try {
@@ -125,7 +131,7 @@ StepReport Simulation::step(double until)
     } catch (const RunError& error) {
         throw fail("sort", error.what());
     }
-    if (parts == 1.0) state_.time = until;
+    if (dt == left) state_.time = until;
     report.cfl = cfl;
     maxSpeed_ = report.maxSpeed;
     if (!report.failure.empty()) throw fail(kStageNames[static_cast<int>(report.failedStage)], report.failure);
@@ -141,6 +147,7 @@ std::uint64_t stateHash(const State& state)
     add(&state.time, sizeof state.time);
     add(&state.step, sizeof state.step);
     add(&state.lastDt, sizeof state.lastDt);
+    add(&state.reflected, sizeof state.reflected);
     add(&liquid.count, sizeof liquid.count);
     add(liquid.mass.data(), liquid.count * sizeof(double));
     add(liquid.id.data(), liquid.count * sizeof(std::uint32_t));

@@ -31,6 +31,7 @@ class Simulation {
 
  private:
     void prepareWorkspace();
+    double lengthOfStep(double left, double largest) const;
 
     Scene scene_;
     Fabric fabric_;

@@ -12,6 +12,7 @@ struct State {
     double time = 0.0;             ///< [s]
     std::int64_t step = 0;         ///< steps taken
     double lastDt = 0.0;           ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
+    bool reflected = false;        ///< the last step was the first of two: particles hold reflected velocities
     LiquidParticles liquid;
     std::uint32_t nextId = 0;      ///< id of the next particle to be born
     BlockGrid grid;                ///< the blocks of the last step …

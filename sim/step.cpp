@@ -35,8 +35,9 @@ GatherSettings gatherSettings(const Scene& scene, const Workspace& work, double 
     settings.keep = damps ? keptOver(transfer.keepAffine, transfer, dt) : 1.0;
     if (transfer.method == TransferMethod::Flip) {
         settings.flipRatio = keptOver(transfer.flipRatio, transfer, dt);
-        settings.flipVelocity = &work.grid.flipVelocity;
+        settings.flipVelocity = &work.grid.advected;
     }
+    settings.atMidpoint = scene.settings.time.advectsAtMidpoint();
     if (settings.modes > kModesAtSurface) settings.manyModes = &work.grid.deep;
     return settings;
 }
@@ -66,26 +67,34 @@ void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockA
     });
 }
 
+/// What a step of the liquid does beside the usual.
+struct LiquidPlan {
+    bool flips = false, reflects = false, relaxes = false, corrects = false;
+    bool meetsFabric = false;  ///< is near enough to
+    bool isMixed = false;      ///< with fabric on some faces
+};
+
+/// How long weight acts on the velocities of a step [s]. With reflection they are those halfway through it: steps of any
+/// length then fall as far as they should.
+double fallTime(const TimeSettings& time, const State& state, double dt)
+{
+    return time.reflects() ? 0.5 * (state.lastDt + dt) : dt;
+}
+
 /// Give the faces behind walls the velocities that the particles in front of them read.
-void finishAtWalls(const BlockGrid& grid, double friction, bool flip, Workspace& work)
+void finishAtWalls(const BlockGrid& grid, double friction, const LiquidPlan& plan, Workspace& work)
 {
     LiquidGrid& liquid = work.grid;
     const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
         applyWalls(grid, work.obstacleField, work.obstacles, friction, work.extrapolation, valid, velocity, liquid);
     };
-    if (flip) {
-        liquid.flipValid = liquid.faces.valid;
-        apply(liquid.flipValid, liquid.flipVelocity);
+    if (plan.flips) {
+        liquid.advectedValid = liquid.faces.valid;
+        apply(liquid.advectedValid, liquid.advected);
     }
+    if (plan.reflects) apply(work.reflection.valid, work.reflection.velocity);
     apply(liquid.faces.valid, liquid.faces.velocity);
 }
-
-/// What a step of the liquid does beside the usual.
-struct LiquidPlan {
-    bool flips = false, relaxes = false, corrects = false;
-    bool meetsFabric = false;  ///< is near enough to
-    bool isMixed = false;      ///< with fabric on some faces
-};
 
 /// Of fabric that is solved for on faces.
 std::optional<FabricFaces> facesOf(const Workspace& work)
@@ -99,6 +108,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     const Settings& settings = scene.settings;
     LiquidPlan plan;
     plan.flips = settings.transfer.method == TransferMethod::Flip;
+    plan.reflects = settings.time.reflects() && !state.reflected;
+    const bool keepsAdvected = plan.flips || plan.reflects;
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
 
@@ -108,7 +119,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
     energy.sorted();
     carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
-    work.grid.resize(grid.count(), plan.flips);
+    work.grid.resize(grid.count(), keepsAdvected);
     work.grid.fullMass = work.packing * settings.liquid.density * grid.dx * grid.dx * grid.dx;
 
     if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
@@ -145,7 +156,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
     if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
     energy.toGrid();
-    divideAndAddGravity(grid, settings.gravity, dt, plan.flips, work.grid);
+    divideAndAddGravity(grid, settings.gravity, fallTime(settings.time, state, dt), keepsAdvected, work.grid);
     energy.gravity();
 
     if (plan.meetsFabric) {
@@ -180,14 +191,20 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     const Settings& settings = scene.settings;
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
+    if (plan.reflects) {
+        clock.start(Stage::Reflection);
+        report.reflection = reflect(grid, work.obstacleField, settings.solver, work.pressure, work.grid, work.reflection);
+        if (plan.isMixed) work.coupling->mixture.copyShared(work.reflection.velocity, work.grid.faces.velocity);
+    }
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
-        finishAtWalls(grid, settings.liquid.wallFriction, plan.flips, work);
+        finishAtWalls(grid, settings.liquid.wallFriction, plan, work);
         energy.after(EnergyChange::Walls);
     }
 
     clock.start(Stage::GridToParticles);
     GatherSettings gather = gatherSettings(scene, work, dt);
+    if (plan.reflects) gather.reflected = &work.reflection.velocity;
     if (plan.relaxes) gather.displacement = work.displacement.data();
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
@@ -299,6 +316,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     state.time += dt;
     ++state.step;
     state.lastDt = dt;
+    state.reflected = report.isReflected = plan.reflects;
     return report;
 }
 

@@ -6,6 +6,7 @@
 #include "sim/liquid/extrapolate.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
+#include "sim/liquid/reflection.h"
 #include "sim/liquid/volume.h"
 #include "sim/particles/relax.h"
 #include "sim/scene/scene.h"
@@ -27,6 +28,7 @@ struct Workspace {
     GatherScratch gather;
     PressureWorkspace pressure;
     ExtrapolationScratch extrapolation;
+    ReflectionWorkspace reflection;
     VolumeWorkspace volume;
     std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
     BlockArray<double> oldPressure;

@@ -22,6 +22,7 @@ enum class Stage {
     Cells,
     Pressure,
     Volume,
+    Reflection,        ///< of what advection made of the velocities, in the first of two steps
     Walls,
     GridToParticles,
     FabricCandidates,  ///< which parts of the fabric may touch within the step
@@ -37,7 +38,7 @@ enum class Stage {
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "mixture", "cells", "pressure", "volume", "walls", "grid_to_particles",
+    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "mixture", "cells", "pressure", "volume", "reflection", "walls", "grid_to_particles",
     "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
 
 /// What an iterative solve did.
@@ -96,10 +97,12 @@ struct StepReport {
     double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
     double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
     SolveReport pressure;
+    SolveReport reflection;
     SolveReport volume;                          ///< of the correction of the volume, if it ran
     FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
-    Energies energies;                           ///< at the end of the step
+    bool isReflected = false;                    ///< the first of two steps: particles hold velocities that the flow never has
+    Energies energies;                           ///< at the end of the step, of what the particles hold
     std::optional<EnergyChanges> energyChanges;  ///< where they are booked
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
     double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]

@@ -5,7 +5,7 @@
 
 namespace sim {
 
-void divideAndAddGravity(const BlockGrid& grid, const Vec3& gravity, double dt, bool flip, LiquidGrid& liquid)
+void divideAndAddGravity(const BlockGrid& grid, const Vec3& gravity, double dt, bool keepsAdvected, LiquidGrid& liquid)
 {
     parallelFor(grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
@@ -20,7 +20,7 @@ void divideAndAddGravity(const BlockGrid& grid, const Vec3& gravity, double dt, 
                 const PackMask carries = m > 0.0;
                 const Pack u = select(carries, loadPack(momentum + row) / m, broadcast(0.0));
                 wet[row >> 6] |= static_cast<std::uint64_t>(maskBits(carries)) << (row & 63);
-                if (flip) std::memcpy(liquid.flipVelocity.block(b, a) + row, &u, sizeof u);
+                if (keepsAdvected) std::memcpy(liquid.advected.block(b, a) + row, &u, sizeof u);
                 const Pack moved = select(carries, u + dt * gravity[a], u);
                 std::memcpy(velocity + row, &moved, sizeof moved);
             }

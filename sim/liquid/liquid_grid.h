@@ -9,8 +9,8 @@ namespace sim {
 struct LiquidGrid {
     FaceFields faces;
     BlockBits<3> wet;                    ///< faces that carry liquid mass
-    BlockArray<double, 3> flipVelocity;  ///< FLIP only: velocities straight after P2G [cm/s] …
-    BlockBits<3> flipValid;              ///< … and where they mean something
+    BlockArray<double, 3> advected;      ///< velocities straight after P2G, of FLIP and of steps that reflect [cm/s] …
+    BlockBits<3> advectedValid;          ///< … and where they mean something
     double fullMass = 1.0;               ///< of a face with all its room, amid liquid [g]
     BlockArray<double> fill;             ///< liquid in and around each cell relative to a cell amid liquid [-]
     BlockBits<> inside;                  ///< cells with a pressure
@@ -20,7 +20,7 @@ struct LiquidGrid {
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.
     double* scratch(int block, int kind = 0) { return faces.sums.block(block, FaceFields::kMomentum + kind); }
 
-    void resize(int blocks, bool flip)
+    void resize(int blocks, bool keepsAdvected)
     {
         faces.velocity.resize(blocks);
         faces.valid.resize(blocks);
@@ -29,7 +29,7 @@ struct LiquidGrid {
         inside.resize(blocks);
         surface.resize(blocks);
         deep.resize(blocks);
-        if (flip) flipVelocity.resize(blocks);
+        if (keepsAdvected) advected.resize(blocks);
     }
 };
 

@@ -52,14 +52,14 @@ void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, 
 /// ω u + (1 − ω) v_S through the faces of a row that lie below or above its cells.
 struct RowFlux {
     const ObstacleField& obstacles;
-    const LiquidGrid& liquid;
+    const BlockArray<double, 3>& velocity;
     const RowAccess& rows;
     int axis;
 
     Pack through(int block, int row) const
     {
         const Pack open = loadPack(obstacles.open(block, axis) + row), wall = loadPack(obstacles.wallVelocity(block, axis) + row);
-        const Pack u = loadPack(liquid.faces.velocity.block(block, axis) + row);
+        const Pack u = loadPack(velocity.block(block, axis) + row);
         return open * u + (1.0 - open) * wall;
     }
     Pack below(int j, int k) const { return through(rows.neighbours[13], cellInBlock(0, j, k)); }
@@ -72,11 +72,11 @@ struct RowFlux {
 };
 
 /// Net outflow of the cells of row (j, k), per cell face area [cm/s].
-[[gnu::always_inline]] inline Pack rowOutflow(const ObstacleField& obstacles, const LiquidGrid& liquid, const RowAccess& rows, int j, int k)
+[[gnu::always_inline]] inline Pack rowOutflow(const ObstacleField& obstacles, const BlockArray<double, 3>& velocity, const RowAccess& rows, int j, int k)
 {
     Pack out = broadcast(0.0);
     for (int a = 0; a < kAxes; ++a) {
-        const RowFlux flux{obstacles, liquid, rows, a};
+        const RowFlux flux{obstacles, velocity, rows, a};
         out += flux.above(j, k) - flux.below(j, k);
     }
     return out;
@@ -100,7 +100,7 @@ void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b,
                     coupling[a] = select(own & rowOf(inside.below[a], j, k), below, zero);
                 });
                 diagonal = select(own, diagonal, zero);
-                rhs = select(own, rowOutflow(obstacles, liquid, rows, j, k) * (-1.0 / grid.dx), zero);
+                rhs = select(own, rowOutflow(obstacles, liquid.faces.velocity, rows, j, k) * (-1.0 / grid.dx), zero);
             }
             std::memcpy(work.matrix.diagonal(b) + row, &diagonal, sizeof diagonal);
             std::memcpy(work.rhs.block(b) + row, &rhs, sizeof rhs);
@@ -146,6 +146,22 @@ SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles,
     return report;
 }
 
+void findOutflow(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
+                 BlockArray<double>& rhs)
+{
+    rhs.resize(grid.count());
+    parallelFor(grid.count(), 2, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        const RowAccess rows(grid, b);
+        for (int k = 0; k < kBlockEdge; ++k)
+            for (int j = 0; j < kBlockEdge; ++j) {
+                const PackMask own = rowOf(liquid.inside.block(b), j, k);
+                const Pack out = rowOutflow(obstacles, velocity, rows, j, k) * (-1.0 / grid.dx);
+                storePack(rhs.block(b) + cellInBlock(0, j, k), select(own, out, broadcast(0.0)));
+            }
+    });
+}
+
 double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid)
 {
     return parallelMax(grid.count(), [&](std::size_t n) {
@@ -154,7 +170,7 @@ double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, 
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
                 const PackMask inside = rowOf(liquid.inside.block(static_cast<int>(n)), j, k);
-                const Pack out = absPack(select(inside, rowOutflow(obstacles, liquid, rows, j, k), broadcast(0.0)));
+                const Pack out = absPack(select(inside, rowOutflow(obstacles, liquid.faces.velocity, rows, j, k), broadcast(0.0)));
                 for (int l = 0; l < kLanes; ++l) largest = std::max(largest, out[l] / grid.dx);
             }
         return largest;

@@ -29,6 +29,10 @@ void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, co
 SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, PressureWorkspace& work,
                           LiquidGrid& liquid, BlockArray<double>& pressure);
 
+/// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S) [1/s].
+void findOutflow(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
+                 BlockArray<double>& rhs);
+
 /// Faces are taken to be at least this full, for the sake of the conditioning.
 inline constexpr double kLeastFill = 0.01;
 

@@ -21,6 +21,20 @@ inline std::span<const Choice<TimeMode>> choicesOf(TimeMode)
     return kAll;
 }
 
+inline std::span<const Choice<TimeIntegrator>> choicesOf(TimeIntegrator)
+{
+    static constexpr Choice<TimeIntegrator> kAll[] = {{"plain", TimeIntegrator::Plain},
+                                                      {"reflected", TimeIntegrator::Reflected}};
+    return kAll;
+}
+
+inline std::span<const Choice<Advection>> choicesOf(Advection)
+{
+    static constexpr Choice<Advection> kAll[] = {
+        {"auto", Advection::ByIntegrator}, {"euler", Advection::Euler}, {"midpoint", Advection::Midpoint}};
+    return kAll;
+}
+
 inline std::span<const Choice<TransferMethod>> choicesOf(TransferMethod)
 {
     static constexpr Choice<TransferMethod> kAll[] = {{"pic", TransferMethod::Pic},
@@ -61,8 +75,8 @@ void describe(V& v, TimeSettings& t)
     v.number("dt_min", t.dtMin, Quantity::Time, Range::above(0.0),
              "A run that needs smaller steps stops with a message");
     v.require(t.dtMin <= t.dt, "dt_min", "must not be above time.dt");
-    v.onlyRuns("integrator", "plain", {"reflected"}, "Order of the pressure and advection stages");
-    v.onlyRuns("advection", "euler", {"midpoint"}, "How particles follow the velocity");
+    v.choice("integrator", t.integrator, "How advection and pressure take turns");
+    v.choice("advection", t.advection, "How particles follow the velocity; auto: midpoint with reflected, else euler");
 }
 
 template <class V>

@@ -31,7 +31,8 @@ struct Context {
     GatherScratch& scratch;
     Vec3 origin;
     double dx;
-    const GatherTile& tile;
+    const GatherTile& tile;      ///< of the velocities whose modes are gathered
+    const GatherTile& moving;    ///< of those that the particles move with
     const GatherTile* flipTile;  ///< of the old velocities, or null
     const GatherTile* displacementTile;  ///< or null
     int modes;                   ///< N_r
@@ -96,6 +97,39 @@ template <int kAxis>
     });
 }
 
+/// Velocity and gradient times the cell size that move the particles at x.
+struct Motion {
+    Pack velocity[3], slope[3][3];
+};
+
+template <class Set>
+[[gnu::always_inline]] inline void setMotion(int axis, const Coefficients<Set::kFactors>& c, Motion& motion)
+{
+    motion.velocity[axis] = meanVelocity<Set>(c);
+    if constexpr (Set::kFactors > 1) {
+        motion.slope[axis][0] = c[1][0][0];
+        motion.slope[axis][1] = c[0][1][0];
+        motion.slope[axis][2] = c[0][0][1];
+    }
+}
+
+/// Of particles that do not get the modes of what moves them.
+[[gnu::noinline]] Motion gatherMotion(const Context& ctx, int node, const Pack (&x)[3])
+{
+    Motion motion;
+    Operators<2> op[3];
+    for (int a = 0; a < kAxes; ++a) {
+        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        setOperators<2, false>(inCells - floorPack(inCells), op[a]);
+    }
+    unroll<3>([&](auto a) {
+        Coefficients<2> c;
+        contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c);
+        setMotion<ModeSet<4>>(a, c, motion);
+    });
+    return motion;
+}
+
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
 constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
@@ -121,21 +155,32 @@ template <class Set, int kModes, bool kFold, class Rows>
 
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
+    const Motion motion = [&] {
+        if (ctx.settings.reflected != nullptr || (kModes < 4 && ctx.settings.atMidpoint)) return gatherMotion(ctx, node, x);
+        Motion own;
+        for (int a = 0; a < kAxes; ++a) setMotion<Set>(a, c[a], own);
+        return own;
+    }();
     if (ctx.displacementTile != nullptr) displace(ctx, node, x);
-    Pack speedSquared = zero, xi[3];
+    Pack speedSquared = zero, pathSquared = zero, xi[3];
     for (int a = 0; a < kAxes; ++a) {
-        const Pack v = meanVelocity<Set>(c[a]);
-        x[a] += ctx.settings.dt * v;
+        Pack path = motion.velocity[a];
+        if (ctx.settings.atMidpoint)
+            for (int b = 0; b < kAxes; ++b) path += (0.5 * ctx.settings.dt / ctx.dx) * motion.slope[a][b] * motion.velocity[b];
+        x[a] += ctx.settings.dt * path;
         if (ctx.settings.displacement != nullptr) x[a] += loadPack(ctx.settings.displacement[a].data() + s);
         storeFirst(particles.x[a].data() + s, x[a], n);
         xi[a] = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
-        const Pack carried = ctx.flipTile != nullptr ? loadPack(rows.at(a, 0, s)) : v;
+        const Pack carried = ctx.flipTile != nullptr ? loadPack(rows.at(a, 0, s)) : meanVelocity<Set>(c[a]);
         speedSquared += carried * carried;
+        pathSquared += path * path;
     }
     speedSquared = select(lanes, speedSquared, zero);
+    pathSquared = select(lanes, pathSquared, zero);
     sums.kinetic += mass * speedSquared;
     // The comparison is false for a NaN, which must not be lost.
-    sums.maxSpeedSquared = select(speedSquared < sums.maxSpeedSquared, sums.maxSpeedSquared, speedSquared);
+    for (const Pack& squared : {speedSquared, pathSquared})
+        sums.maxSpeedSquared = select(squared < sums.maxSpeedSquared, sums.maxSpeedSquared, squared);
     if constexpr (kModes > 1) {
         Pack modal = zero;
         unroll<3>([&](auto axis) {
@@ -210,11 +255,12 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
         parallelFor(order.occupied.size(), [&](std::size_t n) {
             const int block = order.occupied[n];
             const OccupiedBox box(order.cells(block));
-            GatherTile tile, flipTile, displacementTile;
-            loadTile(faces.velocity, grid, block, box, tile);
+            GatherTile tile, moving, flipTile, displacementTile;
+            loadTile(settings.reflected ? *settings.reflected : faces.velocity, grid, block, box, tile);
+            if (settings.reflected != nullptr) loadTile(faces.velocity, grid, block, box, moving);
             if (settings.flipVelocity != nullptr) loadTile(*settings.flipVelocity, grid, block, box, flipTile);
             if (settings.faceDisplacement != nullptr) loadTile(*settings.faceDisplacement, grid, block, box, displacementTile);
-            const Context ctx{settings, particles, scratch, grid.origin, grid.dx, tile, settings.flipVelocity ? &flipTile : nullptr,
+            const Context ctx{settings, particles, scratch, grid.origin, grid.dx, tile, settings.reflected ? moving : tile, settings.flipVelocity ? &flipTile : nullptr,
                               settings.faceDisplacement ? &displacementTile : nullptr, settings.modes};
             if (kModes == 27 && settings.modes == 27)
                 scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(order, block, box, ctx);

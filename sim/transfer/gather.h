@@ -18,6 +18,10 @@ struct GatherSettings {
 
     /// FLIP: the face velocities straight after P2G, before any force; else null.
     const BlockArray<double, 3>* flipVelocity = nullptr;
+    /// Velocities of the faces whose modes the particles get, where these are not those that they move with; else null.
+    const BlockArray<double, 3>* reflected = nullptr;
+    /// Particles move with their velocity where it will have taken them in half the step, by the linear modes.
+    bool atMidpoint = false;
     /// Displacements of the particles to add to the positions [cm], one array per axis; null where there are none.
     const AlignedArray<double>* displacement = nullptr;
     /// Displacements on the faces [cm], interpolated at the old positions and added to the new ones; null where there are none.
@@ -31,7 +35,8 @@ struct GatherSettings {
 /// liquid at rest: 11 modes at CFL 1 reach twice the energy that the dam break began with after 13 s.
 inline constexpr int kModesAtSurface = 8;
 
-/// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speed [cm²/s²].
+/// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speed [cm²/s²], of
+/// the particles or of their move.
 struct GatherSums {
     double kinetic = 0.0, modal = 0.0, maxSpeedSquared = 0.0;
 };

@@ -37,6 +37,20 @@ TEST(WholeStep, SameBitsForAnyThreadCount)
     }
 }
 
+TEST(WholeStep, ReflectsWithTheSameBitsForAnyThreadCount)
+{
+    Scene scene = splash(kPoly8);
+    scene.settings.time.integrator = TimeIntegrator::Reflected;
+    const auto hashAfter30Steps = [&] {
+        Simulation simulation(scene);
+        for (int step = 0; step < 30; ++step) simulation.step(1.0e9);
+        return stateHash(simulation.state());
+    };
+    const std::uint64_t one = onThreads(1, hashAfter30Steps);
+    EXPECT_EQ(one, onThreads(2, hashAfter30Steps));
+    EXPECT_EQ(one, onThreads(8, hashAfter30Steps));
+}
+
 TEST(WholeStep, RunsOnlyTheStagesItNeeds)
 {
     Scene scene;
@@ -47,7 +61,7 @@ TEST(WholeStep, RunsOnlyTheStagesItNeeds)
     source.emissions.push_back({});
     scene.sources.push_back(source);
     const StepReport report = Simulation(scene).step(1.0e9);
-    for (Stage stage : {Stage::Emit, Stage::Obstacles, Stage::Relax, Stage::Volume, Stage::Walls})
+    for (Stage stage : {Stage::Emit, Stage::Obstacles, Stage::Relax, Stage::Volume, Stage::Reflection, Stage::Walls})
         EXPECT_FALSE(report.stageRan[static_cast<int>(stage)]);
     for (Stage stage : {Stage::Sort, Stage::ParticlesToGrid, Stage::Cells, Stage::Pressure, Stage::GridToParticles})
         EXPECT_TRUE(report.stageRan[static_cast<int>(stage)]) << kStageNames[static_cast<int>(stage)];

@@ -220,11 +220,11 @@ time: {mode: [fixed]}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
      "bad.yaml:2: time.mode: needs one word of fixed, cfl, adaptive, not a list of 1"},
-    {"LaterIntegrator", R"(grid: {cell: 0.1}
-time: {integrator: reflected}
+    {"UnknownIntegrator", R"(grid: {cell: 0.1}
+time: {integrator: reflect}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "bad.yaml:2: time.integrator: reflected does not run in this version; write plain"},
+     "bad.yaml:2: time.integrator: \"reflect\" is unknown (did you mean \"reflected\"?)"},
     {"LaterViscosity", R"(grid: {cell: 0.1}
 liquid: {solve_viscosity: true}
 )",

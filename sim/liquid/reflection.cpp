@@ -1,0 +1,36 @@
+#include "sim/liquid/reflection.h"
+
+#include "sim/core/parallel.h"
+
+namespace sim {
+
+namespace {
+
+constexpr double kTolerance = 1.0e-3;  ///< of the solve: it moves second-order errors only
+
+}  // namespace
+
+SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver,
+                    PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work)
+{
+    findOutflow(grid, obstacles, liquid, liquid.advected, work.rhs);
+    work.potential.resize(grid.count());
+    parallelFor(grid.count(), 8,
+                [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
+    const SolveReport report =
+        pressure.solver.solveAgain(grid, pressure.matrix, work.rhs, kTolerance, solver.maxIterations, work.potential);
+
+    work.velocity = liquid.faces.velocity;
+    parallelFor(grid.count(), 2, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        for (int a = 0; a < kAxes; ++a)
+            forEachPressureFace(grid, obstacles, pressure, work.potential, b, a, [&](int row, PackMask, Pack change) {
+                double* velocity = work.velocity.block(b, a) + row;
+                storePack(velocity, loadPack(velocity) + change);
+            });
+    });
+    work.valid = liquid.faces.valid;
+    return report;
+}
+
+}  // namespace sim

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sim/liquid/pressure.h"
+
+namespace sim {
+
+struct ReflectionWorkspace {
+    BlockArray<double, 3> velocity;  ///< r [cm/s] …
+    BlockBits<3> valid;              ///< … and where it means something
+    BlockArray<double> rhs, potential;
+};
+
+/// Advection-reflection after Zehnder, Narain and Thomaszewski 2018, for liquid with a surface and with weight
+/// (time-splitting 2): r = u + (P(u*) − u*), with u the velocities that solvePressure just left and u* those straight
+/// after P2G. Only the divergence that advection made is reflected: what gravity and its pressure do to u stays as it
+/// is. Particles that gather r and move with u make of this step and the next, a plain one of the same length, a
+/// method of second order.
+SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver,
+                    PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work);
+
+}  // namespace sim

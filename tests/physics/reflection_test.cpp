@@ -1,0 +1,168 @@
+// Advection-reflection against the plain splitting (time-splitting 1, 2).
+#include "tests/physics/runs.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+Scene reflecting(Scene scene)
+{
+    scene.settings.time.integrator = TimeIntegrator::Reflected;
+    return scene;
+}
+
+/// Relative error of the faces' velocities after one turnover of a Taylor-Green vortex 16 cells across, in a full box.
+double vortexError(const Transfer& transfer, double cfl, TimeIntegrator integrator)
+{
+    constexpr double kCells = 16.0, kDepth = 4.0, kCell = kPi / kCells, kEnd = 2.0 * kPi;
+    Scene scene = tankScene(transfer, kCell, {kCells, kCells, kDepth}, {0.0, 0.0, 0.0}, {kCells, kCells, kDepth});
+    scene.settings.gravity = Vec3::Zero();
+    scene.settings.liquid.full = true;
+    scene.settings.liquid.volume.rate = 0.0;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = cfl * kCell;
+    scene.settings.time.integrator = integrator;
+    const auto vortex = [](const Vec3& x) {
+        return Vec3(std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0);
+    };
+    Simulation simulation = moving(scene, vortex);
+    while (simulation.state().time < kEnd) simulation.step(kEnd);
+
+    const BlockGrid& grid = simulation.state().grid;
+    double error = 0.0, size = 0.0;
+    for (int b = 0; b < grid.count(); ++b)
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                const Vec3i inBlock(c & 7, (c >> 3) & 7, c >> 6), cell = kBlockEdge * grid.coords(b) + inBlock;
+                if (cell.minCoeff() < 0 || cell.x() >= kCells || cell.y() >= kCells || cell.z() >= kDepth) continue;
+                const Vec3 x = kCell * (cell.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
+                const double exact = vortex(x)[a], found = simulation.workspace().grid.faces.velocity.block(b, a)[c];
+                error += (found - exact) * (found - exact);
+                size += exact * exact;
+            }
+    std::printf("%s, CFL %.3f, %s: error of the vortex %.4f\n", transfer.name.c_str(), cfl,
+                integrator == TimeIntegrator::Plain ? "plain" : "reflected", std::sqrt(error / size));
+    return std::sqrt(error / size);
+}
+
+TEST(Reflection, AThirdOfTheErrorInAnEighthOfTheSteps)
+{
+    for (const Transfer& transfer : {kApic, kPoly8, kPoly27})
+        EXPECT_LT(vortexError(transfer, 1.0, TimeIntegrator::Reflected),
+                  vortexError(transfer, 0.125, TimeIntegrator::Plain) / 3.0)
+            << transfer.name;
+}
+
+/// Part of its energy that a dam break has when its front has come back from the wall.
+double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integrator)
+{
+    constexpr double kEnd = 0.6;
+    Scene scene = tankScene(transfer, 1.0, {64.0, 60.0, 4.0}, {0.0, 0.0, 0.0}, {24.0, 32.0, 4.0});
+    scene.settings.time.cfl = cfl;
+    scene.settings.time.integrator = integrator;
+    Simulation simulation(scene);
+    const double start = simulation.energies().total();
+    StepReport report;
+    while (simulation.state().time < kEnd) report = simulation.step(kEnd);
+    std::printf("%s, CFL %.2f, %s: the dam break keeps %.4f\n", transfer.name.c_str(), cfl,
+                integrator == TimeIntegrator::Plain ? "plain" : "reflected", report.energies.total() / start);
+    return report.energies.total() / start;
+}
+
+TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
+{
+    for (const Transfer& transfer : {kApic, kPoly8, kPoly27})
+        EXPECT_GT(damBreakKeeps(transfer, 1.0, TimeIntegrator::Reflected),
+                  damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - (transfer.modes == 27 ? 0.015 : 0.0))
+            << transfer.name;
+}
+
+/// A standing wave half a wavelength long: its energy, relative to all there is, at every quarter of a period.
+std::vector<double> sloshingEnergies(const Transfer& transfer, double cfl, TimeIntegrator integrator)
+{
+    constexpr double kLength = 16.0, kDepth = 16.0;
+    Scene scene = tankScene(transfer, 1.0, {kLength, 2.0 * kDepth, 4.0}, {0.0, 0.0, 0.0}, {kLength, kDepth, 4.0});
+    scene.settings.time.cfl = cfl;
+    scene.settings.time.integrator = integrator;
+    const double k = kPi / kLength, omega = std::sqrt(kEarthGravity * k * std::tanh(k * kDepth));
+    const double period = 2.0 * kPi / omega, speed = 0.04 * kLength * omega / std::sinh(k * kDepth);
+    Simulation simulation = moving(scene, [&](const Vec3& x) {
+        return Vec3(-speed * std::sin(k * x.x()) * std::cosh(k * x.y()),
+                    speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0);
+    });
+    const double start = simulation.energies().total();
+    std::vector<double> energies;
+    for (int quarter = 1; quarter <= 6; ++quarter) {
+        StepReport report;
+        while (simulation.state().time < 0.25 * quarter * period) report = simulation.step(0.25 * quarter * period);
+        energies.push_back(report.energies.total() / start);
+    }
+    return energies;
+}
+
+TEST(Reflection, LeavesSloshingAsItIs)
+{
+    for (const Transfer& transfer : {kApic, kPoly8, kPoly27}) {
+        const std::vector<double> plain = sloshingEnergies(transfer, 0.5, TimeIntegrator::Plain),
+                                  reflected = sloshingEnergies(transfer, 0.5, TimeIntegrator::Reflected);
+        for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(reflected[i], plain[i], 3.0e-4) << transfer.name;
+    }
+}
+
+Vec3 centreOfMass(const State& state)
+{
+    Vec3 sum = Vec3::Zero();
+    double mass = 0.0;
+    for (std::size_t p = 0; p < state.liquid.count; ++p) {
+        sum += state.liquid.mass[p] * state.liquid.position(p);
+        mass += state.liquid.mass[p];
+    }
+    return sum / mass;
+}
+
+/// Liquid that falls freely goes g t²/2 in steps of any lengths.
+TEST(Reflection, FallsAsFarAsItShould)
+{
+    Scene scene;
+    scene.settings.cell = 1.0;
+    scene.settings.time.mode = TimeMode::Cfl;
+    scene.settings.time.dt = 1.0;
+    scene.settings.time.cfl = 0.7;
+    scene.settings.liquid.volume.rate = 0.0;
+    SourceSettings source;
+    source.shape = Shape::ball(Vec3::Zero(), 3.0);
+    source.emissions.push_back({});
+    scene.sources.push_back(source);
+    Simulation simulation(reflecting(scene));
+    const Vec3 start = centreOfMass(simulation.state());
+    while (simulation.state().time < 0.2) simulation.step(0.2);
+    const Vec3 fall = centreOfMass(simulation.state()) - start, expected = 0.5 * 0.2 * 0.2 * scene.settings.gravity;
+    EXPECT_LT((fall - expected).norm(), 1.0e-9 * expected.norm());
+}
+
+/// Two steps of one length make a cycle, and a cycle ends where the caller wants a picture.
+TEST(Reflection, CyclesEndAtFrames)
+{
+    Simulation simulation(reflecting(coarseDamBreak(kPoly8)));
+    int frames = 0;
+    double first = 0.0;
+    for (int step = 0; step < 100; ++step) {
+        const double frame = 0.02 * (frames + 1);
+        const StepReport report = simulation.step(frame);
+        EXPECT_EQ(report.isReflected, step % 2 == 0);
+        EXPECT_EQ(report.stageRan[static_cast<int>(Stage::Reflection)], report.isReflected);
+        if (report.isReflected)
+            first = report.dt;
+        else
+            EXPECT_NEAR(report.dt, first, 1.0e-12);
+        if (simulation.state().time < frame) continue;
+        EXPECT_FALSE(report.isReflected);
+        EXPECT_EQ(simulation.state().time, frame);
+        ++frames;
+    }
+    EXPECT_GT(frames, 5);
+}
+
+}  // namespace
+}  // namespace sim::test
