@@ -4,6 +4,8 @@
 #include "sim/core/parallel.h"
 #include "sim/particles/seed.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -68,6 +70,21 @@ void addParticles(std::span<const Vec3> positions, double mass, const Vec3& velo
     state.nextId += static_cast<std::uint32_t>(positions.size());
 }
 
+/// Gives the particles from `first` on the velocities of the field, and what modes they have its gradient.
+void addField(const VelocityField& field, std::size_t first, State& state)
+{
+    LiquidParticles& liquid = state.liquid;
+    const double dx = state.grid.dx;
+    for (std::size_t p = first; p < liquid.count; ++p) {
+        const Vec3 x = liquid.position(p), velocity = field.at(x);
+        for (int a = 0; a < kAxes; ++a) liquid.mode(a, 0)[p] += velocity[a];
+        if (liquid.modeCount < 4) continue;
+        const Mat3 gradient = field.gradient(x, 1.0e-4 * dx);
+        for (int a = 0; a < kAxes; ++a)
+            for (int b = 0; b < kAxes; ++b) liquid.mode(a, 1 + b)[p] += dx * gradient(a, b);
+    }
+}
+
 /// The first of the seeds, until a volume is reached: the last one may pass it.
 std::span<const Vec3> upTo(const Seeds& seeds, double volume)
 {
@@ -109,7 +126,13 @@ void emitFrom(const Scene& scene, std::size_t source, const Emission& emission, 
                          " cm, inside an obstacle, or full already");
     }
     const auto positions = upTo(seeds, emission.maxVolume - state.emittedVolume[source]);
+    const std::size_t before = state.liquid.count;
     addParticles(positions, density * seeds.volume, emission.velocity, state);
+    try {
+        if (settings.velocityField) addField(*settings.velocityField, before, state);
+    } catch (const VelocityField::Mistake& mistake) {
+        throw InputError(fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formulas()[mistake.component], mistake.what));
+    }
     const double volume = static_cast<double>(positions.size()) * seeds.volume;
     state.emittedVolume[source] += volume;
     state.ledger.emittedMass += density * volume;

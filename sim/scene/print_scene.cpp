@@ -31,6 +31,12 @@ void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
     w.line("- name", Node::scalar(source.name, {}).flow(),
            fmt::format("about {:.4g} cm^3 of liquid, {}", volume, boundsText(source.shape)));
     w.line("  shape", source.shapeText, "[cm]");
+    if (source.velocityField) {
+        Node formulas;
+        formulas.kind = Node::Kind::List;
+        for (const std::string& formula : source.velocityField->formulas()) formulas.items.push_back(Node::scalar(formula, {}));
+        w.line("  velocity_field", formulas.flow(), "[cm/s] of x, y, z [cm]");
+    }
     w.below("  fill", "", [&](SectionWriter& inner) {
         inner.indentBy(1);
         describe(inner, source.fill);

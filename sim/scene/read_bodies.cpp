@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sim {
 
 namespace {
@@ -36,6 +38,19 @@ std::vector<Emission> readEmissions(const Node& source, const std::string& path,
     return all;
 }
 
+VelocityField readField(const Node& node, const std::string& path)
+{
+    const std::vector<std::string> formulas = readTexts(node, path);
+    if (formulas.size() != kAxes)
+        fail(node.place, fmt::format("{}: needs three formulas of x, y, z like [\"-y\", \"x\", \"0\"], not {}", path, formulas.size()));
+    if (node.place.source->isSi) fail(node.place, path + ": knows centimetres only; write the file in units: cgs");
+    try {
+        return VelocityField({formulas[0], formulas[1], formulas[2]});
+    } catch (const VelocityField::Mistake& mistake) {
+        fail(node.place, fmt::format("{}: {}: {}", path, inQuotes(formulas[mistake.component]), mistake.what));
+    }
+}
+
 SourceSettings readSource(const Node& node, const std::string& name, const std::string& path, const Settings& settings)
 {
     SourceSettings source;
@@ -48,11 +63,16 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
         v.needs("shape", "what the liquid fills, like shape: {ball: {center: [0, 5, 0], radius: 1}}");
         v.other("shape", "");
         v.vector("velocity", initial.velocity, Quantity::Velocity, "");
+        v.other("velocity_field", "");
         v.section("fill", source.fill, "");
         v.other("emit", "");
     });
+    if (const Node* field = node.find("velocity_field")) source.velocityField = readField(*field, joinPath(path, "velocity_field"));
     if (source.fill.spacing == 0.0) source.fill.spacing = settings.liquid.particleSpacing;
     source.emissions = readEmissions(node, path, initial);
+    const bool isJet = std::ranges::any_of(source.emissions, [](const Emission& e) { return e.from != e.to; });
+    if (source.velocityField && isJet)
+        fail(node.find("velocity_field")->place, path + ".velocity_field: goes without emit: it is that of the initial body");
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);
     source.shape = std::move(shape.shape);
     source.shapeText = std::move(shape.text);

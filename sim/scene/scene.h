@@ -2,6 +2,7 @@
 
 #include "sim/fabric/piece.h"
 #include "sim/scene/motion.h"
+#include "sim/scene/velocity_field.h"
 #include "sim/settings.h"
 #include "sim/shapes/shape.h"
 
@@ -35,6 +36,7 @@ struct SourceSettings {
     std::vector<Emission> emissions;  ///< at least one
     std::string where;                ///< "drop.yaml:14", for messages
     std::string shapeText;            ///< the shape as a scene says it, in cgs, on one line
+    std::optional<VelocityField> velocityField;  ///< of the initial body, beside the emission's velocity
 };
 
 struct ObstacleSettings {

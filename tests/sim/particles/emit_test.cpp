@@ -47,6 +47,47 @@ void expectLedgerIsExact(const Scene& scene, const State& s)
     EXPECT_EQ(s.nextId, s.liquid.count);
 }
 
+/// Velocities of a formula, and its gradient in the modes that hold one.
+TEST(Emit, ABodyMovesByItsFormulas)
+{
+    for (const int modes : {1, 4, 8}) {
+        Emission emission;
+        emission.velocity = {1.0, 2.0, 3.0};
+        Scene scene = sceneWith(Shape::ball(Vec3(0.1, 0.2, 0.3), 1.0), emission);
+        scene.sources[0].velocityField = VelocityField({"3 * y - x", "sin(pi * x) * z", "x > 0 ? 2 : -1"});
+        State s;
+        s.grid.dx = scene.settings.cell;
+        s.liquid.modeCount = modes;
+        emitLiquid(scene, s, 0.0, 0.0);
+        ASSERT_GT(s.liquid.count, 100u);
+        for (std::size_t p = 0; p < s.liquid.count; ++p) {
+            const Vec3 x = s.liquid.position(p);
+            const Vec3 expected(1.0 + 3.0 * x.y() - x.x(), 2.0 + std::sin(kPi * x.x()) * x.z(), 3.0 + (x.x() > 0.0 ? 2.0 : -1.0));
+            EXPECT_LT((s.liquid.velocity(p) - expected).norm(), 1e-12);
+            if (modes < 4 || std::abs(x.x()) < 1.0e-3) continue;
+            const Mat3 gradient = (Mat3() << -1.0, 3.0, 0.0, kPi * std::cos(kPi * x.x()) * x.z(), 0.0, std::sin(kPi * x.x()), 0.0, 0.0, 0.0).finished();
+            for (int a = 0; a < kAxes; ++a)
+                for (int b = 0; b < kAxes; ++b) EXPECT_NEAR(s.liquid.mode(a, 1 + b)[p], s.grid.dx * gradient(a, b), 1e-7);
+        }
+    }
+}
+
+TEST(Emit, AFormulaWithoutAValueIsNamed)
+{
+    Scene scene = sceneWith(Shape::ball(Vec3::Zero(), 1.0), Emission());
+    scene.sources[0].velocityField = VelocityField({"0", "1 / (x - x)", "0"});
+    State s;
+    s.grid.dx = scene.settings.cell;
+    try {
+        emitLiquid(scene, s, 0.0, 0.0);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("pour.yaml: source 1 \"jet\" velocity_field: \"1 / (x - x)\": has no finite value at ("),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(Emit, ABodyIsLaidOnceAndWhole)
 {
     Emission emission;

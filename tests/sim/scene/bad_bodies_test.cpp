@@ -25,6 +25,23 @@ liquid:
     - name: drop
 )",
      "bad.yaml:4: liquid.sources.drop.shape is missing; it is what the liquid fills, like shape: {ball: {center: [0, 5, 0], radius: 1}}"},
+    {"VelocityFieldIsNoFormula", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0,0,0], radius: 1}}, velocity_field: ["-y", "2 * w", "0"]}]}
+)",
+     "bad.yaml:2: liquid.sources.0.velocity_field: \"2 * w\": Unexpected token \"w\" found at position 4."},
+    {"VelocityFieldOfTwo", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0,0,0], radius: 1}}, velocity_field: ["-y", "x"]}]}
+)",
+     "bad.yaml:2: liquid.sources.0.velocity_field: needs three formulas of x, y, z like [\"-y\", \"x\", \"0\"], not 2"},
+    {"VelocityFieldOfAJet", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0,0,0], radius: 1}}, velocity_field: ["-y", "x", "0"], emit: [{to: 1}]}]}
+)",
+     "bad.yaml:2: liquid.sources.0.velocity_field: goes without emit: it is that of the initial body"},
+    {"VelocityFieldInMetres", R"(units: si
+grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0,0,0], radius: 1}}, velocity_field: ["-y", "x", "0"]}]}
+)",
+     "bad.yaml:3: liquid.sources.0.velocity_field: knows centimetres only; write the file in units: cgs"},
     {"SourceNamesTwice", R"(grid: {cell: 0.1}
 liquid:
   sources:

@@ -199,4 +199,16 @@ TEST(PrintScene, SaysUnitsAndHelp)
     EXPECT_NE(std::string::npos, text.find("cm^3 of liquid"));
 }
 
+TEST(PrintScene, FormulasReadBack)
+{
+    expectRoundTrip(sim::sceneFileFromText(R"(
+grid: {cell: 0.1}
+liquid:
+  sources:
+    - shape: {ball: {center: [0, 0, 0], radius: 1}}
+      velocity_field: ["-y", "x > 0 ? sin(2 * x) : 3e-1 * z^2", 0]
+)",
+                                           "formulas.yaml"));
+}
+
 }  // namespace
