@@ -39,7 +39,7 @@ struct Context {
 };
 
 struct LaneSums {
-    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0);
+    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
 };
 
 /// Gather one component of n ≤ 8 particles starting at s: monomials, in c and in the particles' rows.
@@ -179,8 +179,8 @@ template <class Set, int kModes, bool kFold, class Rows>
     pathSquared = select(lanes, pathSquared, zero);
     sums.kinetic += mass * speedSquared;
     // The comparison is false for a NaN, which must not be lost.
-    for (const Pack& squared : {speedSquared, pathSquared})
-        sums.maxSpeedSquared = select(squared < sums.maxSpeedSquared, sums.maxSpeedSquared, squared);
+    sums.maxSpeedSquared = select(speedSquared < sums.maxSpeedSquared, sums.maxSpeedSquared, speedSquared);
+    sums.maxPathSquared = select(pathSquared < sums.maxPathSquared, sums.maxPathSquared, pathSquared);
     if constexpr (kModes > 1) {
         Pack modal = zero;
         unroll<3>([&](auto axis) {
@@ -197,6 +197,12 @@ template <class Set, int kModes, bool kFold, class Rows>
         });
         sums.modal += mass * select(lanes, modal, zero);
     }
+}
+
+/// a unless b is larger: a NaN in a is not lost.
+double larger(double a, double b)
+{
+    return a < b ? b : a;
 }
 
 template <class Set, int kModes, bool kFold>
@@ -230,8 +236,10 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
     rows.finish(order.end(block));
     sums.kinetic += 0.5 * sumLanes(lanes.kinetic);
     sums.modal += 0.5 * sumLanes(lanes.modal);
-    for (int l = 0; l < kLanes; ++l)
-        sums.maxSpeedSquared = lanes.maxSpeedSquared[l] < sums.maxSpeedSquared ? sums.maxSpeedSquared : lanes.maxSpeedSquared[l];
+    for (int l = 0; l < kLanes; ++l) {
+        sums.maxSpeedSquared = larger(lanes.maxSpeedSquared[l], sums.maxSpeedSquared);
+        sums.maxPathSquared = larger(lanes.maxPathSquared[l], sums.maxPathSquared);
+    }
     return sums;
 }
 
@@ -272,7 +280,8 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
     for (const GatherSums& s : scratch.perBlock) {
         total.kinetic += s.kinetic;
         total.modal += s.modal;
-        total.maxSpeedSquared = s.maxSpeedSquared < total.maxSpeedSquared ? total.maxSpeedSquared : s.maxSpeedSquared;
+        total.maxSpeedSquared = larger(s.maxSpeedSquared, total.maxSpeedSquared);
+        total.maxPathSquared = larger(s.maxPathSquared, total.maxPathSquared);
     }
     return total;
 }

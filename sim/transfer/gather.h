@@ -35,10 +35,10 @@ struct GatherSettings {
 /// liquid at rest: 11 modes at CFL 1 reach twice the energy that the dam break began with after 13 s.
 inline constexpr int kModesAtSurface = 8;
 
-/// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speed [cm²/s²], of
-/// the particles or of their move.
+/// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speeds [cm²/s²].
 struct GatherSums {
     double kinetic = 0.0, modal = 0.0, maxSpeedSquared = 0.0;
+    double maxPathSquared = 0.0;  ///< of the mean speeds along the particles' moves
 };
 
 struct GatherScratch {

@@ -54,27 +54,34 @@ TEST(Reflection, AThirdOfTheErrorInAnEighthOfTheSteps)
             << transfer.name;
 }
 
-/// Part of its energy that a dam break has when its front has come back from the wall.
+/// Part of its energy that a dam break has, on average from the front's arrival at the far wall to its fall back: at
+/// one time it differs by half a percent between any two runs.
 double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integrator)
 {
-    constexpr double kEnd = 0.6;
     Scene scene = tankScene(transfer, 1.0, {64.0, 60.0, 4.0}, {0.0, 0.0, 0.0}, {24.0, 32.0, 4.0});
     scene.settings.time.cfl = cfl;
     scene.settings.time.integrator = integrator;
     Simulation simulation(scene);
     const double start = simulation.energies().total();
-    StepReport report;
-    while (simulation.state().time < kEnd) report = simulation.step(kEnd);
+    constexpr int kSamples = 15;
+    double sum = 0.0;
+    for (int sample = 0; sample < kSamples; ++sample) {
+        const double time = 0.25 + 0.02 * sample;
+        StepReport report;
+        while (simulation.state().time < time) report = simulation.step(time);
+        sum += report.energies.total() / start / kSamples;
+    }
     std::printf("%s, CFL %.2f, %s: the dam break keeps %.4f\n", transfer.name.c_str(), cfl,
-                integrator == TimeIntegrator::Plain ? "plain" : "reflected", report.energies.total() / start);
-    return report.energies.total() / start;
+                integrator == TimeIntegrator::Plain ? "plain" : "reflected", sum);
+    return sum;
 }
 
 TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
 {
+    constexpr double kNoise = 1.0e-3;  // what other lengths of the steps change
     for (const Transfer& transfer : {kApic, kPoly8, kPoly27})
         EXPECT_GT(damBreakKeeps(transfer, 1.0, TimeIntegrator::Reflected),
-                  damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - (transfer.modes == 27 ? 0.015 : 0.0))
+                  damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - kNoise)
             << transfer.name;
 }
 
