@@ -12,20 +12,12 @@ Scene reflecting(Scene scene)
     return scene;
 }
 
-/// Relative error of the faces' velocities after one turnover of a Taylor-Green vortex 16 cells across, in a full box.
+/// Relative error of the faces' velocities after one turnover of a Taylor-Green vortex.
 double vortexError(const Transfer& transfer, double cfl, TimeIntegrator integrator)
 {
-    constexpr double kCells = 16.0, kDepth = 4.0, kCell = kPi / kCells, kEnd = 2.0 * kPi;
-    Scene scene = tankScene(transfer, kCell, {kCells, kCells, kDepth}, {0.0, 0.0, 0.0}, {kCells, kCells, kDepth});
-    scene.settings.gravity = Vec3::Zero();
-    scene.settings.liquid.full = true;
-    scene.settings.liquid.volume.rate = 0.0;
-    scene.settings.time.mode = TimeMode::Fixed;
-    scene.settings.time.dt = cfl * kCell;
+    constexpr double kEnd = 2.0 * kPi;
+    Scene scene = vortexScene(transfer, cfl);
     scene.settings.time.integrator = integrator;
-    const auto vortex = [](const Vec3& x) {
-        return Vec3(std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0);
-    };
     Simulation simulation = moving(scene, vortex);
     while (simulation.state().time < kEnd) simulation.step(kEnd);
 
@@ -35,8 +27,8 @@ double vortexError(const Transfer& transfer, double cfl, TimeIntegrator integrat
         for (int a = 0; a < kAxes; ++a)
             for (int c = 0; c < kBlockCells; ++c) {
                 const Vec3i inBlock(c & 7, (c >> 3) & 7, c >> 6), cell = kBlockEdge * grid.coords(b) + inBlock;
-                if (cell.minCoeff() < 0 || cell.x() >= kCells || cell.y() >= kCells || cell.z() >= kDepth) continue;
-                const Vec3 x = kCell * (cell.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
+                if (cell.minCoeff() < 0 || cell.x() >= 16 || cell.y() >= 16 || cell.z() >= 4) continue;
+                const Vec3 x = grid.dx * (cell.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
                 const double exact = vortex(x)[a], found = simulation.workspace().grid.faces.velocity.block(b, a)[c];
                 error += (found - exact) * (found - exact);
                 size += exact * exact;
@@ -85,24 +77,19 @@ TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
             << transfer.name;
 }
 
-/// A standing wave half a wavelength long: its energy, relative to all there is, at every quarter of a period.
+/// Of a standing wave, relative to all there is, at every quarter of a period.
 std::vector<double> sloshingEnergies(const Transfer& transfer, double cfl, TimeIntegrator integrator)
 {
-    constexpr double kLength = 16.0, kDepth = 16.0;
-    Scene scene = tankScene(transfer, 1.0, {kLength, 2.0 * kDepth, 4.0}, {0.0, 0.0, 0.0}, {kLength, kDepth, 4.0});
-    scene.settings.time.cfl = cfl;
+    const StandingWave wave{16.0};
+    Scene scene = wave.scene(transfer, cfl);
     scene.settings.time.integrator = integrator;
-    const double k = kPi / kLength, omega = std::sqrt(kEarthGravity * k * std::tanh(k * kDepth));
-    const double period = 2.0 * kPi / omega, speed = 0.04 * kLength * omega / std::sinh(k * kDepth);
-    Simulation simulation = moving(scene, [&](const Vec3& x) {
-        return Vec3(-speed * std::sin(k * x.x()) * std::cosh(k * x.y()),
-                    speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0);
-    });
+    Simulation simulation = moving(scene, [&](const Vec3& x) { return wave.velocity(x); });
     const double start = simulation.energies().total();
     std::vector<double> energies;
     for (int quarter = 1; quarter <= 6; ++quarter) {
         StepReport report;
-        while (simulation.state().time < 0.25 * quarter * period) report = simulation.step(0.25 * quarter * period);
+        while (simulation.state().time < 0.25 * quarter * wave.period)
+            report = simulation.step(0.25 * quarter * wave.period);
         energies.push_back(report.energies.total() / start);
     }
     return energies;

@@ -59,6 +59,45 @@ inline Scene coarseDamBreak(const Transfer& transfer)
     return scene;
 }
 
+/// A full box with free-slip walls, 16 cells across, for one Taylor-Green vortex: vortex(x) cm/s.
+inline Scene vortexScene(const Transfer& transfer, double cfl)
+{
+    constexpr double kCells = 16.0, kDepth = 4.0, kCell = kPi / kCells;
+    Scene scene = tankScene(transfer, kCell, {kCells, kCells, kDepth}, {0.0, 0.0, 0.0}, {kCells, kCells, kDepth});
+    scene.settings.gravity = Vec3::Zero();
+    scene.settings.liquid.full = true;
+    scene.settings.liquid.volume.rate = 0.0;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = cfl * kCell;
+    return scene;
+}
+inline Vec3 vortex(const Vec3& x)
+{
+    return {std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0};
+}
+
+/// A linear standing wave of half a wavelength in a tank 1 cm × `length`, as deep as that: the velocities it starts
+/// with.
+struct StandingWave {
+    double length;  ///< [cm]
+    double number = kPi / length, frequency = std::sqrt(kEarthGravity * number * std::tanh(number * length));
+    double period = 2.0 * kPi / frequency;
+
+    Scene scene(const Transfer& transfer, double cfl) const
+    {
+        Scene scene = tankScene(transfer, 1.0, {length, 2.0 * length, 4.0}, {0.0, 0.0, 0.0}, {length, length, 4.0});
+        scene.settings.time.cfl = cfl;
+        return scene;
+    }
+    /// With an amplitude of 4 % of the length [cm/s].
+    Vec3 velocity(const Vec3& x) const
+    {
+        const double speed = 0.04 * length * frequency / std::sinh(number * length), k = number;
+        return {-speed * std::sin(k * x.x()) * std::cosh(k * x.y()), speed * std::cos(k * x.x()) * std::sinh(k * x.y()),
+                0.0};
+    }
+};
+
 /// Give every particle the velocity u(x) and its gradient.
 template <class U>
 void setVelocities(State& state, U&& u)

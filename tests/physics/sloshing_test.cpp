@@ -10,23 +10,16 @@ struct Sloshing {
     double kept;         ///< amplitude per period
 };
 
-/// A standing wave of half a wavelength in a tank, started by its velocity. Its amplitude is read from Σ m cos(k x).
+/// The amplitude of a standing wave is read from Σ m cos(k x).
 Sloshing slosh(const Transfer& transfer, int cellsPerWave, double cfl, int periods)
 {
-    const double length = 0.5 * cellsPerWave, depth = 0.5 * cellsPerWave;
-    Scene scene = tankScene(transfer, 1.0, {length, 2.0 * depth, 4.0}, {0.0, 0.0, 0.0}, {length, depth, 4.0});
-    scene.settings.time.cfl = cfl;
-    const double k = kPi / length, omega = std::sqrt(kEarthGravity * k * std::tanh(k * depth)),
-                 period = 2.0 * kPi / omega;
-    const double amplitude = 0.04 * length, speed = amplitude * omega / std::sinh(k * depth);
-    Simulation simulation = moving(scene, [&](const Vec3& x) {
-        return Vec3(-speed * std::sin(k * x.x()) * std::cosh(k * x.y()),
-                    speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0);
-    });
+    const StandingWave wave{0.5 * cellsPerWave};
+    const double period = wave.period;
+    Simulation simulation = moving(wave.scene(transfer, cfl), [&](const Vec3& x) { return wave.velocity(x); });
     const auto reading = [&] {
         const LiquidParticles& liquid = simulation.state().liquid;
         double sum = 0.0;
-        for (std::size_t p = 0; p < liquid.count; ++p) sum += liquid.mass[p] * std::cos(k * liquid.x[0][p]);
+        for (std::size_t p = 0; p < liquid.count; ++p) sum += liquid.mass[p] * std::cos(wave.number * liquid.x[0][p]);
         return sum;
     };
     const double zero = reading();

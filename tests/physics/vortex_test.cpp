@@ -5,27 +5,10 @@
 namespace sim::test {
 namespace {
 
-/// Taylor-Green vortex in a full box with free-slip walls, 16 cells across.
-Scene vortexScene(const Transfer& transfer)
-{
-    constexpr double kCells = 16.0, kDepth = 4.0, kCell = kPi / 16.0;
-    Scene scene = tankScene(transfer, kCell, {kCells, kCells, kDepth}, {0.0, 0.0, 0.0}, {kCells, kCells, kDepth});
-    scene.settings.gravity = Vec3::Zero();
-    scene.settings.liquid.full = true;
-    scene.settings.liquid.volume.rate = 0.0;
-    scene.settings.time.mode = TimeMode::Fixed;
-    scene.settings.time.dt = 0.1 * kCell;
-    return scene;
-}
-Vec3 vortex(const Vec3& x)
-{
-    return {std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0};
-}
-
 /// Part of the vortex's energy that is left after one turnover, 2π s.
 double energyKept(const Transfer& transfer)
 {
-    Simulation simulation = moving(vortexScene(transfer), vortex);
+    Simulation simulation = moving(vortexScene(transfer, 0.1), vortex);
     const double start = simulation.energies().total();
     StepReport report;
     while (simulation.state().time < 2.0 * kPi) {
