@@ -105,13 +105,14 @@ Energies Simulation::energies() const
     return energies;
 }
 
-/// Equal parts of what is left, none beyond the largest; two steps between which velocities are reflected are of the same length.
+/// Equal parts of what is left, none beyond the largest; an even number where each first one of two reflects, and the
+/// second is as long.
 double Simulation::lengthOfStep(double left, double largest) const
 {
     constexpr double kRoundOff = 1.0e-9;  // steps may be longer by that much, so that 4e-3 s in steps of 2e-4 s are 20 and not 21
     if (state_.reflected) return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
     const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - kRoundOff)));
-    return left / (scene_.settings.time.reflects() ? 2.0 * std::ceil(0.5 * parts) : parts);
+    return left / (mayReflect(state_, scene_.settings.time, work_) ? 2.0 * std::ceil(0.5 * parts) : parts);
 }
 
 StepReport Simulation::step(double until)

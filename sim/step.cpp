@@ -103,12 +103,12 @@ std::optional<FabricFaces> facesOf(const Workspace& work)
 }
 
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
-LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock, EnergyBook& energy)
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock, EnergyBook& energy)
 {
     const Settings& settings = scene.settings;
     LiquidPlan plan;
     plan.flips = settings.transfer.method == TransferMethod::Flip;
-    plan.reflects = settings.time.reflects() && !state.reflected;
+    plan.reflects = reflects;
     const bool keepsAdvected = plan.flips || plan.reflects;
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
@@ -163,6 +163,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
         clock.start(Stage::Mixture);
         const std::optional<FabricFaces> faces = facesOf(work);
+        // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (time-splitting 2).
+        plan.reflects = false;
         plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
     }
 
@@ -194,7 +196,6 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (plan.reflects) {
         clock.start(Stage::Reflection);
         report.reflection = reflect(grid, work.obstacleField, settings.solver, work.pressure, work.grid, work.reflection);
-        if (plan.isMixed) work.coupling->mixture.copyShared(work.reflection.velocity, work.grid.faces.velocity);
     }
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
@@ -292,12 +293,18 @@ void findFabricEnergies(const State& state, const Settings& settings, const Work
 
 }  // namespace
 
+bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work)
+{
+    return time.reflects() && hasLiquid(state) && !(work.coupling && reachesLiquid(state.grid, state.fabric));
+}
+
 StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 {
     StepReport report;
     report.dt = dt;
     StageClock clock(report);
     EnergyBook energy(state, scene.settings.gravity, work, report);
+    const bool reflects = mayReflect(state, scene.settings.time, work) && !state.reflected;
 
     if (emits(scene, state, state.time, state.time + dt)) {
         clock.start(Stage::Emit);
@@ -305,7 +312,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     }
     const bool isWet = hasLiquid(state);
     LiquidPlan plan;
-    if (isWet) plan = startLiquid(state, scene, work, dt, report, clock, energy);
+    if (isWet) plan = startLiquid(state, scene, work, dt, reflects, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     stepFabric(state, scene.settings, work, dt, plan, report, clock);
     energy.solved(plan.isMixed, report.fabric);

@@ -44,6 +44,9 @@ struct Workspace {
 /// Advance liquid and fabric by dt [s] (model-fluid 15.1). What is not there runs none of its stages.
 StepReport step(State& state, const Scene& scene, Workspace& work, double dt);
 
+/// Is the next step to reflect, if it is not the second of two? Liquid near fabric is not reflected.
+bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work);
+
 /// Largest stable time step from here [s], by the scene's mode and bounds (model-fluid 15.1), not yet fitted to a frame.
 double chooseTimeStep(const Settings& settings, const State& state, double maxSpeed);
 

@@ -165,11 +165,6 @@ void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArr
     });
 }
 
-void Mixture::copyShared(BlockArray<double, 3>& a, const BlockArray<double, 3>& b) const
-{
-    forEachShared([&](int, int m, int axis, int c) { a.block(m, axis)[c] = b.block(m, axis)[c]; });
-}
-
 /// What pressure did to the mixture, from the change of its velocities; what the liquid alone would move at, and pull with.
 void Mixture::applyPressure(const LiquidGrid& liquid)
 {

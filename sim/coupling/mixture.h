@@ -42,8 +42,6 @@ class Mixture {
     EnergyChanges energyChanges(const LiquidGrid& liquid, const BlockArray<double, 3>& before) const;
     /// Kinetic energy of the liquid on the shared faces at these velocities [erg].
     double kinetic(const BlockArray<double, 3>& velocity) const;
-    /// Where both phases are, the velocities of a become those of b.
-    void copyShared(BlockArray<double, 3>& a, const BlockArray<double, 3>& b) const;
     /// Are both phases on the lower face of a cell?
     bool isShared(int axis, const Vec3i& cell) const;
 

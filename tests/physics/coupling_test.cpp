@@ -68,6 +68,32 @@ TEST_P(DropOnCloth, WhatTheLiquidLosesTheClothGains)
     EXPECT_LT(worst, 1.0e-4 * start.norm());
 }
 
+/// A drop far from the cloth reflects, one that meets it does not: to reflect a part of its faces would make momentum.
+TEST_P(DropOnCloth, IsNotReflectedWhereItMeetsCloth)
+{
+    Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());
+    scene.settings.time.integrator = TimeIntegrator::Reflected;
+    scene.sources[0].shape = Shape::ball(Vec3(0.0, 5.2, 0.0), 1.0);
+    Simulation simulation(scene);
+    const Vec3 start = momentaOf(simulation).liquid;
+    int reflected = 0, steps = 0;
+    for (int frame = 1; frame <= 30; ++frame) {
+        const double time = 2.0e-3 * frame;
+        StepReport report;
+        for (; simulation.state().time < time; ++steps) {
+            report = simulation.step(time);
+            reflected += report.isReflected ? 1 : 0;
+            const Momenta now = momentaOf(simulation);
+            EXPECT_LT((now.liquid + now.fabric - start).norm(), 2.0e-4 * start.norm());  // kLeastFill, as in plain steps
+        }
+        EXPECT_FALSE(report.isReflected);
+    }
+    EXPECT_GT(momentaOf(simulation).fabric.y() / start.y(), 0.02);
+    EXPECT_GT(reflected, 5);
+    EXPECT_LT(2 * reflected, steps - 5);
+    EXPECT_LT(steps, 70);
+}
+
 /// Free, absorbed and lost liquid are together what was there (model-fluid 9.4), at every step.
 void expectLedgerCloses(const Simulation& simulation, const StepReport& report)
 {

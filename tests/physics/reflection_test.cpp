@@ -158,5 +158,16 @@ TEST(Reflection, CyclesEndAtFrames)
     EXPECT_GT(frames, 5);
 }
 
+/// Without liquid there is nothing to reflect, and no step is cut in two for it.
+TEST(Reflection, WantsNothingOfDryScenes)
+{
+    Scene scene;
+    scene.settings.cell = 0.5;
+    scene.settings.time.dt = 1.0e-3;
+    Simulation simulation(reflecting(scene));
+    for (int step = 0; step < 5; ++step) EXPECT_FALSE(simulation.step(5.0e-3).isReflected);
+    EXPECT_EQ(simulation.state().time, 5.0e-3);
+}
+
 }  // namespace
 }  // namespace sim::test
