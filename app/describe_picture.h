@@ -42,7 +42,8 @@ inline std::span<const Choice<ColorMap>> choicesOf(ColorMap)
 inline std::span<const Choice<FabricColorBy>> choicesOf(FabricColorBy)
 {
     static constexpr Choice<FabricColorBy> kAll[] = {
-        {"material", FabricColorBy::Material}, {"speed", FabricColorBy::Speed}, {"strain", FabricColorBy::Strain}};
+        {"material", FabricColorBy::Material}, {"speed", FabricColorBy::Speed}, {"strain", FabricColorBy::Strain},
+                                                     {"saturation", FabricColorBy::Saturation}};
     return kAll;
 }
 
@@ -111,18 +112,26 @@ void describeLiquidLook(V& v, RenderSettings& r)
     v.require(r.range[0] < r.range[1], "range", "must end above its beginning");
 }
 
+/// Values at the ends of the colours where a scene gives none [cm/s, or -].
+inline std::array<double, 2> usualRange(FabricColorBy colorBy)
+{
+    return colorBy == FabricColorBy::Speed    ? std::array{0.0, 100.0}
+           : colorBy == FabricColorBy::Strain ? std::array{0.0, 0.1}
+                                              : std::array{0.0, 1.0};
+}
+
 template <class V>
 void describeFabricLook(V& v, FabricLookSettings& f)
 {
-    constexpr std::array<double, 2> kSpeeds = {0.0, 100.0}, kStrains = {0.0, 0.1};
     const bool byMaterial = f.colorBy == FabricColorBy::Material;
-    v.choice("color_by", f.colorBy, "What the colour shows; strain is the largest stretch of what meets at a vertex");
+    v.choice("color_by", f.colorBy, "What the colour shows; strain is the largest stretch of what meets at a vertex, "
+                                    "saturation how full its pores are");
     v.when(f.ownColor,
            [&](auto& w) { w.color("color", f.color, "Red, green, blue, 0 to 1; left out: one for each material"); });
     v.when(!byMaterial, [&](auto& w) {
         w.choice("colormap", f.colorMap, "Colours from low to high");
-        w.whenReading([&](auto&) { f.range = f.colorBy == FabricColorBy::Strain ? kStrains : kSpeeds; });
-        w.pair("range", f.range, f.colorBy == FabricColorBy::Strain ? Quantity::None : Quantity::Velocity, Range::any(),
+        w.whenReading([&](auto&) { f.range = usualRange(f.colorBy); });
+        w.pair("range", f.range, f.colorBy == FabricColorBy::Speed ? Quantity::Velocity : Quantity::None, Range::any(),
                "Values at the ends of the colours");
         w.require(f.range[0] < f.range[1], "range", "must end above its beginning");
     });
@@ -132,7 +141,7 @@ void describeFabricLook(V& v, FabricLookSettings& f)
         const bool isMapped = f.colorBy != FabricColorBy::Material;
         r.require(!isMapped || !r.has("color"), "color", "goes with color_by: material");
         for (const char* key : {"colormap", "range"})
-            r.require(isMapped || !r.has(key), key, "goes with color_by: speed or strain");
+            r.require(isMapped || !r.has(key), key, "goes with color_by: speed, strain or saturation");
     });
 }
 

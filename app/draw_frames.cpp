@@ -12,6 +12,7 @@ namespace {
 
 const char* const kSpeedTitle = "speed [cm/s]";
 const char* const kStrainTitle = "strain";
+const char* const kSaturationTitle = "saturation";
 
 render::ColorMap colorMapOf(ColorMap map)
 {
@@ -53,7 +54,9 @@ void fillIn(const FabricLookSettings& settings, render::FabricLook& look)
     look.wetColor = settings.wetColor;
     look.colorMap = colorMapOf(settings.colorMap);
     look.range = toFloat(settings.range);
-    look.colorBarTitle = settings.colorBy == FabricColorBy::Strain ? kStrainTitle : kSpeedTitle;
+    look.colorBarTitle = settings.colorBy == FabricColorBy::Strain       ? kStrainTitle
+                         : settings.colorBy == FabricColorBy::Saturation ? kSaturationTitle
+                                                                         : kSpeedTitle;
 }
 
 render::Look lookOf(const PictureSettings& pictures, const std::string& label, bool asPanel)

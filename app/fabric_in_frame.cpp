@@ -53,18 +53,6 @@ double largestStretch(const std::vector<Vec3>& rest, const std::vector<Vec3>& no
     return std::sqrt(0.5 * (xx + yy) + std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy));
 }
 
-/// What colours each vertex; empty where it is the material.
-std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, const FabricState& state,
-                                 std::vector<double> (*strain)(const Fabric&, const FabricState&))
-{
-    if (colorBy == FabricColorBy::Material) return {};
-    if (colorBy == FabricColorBy::Strain) return strain(fabric, state);
-    std::vector<double> speeds;
-    speeds.reserve(state.v.size());
-    for (const Vec3& v : state.v) speeds.push_back(v.norm());
-    return speeds;
-}
-
 /// How full the pores of each vertex are, 0 … 1; empty where all are dry.
 std::vector<float> wetnessOf(const Fabric& fabric, const FabricState& state, double liquidDensity)
 {
@@ -75,6 +63,22 @@ std::vector<float> wetnessOf(const Fabric& fabric, const FabricState& state, dou
         if (capacity > 0.0) wetness[v] = static_cast<float>(std::min(1.0, state.absorbed[v] / capacity));
     }
     return wetness;
+}
+
+/// What colours each vertex; empty where it is the material.
+std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, const FabricState& state,
+                                 const std::vector<float>& wetness,
+                                 std::vector<double> (*strain)(const Fabric&, const FabricState&))
+{
+    if (colorBy == FabricColorBy::Material) return {};
+    if (colorBy == FabricColorBy::Saturation)
+        return wetness.empty() ? std::vector<double>(fabric.vertexCount(), 0.0)
+                               : std::vector<double>(wetness.begin(), wetness.end());
+    if (colorBy == FabricColorBy::Strain) return strain(fabric, state);
+    std::vector<double> speeds;
+    speeds.reserve(state.v.size());
+    for (const Vec3& v : state.v) speeds.push_back(v.norm());
+    return speeds;
 }
 
 }  // namespace
@@ -111,8 +115,8 @@ void takeYarns(const Fabric& fabric, const FabricState& state, double liquidDens
     const Fabric::Strands& strands = fabric.strands;
     if (strands.count() == 0) return;
 
-    const std::vector<double> values = vertexValues(colorBy, fabric, state, yarnStrain);
     const std::vector<float> wetness = wetnessOf(fabric, state, liquidDensity);
+    const std::vector<double> values = vertexValues(colorBy, fabric, state, wetness, yarnStrain);
     out.begin = strands.begin;
     out.materials = strands.material;
     for (int s = 0; s < strands.count(); ++s) {
@@ -143,7 +147,7 @@ void takeCloth(const Fabric& fabric, const FabricState& state, double liquidDens
 
     out.wetness = wetnessOf(fabric, state, liquidDensity);
     for (const Vec3& x : state.x) out.positions.push_back(x.cast<float>());
-    for (const double value : vertexValues(colorBy, fabric, state, clothStrain))
+    for (const double value : vertexValues(colorBy, fabric, state, out.wetness, clothStrain))
         out.values.push_back(static_cast<float>(value));
     for (std::size_t f = 0; f < fabric.faces.size(); ++f)
         for (const int v : fabric.faces.vertices[f]) {

@@ -25,7 +25,7 @@ struct CameraSettings {
 enum class LiquidStyle { Points, Spheres, Surface };
 enum class ColorBy { Speed, Flat };
 enum class ColorMap { Jet, Turbo, Viridis };
-enum class FabricColorBy { Material, Speed, Strain };
+enum class FabricColorBy { Material, Speed, Strain, Saturation };
 enum class ObstacleStyle { Auto, Wire, Translucent, Solid, Hidden };
 
 struct FabricLookSettings {
@@ -34,7 +34,7 @@ struct FabricLookSettings {
     Eigen::Vector3f color = {0.80f, 0.70f, 0.55f};
     Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};
     ColorMap colorMap = ColorMap::Viridis;
-    std::array<double, 2> range = {0.0, 100.0};  ///< of the colour bar [cm/s], or of the strain [-]
+    std::array<double, 2> range = {0.0, 100.0};  ///< of the colour bar [cm/s], or of strain or saturation [-]
 };
 
 struct YarnLookSettings : FabricLookSettings {

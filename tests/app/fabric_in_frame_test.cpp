@@ -65,6 +65,25 @@ TEST(FabricInFrame, GeometryArrives)
     EXPECT_TRUE(view.cloth.values.empty());
 }
 
+/// Of its pores that are full; 0 where all is dry, for the colour bar has a lower end.
+TEST(FabricInFrame, SaturationIsTheFullPartOfThePores)
+{
+    YarnAndFace scene;
+    EXPECT_EQ((std::vector<float>{0, 0, 0}), scene.snapshot(FabricColorBy::Saturation).yarns.values);
+    scene.fabric.materials.resize(1);
+    scene.fabric.materials[0].volumeFraction = 0.4;
+    scene.fabric.vertexMaterial.assign(6, 0);
+    scene.fabric.volume.assign(6, 2.0);
+    scene.state.fabric.absorbed.assign(6, 0.0);
+    const double capacity = poreVolume(scene.fabric, 1);
+    EXPECT_GT(capacity, 0.0);
+    scene.state.fabric.absorbed[1] = 0.25 * capacity;
+    scene.state.fabric.absorbed[4] = 3.0 * capacity;
+    const FrameSnapshot taken = scene.snapshot(FabricColorBy::Saturation);
+    EXPECT_EQ((std::vector<float>{0, 0.25f, 0}), taken.yarns.values);
+    EXPECT_EQ((std::vector<float>{0, 0.25f, 0, 0, 1, 0}), taken.cloth.values);
+}
+
 TEST(FabricInFrame, DirectionsTurnWithTheMaterialFrames)
 {
     const FrameSnapshot taken = YarnAndFace().snapshot(FabricColorBy::Material);

@@ -84,6 +84,9 @@ render:
 
 TEST(PictureSettings, StrainHasARangeOfItsOwnWithoutUnit)
 {
+    const app::RenderSettings wet = read("render: {cloth: {color_by: saturation}}\n").render;
+    EXPECT_EQ(app::FabricColorBy::Saturation, wet.cloth.colorBy);
+    EXPECT_EQ((std::array{0.0, 1.0}), wet.cloth.range);
     const app::RenderSettings r = read("units: si\nrender: {yarns: {color_by: strain}, cloth: {color_by: strain, range: [0, 0.5]}}\n").render;
     EXPECT_EQ(0.1, r.yarns.range[1]);
     EXPECT_EQ(0.5, r.cloth.range[1]);
