@@ -211,7 +211,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
     if (!work.obstacles.empty()) {
-        const double farthest = std::sqrt(sums.maxPathSquared) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
+        const double farthest = std::max(report.maxSpeed, std::sqrt(sums.maxPathSquared)) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
     }

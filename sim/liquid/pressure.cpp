@@ -146,7 +146,7 @@ SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles,
     return report;
 }
 
-void findOutflow(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
+void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
                  BlockArray<double>& rhs)
 {
     rhs.resize(grid.count());

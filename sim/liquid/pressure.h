@@ -30,7 +30,7 @@ SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles,
                           LiquidGrid& liquid, BlockArray<double>& pressure);
 
 /// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S) [1/s].
-void findOutflow(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
+void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
                  BlockArray<double>& rhs);
 
 /// Faces are taken to be at least this full, for the sake of the conditioning.

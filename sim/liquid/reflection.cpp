@@ -13,7 +13,7 @@ constexpr double kTolerance = 1.0e-3;  ///< of the solve: it moves second-order 
 SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver,
                     PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work)
 {
-    findOutflow(grid, obstacles, liquid, liquid.advected, work.rhs);
+    findRightHandSide(grid, obstacles, liquid, liquid.advected, work.rhs);
     work.potential.resize(grid.count());
     parallelFor(grid.count(), 8,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });

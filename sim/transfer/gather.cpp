@@ -97,37 +97,24 @@ template <int kAxis>
     });
 }
 
-/// Velocity and gradient times the cell size that move the particles at x.
-struct Motion {
-    Pack velocity[3], slope[3][3];
-};
-
-template <class Set>
-[[gnu::always_inline]] inline void setMotion(int axis, const Coefficients<Set::kFactors>& c, Motion& motion)
+/// Velocities along the paths of 8 particles at x that move with other velocities than those they get, or by the midpoint
+/// rule: out of line, for the others pay nothing.
+[[gnu::noinline]] void findPaths(const Context& ctx, int node, int n, const Pack (&x)[3], Pack (&path)[3], Pack& maxSquared)
 {
-    motion.velocity[axis] = meanVelocity<Set>(c);
-    if constexpr (Set::kFactors > 1) {
-        motion.slope[axis][0] = c[1][0][0];
-        motion.slope[axis][1] = c[0][1][0];
-        motion.slope[axis][2] = c[0][0][1];
-    }
-}
-
-/// Of particles that do not get the modes of what moves them.
-[[gnu::noinline]] Motion gatherMotion(const Context& ctx, int node, const Pack (&x)[3])
-{
-    Motion motion;
     Operators<2> op[3];
     for (int a = 0; a < kAxes; ++a) {
         const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
         setOperators<2, false>(inCells - floorPack(inCells), op[a]);
     }
-    unroll<3>([&](auto a) {
-        Coefficients<2> c;
-        contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c);
-        setMotion<ModeSet<4>>(a, c, motion);
-    });
-    return motion;
+    Coefficients<2> c[3];
+    unroll<3>([&](auto a) { contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c[a]); });
+    const double half = ctx.settings.atMidpoint ? 0.5 * ctx.settings.dt / ctx.dx : 0.0;
+    Pack squared = broadcast(0.0);
+    for (int a = 0; a < kAxes; ++a) {
+        path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * c[0][0][0][0] + c[a][0][1][0] * c[1][0][0][0] + c[a][0][0][1] * c[2][0][0][0]);
+        squared += path[a] * path[a];
+    }
+    maxSquared = maxPack(maxSquared, select(firstLanes(n), squared, broadcast(0.0)));
 }
 
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
@@ -155,32 +142,24 @@ template <class Set, int kModes, bool kFold, class Rows>
 
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
-    const Motion motion = [&] {
-        if (ctx.settings.reflected != nullptr || (kModes < 4 && ctx.settings.atMidpoint)) return gatherMotion(ctx, node, x);
-        Motion own;
-        for (int a = 0; a < kAxes; ++a) setMotion<Set>(a, c[a], own);
-        return own;
-    }();
+    Pack path[3];
+    if (ctx.settings.reflected != nullptr || ctx.settings.atMidpoint) findPaths(ctx, node, n, x, path, sums.maxPathSquared);
+    else
+        for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
     if (ctx.displacementTile != nullptr) displace(ctx, node, x);
-    Pack speedSquared = zero, pathSquared = zero, xi[3];
+    Pack speedSquared = zero, xi[3];
     for (int a = 0; a < kAxes; ++a) {
-        Pack path = motion.velocity[a];
-        if (ctx.settings.atMidpoint)
-            for (int b = 0; b < kAxes; ++b) path += (0.5 * ctx.settings.dt / ctx.dx) * motion.slope[a][b] * motion.velocity[b];
-        x[a] += ctx.settings.dt * path;
+        x[a] += ctx.settings.dt * path[a];
         if (ctx.settings.displacement != nullptr) x[a] += loadPack(ctx.settings.displacement[a].data() + s);
         storeFirst(particles.x[a].data() + s, x[a], n);
         xi[a] = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
         const Pack carried = ctx.flipTile != nullptr ? loadPack(rows.at(a, 0, s)) : meanVelocity<Set>(c[a]);
         speedSquared += carried * carried;
-        pathSquared += path * path;
     }
     speedSquared = select(lanes, speedSquared, zero);
-    pathSquared = select(lanes, pathSquared, zero);
     sums.kinetic += mass * speedSquared;
     // The comparison is false for a NaN, which must not be lost.
     sums.maxSpeedSquared = select(speedSquared < sums.maxSpeedSquared, sums.maxSpeedSquared, speedSquared);
-    sums.maxPathSquared = select(pathSquared < sums.maxPathSquared, sums.maxPathSquared, pathSquared);
     if constexpr (kModes > 1) {
         Pack modal = zero;
         unroll<3>([&](auto axis) {

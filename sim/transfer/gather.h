@@ -38,7 +38,7 @@ inline constexpr int kModesAtSurface = 8;
 /// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speeds [cm²/s²].
 struct GatherSums {
     double kinetic = 0.0, modal = 0.0, maxSpeedSquared = 0.0;
-    double maxPathSquared = 0.0;  ///< of the mean speeds along the particles' moves
+    double maxPathSquared = 0.0;  ///< along paths other than those of the velocities gathered; else 0
 };
 
 struct GatherScratch {

@@ -13,7 +13,7 @@ constexpr std::size_t kGrain = 1024;
 /// With more dirty vertices than this all are searched for: it is not worth keeping the rest [-].
 constexpr double kMostDirty = 0.6;
 /// How far ahead pairs are searched: as many steps, and the fastest vertex goes no farther than so many times what it
-/// may stray [-].
+/// may stray [-]. By measurement, of 6, 12 and 40: with more, lists of yarns in steps of 1e-3 s grow by what they save.
 constexpr int kMostStepsAhead = 16;
 constexpr double kFarAhead = 12.0;
 
