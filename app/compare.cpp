@@ -3,6 +3,7 @@
 #include "app/child_process.h"
 #include "app/compare_table.h"
 #include "app/energy_plot.h"
+#include "app/gnuplot.h"
 #include "app/output_files.h"
 #include "app/reports.h"
 #include "sim/core/check.h"

@@ -29,6 +29,7 @@ SceneSetup loadScene(const SceneRequest& request)
     setup.scene = sim::readScene(file);
     setup.pictures = readPictureSettings(file);
     setup.pictures.contents = contentsOf(setup.scene);
+    setup.validation = readValidation(file, setup.scene);
     const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);
     if (variant != setup.pictures.compare.variants.end()) {
         setup.variant = variant->name;
@@ -36,6 +37,7 @@ SceneSetup loadScene(const SceneRequest& request)
     }
     const std::string scene = sim::printScene(setup.scene);
     setup.resolved = scene + printPictureSettings(setup.pictures);
+    if (const sim::Node* node = file.root.find("validate")) setup.resolved += "validate: " + node->flow() + '\n';
     PictureSettings alone = setup.pictures;
     alone.compare = {};
     setup.identity = scene + printPictureSettings(alone);
@@ -47,6 +49,7 @@ class RealSimulation : public Steppable {
     explicit RealSimulation(const sim::Scene& scene) : simulation_(scene) {}
     const sim::State& state() const override { return simulation_.state(); }
     const sim::Fabric& fabric() const override { return simulation_.fabric(); }
+    const sim::LiquidGrid& liquidGrid() const override { return simulation_.workspace().grid; }
     sim::StepReport step(double until) override { return simulation_.step(until); }
     sim::Energies energies() const override { return simulation_.energies(); }
     void bookEnergy() override { simulation_.bookEnergy(); }

@@ -1,31 +1,18 @@
 #include "app/energy_plot.h"
 
-#include "app/child_process.h"
+#include "app/gnuplot.h"
 #include "app/output_files.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 namespace app {
 
 namespace {
-
-/// A palette that colour-blind readers can tell apart (Okabe and Ito 2008), darkest contrasts first.
-constexpr std::array<std::string_view, 7> kPalette = {"#000000", "#d55e00", "#0072b2", "#009e73",
-                                                      "#cc79a7", "#e69f00", "#56b4e9"};
-
-/// Text between single quotes for gnuplot.
-std::string quoted(std::string text)
-{
-    for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2) text.insert(at, 1, '\'');
-    return '\'' + text + '\'';
-}
 
 /// The largest total energy in a file, by size [erg]; 0 if there is none.
 double largestEnergy(const std::filesystem::path& csv)
@@ -55,11 +42,11 @@ int axisScale(const std::vector<EnergyCurve>& curves)
 template <class Value>
 std::string panel(const std::vector<EnergyCurve>& curves, const std::string& name, Value&& value)
 {
-    std::string text = fmt::format("set title {}\nplot", quoted(name));
+    std::string text = fmt::format("set title {}\nplot", gnuplotText(name));
     for (std::size_t i = 0; i < curves.size(); ++i)
         text += fmt::format("{} {} skip 1 using 1:({}) with lines lw 2 lc rgb '{}' dt {} title {} noenhanced", i == 0 ? "" : ", \\\n    ",
-                            quoted(curves[i].csv.generic_string()), value(curves[i]), kPalette[i % kPalette.size()],
-                            i % 2 == 0 ? "1" : "(8,4)", quoted(curves[i].label));  // dashes show what lies below them
+                            gnuplotText(curves[i].csv.generic_string()), value(curves[i]), kPlotColors[i % kPlotColors.size()],
+                            i % 2 == 0 ? "1" : "(8,4)", gnuplotText(curves[i].label));  // dashes show what lies below them
     return text + "\n";
 }
 
@@ -73,26 +60,16 @@ std::string head(int panels, const std::string& title, const std::string& unit, 
                        "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
                        "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
                        "set key at screen 0.5,0.045 center center vertical maxrows 2 samplen 2\n",
-                       550 * panels, quoted(picture), panels, quoted(title), unit);
+                       550 * panels, gnuplotText(picture), panels, gnuplotText(title), unit);
 }
 
-/// Draw folder/name.png by script(curves, picture) and leave the script beside it.
+/// Draw folder/name.png by script(curves, picture), whose curves are told relative to the folder.
 template <class Script>
 void draw(const std::vector<EnergyCurve>& curves, const std::filesystem::path& folder, const std::string& name, Script&& script)
 {
-    const auto program = findProgram("gnuplot");
-    if (!program) throw std::runtime_error("no gnuplot along PATH: install it to get the energy plot");
     auto relative = curves;
     for (auto& curve : relative) curve.csv = std::filesystem::relative(curve.csv, folder);
-    const std::string picture = name + ".png", text = name + ".gp";
-    writeWhole(folder / text, script(relative, picture));
-
-    const auto part = partFile(picture);
-    writeWhole(folder / (text + ".part"), script(relative, part.string()));
-    const ChildExit end = runChild(*program, {text + ".part"}, {.folder = folder});
-    std::filesystem::remove(folder / (text + ".part"));
-    if (!end.ok()) throw std::runtime_error(fmt::format("gnuplot could not draw {}: {}", (folder / picture).string(), end.lastWords()));
-    putInPlace(folder / part, folder / picture);
+    drawPlot(folder, name, [&](const std::string& picture) { return script(relative, picture); });
 }
 
 }  // namespace
@@ -127,8 +104,6 @@ std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std:
     return head(2, title, "erg per particle", picture) + panel(curves, "kinetic + potential + elastic", perParticle("$5")) +
            "unset key\nunset ylabel\n" + panel(curves, "as published (no motion of the liquid)", perParticle("$12")) + "unset multiplot\n";
 }
-
-bool canPlot() { return findProgram("gnuplot").has_value(); }
 
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)
 {

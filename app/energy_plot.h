@@ -27,9 +27,6 @@ std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, 
 /// Mean energy per particle as the paper draws it: all of it, and beside it what the published program takes for it.
 std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std::string& title, const std::string& picture);
 
-/// Is there a gnuplot?
-bool canPlot();
-
 /// Draw folder/energy.png, and leave folder/energy.gp beside it to draw it anew with. Throws std::runtime_error with
 /// gnuplot's own words.
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder);

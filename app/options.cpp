@@ -63,6 +63,14 @@ void addVerbs(CLI::App& program, Options& options)
     paper->add_option("--set", options.sets, "override a key of all scenes: dotted.key=value")->take_all()->allow_extra_args(false);
     paper->callback([&options] { options.verb = Verb::Paper; });
 
+    auto* validate = program.add_subcommand("validate", "compare runs with known answers, and report");
+    validate->add_option("case", options.cases, "names in scenes/validation (default: all)");
+    validate->add_option("--out", options.out, "folder of the report");
+    validate->add_option("--threads", options.threads, "threads of the simulation (default: all)")->check(CLI::Range(1, kMaxThreads));
+    auto* quick = validate->add_flag("--quick", options.quick, "shorter or coarser, within minutes");
+    validate->add_flag("--full", options.full, "as the scenes are written (default)")->excludes(quick);
+    validate->callback([&options] { options.verb = Verb::Validate; });
+
     auto* check = program.add_subcommand("check", "validate a scene and print it resolved, with units");
     addScene(*check, options);
     addVariant(*check, options);

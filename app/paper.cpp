@@ -1,6 +1,7 @@
 #include "app/paper.h"
 
 #include "app/energy_plot.h"
+#include "app/gnuplot.h"
 #include "app/output_files.h"
 #include "app/reports.h"
 

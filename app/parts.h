@@ -2,6 +2,7 @@
 
 #include "app/frame_pipeline.h"
 #include "app/scene_setup.h"
+#include "sim/liquid/liquid_grid.h"
 #include "sim/state.h"
 
 #include <cstdint>
@@ -18,6 +19,7 @@ class Steppable {
     virtual ~Steppable() = default;
     virtual const sim::State& state() const = 0;
     virtual const sim::Fabric& fabric() const = 0;   ///< what state().fabric is the state of
+    virtual const sim::LiquidGrid& liquidGrid() const = 0;   ///< of the last step, in state().grid
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
     virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "app/lab/validation.h"
 #include "app/picture_settings.h"
 #include "sim/scene/scene.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct SceneRequest {
 struct SceneSetup {
     sim::Scene scene;
     PictureSettings pictures;
+    std::optional<Validation> validation;
     std::string variant = "default";  ///< names its output folder
     std::string label;                ///< stands in its pictures; empty where the file is run as written
     std::string resolved;             ///< every setting with its unit, as `check` prints it

@@ -12,5 +12,6 @@ int runVerbCompare(const Options& options, const Parts& parts);
 int runVerbCheck(const Options& options, const Parts& parts);
 int runVerbBench(const Options& options, const Parts& parts);
 int runVerbPaper(const Options& options, const Parts& parts);
+int runVerbValidate(const Options& options, const Parts& parts);
 
 }  // namespace app

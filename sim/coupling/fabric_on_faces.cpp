@@ -130,6 +130,14 @@ void FabricOnFaces::spread(const FabricState& state)
     divideByMass(squares);
     findVolumes(state);
     findShapes();
+    if (!fabric_.pins.vertex.empty()) findHeld();
+}
+
+void FabricOnFaces::findHeld()
+{
+    held.resize(grid().count());
+    scatter([&](int v) { return Vec3::Constant(fabric_.pinned[v] ? massOf_[v] : 0.0); }, held);
+    divideByMass(held);
 }
 
 void FabricOnFaces::findShapes()

@@ -131,7 +131,7 @@ void emitFrom(const Scene& scene, std::size_t source, const Emission& emission, 
     try {
         if (settings.velocityField) addField(*settings.velocityField, before, state);
     } catch (const VelocityField::Mistake& mistake) {
-        throw InputError(fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formulas()[mistake.component], mistake.what));
+        throw InputError(fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formula(mistake.component), mistake.what));
     }
     const double volume = static_cast<double>(positions.size()) * seeds.volume;
     state.emittedVolume[source] += volume;

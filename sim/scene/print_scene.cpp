@@ -34,7 +34,7 @@ void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
     if (source.velocityField) {
         Node formulas;
         formulas.kind = Node::Kind::List;
-        for (const std::string& formula : source.velocityField->formulas()) formulas.items.push_back(Node::scalar(formula, {}));
+        for (int a = 0; a < kAxes; ++a) formulas.items.push_back(Node::scalar(source.velocityField->formula(a), {}));
         w.line("  velocity_field", formulas.flow(), "[cm/s] of x, y, z [cm]");
     }
     w.below("  fill", "", [&](SectionWriter& inner) {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "sim/core/types.h"
+#include "sim/scene/formula.h"
 
 #include <array>
-#include <memory>
 #include <string>
+#include <vector>
 
 namespace sim {
 
@@ -20,16 +21,14 @@ class VelocityField {
     /// Throws Mistake.
     explicit VelocityField(const std::array<std::string, kAxes>& formulas);
 
-    const std::array<std::string, kAxes>& formulas() const { return formulas_; }
+    const std::string& formula(int component) const { return of_[component].text(); }
     /// Throws Mistake where a formula has no finite value. One thread at a time.
     Vec3 at(const Vec3& x) const;
     /// Column b is how it changes along axis b [1/s], by differences over ±h [cm].
     Mat3 gradient(const Vec3& x, double h) const;
 
  private:
-    struct Parsers;
-    std::array<std::string, kAxes> formulas_;
-    std::shared_ptr<Parsers> parsers_;
+    std::vector<Formula> of_;
 };
 
 }  // namespace sim

@@ -38,6 +38,7 @@ class ToySimulation : public Steppable {
     }
     const sim::State& state() const override { return state_; }
     const sim::Fabric& fabric() const override { return fabric_; }
+    const sim::LiquidGrid& liquidGrid() const override { return grid_; }
     void bookEnergy() override { booksEnergy_ = true; }
     sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0], .fabric = {}}; }
     std::uint64_t stateHash() const override { return static_cast<std::uint64_t>(1.0e9 * state_.liquid.x[0][0]) + 1; }
@@ -65,6 +66,7 @@ class ToySimulation : public Steppable {
  private:
     const ToySettings toy_;
     const sim::Fabric fabric_;
+    const sim::LiquidGrid grid_;
     sim::State state_;
     bool booksEnergy_ = false;
 };

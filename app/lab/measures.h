@@ -1,0 +1,64 @@
+#pragma once
+
+#include "sim/core/types.h"
+#include "sim/particles/liquid_particles.h"
+#include "sim/scene/formula.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace app {
+
+class Steppable;
+
+/// What a formula of a validation can read of a simulation as it is, in cgs. With a for x, y, z:
+///  * liquid: liquid_mass, liquid_a (centre of mass), liquid_va, spin_a (angular momentum about it), speed (largest),
+///  rms_speed,
+///    kinetic, potential, energy (of everything), wave_a(k) (mean of cos k a), mass_a(from, to) (of liquid between two
+///    planes);
+///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
+///  of the last cell of
+///    those with liquid that hang together with the first along x, z or y), and with `flow` flow_error (rms distance of
+///    velocities from it, relative to it) and flow_part (how much of it there is);
+///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
+///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
+///    vertex), wet_a(saturation) (the same of vertices whose pores are that full).
+class Measures {
+ public:
+    /// @param density  of the liquid [g/cm^3]
+    explicit Measures(double density) : density_(density) {}
+    Measures(const Measures&) = delete;
+    Measures& operator=(const Measures&) = delete;
+
+    /// Names for formulas; they look at what this looks at.
+    std::vector<sim::FormulaNames::Function> names();
+    void look(const Steppable& simulation) { simulation_ = &simulation; }
+    /// Formulas of x, y, z, t.
+    void setFlow(std::array<sim::Formula, sim::kAxes> flow) { flow_ = std::move(flow); }
+
+ private:
+    using Names = std::vector<sim::FormulaNames::Function>;
+    void addLiquid(Names& names);
+    void addLiquidAlong(int axis, Names& names);
+    void addFlow(Names& names);
+    void addFabric(Names& names);
+    void addFabricAlong(int axis, Names& names);
+    const sim::LiquidParticles& liquid() const;
+    std::size_t vertex(double number) const;
+    sim::Vec3 flowAt(const sim::Vec3& x) const;
+    template <class Term>
+    double sumOverFaces(Term&& term) const;
+    double flowError() const;
+    double flowPart() const;
+    double pressureAt(const sim::Vec3& x) const;
+    double front(int axis, double where) const;
+
+    double density_;
+    const Steppable* simulation_ = nullptr;
+    std::optional<std::array<sim::Formula, sim::kAxes>> flow_;
+};
+
+}  // namespace app

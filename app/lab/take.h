@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace app {
+
+/// One reading of a run: where it was taken (a time, or what the check is plotted against), what was read, what is
+/// known.
+struct Reading {
+    double at = 0.0, value = 0.0, expected = 0.0;
+};
+
+/// What a check makes of its readings: one number.
+enum class Take {
+    First,
+    Last,
+    Mean,
+    Smallest,
+    Largest,
+    Change,        ///< last less first
+    Slope,         ///< of the straight line through them (least squares)
+    Exponent,      ///< slope of ln value over ln at
+    Rate,          ///< at which they decay: −slope of ln |value|
+    EnvelopeRate,  ///< the same of the peaks between passings of the mean
+    Period,        ///< twice the mean distance of passings of the mean
+    MeanError,     ///< mean of |value / expected − 1|
+    LargestError,  ///< largest of it
+};
+
+/// As scene files write them, in the order of Take.
+inline constexpr std::array<std::string_view, 13> kTakes = {
+    "first",    "last", "mean",          "smallest", "largest",    "change",       "slope",
+    "exponent", "rate", "envelope_rate", "period",   "mean_error", "largest_error"};
+
+/// NaN where there are too few readings for it.
+double take(Take what, std::span<const Reading> readings);
+
+}  // namespace app

@@ -1,0 +1,91 @@
+#include "app/data_folder.h"
+#include "app/gnuplot.h"
+#include "app/interrupt.h"
+#include "app/lab/validation_report.h"
+#include "app/output_files.h"
+#include "app/output_folder.h"
+#include "app/progress.h"
+#include "app/thread_limit.h"
+#include "app/verbs/verbs.h"
+#include "sim/core/check.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace app {
+
+namespace {
+
+/// Of scenes/validation, here or where Drench keeps its own: all, or those asked for.
+std::vector<std::filesystem::path> caseFiles(const std::vector<std::string>& names)
+{
+    const std::filesystem::path here = "scenes/validation";
+    const std::filesystem::path folder =
+        std::filesystem::is_directory(here) ? here : dataFolder("scenes") / "validation";
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    std::ranges::sort(files);
+    if (names.empty()) return files;
+    std::vector<std::string> known;
+    for (const auto& file : files) known.push_back(file.stem().string());
+    for (const std::string& name : names)
+        if (std::ranges::find(known, name) == known.end())
+            throw sim::InputError(
+                fmt::format("validate: there is no case {}: there are {}", name, fmt::join(known, ", ")));
+    std::erase_if(files,
+                  [&](const auto& file) { return std::ranges::find(names, file.stem().string()) == names.end(); });
+    return files;
+}
+
+SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts& parts)
+{
+    SceneRequest request{file.string(), "", {}};
+    SceneSetup setup = parts.loadScene(request);
+    if (!setup.validation)
+        throw sim::InputError(
+            fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
+    if (!isQuick || setup.validation->quick.empty()) return setup;
+    request.sets = setup.validation->quick;
+    return parts.loadScene(request);
+}
+
+void tell(const CaseResult& result)
+{
+    fmt::print("{:<24} {:>8}  {}\n", result.name, formatDuration(result.wallSeconds),
+               result.passes() ? "passes" : "FAILS");
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int runVerbValidate(const Options& options, const Parts& parts)
+{
+    const auto folder = options.out.empty()
+                            ? std::filesystem::path("out") / (options.quick ? "validation_quick" : "validation")
+                            : options.out;
+    // All are loaded, and so validated, before the first one starts.
+    std::vector<std::pair<std::string, SceneSetup>> cases;
+    for (const auto& file : caseFiles(options.cases))
+        cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
+    makeFolder(folder);
+    const auto stopWanted = [] { return interruptsSeen() > 0; };
+    std::vector<CaseResult> results;
+    for (const auto& [name, setup] : cases) {
+        results.push_back(withThreads(options.threads, [&] { return runCase(name, setup, parts, stopWanted); }));
+        if (stopWanted()) break;
+        tell(results.back());
+        writeReadings(results.back(), folder);
+    }
+    writeWhole(folder / "report.md", validationReport(results, options.quick, canPlot()));
+    fmt::print("\n{}\n{}\n", findingsTable(results), (folder / "report.md").string());
+    const auto failed = std::ranges::count_if(results, [](const CaseResult& result) { return !result.passes(); });
+    if (failed == 0) return 0;
+    spdlog::error("{} of {} cases fail", failed, results.size());
+    return 1;
+}
+
+}  // namespace app
