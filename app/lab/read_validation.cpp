@@ -119,7 +119,7 @@ Check checkIn(const Node& node, std::size_t index, const Context& context)
     std::string path = fmt::format("validate.checks.{}", index);
     sim::SectionReader section(node, path);
     sim::SectionReader::read(&node, path, [](auto& v) {
-        for (const char* key : {"name", "unit", "read", "against", "from", "to", "take", "expect", "table", "tolerance",
+        for (const char* key : {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table", "tolerance",
                                 "within", "at_most", "at_least"})
             v.other(key, "");
     });
@@ -138,6 +138,7 @@ Check checkIn(const Node& node, std::size_t index, const Context& context)
     section.text("unit", check.unit, "");
     check.from = constant("from").value_or(check.from);
     check.to = constant("to").value_or(check.to);
+    check.level = constant("level").value_or(check.level);
     if (const Node* at = section.find("take")) check.take = takeIn(*at, section.pathOf("take"));
     if (const Node* at = section.find("expect")) check.expect = formulaIn(*at, section.pathOf("expect"), context.known);
     if (const Node* at = section.find("table")) check.table = tableIn(*at, section.pathOf("table"));

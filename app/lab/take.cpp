@@ -80,9 +80,19 @@ std::vector<double> errors(std::span<const Reading> all)
     return errors;
 }
 
+double reach(std::span<const Reading> all, double level)
+{
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const Reading &before = all[i - 1], &now = all[i];
+        if (before.value < level && now.value >= level)
+            return before.at + (now.at - before.at) * (level - before.value) / (now.value - before.value);
+    }
+    return kNone;
+}
+
 }  // namespace
 
-double take(Take what, std::span<const Reading> all)
+double take(Take what, std::span<const Reading> all, double level)
 {
     if (all.empty()) return kNone;
     const auto byValue = [](const Reading& a, const Reading& b) { return a.value < b.value; };
@@ -115,6 +125,8 @@ double take(Take what, std::span<const Reading> all)
         }
         case Take::LargestError:
             return std::ranges::max(errors(all));
+        case Take::Reach:
+            return reach(all, level);
     }
     return kNone;
 }

@@ -27,14 +27,16 @@ enum class Take {
     Period,        ///< twice the mean distance of passings of the mean
     MeanError,     ///< mean of |value / expected − 1|
     LargestError,  ///< largest of it
+    Reach,         ///< where they first pass a level upwards
 };
 
 /// As scene files write them, in the order of Take.
-inline constexpr std::array<std::string_view, 13> kTakes = {
-    "first",    "last", "mean",          "smallest", "largest",    "change",       "slope",
-    "exponent", "rate", "envelope_rate", "period",   "mean_error", "largest_error"};
+inline constexpr std::array<std::string_view, 14> kTakes = {
+    "first",    "last", "mean",          "smallest", "largest",    "change",        "slope",
+    "exponent", "rate", "envelope_rate", "period",   "mean_error", "largest_error", "reach"};
 
 /// NaN where there are too few readings for it.
-double take(Take what, std::span<const Reading> readings);
+/// @param level  of Take::Reach
+double take(Take what, std::span<const Reading> readings, double level = 0.0);
 
 }  // namespace app
