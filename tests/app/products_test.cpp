@@ -1,5 +1,6 @@
 #include "app/compare_table.h"
 #include "app/energy_plot.h"
+#include "app/gnuplot.h"
 #include "app/progress.h"
 #include "app/side_by_side.h"
 #include "app/statistics.h"
