@@ -70,6 +70,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"converged", report.pressure.converged},
         {"reflected", report.isReflected},
         {"volume_iterations", report.volume.iterations},
+        {"viscosity_iterations", report.viscosity.iterations},
         {"particles", report.particles},
         {"blocks", report.blocks},
         {"cells", report.liquidCells},

@@ -34,11 +34,11 @@ EnergyBook::Energy EnergyBook::look() const
     return e;
 }
 
-void EnergyBook::gravity()
+void EnergyBook::onFaces(EnergyChange change)
 {
     if (!changes_) return;
     fallen_ = work_.grid.faces.velocity;
-    after(EnergyChange::Gravity);
+    after(change);
 }
 
 void EnergyBook::after(EnergyChange change)

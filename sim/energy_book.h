@@ -14,8 +14,8 @@ class EnergyBook {
     void sorted();
     /// The liquid's momenta are on the faces, gravity not yet.
     void toGrid();
-    /// It has acted on the faces.
-    void gravity();
+    /// Gravity, or viscosity, has acted on the faces.
+    void onFaces(EnergyChange change);
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt);
     /// All that has changed since the last look.
@@ -38,7 +38,7 @@ class EnergyBook {
     const Workspace& work_;
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
-    BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity has acted [cm/s]
+    BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
     Energy last_;
 };
 

@@ -12,6 +12,7 @@ enum class EnergyChange {
     Capture,           ///< velocities mix where fabric takes up liquid
     ToGrid,            ///< liquid from particles to faces
     Gravity,           ///< its work on the faces, and what the particles fell for it
+    Viscosity,         ///< of the liquid, on the faces
     Pressure,          ///< on both phases, and what the projection takes from liquid alone
     Suction,
     Drag,              ///< between liquid and fabric
@@ -32,7 +33,7 @@ enum class EnergyChange {
 };
 inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
 inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources", "capture", "to_grid", "gravity", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "pins",
+    "sources", "capture", "to_grid", "gravity", "viscosity", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "pins",
     "fabric_to_grid", "fabric_to_vertices", "walls", "to_particles", "places", "drip", "wicking"};
 
 /// Energy that each gave, or took if negative [erg].

@@ -79,6 +79,7 @@ struct VolumeSettings {
 struct LiquidSettings {
     double density = 1.0;          ///< [g/cm^3]
     double viscosity = 8.9e-3;     ///< [P]
+    bool solveViscosity = false;   ///< Viscosity acts inside the liquid, not on fabric alone
     double surfaceTension = 72.0;  ///< [dyn/cm]
     double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
     bool full = false;             ///< The liquid fills a closed box: there is no air
@@ -146,6 +147,7 @@ struct CouplingSettings {
 struct SolverSettings {
     double pressureTolerance = 1.0e-6;  ///< Largest residual relative to the largest right-hand side [-]
     int maxIterations = 200;
+    double viscosityTolerance = 1.0e-6;  ///< Of the viscosity solve, relative to the largest momentum of a face [-]
 };
 
 struct Settings {

@@ -74,7 +74,7 @@ struct LiquidPlan {
     bool isMixed = false;      ///< with fabric on some faces
 };
 
-/// How long weight acts on the velocities of a step [s]. With reflection they are those halfway through it: steps of any
+/// How long weight and viscosity act on the velocities of a step [s]. With reflection they are those halfway through it: steps of any
 /// length then fall as far as they should.
 double fallTime(const TimeSettings& time, const State& state, double dt)
 {
@@ -156,8 +156,15 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
     if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
     energy.toGrid();
-    divideAndAddGravity(grid, settings.gravity, fallTime(settings.time, state, dt), keepsAdvected, work.grid);
-    energy.gravity();
+    const double fall = fallTime(settings.time, state, dt);
+    divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
+    energy.onFaces(EnergyChange::Gravity);
+
+    if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {
+        clock.start(Stage::Viscosity);
+        report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
+        energy.onFaces(EnergyChange::Viscosity);
+    }
 
     if (plan.meetsFabric) {
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);

@@ -7,6 +7,7 @@
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/reflection.h"
+#include "sim/liquid/viscosity.h"
 #include "sim/liquid/volume.h"
 #include "sim/particles/relax.h"
 #include "sim/scene/scene.h"
@@ -26,6 +27,7 @@ struct Workspace {
     LiquidGrid grid;
     ScatterScratch scatter;
     GatherScratch gather;
+    ViscosityWorkspace viscosity;
     PressureWorkspace pressure;
     ExtrapolationScratch extrapolation;
     ReflectionWorkspace reflection;

@@ -18,6 +18,7 @@ enum class Stage {
     Capture,           ///< fabric takes up liquid
     Relax,
     ParticlesToGrid,
+    Viscosity,
     Mixture,           ///< liquid and fabric on the faces that both reach: drag, and what one does to the other
     Cells,
     Pressure,
@@ -38,7 +39,7 @@ enum class Stage {
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "mixture", "cells", "pressure", "volume", "reflection", "walls", "grid_to_particles",
+    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "pressure", "volume", "reflection", "walls", "grid_to_particles",
     "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
 
 /// What an iterative solve did.
@@ -96,6 +97,7 @@ struct StepReport {
     double dt = 0.0;                             ///< [s]
     double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
     double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
+    SolveReport viscosity;                       ///< if it was solved for
     SolveReport pressure;
     SolveReport reflection;
     SolveReport volume;                          ///< of the correction of the volume, if it ran

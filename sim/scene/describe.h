@@ -146,7 +146,7 @@ void describe(V& v, LiquidSettings& l)
              "0 = free slip, 1 = the liquid sticks to walls");
     v.section("volume", l.volume, "Keeping the liquid's volume");
     v.section("relax", l.relax, "Pushing crowded particles apart");
-    v.onlyRuns("solve_viscosity", "false", {"true"}, "Viscosity inside the liquid");
+    v.flag("solve_viscosity", l.solveViscosity, "Viscosity inside the liquid");
     v.onlyRuns("surface_tension_force", "false", {"true"}, "Surface tension moves the liquid");
     v.withoutEffect([](auto& w) {
         int substeps = 1, passes = 7;
@@ -162,10 +162,9 @@ void describe(V& v, SolverSettings& s)
     v.number("pressure_tolerance", s.pressureTolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
              "Largest residual relative to the largest right-hand side");
     v.integer("max_iterations", s.maxIterations, 1, 1'000'000, "Iterations after which a solve stops");
+    v.number("viscosity_tolerance", s.viscosityTolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
+             "Largest residual of the viscosity solve relative to the largest momentum of a face");
     v.withoutEffect([](auto& w) {
-        double tolerance = 1.0e-6;
-        w.number("viscosity_tolerance", tolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
-                 "The same of the viscosity solve");
         w.other("wicking_substeps", "Parts of a step of the flow inside fabric");
     });
 }

@@ -1,0 +1,189 @@
+#include "sim/liquid/viscosity.h"
+
+#include "sim/core/parallel.h"
+#include "sim/grid/rows.h"
+#include "sim/solvers/block_rows.h"
+
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+double largestOf(const std::vector<double>& values)
+{
+    return parallelMax(values.size(), [&](std::size_t b) { return values[b]; });
+}
+
+double sumOf(const std::vector<double>& values)
+{
+    double sum = 0.0;
+    for (double v : values) sum += v;
+    return sum;
+}
+
+double largestLane(Pack v)
+{
+    double largest = 0.0;
+    for (int l = 0; l < kLanes; ++l) largest = v[l] > largest || v[l] != v[l] ? v[l] : largest;
+    return largest;
+}
+
+Pack reciprocal(Pack diagonal) { return select(diagonal > 0.0, 1.0 / diagonal, broadcast(0.0)); }
+
+/// body(axis, row) for the rows of a block with unknowns.
+template <class Body>
+void forEachUnknownRow(const ViscousSystem& system, int b, Body&& body)
+{
+    for (int a = 0; a < kAxes; ++a) forEachRow(system.rowsOf(b, a), [&](int r) { body(a, r * kBlockEdge); });
+}
+
+class ConjugateGradients {
+ public:
+    ConjugateGradients(const BlockGrid& grid, ViscosityWorkspace& work, LiquidGrid& liquid)
+        : grid_(grid), work_(work), liquid_(liquid)
+    {
+        for (BlockArray<double, 3>* v : {&work.residual, &work.direction, &work.applied}) v->resize(grid.count());
+        for (std::vector<double>* v : {&work.sums, &work.largest, &work.largestRhs}) v->resize(grid.count());
+    }
+
+    SolveReport solve(const ObstacleField& obstacles, double tolerance, int maxIterations)
+    {
+        start(obstacles);
+        SolveReport report;
+        const double scale = largestOf(work_.largestRhs);
+        double residual = largestOf(work_.largest);
+        if (scale == 0.0 || residual == 0.0) return report;
+        double rho = precondition();
+        while (residual > tolerance * scale && report.iterations < maxIterations) {
+            const double alpha = rho / applyToDirection();
+            if (!std::isfinite(alpha) || alpha <= 0.0) break;
+            residual = advance(alpha);
+            const double next = sumOf(work_.sums);
+            turn(next / rho);
+            rho = next;
+            ++report.iterations;
+        }
+        report.converged = residual <= tolerance * scale;
+        report.residual = residual / scale;
+        return report;
+    }
+
+ private:
+    /// Residual of the velocities as they are, with those of the walls around them.
+    void start(const ObstacleField& obstacles)
+    {
+        const ViscousSystem& system = work_.system;
+        forEachBlock(grid_.count(), [&](int b) {
+            for (int a = 0; a < kAxes; ++a)
+                for (int row = 0; row < kBlockCells; row += kLanes) {
+                    const PackMask is = maskOfBits(system.unknown.block(b, a)[row >> 6] >> (row & 63));
+                    const PackMask given = maskOfBits(obstacles.closed(b, a)[row >> 6] >> (row & 63));
+                    const Pack other = select(given, loadPack(obstacles.wallVelocity(b, a) + row), broadcast(0.0));
+                    storePack(work_.direction.block(b, a) + row,
+                              select(is, loadPack(liquid_.faces.velocity.block(b, a) + row), other));
+                    storePack(work_.residual.block(b, a) + row, broadcast(0.0));
+                }
+        });
+        forEachBlock(grid_.count(), [&](int b) {
+            system.multiply(grid_, work_.direction, b, work_.applied);
+            Pack largest = broadcast(0.0), largestRhs = broadcast(0.0);
+            forEachUnknownRow(system, b, [&](int a, int row) {
+                const PackMask is = loadPack(system.diagonal.block(b, a) + row) > 0.0;
+                Pack rhs = loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + a) + row) *
+                           loadPack(liquid_.faces.velocity.block(b, a) + row);
+                if (system.wall.size() > 0)
+                    rhs += loadPack(system.wall.block(b, a) + row) * loadPack(obstacles.wallVelocity(b, a) + row);
+                rhs = select(is, rhs, broadcast(0.0));
+                const Pack r = rhs - loadPack(work_.applied.block(b, a) + row);
+                storePack(work_.residual.block(b, a) + row, r);
+                largest = maxPack(largest, absPack(r));
+                largestRhs = maxPack(largestRhs, absPack(rhs));
+            });
+            work_.largest[b] = largestLane(largest);
+            work_.largestRhs[b] = largestLane(largestRhs);
+        });
+    }
+
+    /// direction = residual / diagonal, and 0 where nothing is unknown; returns their product with the residual.
+    double precondition()
+    {
+        const ViscousSystem& system = work_.system;
+        forEachBlock(grid_.count(), [&](int b) {
+            Pack sum = broadcast(0.0);
+            for (int a = 0; a < kAxes; ++a)
+                for (int row = 0; row < kBlockCells; row += kLanes) {
+                    const Pack r = loadPack(work_.residual.block(b, a) + row);
+                    const Pack z = r * reciprocal(loadPack(system.diagonal.block(b, a) + row));
+                    storePack(work_.direction.block(b, a) + row, z);
+                    sum += r * z;
+                }
+            work_.sums[b] = sumLanes(sum);
+        });
+        return sumOf(work_.sums);
+    }
+
+    /// applied = A direction; returns their product.
+    double applyToDirection()
+    {
+        const ViscousSystem& system = work_.system;
+        forEachBlock(grid_.count(), [&](int b) {
+            system.multiply(grid_, work_.direction, b, work_.applied);
+            Pack sum = broadcast(0.0);
+            forEachUnknownRow(system, b, [&](int a, int row) {
+                sum += loadPack(work_.direction.block(b, a) + row) * loadPack(work_.applied.block(b, a) + row);
+            });
+            work_.sums[b] = sumLanes(sum);
+        });
+        return sumOf(work_.sums);
+    }
+
+    /// A step of length alpha along the direction; returns the largest residual. Leaves residual² / diagonal in the sums.
+    double advance(double alpha)
+    {
+        const ViscousSystem& system = work_.system;
+        forEachBlock(grid_.count(), [&](int b) {
+            Pack sum = broadcast(0.0), largest = broadcast(0.0);
+            forEachUnknownRow(system, b, [&](int a, int row) {
+                double *u = liquid_.faces.velocity.block(b, a) + row, *residual = work_.residual.block(b, a) + row;
+                const Pack r = loadPack(residual) - alpha * loadPack(work_.applied.block(b, a) + row);
+                storePack(u, loadPack(u) + alpha * loadPack(work_.direction.block(b, a) + row));
+                storePack(residual, r);
+                sum += r * r * reciprocal(loadPack(system.diagonal.block(b, a) + row));
+                largest = maxPack(largest, absPack(r));
+            });
+            work_.sums[b] = sumLanes(sum);
+            work_.largest[b] = largestLane(largest);
+        });
+        return largestOf(work_.largest);
+    }
+
+    /// direction = residual / diagonal + beta direction.
+    void turn(double beta)
+    {
+        const ViscousSystem& system = work_.system;
+        forEachBlock(grid_.count(), [&](int b) {
+            forEachUnknownRow(system, b, [&](int a, int row) {
+                double* direction = work_.direction.block(b, a) + row;
+                const Pack z = loadPack(work_.residual.block(b, a) + row) *
+                               reciprocal(loadPack(system.diagonal.block(b, a) + row));
+                storePack(direction, z + beta * loadPack(direction));
+            });
+        });
+    }
+
+    const BlockGrid& grid_;
+    ViscosityWorkspace& work_;
+    LiquidGrid& liquid_;
+};
+
+}  // namespace
+
+SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,
+                           const SolverSettings& solver, double dt, ViscosityWorkspace& work, LiquidGrid& liquid)
+{
+    work.system.assemble(grid, obstacles, liquid, dt * settings.viscosity, settings.wallFriction);
+    return ConjugateGradients(grid, work, liquid).solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
+}
+
+}  // namespace sim
