@@ -82,11 +82,11 @@ double fallTime(const TimeSettings& time, const State& state, double dt)
 }
 
 /// Give the faces behind walls the velocities that the particles in front of them read.
-void finishAtWalls(const BlockGrid& grid, double friction, const LiquidPlan& plan, Workspace& work)
+void finishAtWalls(const BlockGrid& grid, const LiquidSettings& settings, const LiquidPlan& plan, Workspace& work)
 {
     LiquidGrid& liquid = work.grid;
     const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
-        applyWalls(grid, work.obstacleField, work.obstacles, friction, work.extrapolation, valid, velocity, liquid);
+        applyWalls(grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.extrapolation, valid, velocity, liquid);
     };
     if (plan.flips) {
         liquid.advectedValid = liquid.faces.valid;
@@ -206,7 +206,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     }
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
-        finishAtWalls(grid, settings.liquid.wallFriction, plan, work);
+        finishAtWalls(grid, settings.liquid, plan, work);
         energy.after(EnergyChange::Walls);
     }
 

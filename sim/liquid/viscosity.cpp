@@ -29,8 +29,6 @@ double largestLane(Pack v)
     return largest;
 }
 
-Pack reciprocal(Pack diagonal) { return select(diagonal > 0.0, 1.0 / diagonal, broadcast(0.0)); }
-
 /// body(axis, row) for the rows of a block with unknowns.
 template <class Body>
 void forEachUnknownRow(const ViscousSystem& system, int b, Body&& body)
@@ -54,14 +52,12 @@ class ConjugateGradients {
         const double scale = largestOf(work_.largestRhs);
         double residual = largestOf(work_.largest);
         if (scale == 0.0 || residual == 0.0) return report;
-        double rho = precondition();
+        double rho = 0.0;
         while (residual > tolerance * scale && report.iterations < maxIterations) {
+            rho = turn(rho);
             const double alpha = rho / applyToDirection();
             if (!std::isfinite(alpha) || alpha <= 0.0) break;
             residual = advance(alpha);
-            const double next = sumOf(work_.sums);
-            turn(next / rho);
-            rho = next;
             ++report.iterations;
         }
         report.converged = residual <= tolerance * scale;
@@ -103,24 +99,30 @@ class ConjugateGradients {
             work_.largest[b] = largestLane(largest);
             work_.largestRhs[b] = largestLane(largestRhs);
         });
+        forEachBlock(grid_.count(), [&](int b) { std::fill_n(work_.direction.block(b), BlockArray<double, 3>::kStride, 0.0); });
     }
 
-    /// direction = residual / diagonal, and 0 where nothing is unknown; returns their product with the residual.
-    double precondition()
+    /// direction = multigrid applied to the residual + beta direction; returns the product of the first with the residual.
+    double turn(double rho)
     {
+        work_.multigrid.cycle(work_.residual);
+        const BlockArray<double, 3>& z = work_.multigrid.solution();
         const ViscousSystem& system = work_.system;
         forEachBlock(grid_.count(), [&](int b) {
             Pack sum = broadcast(0.0);
-            for (int a = 0; a < kAxes; ++a)
-                for (int row = 0; row < kBlockCells; row += kLanes) {
-                    const Pack r = loadPack(work_.residual.block(b, a) + row);
-                    const Pack z = r * reciprocal(loadPack(system.diagonal.block(b, a) + row));
-                    storePack(work_.direction.block(b, a) + row, z);
-                    sum += r * z;
-                }
+            forEachUnknownRow(system, b, [&](int a, int row) {
+                sum += loadPack(work_.residual.block(b, a) + row) * loadPack(z.block(b, a) + row);
+            });
             work_.sums[b] = sumLanes(sum);
         });
-        return sumOf(work_.sums);
+        const double next = sumOf(work_.sums), beta = rho > 0.0 ? next / rho : 0.0;
+        forEachBlock(grid_.count(), [&](int b) {
+            forEachUnknownRow(system, b, [&](int a, int row) {
+                double* direction = work_.direction.block(b, a) + row;
+                storePack(direction, loadPack(z.block(b, a) + row) + beta * loadPack(direction));
+            });
+        });
+        return next;
     }
 
     /// applied = A direction; returns their product.
@@ -138,38 +140,22 @@ class ConjugateGradients {
         return sumOf(work_.sums);
     }
 
-    /// A step of length alpha along the direction; returns the largest residual. Leaves residual² / diagonal in the sums.
+    /// A step of length alpha along the direction; returns the largest residual.
     double advance(double alpha)
     {
         const ViscousSystem& system = work_.system;
         forEachBlock(grid_.count(), [&](int b) {
-            Pack sum = broadcast(0.0), largest = broadcast(0.0);
+            Pack largest = broadcast(0.0);
             forEachUnknownRow(system, b, [&](int a, int row) {
                 double *u = liquid_.faces.velocity.block(b, a) + row, *residual = work_.residual.block(b, a) + row;
                 const Pack r = loadPack(residual) - alpha * loadPack(work_.applied.block(b, a) + row);
                 storePack(u, loadPack(u) + alpha * loadPack(work_.direction.block(b, a) + row));
                 storePack(residual, r);
-                sum += r * r * reciprocal(loadPack(system.diagonal.block(b, a) + row));
                 largest = maxPack(largest, absPack(r));
             });
-            work_.sums[b] = sumLanes(sum);
             work_.largest[b] = largestLane(largest);
         });
         return largestOf(work_.largest);
-    }
-
-    /// direction = residual / diagonal + beta direction.
-    void turn(double beta)
-    {
-        const ViscousSystem& system = work_.system;
-        forEachBlock(grid_.count(), [&](int b) {
-            forEachUnknownRow(system, b, [&](int a, int row) {
-                double* direction = work_.direction.block(b, a) + row;
-                const Pack z = loadPack(work_.residual.block(b, a) + row) *
-                               reciprocal(loadPack(system.diagonal.block(b, a) + row));
-                storePack(direction, z + beta * loadPack(direction));
-            });
-        });
     }
 
     const BlockGrid& grid_;
@@ -183,6 +169,7 @@ SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles
                            const SolverSettings& solver, double dt, ViscosityWorkspace& work, LiquidGrid& liquid)
 {
     work.system.assemble(grid, obstacles, liquid, dt * settings.viscosity, settings.wallFriction);
+    work.multigrid.build(grid, work.system, dt * settings.viscosity / (settings.density * grid.dx * grid.dx));
     return ConjugateGradients(grid, work, liquid).solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
 }
 

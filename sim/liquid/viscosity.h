@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/liquid/viscous_system.h"
+#include "sim/liquid/viscous_multigrid.h"
 #include "sim/settings.h"
 #include "sim/step_report.h"
 
@@ -9,13 +9,14 @@ namespace sim {
 /// What a solve for the viscosity needs beside the liquid's grid: grows once, and only where a scene asks for the solve.
 struct ViscosityWorkspace {
     ViscousSystem system;
+    ViscousMultigrid multigrid;
     BlockArray<double, 3> residual, direction, applied;  ///< of the conjugate gradients [g cm/s], [cm/s], [g cm/s]
     std::vector<double> sums, largest, largestRhs;       ///< of each block
 };
 
 /// One implicit step of viscosity over dt [s] on the velocities of the liquid's faces, before the pressure makes them
 /// divergence-free (model-fluid 7): first order in time and stable for any viscosity. Conjugate gradients from the
-/// velocities as they are, with the diagonal as preconditioner; the residual is relative to the largest momentum of a
+/// velocities as they are, preconditioned by multigrid; the residual is relative to the largest momentum of a
 /// face. Not converged after solver.maxIterations: told by the report, and the velocities are the last iterate's.
 SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,
                            const SolverSettings& solver, double dt, ViscosityWorkspace& work, LiquidGrid& liquid);

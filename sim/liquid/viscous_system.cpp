@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/grid/rows.h"
+#include "sim/liquid/walls.h"
 #include "sim/solvers/block_rows.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@ namespace {
 
 /// Faces with less of a full one's mass carry nothing that would matter, but their reciprocals might overflow.
 constexpr double kLeastMass = 1.0e-12;
-/// Nearest that a wall is taken to be to a face that it holds [cells]: only the conditioning suffers from less.
-constexpr double kNearestWall = 0.1;
 
 [[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k)
 {
@@ -150,16 +149,7 @@ void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const Li
         }
 }
 
-/// Distance of a face from the obstacles [cm].
-double faceDistance(const BlockGrid& grid, const ObstacleField& obstacles, int b, int axis, Vec3i cell)
-{
-    const CellRef upper = cellNear(grid, b, cell.x(), cell.y(), cell.z());
-    cell[axis] -= 1;
-    const CellRef lower = cellNear(grid, b, cell.x(), cell.y(), cell.z());
-    return 0.5 * (obstacles.centerDistance(upper.block)[upper.cell] + obstacles.centerDistance(lower.block)[lower.cell]);
-}
-
-/// μ dt times the area over the distance of each wall beside a face.
+/// dt μ times area over distance for each wall beside a face.
 void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b,
                ViscousSystem& system)
 {
@@ -178,10 +168,7 @@ void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const Liqu
                     beside[(a + 1 + side / 2) % 3] += side % 2 == 0 ? 1 : -1;
                     const CellRef ref = cellNear(grid, b, beside.x(), beside.y(), beside.z());
                     if ((obstacles.closed(ref.block, a)[ref.cell >> 6] >> (ref.cell & 63) & 1) == 0) continue;
-                    const double own = faceDistance(grid, obstacles, b, a, cell),
-                                 other = faceDistance(grid, obstacles, b, a, beside);
-                    const double reach = own > other ? own / (own - other) : 1.0;
-                    wall[face] += weight * fill / std::clamp(reach, kNearestWall, 1.0);
+                    wall[face] += weight * fill / wallReach(grid, obstacles, b, a, cell, beside);
                 }
             }
     }

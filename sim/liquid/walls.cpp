@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -9,6 +10,7 @@ namespace sim {
 
 namespace {
 
+constexpr double kNearestWall = 0.1;   ///< to a face [cells]
 constexpr int kMirrorDepth = 2;        ///< layers behind a wall that stencils in front of it touch
 
 /// Call f(cell) for each closed face of a block normal to `axis`.
@@ -20,12 +22,44 @@ void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
         for (std::uint64_t bits = closed[k]; bits != 0; bits &= bits - 1) f(k * 64 + std::countr_zero(bits));
 }
 
-void stick(const ObstacleField& field, BlockArray<double, 3>& velocity)
+/// Distance of the lower face of a cell from the obstacles [cm].
+double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell)
+{
+    const CellRef upper = cellNear(grid, block, cell.x(), cell.y(), cell.z());
+    cell[axis] -= 1;
+    const CellRef lower = cellNear(grid, block, cell.x(), cell.y(), cell.z());
+    return 0.5 * (field.centerDistance(upper.block)[upper.cell] + field.centerDistance(lower.block)[lower.cell]);
+}
+
+/// The velocity of a closed face that goes on straight from those of the open ones beside it; the wall's own where there are none.
+double straightOn(const BlockGrid& grid, const ObstacleField& field, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b, int axis,
+                  int face)
+{
+    constexpr double kFarthest = 1.0;  // the mirror image's speed: more would blow up rounding next to walls that almost touch a face
+    const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);
+    double sum = 0.0;
+    int count = 0;
+    for (int side = 0; side < 4; ++side) {
+        Vec3i front = cell;
+        front[(axis + 1 + side / 2) % 3] += side % 2 == 0 ? 1 : -1;
+        const CellRef ref = cellNear(grid, b, front.x(), front.y(), front.z());
+        if (!valid.test(ref.block, ref.cell, axis) || !(field.open(ref.block, axis)[ref.cell] > 0.0)) continue;
+        const double reach = wallReach(grid, field, b, axis, front, cell);
+        const double relative = velocity.block(ref.block, axis)[ref.cell] - field.wallVelocity(ref.block, axis)[ref.cell];
+        sum -= std::min((1.0 - reach) / reach, kFarthest) * relative;
+        ++count;
+    }
+    return field.wallVelocity(b, axis)[face] + (count > 0 ? sum / count : 0.0);
+}
+
+void stick(const BlockGrid& grid, const ObstacleField& field, bool goesStraight, const BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
     parallelFor(field.blocksNearSolid().size(), 4, [&](std::size_t n) {
         const int b = field.blocksNearSolid()[n];
         for (int a = 0; a < kAxes; ++a)
-            forEachClosedFace(field, b, a, [&](int face) { velocity.block(b, a)[face] = field.wallVelocity(b, a)[face]; });
+            forEachClosedFace(field, b, a, [&](int face) {
+                velocity.block(b, a)[face] = goesStraight ? straightOn(grid, field, valid, velocity, b, a, face) : field.wallVelocity(b, a)[face];
+            });
     });
 }
 
@@ -144,11 +178,17 @@ void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, 
 
 }  // namespace
 
-void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
-                BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid)
+double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, int axis, const Vec3i& cell, const Vec3i& beside)
+{
+    const double own = faceDistance(grid, field, block, axis, cell), other = faceDistance(grid, field, block, axis, beside);
+    return own > other ? std::clamp(own / (own - other), kNearestWall, 1.0) : 1.0;
+}
+
+void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
+                ExtrapolationScratch& scratch, BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid)
 {
     if (!wallsMirror(friction)) {
-        stick(field, velocity);
+        stick(grid, field, goesStraight, valid, velocity);
         return;
     }
     extrapolate(grid, field.blocksNearSolid(), scratch, valid, velocity);

@@ -8,9 +8,15 @@ namespace sim {
 /// Give the closed faces what the walls demand (model-fluid 6.6): with friction c, the obstacle's velocity plus (1 − c) of the
 /// liquid's relative velocity along the wall, as far as the liquid in front reaches. Behind plane walls that lie in planes of faces it is the
 /// mirror image of the liquid in front instead: the normal component odd about the wall, the tangential ones even.
+/// @param goesStraight  at walls that liquid sticks to its velocity along them goes on behind them as in front, through that of the wall where
+///               the wall is: what particles near it read is then a straight profile, not one bent towards the face behind
 /// @param valid  in: the faces in front with a velocity; out: those behind that got one, too
-void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, ExtrapolationScratch& scratch,
-                BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
+void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
+                ExtrapolationScratch& scratch, BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
+
+/// Where a wall stands between the open lower face of a cell and the closed one of the cell beside it: share of the way from the open one, (0, 1].
+/// No nearer than a tenth: less only hurts the conditioning.
+double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, int axis, const Vec3i& cell, const Vec3i& beside);
 
 /// Do plane walls in planes of faces mirror the liquid? Only where it slips along them.
 inline bool wallsMirror(double friction) { return friction < 1.0; }

@@ -83,6 +83,22 @@ TEST(Allocation, StepsInTheSameBlocksAllocateNothing)
     }
 }
 
+TEST(Allocation, ViscosityAllocatesNothing)
+{
+    for (double friction : {0.0, 1.0}) {
+        Scene scene = pool(kPoly8);
+        scene.settings.liquid.solveViscosity = true;
+        scene.settings.liquid.viscosity = 10.0;
+        scene.settings.liquid.wallFriction = friction;
+        const long count = onThreads(1, [&] {
+            Simulation simulation(scene);
+            allocationsOf(simulation, 10);
+            return allocationsOf(simulation, 10);
+        });
+        EXPECT_EQ(count, 0) << friction;
+    }
+}
+
 TEST(Allocation, MovingObstaclesAllocateNothing)
 {
     Scene scene = pool(kPoly8);

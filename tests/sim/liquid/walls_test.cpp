@@ -21,7 +21,7 @@ void fillAndApply(GridScene& scene, double friction, U&& u)
         scene.setValid(a, c);
     });
     ExtrapolationScratch scratch;
-    applyWalls(scene.grid, scene.field, scene.obstacles, friction, scratch, scene.liquid.faces.valid,
+    applyWalls(scene.grid, scene.field, scene.obstacles, friction, false, scratch, scene.liquid.faces.valid,
                scene.liquid.faces.velocity, scene.liquid);
 }
 

@@ -225,10 +225,10 @@ time: {integrator: reflect}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
      "bad.yaml:2: time.integrator: \"reflect\" is unknown (did you mean \"reflected\"?)"},
-    {"LaterViscosity", R"(grid: {cell: 0.1}
-liquid: {solve_viscosity: true}
+    {"LaterSurfaceTension", R"(grid: {cell: 0.1}
+liquid: {surface_tension_force: true}
 )",
-     "bad.yaml:2: liquid.solve_viscosity: true does not run in this version; write false"},
+     "bad.yaml:2: liquid.surface_tension_force: true does not run in this version; write false"},
     {"ModesZero", R"(grid: {cell: 0.1}
 transfer: {modes: 0}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}

@@ -78,7 +78,7 @@ transfer:
   keep: {liquid_affine: 0.8, fabric_stretch: 0.7, fabric_rotation: 0.6, fabric_velocity: 0.5}
   keep_dt: 1.0e-3
   damp_modes: false
-solver: {pressure_tolerance: 1.0e-4, max_iterations: 50}
+solver: {pressure_tolerance: 1.0e-4, max_iterations: 50, viscosity_tolerance: 1.0e-3}
 liquid:
   density: 2
   viscosity: 3
@@ -88,7 +88,7 @@ liquid:
   full: true
   wall_friction: 0.25
   relax: {rate: 10, range: 1.5}
-  solve_viscosity: false
+  solve_viscosity: true
   surface_tension_force: false
   sources:
     - shape: {ball: {center: [0, 0, 0], radius: 1}}
@@ -123,6 +123,8 @@ domain: {box: {min: [-9, -9, -9], max: [9, 9, 9]}}
     EXPECT_FALSE(s.transfer.dampModes);
     EXPECT_EQ(1.0e-4, s.solver.pressureTolerance);
     EXPECT_EQ(50, s.solver.maxIterations);
+    EXPECT_EQ(1.0e-3, s.solver.viscosityTolerance);
+    EXPECT_TRUE(s.liquid.solveViscosity);
     EXPECT_EQ(2.0, s.liquid.density);
     EXPECT_EQ(4.0, s.liquid.surfaceTension);
     EXPECT_EQ(0.5 * sim::kPi, s.liquid.contactAngle);

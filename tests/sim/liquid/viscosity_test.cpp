@@ -1,0 +1,271 @@
+#include "sim/liquid/viscosity.h"
+#include "tests/sim/fixtures.h"
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace sim::test {
+namespace {
+
+/// One step of viscosity on liquid that is given on the grid.
+struct ViscousScene {
+    GridScene scene;
+    ViscosityWorkspace work;
+
+    ViscousScene(const Vec3i& first, const Vec3i& end) : scene(first, end) { scene.settings.viscosity = 100.0; }
+
+    SolveReport solve(double dt, double tolerance = 1.0e-13)
+    {
+        scene.solver.viscosityTolerance = tolerance;
+        scene.solver.maxIterations = 5000;
+        return solveViscosity(scene.grid, scene.field, scene.settings, scene.solver, dt, work, scene.liquid);
+    }
+    double mass(int axis, const Vec3i& c) const
+    {
+        const CellRef ref = scene.at(c);
+        return scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + axis)[ref.cell];
+    }
+    bool isUnknown(int axis, const Vec3i& c) const
+    {
+        return work.system.unknown.test(scene.at(c).block, scene.at(c).cell, axis);
+    }
+    /// Σ of(axis, cell) over the unknown faces.
+    template <class Of>
+    auto sum(Of&& of)
+    {
+        decltype(of(0, Vec3i())) total = of(0, scene.lower) * 0.0;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            if (isUnknown(a, c)) total += of(a, c);
+        });
+        return total;
+    }
+    double energy()
+    {
+        return sum([&](int a, const Vec3i& c) { return 0.5 * mass(a, c) * std::pow(scene.velocity(a, c), 2); });
+    }
+    Vec3 momentum()
+    {
+        return sum([&](int a, const Vec3i& c) { return Vec3(mass(a, c) * scene.velocity(a, c) * Vec3::Unit(a)); });
+    }
+    Vec3 angularMomentum()
+    {
+        return sum([&](int a, const Vec3i& c) {
+            return Vec3(mass(a, c) * scene.velocity(a, c) * scene.faceMiddle(a, c).cross(Vec3::Unit(a)));
+        });
+    }
+};
+
+const Vec3 kMiddle(1.3, 1.1, 1.5);
+
+/// A ball of liquid in the air, with masses that differ from face to face.
+ViscousScene ball()
+{
+    ViscousScene viscous({-3, -3, -3}, {13, 13, 13});
+    viscous.scene.fill([](const Vec3& x) { return (x - kMiddle).norm() - 1.2; });
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.5, 1.1);
+    viscous.scene.forEachFace([&](int a, const Vec3i& c) {
+        const CellRef ref = viscous.scene.at(c);
+        viscous.scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] *= unit(random);
+    });
+    viscous.scene.setRandomVelocities(100.0);
+    return viscous;
+}
+
+/// A ball that half fills a tank turned against the grid, with sticking walls.
+ViscousScene puddle(double friction)
+{
+    ViscousScene viscous({-3, -3, -3}, {13, 13, 13});
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translate(kMiddle);
+    place.rotate(Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, 3.0).normalized()));
+    viscous.scene.add(Shape::box(Vec3::Zero(), Vec3(1.1, 1.0, 1.3)).inverted().moved(place));
+    viscous.scene.settings.wallFriction = friction;
+    viscous.scene.fill([](const Vec3& x) { return x.y() - 1.0; });
+    viscous.scene.setRandomVelocities(100.0);
+    return viscous;
+}
+
+TEST(ViscousSystem, IsSymmetricAndPositive)
+{
+    for (double friction : {0.0, 1.0}) {
+        ViscousScene viscous = puddle(friction);
+        viscous.solve(1.0e-2);
+        const ViscousSystem& system = viscous.work.system;
+        const BlockGrid& grid = viscous.scene.grid;
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        const auto some = [&] {
+            BlockArray<double, 3> v;
+            v.resize(grid.count());
+            for (int b = 0; b < grid.count(); ++b)
+                for (int a = 0; a < kAxes; ++a)
+                    for (int c = 0; c < kBlockCells; ++c)
+                        v.block(b, a)[c] = system.unknown.test(b, c, a) ? unit(random) : 0.0;
+            return v;
+        };
+        const auto times = [&](const BlockArray<double, 3>& v) {
+            BlockArray<double, 3> out;
+            out.resize(grid.count());
+            for (int b = 0; b < grid.count(); ++b) system.multiply(grid, v, b, out);
+            return out;
+        };
+        const auto dot = [&](const BlockArray<double, 3>& v, const BlockArray<double, 3>& w) {
+            return std::inner_product(v.block(0), v.block(grid.count()), w.block(0), 0.0);
+        };
+        for (int n = 0; n < 5; ++n) {
+            const BlockArray<double, 3> v = some(), w = some(), av = times(v), aw = times(w);
+            EXPECT_NEAR(dot(w, av), dot(v, aw), 1.0e-12 * dot(v, av));  // rounding of sums of 10^4 products
+            double inertia = 0.0;
+            viscous.scene.forEachFace([&](int a, const Vec3i& c) {
+                const CellRef ref = viscous.scene.at(c);
+                inertia += viscous.mass(a, c) * std::pow(v.block(ref.block, a)[ref.cell], 2);
+            });
+            EXPECT_GT(dot(v, av), inertia) << friction;
+        }
+    }
+}
+
+/// V1. Rigid motions are strained by nothing but rounding, whatever the masses and however stiff.
+TEST(Viscosity, RigidMotionOfABallStays)
+{
+    ViscousScene viscous = ball();
+    viscous.scene.settings.viscosity = 1.0e4;
+    const Vec3 turn(3.0, -2.0, 5.0), shift(10.0, 20.0, -5.0);
+    const auto motion = [&](const Vec3& x) { return Vec3(shift + turn.cross(x)); };
+    viscous.scene.setVelocities(motion);
+    EXPECT_TRUE(viscous.solve(1.0e-3, 1.0e-10).converged);
+    double worst = 0.0;
+    viscous.scene.forEachFace([&](int a, const Vec3i& c) {
+        worst = std::max(worst, std::abs(viscous.scene.velocity(a, c) - motion(viscous.scene.faceMiddle(a, c))[a]));
+    });
+    EXPECT_LT(worst, 1.0e-10 * shift.norm());
+}
+
+TEST(Viscosity, KeepsMomentumAndAngularMomentumAndTakesEnergy)
+{
+    ViscousScene viscous = ball();
+    viscous.solve(0.0);  // marks the unknowns
+    const Vec3 momentum = viscous.momentum(), angular = viscous.angularMomentum();
+    const double energy = viscous.energy();
+    EXPECT_TRUE(viscous.solve(1.0e-2).converged);
+    EXPECT_LT((viscous.momentum() - momentum).norm(), 1.0e-10 * momentum.norm());
+    EXPECT_LT((viscous.angularMomentum() - angular).norm(), 1.0e-10 * angular.norm());
+    EXPECT_LT(viscous.energy(), 0.1 * energy);
+    EXPECT_GT(viscous.energy(), 0.0);
+}
+
+TEST(Viscosity, TakesEnergyAtWallsToo)
+{
+    for (double friction : {0.0, 0.5, 1.0}) {
+        ViscousScene viscous = puddle(friction);
+        viscous.solve(0.0);
+        double last = viscous.energy();
+        for (int step = 0; step < 5; ++step) {
+            EXPECT_TRUE(viscous.solve(1.0e-4, 1.0e-6).converged);
+            EXPECT_LT(viscous.energy(), last);
+            last = viscous.energy();
+        }
+    }
+}
+
+/// Honey at 10^4 P in long steps: as stiff as any scene will be. Never more energy, however early the solve gives up.
+TEST(Viscosity, IsStableWhereItIsStiff)
+{
+    for (double dt : {1.0e-3, 4.0e-3, 1.0}) {
+        ViscousScene viscous = puddle(1.0);
+        viscous.scene.settings.viscosity = 1.0e4;
+        viscous.solve(0.0);
+        const double energy = viscous.energy();
+        EXPECT_TRUE(viscous.solve(dt, 1.0e-6).converged);
+        EXPECT_LT(viscous.energy(), 1.0e-3 * energy) << dt;
+    }
+}
+
+/// A slab between two plates `height` cells apart, the lower one `shift` cells above a plane of faces, long and open at
+/// all ends, driven along x for so long that inertia is nothing: Poiseuille's parabola in its middle. Returns the
+/// largest error there, relative to the largest velocity.
+double poiseuilleError(int height, double shift)
+{
+    const int length = 6 * height;
+    ViscousScene viscous({-1, -2, -1}, {length + 1, height + 2, 7});
+    GridScene& scene = viscous.scene;
+    const double dx = scene.grid.dx, low = scene.corner({0, 0, 0}).y() + shift * dx, high = low + (height - 1) * dx;
+    scene.add(Shape::box(Vec3(0.0, low - 5.0, 0.0), Vec3(1.0e3, 5.0, 1.0e3)));
+    scene.add(Shape::box(Vec3(0.0, high + 5.0, 0.0), Vec3(1.0e3, 5.0, 1.0e3)));
+    scene.settings.wallFriction = 1.0;
+    scene.fill([&](const Vec3& x) {
+        const Vec3 from = scene.corner({0, 0, 0}), to = scene.corner({length, 0, 6});
+        return std::max({from.x() - x.x(), x.x() - to.x(), from.z() - x.z(), x.z() - to.z()});
+    });
+    const double gap = high - low, nu = scene.settings.viscosity / scene.settings.density, dt = 1.0e6 * gap * gap / nu;
+    const double push = 1.0;  // [cm/s^2]
+    scene.setVelocities([&](const Vec3&) { return Vec3(push * dt, 0.0, 0.0); });
+    EXPECT_TRUE(viscous.solve(dt, 1.0e-12).converged);
+    double worst = 0.0;
+    for (int j = 0; j < height; ++j) {
+        const Vec3i c(length / 2, j, 3);
+        if (!viscous.isUnknown(0, c)) continue;
+        const double y = scene.faceMiddle(0, c).y() - low;
+        if (y < 0.0 || y > gap) continue;
+        worst = std::max(worst, std::abs(scene.velocity(0, c) - push / (2.0 * nu) * y * (gap - y)));
+    }
+    return worst / (push / (8.0 * nu) * gap * gap);
+}
+
+/// V3.
+TEST(Viscosity, PoiseuilleProfileIsOfSecondOrder)
+{
+    const double coarse = poiseuilleError(9, 0.0), fine = poiseuilleError(17, 0.0);
+    std::printf("walls in planes of faces: error %.2e between walls 8 cells apart, %.2e at 16\n", coarse, fine);
+    EXPECT_LT(fine, 0.3 * coarse);  // a quarter, and what the ends still make of it in the middle
+    EXPECT_LT(coarse, 0.02);        // (dx/gap)² of the largest velocity, 1/64
+    for (double shift : {0.2, 0.4, 0.7}) {
+        const double a = poiseuilleError(9, shift), b = poiseuilleError(17, shift);
+        std::printf("walls %.1f cells off: error %.2e, %.2e\n", shift, a, b);
+        EXPECT_LT(b, 0.6 * a);  // better than first order wherever walls stand
+    }
+}
+
+/// A turning drum takes the liquid in it along, and leaves alone what turns with it.
+TEST(Viscosity, LiquidTurnsRigidlyWithItsWalls)
+{
+    ViscousScene viscous({-3, -3, -3}, {13, 13, 13});
+    GridScene& scene = viscous.scene;
+    Motion motion;
+    motion.addRotation(-1.0, 1.0, Vec3::UnitZ(), 4.0, kMiddle, Motion::Frame::World, 0.0, 0.0);
+    scene.add(Shape::ball(kMiddle, 1.1).inverted(), motion);
+    scene.settings.wallFriction = 1.0;
+    scene.settings.full = true;
+    scene.findInside();
+    scene.setMasses();
+    const auto turning = [](const Vec3& x) { return Vec3(2.0 * Vec3::UnitZ().cross(x - kMiddle)); };
+    scene.setVelocities([](const Vec3&) { return Vec3(Vec3::Zero()); });
+    EXPECT_TRUE(viscous.solve(1.0e6).converged);
+    double worst = 0.0;
+    scene.forEachFace([&](int a, const Vec3i& c) {
+        if (viscous.isUnknown(a, c))
+            worst = std::max(worst, std::abs(scene.velocity(a, c) - turning(scene.faceMiddle(a, c))[a]));
+    });
+    EXPECT_LT(worst, 1.0e-6);  // inertia over viscosity is 1e-9, the tolerance on top
+}
+
+TEST(Viscosity, SameBitsForAnyThreadCount)
+{
+    const auto solved = [] {
+        ViscousScene viscous = puddle(1.0);
+        viscous.solve(1.0e-3, 1.0e-6);
+        return viscous.scene.liquid.faces.velocity;
+    };
+    const BlockArray<double, 3> one = onThreads(1, solved);
+    for (int threads : {2, 8}) {
+        const BlockArray<double, 3> many = onThreads(threads, solved);
+        EXPECT_EQ(std::memcmp(one.block(0), many.block(0), one.size() * sizeof(double)), 0) << threads;
+    }
+}
+
+}  // namespace
+}  // namespace sim::test
