@@ -34,17 +34,19 @@ struct Interpolation {
     }
 };
 
-/// The other way: fine faces first … first + count − 1 around a coarse one, with their weights in it.
+/// The other way, along one axis: the fine places around a coarse one, from `first` on, with their weights in it. Velocities stand on
+/// faces across the axis or in the middles of cells along it; so do strains, but for those whose velocities differ along it: there
+/// a coarse one is that of its two halves.
 struct Gathering {
+    enum Kind { kAcross, kMiddle, kHalves };
     int first, count;
     std::array<double, 4> weight;
 
-    Gathering(int coarse, bool isNormal)
-        : first(2 * coarse - 1),
-          count(isNormal ? 3 : 4),
-          weight(isNormal ? std::array<double, 4>{0.5, 1.0, 0.5, 0.0} : std::array<double, 4>{0.25, 0.75, 0.75, 0.25})
-    {
-    }
+    Gathering(int coarse, Kind kind) : first(2 * coarse - (kind == kHalves ? 0 : 1)), count(kCount[kind]), weight(kWeight[kind]) {}
+
+ private:
+    static constexpr int kCount[3] = {3, 4, 2};
+    static constexpr std::array<double, 4> kWeight[3] = {{0.5, 1.0, 0.5, 0.0}, {0.25, 0.75, 0.75, 0.25}, {1.0, 1.0, 0.0, 0.0}};
 };
 
 Vec3i parentOf(const Vec3i& coords)
@@ -58,19 +60,26 @@ CellRef fineCell(const std::array<int, 64>& below, int i, int j, int k)
     return {below[((k >> 3) + 1) * 16 + ((j >> 3) + 1) * 4 + (i >> 3) + 1], cellInBlock(i & 7, j & 7, k & 7)};
 }
 
-/// Σ weight × of(block, axis, cell) over the fine faces around a coarse one.
-template <class Of>
-double gather(const std::array<int, 64>& below, int axis, const Vec3i& coarse, Of&& of)
+/// Σ weight × value over the fine places around a coarse one: `own` along the axis, `others` along the other two.
+double gather(const std::array<int, 64>& below, const BlockArray<double, 3>& fine, int axis, const Vec3i& coarse, Gathering::Kind own,
+              Gathering::Kind others)
 {
-    const Gathering x(coarse.x(), axis == 0), y(coarse.y(), axis == 1), z(coarse.z(), axis == 2);
+    const auto along = [&](int a) { return Gathering(coarse[a], a == axis ? own : others); };
+    const Gathering x = along(0), y = along(1), z = along(2);
     double sum = 0.0;
     for (int k = 0; k < z.count; ++k)
         for (int j = 0; j < y.count; ++j)
             for (int i = 0; i < x.count; ++i) {
-                const CellRef fine = fineCell(below, x.first + i, y.first + j, z.first + k);
-                sum += x.weight[i] * y.weight[j] * z.weight[k] * of(fine.block, axis, fine.cell);
+                const CellRef from = fineCell(below, x.first + i, y.first + j, z.first + k);
+                sum += x.weight[i] * y.weight[j] * z.weight[k] * fine.block(from.block, axis)[from.cell];
             }
     return sum;
+}
+
+/// The velocity of a coarse face stands for these.
+double gatherFaces(const std::array<int, 64>& below, const BlockArray<double, 3>& fine, int axis, const Vec3i& coarse)
+{
+    return gather(below, fine, axis, coarse, Gathering::kAcross, Gathering::kMiddle);
 }
 
 /// body(axis, cell, index of the cell) for all faces of a block.
@@ -104,27 +113,13 @@ void findAnchor(const BlockGrid& grid, const ViscousSystem& system, int b, Block
     }
 }
 
-/// The volume of fine strains, over dx², that coarse ones stand for.
+/// Volumes of strains, over dx². A fine strain goes to the coarse ones whose mean it is, so that the coarse system never takes a motion
+/// for less stiff than it is: corrections do not overshoot at the liquid's edge.
 void coarsenStrains(const ViscousSystem& fine, const std::array<int, 64>& below, int b, ViscousSystem& coarse)
 {
     forEachFace([&](int a, const Vec3i& cell, int c) {
-        double normal = 0.0, shear = 0.0;
-        for (int n = 0; n < 8; ++n) {
-            const CellRef from = fineCell(below, 2 * cell.x() + (n & 1), 2 * cell.y() + (n >> 1 & 1), 2 * cell.z() + (n >> 2));
-            normal += fine.normal.block(from.block, a)[from.cell];
-        }
-        for (int along = 0; along < 2; ++along)
-            for (int n = 0; n < 9; ++n) {
-                Vec3i at = 2 * cell;
-                at[a] += along;
-                const int u = n % 3 - 1, v = n / 3 - 1;
-                at[(a + 1) % 3] += u;
-                at[(a + 2) % 3] += v;
-                const CellRef from = fineCell(below, at.x(), at.y(), at.z());
-                shear += (u == 0 ? 1.0 : 0.5) * (v == 0 ? 1.0 : 0.5) * fine.shear.block(from.block, a)[from.cell];
-            }
-        coarse.normal.block(b, a)[c] = 0.25 * normal;
-        coarse.shear.block(b, a)[c] = 0.25 * shear;
+        coarse.normal.block(b, a)[c] = 0.25 * gather(below, fine.normal, a, cell, Gathering::kHalves, Gathering::kMiddle);
+        coarse.shear.block(b, a)[c] = 0.25 * gather(below, fine.shear, a, cell, Gathering::kMiddle, Gathering::kAcross);
     });
 }
 
@@ -217,9 +212,7 @@ void ViscousMultigrid::coarsen(const Level& fine, Level& coarse)
         const int b = static_cast<int>(n);
         coarsenStrains(*fine.system, coarse.below[b], b, system);
         forEachFace([&](int a, const Vec3i& cell, int c) {
-            system.diagonal.block(b, a)[c] = gather(coarse.below[b], a, cell, [&](int block, int axis, int at) {
-                return fine.residual.block(block, axis)[at];
-            });
+            system.diagonal.block(b, a)[c] = gatherFaces(coarse.below[b], fine.residual, a, cell);
         });
     });
     parallelFor(blocks, [&](std::size_t b) { finishDiagonal(*coarse.grid, static_cast<int>(b), system); });
@@ -291,8 +284,7 @@ void ViscousMultigrid::restrict(const Level& fine, Level& coarse)
                     const int c = r * kBlockEdge + i;
                     if (!coarse.system->unknown.test(b, c, a)) continue;
                     coarse.rhs.block(b, a)[c] =
-                        gather(coarse.below[b], a, Vec3i(i, r % kBlockEdge, r / kBlockEdge),
-                               [&](int block, int axis, int at) { return fine.residual.block(block, axis)[at]; });
+                        gatherFaces(coarse.below[b], fine.residual, a, Vec3i(i, r % kBlockEdge, r / kBlockEdge));
                 }
             });
         }

@@ -102,15 +102,18 @@ void findUnknowns(const ObstacleField& obstacles, const LiquidGrid& liquid, int 
     }
 }
 
-/// Bits of the closed faces of plane k of a block, and of those one cell above.
-std::uint64_t closedAbove(const ObstacleField& obstacles, const BitAccess& bits, int axis, int k)
+/// @param sticks  so do walls that pass between a face's open part and its middle
+void findBehind(const BlockGrid& grid, const ObstacleField& obstacles, bool sticks, int b, ViscousSystem& system)
 {
-    constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
-    const auto closed = [&](int n) { return obstacles.closed(bits.neighbours[n], axis); };
-    const std::uint64_t* own = closed(13);
-    if (axis == 0) return (own[k] & ~kFirstColumn) >> 1 | (closed(14)[k] & kFirstColumn) << 7;
-    if (axis == 1) return own[k] >> 8 | closed(16)[k] << 56;
-    return k < kBlockEdge - 1 ? own[k + 1] : closed(22)[0];
+    for (int a = 0; a < kAxes; ++a) {
+        std::copy_n(obstacles.closed(b, a), BlockBits<3>::kWords, system.behind.block(b, a));
+        if (!sticks || !obstacles.nearSolid(b)) continue;
+        for (int k = 0; k < kBlockEdge; ++k)
+            for (std::uint64_t bits = system.unknown.block(b, a)[k]; bits != 0; bits &= bits - 1) {
+                const int face = k * 64 + std::countr_zero(bits);
+                if (faceDistance(grid, obstacles, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0) system.behind.set(b, face, a);
+            }
+    }
 }
 
 void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b,
@@ -121,11 +124,14 @@ void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const Li
     for (int k = 0; k < kBlockEdge; ++k)
         for (int a = 0; a < kAxes; ++a) {
             const std::uint64_t own = unknown.block(b, a)[k], above = faces.bits.above(unknown, a, a, k);
-            const std::uint64_t given = obstacles.closed(b, a)[k], givenAbove = closedAbove(obstacles, faces.bits, a, k);
+            const std::uint64_t given = system.behind.block(b, a)[k], givenAbove = faces.bits.above(system.behind, a, a, k);
             const std::uint64_t strained = (own | given) & (above | givenAbove) & (own | above);
             const int c = (a + 1) % 3, d = (a + 2) % 3;
-            const std::uint64_t sheared = unknown.block(b, c)[k] & faces.bits.below(unknown, c, d, k) &
-                                          unknown.block(b, d)[k] & faces.bits.below(unknown, d, c, k);
+            const auto pair = [&](int axis, int along) {
+                const std::uint64_t free = unknown.block(b, axis)[k] & ~system.behind.block(b, axis)[k];
+                return free & faces.bits.below(unknown, axis, along, k) & ~faces.bits.below(system.behind, axis, along, k);
+            };
+            const std::uint64_t sheared = pair(c, d) & pair(d, c);
             for (int j = 0; j < kBlockEdge; ++j) {
                 const int row = cellInBlock(0, j, k);
                 Pack normal = broadcast(0.0), shear = broadcast(0.0);
@@ -167,7 +173,7 @@ void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const Liqu
                     Vec3i beside = cell;
                     beside[(a + 1 + side / 2) % 3] += side % 2 == 0 ? 1 : -1;
                     const CellRef ref = cellNear(grid, b, beside.x(), beside.y(), beside.z());
-                    if ((obstacles.closed(ref.block, a)[ref.cell >> 6] >> (ref.cell & 63) & 1) == 0) continue;
+                    if (!system.behind.test(ref.block, ref.cell, a)) continue;
                     wall[face] += weight * fill / wallReach(grid, obstacles, b, a, cell, beside);
                 }
             }
@@ -226,10 +232,12 @@ void ViscousSystem::assemble(const BlockGrid& grid, const ObstacleField& obstacl
     const int blocks = grid.count();
     const double weight = impulse * grid.dx / liquid.fullMass;  // dt μ V / dx² of a volume is this times its mass
     unknown.resize(blocks);
+    behind.resize(blocks);
     rows.resize(static_cast<std::size_t>(blocks) * kAxes);
     for (BlockArray<double, 3>* field : {&diagonal, &normal, &shear}) field->resize(blocks);
     if (friction > 0.0) wall.resize(blocks);
     forEachBlock(blocks, [&](int b) { findUnknowns(obstacles, liquid, b, *this); });
+    forEachBlock(blocks, [&](int b) { findBehind(grid, obstacles, friction > 0.0, b, *this); });
     forEachBlock(blocks, [&](int b) { findStrains(grid, obstacles, liquid, weight, b, *this); });
     if (friction > 0.0)
         forEachBlock(blocks, [&](int b) { findWalls(grid, obstacles, liquid, friction * impulse * grid.dx, b, *this); });

@@ -19,6 +19,7 @@ namespace sim {
 /// Fabric changes nothing here: with the room for liquid, the volume of its strains shrinks; drag is another matter.
 struct ViscousSystem {
     BlockBits<3> unknown;               ///< faces with liquid that are not closed
+    BlockBits<3> behind;                ///< closed faces, and those with their middles inside a wall that sticks
     std::vector<std::uint64_t> rows;    ///< of unknowns along x, a bit for each row of 8; by block and axis
     BlockArray<double, 3> diagonal;     ///< of the matrix [g]; 0 where a face is not unknown
     BlockArray<double, 3> normal;       ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]

@@ -22,15 +22,6 @@ void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
         for (std::uint64_t bits = closed[k]; bits != 0; bits &= bits - 1) f(k * 64 + std::countr_zero(bits));
 }
 
-/// Distance of the lower face of a cell from the obstacles [cm].
-double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell)
-{
-    const CellRef upper = cellNear(grid, block, cell.x(), cell.y(), cell.z());
-    cell[axis] -= 1;
-    const CellRef lower = cellNear(grid, block, cell.x(), cell.y(), cell.z());
-    return 0.5 * (field.centerDistance(upper.block)[upper.cell] + field.centerDistance(lower.block)[lower.cell]);
-}
-
 /// The velocity of a closed face that goes on straight from those of the open ones beside it; the wall's own where there are none.
 double straightOn(const BlockGrid& grid, const ObstacleField& field, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b, int axis,
                   int face)
@@ -177,6 +168,14 @@ void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, 
 }
 
 }  // namespace
+
+double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell)
+{
+    const CellRef upper = cellNear(grid, block, cell.x(), cell.y(), cell.z());
+    cell[axis] -= 1;
+    const CellRef lower = cellNear(grid, block, cell.x(), cell.y(), cell.z());
+    return 0.5 * (field.centerDistance(upper.block)[upper.cell] + field.centerDistance(lower.block)[lower.cell]);
+}
 
 double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, int axis, const Vec3i& cell, const Vec3i& beside)
 {

@@ -14,6 +14,9 @@ namespace sim {
 void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
                 ExtrapolationScratch& scratch, BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
 
+/// Distance of the lower face of a cell from the obstacles, at most 1.5 cells [cm].
+double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell);
+
 /// Where a wall stands between the open lower face of a cell and the closed one of the cell beside it: share of the way from the open one, (0, 1].
 /// No nearer than a tenth: less only hurts the conditioning.
 double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, int axis, const Vec3i& cell, const Vec3i& beside);

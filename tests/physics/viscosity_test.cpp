@@ -133,7 +133,7 @@ TEST(ViscousLiquid, EnergyGoesWhereTheBookSays)
     EXPECT_LT(all[EnergyChange::Viscosity], -0.5 * kinetic);
 }
 
-/// Without gravity and walls the momentum of a deforming blob stays, as far as the tolerances go.
+/// Without gravity and walls the momentum of a deforming blob stays: but for what the pressure's floor on the fill of faces takes.
 TEST(ViscousLiquid, BlobKeepsItsMomentum)
 {
     Scene scene = splat();
@@ -149,7 +149,7 @@ TEST(ViscousLiquid, BlobKeepsItsMomentum)
     };
     const Vec3 before = momentum();
     for (int step = 0; step < 20; ++step) EXPECT_TRUE(simulation.step(1.0e9).viscosity.converged);
-    EXPECT_LT((momentum() - before).norm(), 1.0e-10 * before.norm());
+    EXPECT_LT((momentum() - before).norm(), 1.0e-6 * before.norm());
 }
 
 TEST(ViscousLiquid, IsSolvedForOnlyWhereASceneAsks)
