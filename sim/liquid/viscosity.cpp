@@ -99,10 +99,12 @@ class ConjugateGradients {
             work_.largest[b] = largestLane(largest);
             work_.largestRhs[b] = largestLane(largestRhs);
         });
-        forEachBlock(grid_.count(), [&](int b) { std::fill_n(work_.direction.block(b), BlockArray<double, 3>::kStride, 0.0); });
+        forEachBlock(grid_.count(),
+                     [&](int b) { std::fill_n(work_.direction.block(b), BlockArray<double, 3>::kStride, 0.0); });
     }
 
-    /// direction = multigrid applied to the residual + beta direction; returns the product of the first with the residual.
+    /// direction = multigrid applied to the residual + beta direction; returns the product of the first with the
+    /// residual.
     double turn(double rho)
     {
         work_.multigrid.cycle(work_.residual);

@@ -6,7 +6,8 @@
 
 namespace sim {
 
-/// What a solve for the viscosity needs beside the liquid's grid: grows once, and only where a scene asks for the solve.
+/// What a solve for the viscosity needs beside the liquid's grid: grows once, and only where a scene asks for the
+/// solve.
 struct ViscosityWorkspace {
     ViscousSystem system;
     ViscousMultigrid multigrid;

@@ -15,15 +15,17 @@ namespace {
 constexpr double kLargest = 4.0;
 constexpr double kSmoothed = 0.4;  ///< the smallest that smoothing takes care of where there is a coarser level
 constexpr int kSmoothingSteps = 3;
-constexpr double kStiff = 0.5;     ///< levels stiffer than this get a coarser one
-constexpr double kSmallest = 0.04; ///< that the coarsest level takes care of at most
+constexpr double kStiff = 0.5;      ///< levels stiffer than this get a coarser one
+constexpr double kSmallest = 0.04;  ///< that the coarsest level takes care of at most
 
-/// Weights of the velocities of coarse faces in that of a fine one, along one axis: at(0) with weight(0), at(1) with weight(1).
+/// Weights of the velocities of coarse faces in that of a fine one, along one axis: at(0) with weight(0), at(1) with
+/// weight(1).
 struct Interpolation {
     int at[2];
     double weight[2];
 
-    /// @param isNormal  faces stand across this axis: every second one is on a coarse face; else in the middles of cells
+    /// @param isNormal  faces stand across this axis: every second one is on a coarse face; else in the middles of
+    /// cells
     Interpolation(int fine, bool isNormal)
     {
         const bool isOdd = (fine & 1) != 0;
@@ -34,19 +36,23 @@ struct Interpolation {
     }
 };
 
-/// The other way, along one axis: the fine places around a coarse one, from `first` on, with their weights in it. Velocities stand on
-/// faces across the axis or in the middles of cells along it; so do strains, but for those whose velocities differ along it: there
-/// a coarse one is that of its two halves.
+/// The other way, along one axis: the fine places around a coarse one, from `first` on, with their weights in it.
+/// Velocities stand on faces across the axis or in the middles of cells along it; so do strains, but for those whose
+/// velocities differ along it: there a coarse one is that of its two halves.
 struct Gathering {
     enum Kind { kAcross, kMiddle, kHalves };
     int first, count;
     std::array<double, 4> weight;
 
-    Gathering(int coarse, Kind kind) : first(2 * coarse - (kind == kHalves ? 0 : 1)), count(kCount[kind]), weight(kWeight[kind]) {}
+    Gathering(int coarse, Kind kind)
+        : first(2 * coarse - (kind == kHalves ? 0 : 1)), count(kCount[kind]), weight(kWeight[kind])
+    {
+    }
 
  private:
     static constexpr int kCount[3] = {3, 4, 2};
-    static constexpr std::array<double, 4> kWeight[3] = {{0.5, 1.0, 0.5, 0.0}, {0.25, 0.75, 0.75, 0.25}, {1.0, 1.0, 0.0, 0.0}};
+    static constexpr std::array<double, 4> kWeight[3] = {
+        {0.5, 1.0, 0.5, 0.0}, {0.25, 0.75, 0.75, 0.25}, {1.0, 1.0, 0.0, 0.0}};
 };
 
 Vec3i parentOf(const Vec3i& coords)
@@ -61,8 +67,8 @@ CellRef fineCell(const std::array<int, 64>& below, int i, int j, int k)
 }
 
 /// Σ weight × value over the fine places around a coarse one: `own` along the axis, `others` along the other two.
-double gather(const std::array<int, 64>& below, const BlockArray<double, 3>& fine, int axis, const Vec3i& coarse, Gathering::Kind own,
-              Gathering::Kind others)
+double gather(const std::array<int, 64>& below, const BlockArray<double, 3>& fine, int axis, const Vec3i& coarse,
+              Gathering::Kind own, Gathering::Kind others)
 {
     const auto along = [&](int a) { return Gathering(coarse[a], a == axis ? own : others); };
     const Gathering x = along(0), y = along(1), z = along(2);
@@ -108,9 +114,11 @@ void findAnchor(const BlockGrid& grid, const ViscousSystem& system, int b, Block
         forEachRow(system.rowsOf(b, a), [&](int r) {
             const int j = r % kBlockEdge, k = r / kBlockEdge;
             const auto known = [&](std::uint64_t word) { return maskOfBits(word >> (j * kBlockEdge)); };
-            const Pack zero = broadcast(0.0), own = rows.row(system.normal, a, j, k), lower = rows.below(system.normal, a, a, j, k);
+            const Pack zero = broadcast(0.0), own = rows.row(system.normal, a, j, k),
+                       lower = rows.below(system.normal, a, a, j, k);
             Pack sum = rows.row(system.diagonal, a, j, k);
-            sum -= select(known(bits.above(system.unknown, a, a, k)), own, zero) + select(known(bits.below(system.unknown, a, a, k)), lower, zero);
+            sum -= select(known(bits.above(system.unknown, a, a, k)), own, zero) +
+                   select(known(bits.below(system.unknown, a, a, k)), lower, zero);
             for (int side = 1; side < kAxes; ++side) {
                 const int along = (a + side) % 3, edge = (a + 3 - side) % 3;
                 sum -= rows.row(system.shear, edge, j, k) + rows.above(system.shear, edge, along, j, k);
@@ -121,12 +129,13 @@ void findAnchor(const BlockGrid& grid, const ViscousSystem& system, int b, Block
     }
 }
 
-/// Volumes of strains, over dx². A fine strain goes to the coarse ones whose mean it is, so that the coarse system never takes a motion
-/// for less stiff than it is: corrections do not overshoot at the liquid's edge.
+/// Volumes of strains, over dx². A fine strain goes to the coarse ones whose mean it is, so that the coarse system
+/// never takes a motion for less stiff than it is: corrections do not overshoot at the liquid's edge.
 void coarsenStrains(const ViscousSystem& fine, const std::array<int, 64>& below, int b, ViscousSystem& coarse)
 {
     forEachFace([&](int a, const Vec3i& cell, int c) {
-        coarse.normal.block(b, a)[c] = 0.25 * gather(below, fine.normal, a, cell, Gathering::kHalves, Gathering::kMiddle);
+        coarse.normal.block(b, a)[c] =
+            0.25 * gather(below, fine.normal, a, cell, Gathering::kHalves, Gathering::kMiddle);
         coarse.shear.block(b, a)[c] = 0.25 * gather(below, fine.shear, a, cell, Gathering::kMiddle, Gathering::kAcross);
     });
 }
@@ -174,7 +183,8 @@ void ViscousMultigrid::connect(Level& fine, Level& coarse)
     coarse.below.resize(coarse.grid->count());
     for (int b = 0; b < coarse.grid->count(); ++b)
         for (int n = 0; n < 64; ++n) {
-            const int found = fine.grid->find(2 * coarse.grid->coords(b) + Vec3i((n & 3) - 1, (n >> 2 & 3) - 1, (n >> 4) - 1));
+            const int found =
+                fine.grid->find(2 * coarse.grid->coords(b) + Vec3i((n & 3) - 1, (n >> 2 & 3) - 1, (n >> 4) - 1));
             coarse.below[b][n] = found == BlockGrid::kNone ? fine.grid->count() : found;
         }
 }
@@ -214,7 +224,8 @@ void ViscousMultigrid::coarsen(const Level& fine, Level& coarse)
     ViscousSystem& system = coarse.ownSystem;
     system.unknown.resize(blocks);
     system.rows.resize(static_cast<std::size_t>(blocks) * kAxes);
-    for (BlockArray<double, 3>* field : {&system.diagonal, &system.normal, &system.shear, &coarse.rhs}) field->resize(blocks);
+    for (BlockArray<double, 3>* field : {&system.diagonal, &system.normal, &system.shear, &coarse.rhs})
+        field->resize(blocks);
     coarse.system = &system;
     parallelFor(blocks, [&](std::size_t n) {
         const int b = static_cast<int>(n);
@@ -237,17 +248,20 @@ void ViscousMultigrid::build(const BlockGrid& grid, const ViscousSystem& system,
     for (int l = 0; l < count_; ++l) {
         Level& level = levels_[l];
         const int blocks = level.grid->count();
-        for (BlockArray<double, 3>* v : {&level.solution, &level.residual, &level.direction, &level.applied}) v->resize(blocks);
+        for (BlockArray<double, 3>* v : {&level.solution, &level.residual, &level.direction, &level.applied})
+            v->resize(blocks);
         if (l + 1 == count_) break;
         forEachBlock(blocks, [&](int b) { findAnchor(*level.grid, *level.system, b, level.residual); });
         coarsen(level, levels_[l + 1]);
     }
     for (int l = 0; l < count_; ++l)
         for (BlockArray<double, 3>* v : {&levels_[l].solution, &levels_[l].residual, &levels_[l].direction})
-            forEachBlock(levels_[l].grid->count(), [&](int b) { std::fill_n(v->block(b), BlockArray<double, 3>::kStride, 0.0); });
+            forEachBlock(levels_[l].grid->count(),
+                         [&](int b) { std::fill_n(v->block(b), BlockArray<double, 3>::kStride, 0.0); });
 }
 
-/// Chebyshev's iteration for eigenvalues from `lowest` to kLargest (Saad 2003, algorithm 12.1). Leaves the residual behind.
+/// Chebyshev's iteration for eigenvalues from `lowest` to kLargest (Saad 2003, algorithm 12.1). Leaves the residual
+/// behind.
 void ViscousMultigrid::smooth(Level& level, const BlockArray<double, 3>& rhs, double lowest, int steps, bool fromZero)
 {
     const BlockGrid& grid = *level.grid;
@@ -313,8 +327,8 @@ void ViscousMultigrid::prolong(const Level& coarse, Level& fine)
                 double sum = 0.0;
                 for (int n = 0; n < 8; ++n) {
                     const double weight = x.weight[n & 1] * y.weight[n >> 1 & 1] * z.weight[n >> 2];
-                    const CellRef from = cellNear(*coarse.grid, parent, first.x() + x.at[n & 1], first.y() + y.at[n >> 1 & 1],
-                                                  first.z() + z.at[n >> 2]);
+                    const CellRef from = cellNear(*coarse.grid, parent, first.x() + x.at[n & 1],
+                                                  first.y() + y.at[n >> 1 & 1], first.z() + z.at[n >> 2]);
                     sum += weight * coarse.solution.block(from.block, a)[from.cell];
                 }
                 fine.solution.block(b, a)[row + i] += sum;

@@ -33,9 +33,10 @@ class ViscousMultigrid {
         BlockGrid ownGrid;
         ViscousSystem ownSystem;
         BlockArray<double, 3> rhs;
-        std::vector<std::array<int, 64>> below;  ///< blocks of the finer level at −1 … 2 along each axis from a block's first
+        std::vector<std::array<int, 64>>
+            below;  ///< blocks of the finer level at −1 … 2 along each axis from a block's first
 
-        std::vector<int> parent;                 ///< block of the next coarser level that holds each block
+        std::vector<int> parent;  ///< block of the next coarser level that holds each block
     };
 
     void buildShape(const BlockGrid& grid);

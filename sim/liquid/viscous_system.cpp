@@ -62,7 +62,9 @@ class Faces {
         Pack m, r;
         PackMask u;
         read(rows_.neighbours[neighbourIndex(step, 0, 0)], axis, j, k, m, r, u);
-        const auto shift = [&](auto own, auto other) { return step < 0 ? shiftRight(other, own) : shiftLeft(own, other); };
+        const auto shift = [&](auto own, auto other) {
+            return step < 0 ? shiftRight(other, own) : shiftLeft(own, other);
+        };
         mass = shift(mass, m);
         room = shift(room, r);
         const Pack one = broadcast(1.0), zero = broadcast(0.0);
@@ -96,7 +98,8 @@ void findUnknowns(const ObstacleField& obstacles, const LiquidGrid& liquid, int 
             }
             unknown[k] = heavy & ~obstacles.closed(b, a)[k];
             for (int j = 0; j < kBlockEdge; ++j)
-                rows |= static_cast<std::uint64_t>((unknown[k] >> (j * kBlockEdge) & 0xff) != 0) << (k * kBlockEdge + j);
+                rows |= static_cast<std::uint64_t>((unknown[k] >> (j * kBlockEdge) & 0xff) != 0)
+                        << (k * kBlockEdge + j);
         }
         system.rows[static_cast<std::size_t>(b) * kAxes + a] = rows;
     }
@@ -111,7 +114,8 @@ void findBehind(const BlockGrid& grid, const ObstacleField& obstacles, bool stic
         for (int k = 0; k < kBlockEdge; ++k)
             for (std::uint64_t bits = system.unknown.block(b, a)[k]; bits != 0; bits &= bits - 1) {
                 const int face = k * 64 + std::countr_zero(bits);
-                if (faceDistance(grid, obstacles, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0) system.behind.set(b, face, a);
+                if (faceDistance(grid, obstacles, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0)
+                    system.behind.set(b, face, a);
             }
     }
 }
@@ -124,12 +128,14 @@ void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const Li
     for (int k = 0; k < kBlockEdge; ++k)
         for (int a = 0; a < kAxes; ++a) {
             const std::uint64_t own = unknown.block(b, a)[k], above = faces.bits.above(unknown, a, a, k);
-            const std::uint64_t given = system.behind.block(b, a)[k], givenAbove = faces.bits.above(system.behind, a, a, k);
+            const std::uint64_t given = system.behind.block(b, a)[k],
+                                givenAbove = faces.bits.above(system.behind, a, a, k);
             const std::uint64_t strained = (own | given) & (above | givenAbove) & (own | above);
             const int c = (a + 1) % 3, d = (a + 2) % 3;
             const auto pair = [&](int axis, int along) {
                 const std::uint64_t free = unknown.block(b, axis)[k] & ~system.behind.block(b, axis)[k];
-                return free & faces.bits.below(unknown, axis, along, k) & ~faces.bits.below(system.behind, axis, along, k);
+                return free & faces.bits.below(unknown, axis, along, k) &
+                       ~faces.bits.below(system.behind, axis, along, k);
             };
             const std::uint64_t sheared = pair(c, d) & pair(d, c);
             for (int j = 0; j < kBlockEdge; ++j) {
@@ -203,7 +209,7 @@ void findDiagonal(const BlockGrid& grid, const LiquidGrid& liquid, int b, Viscou
 
 /// The three components on the faces of a block and one cell around it.
 struct Tile {
-    static constexpr int kEdge = kBlockEdge + 2, kUp[kAxes] = {1, kEdge, kEdge * kEdge};
+    static constexpr int kEdge = kBlockEdge + 2, kUp[kAxes] = {1, kEdge, kEdge*kEdge};
     double v[kAxes][kEdge * kEdge * kEdge];
 
     static constexpr int index(int i, int j, int k) { return ((k + 1) * kEdge + j + 1) * kEdge + i + 1; }
@@ -240,7 +246,8 @@ void ViscousSystem::assemble(const BlockGrid& grid, const ObstacleField& obstacl
     forEachBlock(blocks, [&](int b) { findBehind(grid, obstacles, friction > 0.0, b, *this); });
     forEachBlock(blocks, [&](int b) { findStrains(grid, obstacles, liquid, weight, b, *this); });
     if (friction > 0.0)
-        forEachBlock(blocks, [&](int b) { findWalls(grid, obstacles, liquid, friction * impulse * grid.dx, b, *this); });
+        forEachBlock(blocks,
+                     [&](int b) { findWalls(grid, obstacles, liquid, friction * impulse * grid.dx, b, *this); });
     forEachBlock(blocks, [&](int b) { findDiagonal(grid, liquid, b, *this); });
 }
 
@@ -255,7 +262,8 @@ void ViscousSystem::multiply(const BlockGrid& grid, const BlockArray<double, 3>&
         forEachRow(rowsOf(block, a), [&](int r) {
             const int j = r % kBlockEdge, k = r / kBlockEdge;
             const double* own = tile.v[a] + Tile::index(0, j, k);
-            Pack sum = access.row(diagonal, a, j, k) * loadPack(own) - access.row(normal, a, j, k) * loadPack(own + kUp) -
+            Pack sum = access.row(diagonal, a, j, k) * loadPack(own) -
+                       access.row(normal, a, j, k) * loadPack(own + kUp) -
                        access.below(normal, a, a, j, k) * loadPack(own - kUp);
             unroll<2>([&](auto side) {
                 constexpr int kAlong = (a + 1 + side) % 3, kEdge = (a + 2 - side) % 3, kStep = Tile::kUp[kAlong];

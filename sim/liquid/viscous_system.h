@@ -2,6 +2,8 @@
 
 #include "sim/liquid/liquid_grid.h"
 
+#include <vector>
+
 namespace sim {
 
 /// The symmetric positive system of one implicit step of viscosity on the faces of the liquid (Batty and Bridson 2008,
@@ -18,13 +20,13 @@ namespace sim {
 ///
 /// Fabric changes nothing here: with the room for liquid, the volume of its strains shrinks; drag is another matter.
 struct ViscousSystem {
-    BlockBits<3> unknown;               ///< faces with liquid that are not closed
-    BlockBits<3> behind;                ///< closed faces, and those with their middles inside a wall that sticks
-    std::vector<std::uint64_t> rows;    ///< of unknowns along x, a bit for each row of 8; by block and axis
-    BlockArray<double, 3> diagonal;     ///< of the matrix [g]; 0 where a face is not unknown
-    BlockArray<double, 3> normal;       ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]
-    BlockArray<double, 3> shear;        ///< dt μ V / dx² of the shear on each cell's lower edge along each axis [g]
-    BlockArray<double, 3> wall;         ///< by which walls that stick hold each face [g]; empty if they slip
+    BlockBits<3> unknown;             ///< faces with liquid that are not closed
+    BlockBits<3> behind;              ///< closed faces, and those with their middles inside a wall that sticks
+    std::vector<std::uint64_t> rows;  ///< of unknowns along x, a bit for each row of 8; by block and axis
+    BlockArray<double, 3> diagonal;   ///< of the matrix [g]; 0 where a face is not unknown
+    BlockArray<double, 3> normal;  ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]
+    BlockArray<double, 3> shear;   ///< dt μ V / dx² of the shear on each cell's lower edge along each axis [g]
+    BlockArray<double, 3> wall;    ///< by which walls that stick hold each face [g]; empty if they slip
 
     /// @param impulse   dt μ [g/cm]
     /// @param friction  0: walls slip … 1: they stick [-]

@@ -59,7 +59,8 @@ double slabError(int cells)
     source.emissions.push_back({});
     scene.sources.push_back(source);
     Simulation simulation(scene);
-    while (simulation.state().time < 0.6) EXPECT_TRUE(simulation.step(0.6).viscosity.converged);  // e^-6 of the start is left
+    while (simulation.state().time < 0.6)
+        EXPECT_TRUE(simulation.step(0.6).viscosity.converged);  // e^-6 of the start is left
     const LiquidParticles& liquid = simulation.state().liquid;
     double square = 0.0;
     int count = 0;
@@ -133,14 +134,16 @@ TEST(ViscousLiquid, EnergyGoesWhereTheBookSays)
     EXPECT_LT(all[EnergyChange::Viscosity], -0.5 * kinetic);
 }
 
-/// Without gravity and walls the momentum of a deforming blob stays: but for what the pressure's floor on the fill of faces takes.
+/// Without gravity and walls the momentum of a deforming blob stays: but for what the pressure's floor on the fill of
+/// faces takes.
 TEST(ViscousLiquid, BlobKeepsItsMomentum)
 {
     Scene scene = splat();
     scene.obstacles.clear();
     scene.settings.gravity = Vec3::Zero();
     scene.settings.solver.viscosityTolerance = scene.settings.solver.pressureTolerance = 1.0e-12;
-    Simulation simulation = moving(scene, [](const Vec3& x) { return Vec3(10.0 + 30.0 * x.y(), -20.0 + 50.0 * x.z() * x.x(), 40.0 * x.x()); });
+    Simulation simulation = moving(
+        scene, [](const Vec3& x) { return Vec3(10.0 + 30.0 * x.y(), -20.0 + 50.0 * x.z() * x.x(), 40.0 * x.x()); });
     const auto momentum = [&] {
         Vec3 sum = Vec3::Zero();
         const LiquidParticles& liquid = simulation.state().liquid;
