@@ -1,9 +1,6 @@
 #pragma once
 
-#include "sim/liquid/viscous_system.h"
-
-#include <array>
-#include <vector>
+#include "sim/liquid/viscous_transfer.h"
 
 namespace sim {
 
@@ -28,25 +25,18 @@ class ViscousMultigrid {
         const BlockGrid* grid = nullptr;
         const ViscousSystem* system = nullptr;
         BlockArray<double, 3> solution, residual, direction, applied;
+        ViscousTransfer toCoarser;
 
         // Of the coarser levels only; the finest one's are those of the liquid.
         BlockGrid ownGrid;
         ViscousSystem ownSystem;
         BlockArray<double, 3> rhs;
-        std::vector<std::array<int, 64>>
-            below;  ///< blocks of the finer level at −1 … 2 along each axis from a block's first
-
-        std::vector<int> parent;  ///< block of the next coarser level that holds each block
     };
 
     void buildShape(const BlockGrid& grid);
     void point(const BlockGrid& grid);
-    static void connect(Level& fine, Level& coarse);
-    static void coarsen(const Level& fine, Level& coarse);
     void cycle(int level, const BlockArray<double, 3>& rhs);
     void smooth(Level& level, const BlockArray<double, 3>& rhs, double lowest, int steps, bool fromZero);
-    static void restrict(const Level& fine, Level& coarse);
-    static void prolong(const Level& coarse, Level& fine);
 
     std::vector<Level> levels_;  ///< down to a single block; those in use are the first count_
     std::vector<Vec3i> coords_;  ///< of the finest level's blocks: tells whether the shape still fits
