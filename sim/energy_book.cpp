@@ -41,6 +41,20 @@ void EnergyBook::onFaces(EnergyChange change)
     after(change);
 }
 
+void EnergyBook::surfaceTension()
+{
+    if (changes_) pulled_ = work_.grid.faces.velocity;
+}
+
+double EnergyBook::workOfSurfaceTension() const
+{
+    if (pulled_.size() == 0) return 0.0;
+    const BlockArray<double, 3>& now = work_.grid.faces.velocity;
+    return parallelSum(mass_.size(), [&](std::size_t i) {
+        return mass_.block(0)[i] * (pulled_.block(0)[i] - fallen_.block(0)[i]) * now.block(0)[i];
+    });
+}
+
 void EnergyBook::after(EnergyChange change)
 {
     if (!changes_) return;
@@ -84,7 +98,9 @@ void EnergyBook::solved(bool isMixed, const FabricReport& fabric)
         *changes_ += mixture.energyChanges(work_.grid, fallen_);
         alone -= mixture.kinetic(work_.grid.faces.velocity) - mixture.kinetic(fallen_);
     }
-    book(EnergyChange::Pressure, alone);
+    const double tension = workOfSurfaceTension();
+    book(EnergyChange::SurfaceTension, tension);
+    book(EnergyChange::Pressure, alone - tension);
     last_ = now;
 }
 

@@ -16,6 +16,8 @@ class EnergyBook {
     void toGrid();
     /// Gravity, or viscosity, has acted on the faces.
     void onFaces(EnergyChange change);
+    /// Surface tension has acted there, too, but not yet the pressure that holds against it.
+    void surfaceTension();
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt);
     /// All that has changed since the last look.
@@ -31,6 +33,9 @@ class EnergyBook {
     Energy look() const;
     double particlesKinetic() const;
     double facesKinetic() const;
+    /// Of its impulse on each face, along the velocity at the end: that has no divergence, so that a drop's uniform pressure does
+    /// no work on it [erg].
+    double workOfSurfaceTension() const;
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
 
     const State& state_;
@@ -39,6 +44,7 @@ class EnergyBook {
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
+    BlockArray<double, 3> pulled_;  ///< velocities when surface tension had acted [cm/s], if it did
     Energy last_;
 };
 

@@ -13,6 +13,7 @@ enum class EnergyChange {
     ToGrid,            ///< liquid from particles to faces
     Gravity,           ///< its work on the faces, and what the particles fell for it
     Viscosity,         ///< of the liquid, on the faces
+    SurfaceTension,    ///< its work on the faces: the surface's energy is not in the sum
     Pressure,          ///< on both phases, and what the projection takes from liquid alone
     Suction,
     Drag,              ///< between liquid and fabric
@@ -33,7 +34,7 @@ enum class EnergyChange {
 };
 inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
 inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources", "capture", "to_grid", "gravity", "viscosity", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "pins",
+    "sources", "capture", "to_grid", "gravity", "viscosity", "surface_tension", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "pins",
     "fabric_to_grid", "fabric_to_vertices", "walls", "to_particles", "places", "drip", "wicking"};
 
 /// Energy that each gave, or took if negative [erg].

@@ -81,6 +81,8 @@ struct LiquidSettings {
     double viscosity = 8.9e-3;     ///< [P]
     bool solveViscosity = false;   ///< Viscosity acts inside the liquid, not on fabric alone
     double surfaceTension = 72.0;  ///< [dyn/cm]
+    bool surfaceTensionForce = false;  ///< Surface tension moves the liquid
+    int curvatureSmoothing = 7;    ///< Smoothing passes over the fill before its curvature is taken [-]
     double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
     bool full = false;             ///< The liquid fills a closed box: there is no air
     double particleSpacing = 0.0;  ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]

@@ -74,8 +74,8 @@ struct LiquidPlan {
     bool isMixed = false;      ///< with fabric on some faces
 };
 
-/// How long weight and viscosity act on the velocities of a step [s]. With reflection they are those halfway through it: steps of any
-/// length then fall as far as they should.
+/// How long weight, viscosity and surface tension act on the velocities of a step [s]. With reflection they are those halfway through it:
+/// steps of any length then fall as far as they should.
 double fallTime(const TimeSettings& time, const State& state, double dt)
 {
     return time.reflects() ? 0.5 * (state.lastDt + dt) : dt;
@@ -179,8 +179,19 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
     findSurface(grid, work.obstacleField, work.grid);
 
+    const bool isTense = feelsSurfaceTension(settings.liquid);
+    if (isTense) {
+        clock.start(Stage::SurfaceTension);
+        findSurfaceSteps(grid, work.obstacleField, settings.liquid, work.grid, work.surfaceTension);
+        if (plan.isMixed) work.coupling->mixture.clearShared(work.surfaceTension.step);
+    }
+
     clock.start(Stage::Pressure);
     findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
+    if (isTense) {
+        applySurfaceSteps(grid, work.obstacleField, work.pressure, fall / dt, work.surfaceTension, work.grid);
+        energy.surfaceTension();
+    }
     if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
 

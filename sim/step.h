@@ -7,6 +7,7 @@
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/reflection.h"
+#include "sim/liquid/surface_tension.h"
 #include "sim/liquid/viscosity.h"
 #include "sim/liquid/volume.h"
 #include "sim/particles/relax.h"
@@ -32,6 +33,7 @@ struct Workspace {
     ExtrapolationScratch extrapolation;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;
+    SurfaceTensionWorkspace surfaceTension;
     std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;

@@ -21,6 +21,7 @@ enum class Stage {
     Viscosity,
     Mixture,           ///< liquid and fabric on the faces that both reach: drag, and what one does to the other
     Cells,
+    SurfaceTension,
     Pressure,
     Volume,
     Reflection,        ///< of what advection made of the velocities, in the first of two steps
@@ -39,7 +40,7 @@ enum class Stage {
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "pressure", "volume", "reflection", "walls", "grid_to_particles",
+    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension", "pressure", "volume", "reflection", "walls", "grid_to_particles",
     "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
 
 /// What an iterative solve did.

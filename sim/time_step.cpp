@@ -23,6 +23,7 @@ double chooseTimeStep(const Settings& settings, const State& state, double maxSp
     if (!hasLiquid(state)) return dt;
     const double perCfl = 1.0 / cflNumber(settings, maxSpeed, 1.0);
     const double bound = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(time.cfl, time.maxCflLiquid);
+    if (feelsSurfaceTension(settings.liquid)) dt = std::min(dt, capillaryTimeStep(settings.liquid, settings.cell));
     return std::min(dt, bound * perCfl);
 }
 

@@ -193,6 +193,11 @@ void Mixture::applyPressure(const LiquidGrid& liquid)
     });
 }
 
+void Mixture::clearShared(BlockArray<double, 3>& values) const
+{
+    forEachShared([&](int, int m, int a, int c) { values.block(m, a)[c] = 0.0; });
+}
+
 const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
 {
     applyPressure(liquid);

@@ -34,6 +34,9 @@ class Mixture {
     void separate(const FabricState& state, LiquidGrid& liquid);
     void separate(const FabricFaces& faces, LiquidGrid& liquid);
 
+    /// Set what the liquid has on these faces to 0.
+    void clearShared(BlockArray<double, 3>& values) const;
+
     /// Momentum of the liquid on the shared faces [g cm/s].
     Vec3 liquidMomentum(const LiquidGrid& liquid) const;
     /// Where the energy of the liquid on shared faces went in this step, by the impulses on each and the velocities they act at; and its

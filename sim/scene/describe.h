@@ -147,11 +147,11 @@ void describe(V& v, LiquidSettings& l)
     v.section("volume", l.volume, "Keeping the liquid's volume");
     v.section("relax", l.relax, "Pushing crowded particles apart");
     v.flag("solve_viscosity", l.solveViscosity, "Viscosity inside the liquid");
-    v.onlyRuns("surface_tension_force", "false", {"true"}, "Surface tension moves the liquid");
+    v.flag("surface_tension_force", l.surfaceTensionForce, "Surface tension moves the liquid");
+    v.integer("curvature_smoothing", l.curvatureSmoothing, 0, 1000, "Smoothing passes over the fill before its curvature is taken");
     v.withoutEffect([](auto& w) {
-        int substeps = 1, passes = 7;
+        int substeps = 1;
         w.integer("viscosity_substeps", substeps, 1, 1000, "Parts of a step of the viscosity solve");
-        w.integer("curvature_smoothing", passes, 0, 1000, "Smoothing passes on the curvature");
     });
     v.other("sources", "Where liquid starts");
 }

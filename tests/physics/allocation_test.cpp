@@ -113,6 +113,18 @@ TEST(Allocation, MovingObstaclesAllocateNothing)
     EXPECT_EQ(count, 0);
 }
 
+TEST(Allocation, SurfaceTensionAllocatesNothing)
+{
+    Scene scene = pool(kPoly8);
+    scene.settings.liquid.surfaceTensionForce = true;
+    const long count = onThreads(1, [&] {
+        Simulation simulation(scene);
+        allocationsOf(simulation, 10);
+        return allocationsOf(simulation, 10);
+    });
+    EXPECT_EQ(count, 0);
+}
+
 TEST(Allocation, CounterSeesWhatArraysAllocate)
 {
     const long before = allocations;

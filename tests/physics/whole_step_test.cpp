@@ -61,15 +61,16 @@ TEST(WholeStep, RunsOnlyTheStagesItNeeds)
     source.emissions.push_back({});
     scene.sources.push_back(source);
     const StepReport report = Simulation(scene).step(1.0e9);
-    for (Stage stage : {Stage::Emit, Stage::Obstacles, Stage::Relax, Stage::Volume, Stage::Reflection, Stage::Walls})
+    for (Stage stage : {Stage::Emit, Stage::Obstacles, Stage::Relax, Stage::SurfaceTension, Stage::Volume, Stage::Reflection, Stage::Walls})
         EXPECT_FALSE(report.stageRan[static_cast<int>(stage)]);
     for (Stage stage : {Stage::Sort, Stage::ParticlesToGrid, Stage::Cells, Stage::Pressure, Stage::GridToParticles})
         EXPECT_TRUE(report.stageRan[static_cast<int>(stage)]) << kStageNames[static_cast<int>(stage)];
 
     Scene everything = splash(kPoly8);
     everything.settings.liquid.relax.rate = 125.0;
+    everything.settings.liquid.surfaceTensionForce = true;
     const StepReport more = Simulation(everything).step(1.0e9);
-    for (Stage stage : {Stage::Obstacles, Stage::Relax, Stage::Volume, Stage::Walls})
+    for (Stage stage : {Stage::Obstacles, Stage::Relax, Stage::SurfaceTension, Stage::Volume, Stage::Walls})
         EXPECT_TRUE(more.stageRan[static_cast<int>(stage)]) << kStageNames[static_cast<int>(stage)];
 }
 

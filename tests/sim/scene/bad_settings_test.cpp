@@ -225,10 +225,10 @@ time: {integrator: reflect}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
      "bad.yaml:2: time.integrator: \"reflect\" is unknown (did you mean \"reflected\"?)"},
-    {"LaterSurfaceTension", R"(grid: {cell: 0.1}
-liquid: {surface_tension_force: true}
+    {"CurvatureSmoothingNegative", R"(grid: {cell: 0.1}
+liquid: {surface_tension_force: true, curvature_smoothing: -1}
 )",
-     "bad.yaml:2: liquid.surface_tension_force: true does not run in this version; write false"},
+     "bad.yaml:2: liquid.curvature_smoothing: -1 is out of range; must be 0 to 1000"},
     {"ModesZero", R"(grid: {cell: 0.1}
 transfer: {modes: 0}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}

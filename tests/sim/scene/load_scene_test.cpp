@@ -89,7 +89,8 @@ liquid:
   wall_friction: 0.25
   relax: {rate: 10, range: 1.5}
   solve_viscosity: true
-  surface_tension_force: false
+  surface_tension_force: true
+  curvature_smoothing: 5
   sources:
     - shape: {ball: {center: [0, 0, 0], radius: 1}}
       velocity: [1, 0, 0]
@@ -130,9 +131,11 @@ domain: {box: {min: [-9, -9, -9], max: [9, 9, 9]}}
     EXPECT_EQ(0.5 * sim::kPi, s.liquid.contactAngle);
     EXPECT_TRUE(s.liquid.full);
     EXPECT_EQ(1.5, s.liquid.relax.range);
+    EXPECT_TRUE(s.liquid.surfaceTensionForce);
+    EXPECT_EQ(5, s.liquid.curvatureSmoothing);
     const sim::SourceSettings& source = scene.sources.at(0);
     EXPECT_EQ("0", source.name);
-    EXPECT_EQ("good.yaml:28", source.where);
+    EXPECT_EQ("good.yaml:29", source.where);
     EXPECT_EQ(sim::FillSettings::Pattern::Jittered, source.fill.pattern);
     EXPECT_EQ(18446744073709551615u, source.fill.seed);
     EXPECT_EQ(0.5, source.fill.spacing);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "sim/liquid/curvature.h"
+#include "sim/liquid/pressure.h"
+
+namespace sim {
+
+/// What surface tension keeps from step to step.
+struct SurfaceTensionWorkspace {
+    Curvature curvature;
+    BlockArray<double, 3>
+        step;  ///< of the pressure across each lower face, upwards: ±σ κ between liquid and air, else 0 [dyn/cm²]
+};
+
+/// The step of the pressure, σ κ, across every face between liquid and air (model-fluid 6.8). Needs findSurface.
+void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,
+                      const LiquidGrid& liquid, SurfaceTensionWorkspace& work);
+
+/// Air presses with σ κ instead of nothing (ghost fluid: Kang, Fedkiw and Liu 2000). This is the part of the pressure's
+/// gradient that is known before the solve: u −= dt β step / dx. The projection that follows then finds the pressure
+/// that holds against it, σ κ in a drop at rest, and does on each of these faces what one with that value in the air
+/// would do. Needs findPressureFaces.
+///
+/// Faces that fabric is on have no step: there suction acts (Mixture::clearShared). What reflection reflects knows
+/// nothing of it, as of weight: its pressure is 0 in the air, and tension is in the velocities that it starts from.
+/// @param share  of the step for which tension acts [-]
+void applySurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure,
+                       double share, const SurfaceTensionWorkspace& work, LiquidGrid& liquid);
+
+/// Does surface tension move this liquid? Without air it has no surface.
+inline bool feelsSurfaceTension(const LiquidSettings& settings)
+{
+    return settings.surfaceTensionForce && settings.surfaceTension > 0.0 && !settings.full;
+}
+
+/// Largest stable step of surface tension, which is explicit: √(ρ h³ / (4 π σ)) (Brackbill, Kothe and Zemach 1992, with
+/// air of no density) [s].
+double capillaryTimeStep(const LiquidSettings& settings, double cell);
+
+}  // namespace sim
