@@ -102,6 +102,60 @@ std::optional<FabricFaces> facesOf(const Workspace& work)
     return work.gridFabric ? std::optional(work.gridFabric->faces()) : std::nullopt;
 }
 
+/// From the particles to velocities on the faces, on which weight and viscosity act for `fall` [s].
+void liquidToGrid(State& state, const Settings& settings, Workspace& work, double fall, bool keepsAdvected, StepReport& report, StageClock& clock,
+                  EnergyBook& energy)
+{
+    const BlockGrid& grid = state.grid;
+    clock.start(Stage::ParticlesToGrid);
+    if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
+        particlesToFacesAffine(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
+    else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
+    if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
+    energy.toGrid();
+    divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
+    energy.onFaces(EnergyChange::Gravity);
+
+    if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {
+        clock.start(Stage::Viscosity);
+        report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
+        energy.onFaces(EnergyChange::Viscosity);
+    }
+}
+
+/// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
+void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
+           EnergyBook& energy)
+{
+    const BlockGrid& grid = state.grid;
+    clock.start(Stage::Cells);
+    findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
+    findSurface(grid, work.obstacleField, work.grid);
+
+    const bool isTense = feelsSurfaceTension(settings.liquid);
+    if (isTense) {
+        clock.start(Stage::SurfaceTension);
+        findSurfaceSteps(grid, work.obstacleField, settings.liquid, work.grid, work.surfaceTension);
+        if (plan.isMixed) work.coupling->mixture.clearShared(work.surfaceTension.step);
+    }
+
+    clock.start(Stage::Pressure);
+    findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
+    if (isTense) {
+        applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt) / dt, work.surfaceTension, work.grid);
+        energy.surfaceTension();
+    }
+    if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
+
+    if (plan.corrects) {
+        clock.start(Stage::Volume);
+        const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
+        report.volume = correctVolume(grid, work.obstacleField, work.pressure, work.grid, strength, settings.solver.maxIterations, work.volume);
+        state.uncorrected = 0.0;
+    }
+}
+
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
 LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock, EnergyBook& energy)
 {
@@ -150,21 +204,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         state.unrelaxed = 0.0;
     }
 
-    clock.start(Stage::ParticlesToGrid);
-    if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
-        particlesToFacesAffine(particles, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
-    else particlesToFaces(particles, work.order, grid, work.scatter, work.grid.faces);
-    if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
-    energy.toGrid();
-    const double fall = fallTime(settings.time, state, dt);
-    divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
-    energy.onFaces(EnergyChange::Gravity);
-
-    if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {
-        clock.start(Stage::Viscosity);
-        report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
-        energy.onFaces(EnergyChange::Viscosity);
-    }
+    liquidToGrid(state, settings, work, fallTime(settings.time, state, dt), keepsAdvected, report, clock, energy);
 
     if (plan.meetsFabric) {
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
@@ -175,32 +215,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
     }
 
-    clock.start(Stage::Cells);
-    findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
-    findSurface(grid, work.obstacleField, work.grid);
-
-    const bool isTense = feelsSurfaceTension(settings.liquid);
-    if (isTense) {
-        clock.start(Stage::SurfaceTension);
-        findSurfaceSteps(grid, work.obstacleField, settings.liquid, work.grid, work.surfaceTension);
-        if (plan.isMixed) work.coupling->mixture.clearShared(work.surfaceTension.step);
-    }
-
-    clock.start(Stage::Pressure);
-    findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
-    if (isTense) {
-        applySurfaceSteps(grid, work.obstacleField, work.pressure, fall / dt, work.surfaceTension, work.grid);
-        energy.surfaceTension();
-    }
-    if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
-    report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
-
-    if (plan.corrects) {
-        clock.start(Stage::Volume);
-        const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
-        report.volume = correctVolume(grid, work.obstacleField, work.pressure, work.grid, strength, settings.solver.maxIterations, work.volume);
-        state.uncorrected = 0.0;
-    }
+    press(state, settings, work, dt, plan, report, clock, energy);
     return plan;
 }
 
