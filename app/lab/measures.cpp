@@ -125,6 +125,7 @@ void Measures::addLiquid(Names& names)
 {
     const auto energies = [this] { return simulation_->energies(); };
     names.push_back({"liquid_mass", 0, [this](Arguments) { return massBetween(liquid(), 0, -1.0e300, 1.0e300); }});
+    names.push_back({"left_mass", 0, [this](Arguments) { return simulation_->state().ledger.leftMass; }});
     names.push_back({"kinetic", 0, [energies](Arguments) { return energies().kinetic + energies().modal; }});
     names.push_back({"potential", 0, [energies](Arguments) { return energies().potential; }});
     names.push_back({"energy", 0, [energies](Arguments) { return energies().total(); }});

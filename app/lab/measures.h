@@ -15,8 +15,8 @@ namespace app {
 class Steppable;
 
 /// What a formula of a validation can read of a simulation as it is, in cgs. With a for x, y, z:
-///  * liquid: liquid_mass, liquid_a (centre of mass), liquid_va, spin_a (angular momentum about it), speed (largest),
-///  rms_speed,
+///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va, spin_a (angular
+///  momentum about it), speed (largest), rms_speed,
 ///    kinetic, potential, energy (of everything), wave_a(k) (mean of cos k a), mass_a(from, to) (of liquid between two
 ///    planes);
 ///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle

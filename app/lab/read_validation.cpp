@@ -119,8 +119,8 @@ Check checkIn(const Node& node, std::size_t index, const Context& context)
     std::string path = fmt::format("validate.checks.{}", index);
     sim::SectionReader section(node, path);
     sim::SectionReader::read(&node, path, [](auto& v) {
-        for (const char* key : {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table", "tolerance",
-                                "within", "at_most", "at_least"})
+        for (const char* key : {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table",
+                                "tolerance", "within", "at_most", "at_least"})
             v.other(key, "");
     });
     section.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");

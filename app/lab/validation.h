@@ -23,7 +23,7 @@ struct Check {
     double from = -std::numeric_limits<double>::infinity(),
            to = std::numeric_limits<double>::infinity();  ///< of `against`
     Take take = Take::Last;
-    double level = 0.0;                                         ///< of Take::Reach
+    double level = 0.0;                             ///< of Take::Reach
     std::string unit = {};                          ///< of what is read
     std::optional<sim::Formula> expect = {};        ///< of the time
     std::vector<std::array<double, 2>> table = {};  ///< measured (against, value), in its place
