@@ -16,13 +16,11 @@ class Steppable;
 
 /// What a formula of a validation can read of a simulation as it is, in cgs. With a for x, y, z:
 ///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va, spin_a (angular
-///  momentum about it), speed (largest), rms_speed,
-///    kinetic, potential, energy (of everything), wave_a(k) (mean of cos k a), mass_a(from, to) (of liquid between two
-///    planes);
+///    momentum about it), speed (largest), rms_speed, kinetic, potential, energy (of everything), wave_a(k) (mean of
+///    cos k a), mass_a(from, to) (of liquid between two planes);
 ///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
-///  of the last cell of
-///    those with liquid that hang together with the first along x, z or y), and with `flow` flow_error (rms distance of
-///    velocities from it, relative to it) and flow_part (how much of it there is);
+///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
+///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
 ///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
 ///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
 ///    vertex), wet_a(saturation) (the same of vertices whose pores are that full).

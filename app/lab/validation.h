@@ -61,7 +61,7 @@ std::optional<Reading> readOnce(const Check& check, double time);
 
 Finding judge(const Check& check, std::span<const Reading> readings);
 
-/// "within 3 %", "at most 0.05", "0.3 to 0.5".
+/// "within 3 %", "at least 0.1, at most 1.2".
 std::string bounds(const Check& check);
 
 }  // namespace app

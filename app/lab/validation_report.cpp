@@ -21,7 +21,7 @@ std::string withUnit(double value, const std::string& unit)
 
 std::string deviation(const Finding& finding)
 {
-    if (!std::isfinite(finding.expected)) return "-";
+    if (!std::isfinite(finding.expected) || !std::isfinite(finding.value)) return "-";
     const double error = finding.value - finding.expected;
     return finding.expected == 0.0 ? fmt::format("{:+.2g}", error)
                                    : fmt::format("{:+.2f} %", 100.0 * error / std::abs(finding.expected));

@@ -1,0 +1,252 @@
+#include "sim/liquid_step.h"
+
+#include "sim/core/parallel.h"
+#include "sim/coupling/exchange_watch.h"
+#include "sim/liquid/cells.h"
+#include "sim/liquid/energy.h"
+#include "sim/liquid/face_velocity.h"
+#include "sim/liquid/push_out.h"
+#include "sim/liquid/walls.h"
+#include "sim/transfer/scatter_affine.h"
+
+#include <cmath>
+#include <optional>
+
+namespace sim {
+
+namespace {
+
+/// A factor that is kept per keepDt, as it acts over one step of dt.
+double keptOver(double factor, const TransferSettings& transfer, double dt)
+{
+    return transfer.keepPerStep ? factor : std::pow(factor, dt / transfer.keepDt);
+}
+
+GatherSettings gatherSettings(const Scene& scene, const Workspace& work, double dt)
+{
+    const TransferSettings& transfer = scene.settings.transfer;
+    GatherSettings settings;
+    settings.dt = dt;
+    settings.modes = transfer.modeCount();
+    const bool damps = transfer.method == TransferMethod::Apic || (transfer.method == TransferMethod::PolyPic && transfer.dampModes);
+    settings.keep = damps ? keptOver(transfer.keepAffine, transfer, dt) : 1.0;
+    if (transfer.method == TransferMethod::Flip) {
+        settings.flipRatio = keptOver(transfer.flipRatio, transfer, dt);
+        settings.flipVelocity = &work.grid.advected;
+    }
+    settings.atMidpoint = scene.settings.time.advectsAtMidpoint();
+    if (settings.modes > kModesAtSurface) settings.manyModes = &work.grid.deep;
+    return settings;
+}
+
+/// Largest share of an error of the particles' places that is mended at once. A correction waits while several short steps together would do less.
+constexpr double kGentleCorrection = 0.2;
+/// Largest share of an error of volume that a long step mends; to mend all of it at once would overshoot.
+constexpr double kLargestShare = 0.5;
+
+/// Is it time for a correction that acts at `rate` [1/s] and was last made `interval` [s] before the end of this step?
+bool isDue(double rate, double interval, double dt)
+{
+    constexpr double kRoundOff = 1.0 + 1.0e-9;  // eight steps of 2e-4 s at the default rates make exactly the gentle share
+    return rate > 0.0 && rate * (interval + dt) > kGentleCorrection * kRoundOff;
+}
+
+/// Pressure of the last step, in the blocks of this one.
+void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockArray<double>& old, BlockArray<double>& pressure)
+{
+    if (!order.blocksChanged) return;
+    old.swap(pressure);
+    pressure.resize(grid.count());
+    parallelFor(grid.count(), 8, [&](std::size_t n) {
+        const int b = static_cast<int>(n), from = order.previous[b];
+        if (from == BlockGrid::kNone) std::fill_n(pressure.block(b), kBlockCells, 0.0);
+        else std::copy_n(old.block(from), kBlockCells, pressure.block(b));
+    });
+}
+
+/// How long weight, viscosity and surface tension act on the velocities of a step [s]. With reflection they are those halfway through it:
+/// steps of any length then fall as far as they should.
+double fallTime(const TimeSettings& time, const State& state, double dt)
+{
+    return time.reflects() ? 0.5 * (state.lastDt + dt) : dt;
+}
+
+/// Give the faces behind walls the velocities that the particles in front of them read.
+void finishAtWalls(const BlockGrid& grid, const LiquidSettings& settings, const LiquidPlan& plan, Workspace& work)
+{
+    LiquidGrid& liquid = work.grid;
+    const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
+        applyWalls(grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.extrapolation, valid, velocity, liquid);
+    };
+    if (plan.flips) {
+        liquid.advectedValid = liquid.faces.valid;
+        apply(liquid.advectedValid, liquid.advected);
+    }
+    if (plan.reflects) apply(work.reflection.valid, work.reflection.velocity);
+    apply(liquid.faces.valid, liquid.faces.velocity);
+}
+
+/// Of fabric that is solved for on faces.
+std::optional<FabricFaces> facesOf(const Workspace& work)
+{
+    return work.gridFabric ? std::optional(work.gridFabric->faces()) : std::nullopt;
+}
+
+/// From the particles to velocities on the faces, on which weight and viscosity act for `fall` [s].
+void liquidToGrid(State& state, const Settings& settings, Workspace& work, double fall, bool keepsAdvected, StepReport& report, StageClock& clock,
+                  EnergyBook& energy)
+{
+    const BlockGrid& grid = state.grid;
+    clock.start(Stage::ParticlesToGrid);
+    if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
+        particlesToFacesAffine(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
+    else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
+    if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
+    energy.toGrid();
+    divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
+    energy.onFaces(EnergyChange::Gravity);
+
+    if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {
+        clock.start(Stage::Viscosity);
+        report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
+        energy.onFaces(EnergyChange::Viscosity);
+    }
+}
+
+/// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
+void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
+           EnergyBook& energy)
+{
+    const BlockGrid& grid = state.grid;
+    clock.start(Stage::Cells);
+    findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
+    findSurface(grid, work.obstacleField, work.grid);
+
+    const bool isTense = feelsSurfaceTension(settings.liquid);
+    if (isTense) {
+        clock.start(Stage::SurfaceTension);
+        findSurfaceSteps(grid, work.obstacleField, settings.liquid, work.grid, work.surfaceTension);
+        if (plan.isMixed) work.coupling->mixture.clearShared(work.surfaceTension.step);
+    }
+
+    clock.start(Stage::Pressure);
+    findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
+    if (isTense) {
+        applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt) / dt, work.surfaceTension, work.grid);
+        energy.surfaceTension();
+    }
+    if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
+
+    if (plan.corrects) {
+        clock.start(Stage::Volume);
+        const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
+        report.volume = correctVolume(grid, work.obstacleField, work.pressure, work.grid, strength, settings.solver.maxIterations, work.volume);
+        state.uncorrected = 0.0;
+    }
+}
+
+}  // namespace
+
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock, EnergyBook& energy)
+{
+    const Settings& settings = scene.settings;
+    LiquidPlan plan;
+    plan.flips = settings.transfer.method == TransferMethod::Flip;
+    plan.reflects = reflects;
+    const bool keepsAdvected = plan.flips || plan.reflects;
+    LiquidParticles& particles = state.liquid;
+    BlockGrid& grid = state.grid;
+
+    work.obstacles.moveTo(state.time, state.time + dt);
+
+    clock.start(Stage::Sort);
+    sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
+    energy.sorted();
+    carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
+    work.grid.resize(grid.count(), keepsAdvected);
+    work.grid.fullMass = work.packing * settings.liquid.density * grid.dx * grid.dx * grid.dx;
+
+    if (!work.obstacles.empty()) clock.start(Stage::Obstacles);
+    work.obstacleField.update(grid, work.order.previous, work.obstacles, wallsMirror(settings.liquid.wallFriction));
+
+    plan.meetsFabric = work.coupling && reachesLiquid(grid, state.fabric);
+    if (plan.meetsFabric) {
+        clock.start(Stage::Capture);
+        work.coupling->vertices.sort(grid, state.fabric);
+        plan.meetsFabric = !work.coupling->vertices.empty();
+        if (plan.meetsFabric) {
+            const ExchangeWatch watch(work.coupling->fabric, state, &work.order);
+            report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
+            report.toPins = work.coupling->capture.toPins();
+            watch.expectKept(report.toPins);
+            energy.after(EnergyChange::Capture);
+        }
+    }
+
+    state.unrelaxed += dt;
+    state.uncorrected += dt;
+    plan.relaxes = work.relaxReach > 0.0 && isDue(settings.liquid.relax.rate, state.unrelaxed, dt);
+    plan.corrects = isDue(settings.liquid.volume.rate, state.uncorrected, dt);
+    if (plan.relaxes) {
+        clock.start(Stage::Relax);
+        relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, state.unrelaxed, work.relax,
+                                work.displacement);
+        state.unrelaxed = 0.0;
+    }
+
+    liquidToGrid(state, settings, work, fallTime(settings.time, state, dt), keepsAdvected, report, clock, energy);
+
+    if (plan.meetsFabric) {
+        if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
+        clock.start(Stage::Mixture);
+        const std::optional<FabricFaces> faces = facesOf(work);
+        // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (time-splitting 2).
+        plan.reflects = false;
+        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
+    }
+
+    press(state, settings, work, dt, plan, report, clock, energy);
+    return plan;
+}
+
+void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
+                  EnergyBook& energy)
+{
+    const Settings& settings = scene.settings;
+    LiquidParticles& particles = state.liquid;
+    BlockGrid& grid = state.grid;
+    if (plan.reflects) {
+        clock.start(Stage::Reflection);
+        report.reflection = reflect(grid, work.obstacleField, settings.solver, work.pressure, work.grid, work.reflection);
+    }
+    if (!work.obstacles.empty()) {
+        clock.start(Stage::Walls);
+        finishAtWalls(grid, settings.liquid, plan, work);
+        energy.after(EnergyChange::Walls);
+    }
+
+    clock.start(Stage::GridToParticles);
+    GatherSettings gather = gatherSettings(scene, work, dt);
+    if (plan.reflects) gather.reflected = &work.reflection.velocity;
+    if (plan.relaxes) gather.displacement = work.displacement.data();
+    if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
+    const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
+    report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
+    if (!work.obstacles.empty()) {
+        const double farthest = std::max(report.maxSpeed, std::sqrt(sums.maxPathSquared)) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
+                                (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
+        pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
+    }
+    energy.toParticles(dt);
+
+    const WeightSums weights = weightSums(particles, settings.gravity);
+    report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
+    report.liquidMass = weights.mass;
+    report.particles = particles.count;
+    report.blocks = grid.count();
+    report.liquidCells = countLiquidCells(grid, work.grid);
+    if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
+}
+
+}  // namespace sim

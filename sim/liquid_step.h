@@ -1,0 +1,24 @@
+#pragma once
+
+#include "sim/energy_book.h"
+#include "sim/step.h"
+
+// The liquid's part of a step, around that of the fabric.
+
+namespace sim {
+
+/// What a step of the liquid does beside the usual.
+struct LiquidPlan {
+    bool flips = false, reflects = false, relaxes = false, corrects = false;
+    bool meetsFabric = false;  ///< is near enough to
+    bool isMixed = false;      ///< with fabric on some faces
+};
+
+/// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock, EnergyBook& energy);
+
+/// The rest, when the fabric has done what it does.
+void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
+                  EnergyBook& energy);
+
+}  // namespace sim
