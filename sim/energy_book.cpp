@@ -41,9 +41,12 @@ void EnergyBook::onFaces(EnergyChange change)
     after(change);
 }
 
-void EnergyBook::surfaceTension()
+void EnergyBook::surfaceTension(bool isMixed)
 {
-    if (changes_) pulled_ = work_.grid.faces.velocity;
+    if (!changes_) return;
+    pulled_ = work_.grid.faces.velocity;
+    parallelFor(pulled_.size(), 4096, [&](std::size_t i) { pulled_.block(0)[i] -= fallen_.block(0)[i]; });
+    if (isMixed) work_.coupling->mixture.clearShared(pulled_);
 }
 
 double EnergyBook::workOfSurfaceTension() const
@@ -51,7 +54,7 @@ double EnergyBook::workOfSurfaceTension() const
     if (pulled_.size() == 0) return 0.0;
     const BlockArray<double, 3>& now = work_.grid.faces.velocity;
     return parallelSum(mass_.size(), [&](std::size_t i) {
-        return mass_.block(0)[i] * (pulled_.block(0)[i] - fallen_.block(0)[i]) * now.block(0)[i];
+        return mass_.block(0)[i] * pulled_.block(0)[i] * now.block(0)[i];
     });
 }
 

@@ -17,7 +17,8 @@ class EnergyBook {
     /// Gravity, or viscosity, has acted on the faces.
     void onFaces(EnergyChange change);
     /// Surface tension has acted there, too, but not yet the pressure that holds against it.
-    void surfaceTension();
+    /// On faces that liquid and fabric share its work is part of the pressure's.
+    void surfaceTension(bool isMixed);
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt);
     /// All that has changed since the last look.
@@ -44,7 +45,7 @@ class EnergyBook {
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
-    BlockArray<double, 3> pulled_;  ///< velocities when surface tension had acted [cm/s], if it did
+    BlockArray<double, 3> pulled_;  ///< by how much surface tension changed velocities [cm/s], if it acts
     Energy last_;
 };
 

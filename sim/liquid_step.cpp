@@ -126,16 +126,15 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     if (isTense) {
         clock.start(Stage::SurfaceTension);
         findSurfaceSteps(grid, work.obstacleField, settings.liquid, work.grid, work.surfaceTension);
-        if (plan.isMixed) work.coupling->mixture.clearShared(work.surfaceTension.step);
     }
 
     clock.start(Stage::Pressure);
     findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
+    if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     if (isTense) {
         applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt) / dt, work.surfaceTension, work.grid);
-        energy.surfaceTension();
+        energy.surfaceTension(plan.isMixed);
     }
-    if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
 
     if (plan.corrects) {

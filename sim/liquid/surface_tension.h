@@ -21,8 +21,9 @@ void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, con
 /// that holds against it, σ κ in a drop at rest, and does on each of these faces what one with that value in the air
 /// would do. Needs findPressureFaces.
 ///
-/// Faces that fabric is on have no step: there suction acts (Mixture::clearShared). What reflection reflects knows
-/// nothing of it, as of weight: its pressure is 0 in the air, and tension is in the velocities that it starts from.
+/// On faces that fabric is on it acts on both phases as the pressure does, so that the forces on a closed surface add up
+/// to nothing there, too: to be called after Mixture::blend. What reflection reflects knows nothing of it, as of weight:
+/// its pressure is 0 in the air, and tension is in the velocities that it starts from.
 /// @param share  of the step for which tension acts [-]
 void applySurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure,
                        double share, const SurfaceTensionWorkspace& work, LiquidGrid& liquid);
