@@ -34,14 +34,21 @@ bool hasLine(const Check& check)
     return check.hasCurve() || (check.expect && check.take <= Take::Largest);
 }
 
+/// Of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
+std::string readingsLabel(const Check& check)
+{
+    const bool isOfReadings = check.take <= Take::Change || check.hasCurve();
+    return isOfReadings && !check.unit.empty() ? check.unit : check.read.text();
+}
+
 std::string panel(const CaseResult& result, std::size_t i)
 {
     const Check& check = result.setup.validation->checks[i];
     const auto column = [&](int number) { return fmt::format("using ($1=={}?$2:NaN):{}", i, number); };
     const std::string file = gnuplotText(result.name + ".csv");
-    std::string text = fmt::format(
-        "set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ", gnuplotText(check.name),
-        gnuplotText(check.against.text() == "t" ? "time [s]" : check.against.text()), gnuplotText(check.unit));
+    const std::string abscissa = check.against.text() == "t" ? "time [s]" : check.against.text();
+    std::string text = fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ",
+                                   gnuplotText(check.name), gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
     if (hasLine(check))
         text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title 'known', ", file, column(4));
     return text +
@@ -54,7 +61,7 @@ std::string plotScript(const CaseResult& result, const std::string& picture)
     std::string text = fmt::format(
         "set terminal pngcairo size {},420 font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
         "set multiplot layout 1,{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
-        "set grid ytics lc rgb '#dddddd' lw 1\nset key bottom samplen 2\nset format y '%.4g'\n",
+        "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset format y '%.4g'\n",
         std::max<std::size_t>(480, 400 * panels), gnuplotText(picture), panels, gnuplotText(result.setup.scene.title));
     for (std::size_t i = 0; i < panels; ++i) text += panel(result, i);
     return text + "unset multiplot\n";
