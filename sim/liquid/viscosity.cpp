@@ -29,13 +29,6 @@ double largestLane(Pack v)
     return largest;
 }
 
-/// body(axis, row) for the rows of a block with unknowns.
-template <class Body>
-void forEachUnknownRow(const ViscousSystem& system, int b, Body&& body)
-{
-    for (int a = 0; a < kAxes; ++a) forEachRow(system.rowsOf(b, a), [&](int r) { body(a, r * kBlockEdge); });
-}
-
 class ConjugateGradients {
  public:
     ConjugateGradients(const BlockGrid& grid, ViscosityWorkspace& work, LiquidGrid& liquid)
@@ -84,7 +77,7 @@ class ConjugateGradients {
         forEachBlock(grid_.count(), [&](int b) {
             system.multiply(grid_, work_.direction, b, work_.applied);
             Pack largest = broadcast(0.0), largestRhs = broadcast(0.0);
-            forEachUnknownRow(system, b, [&](int a, int row) {
+            system.forEachUnknownRow(b, [&](int a, int row) {
                 const PackMask is = loadPack(system.diagonal.block(b, a) + row) > 0.0;
                 Pack rhs = loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + a) + row) *
                            loadPack(liquid_.faces.velocity.block(b, a) + row);
@@ -112,14 +105,14 @@ class ConjugateGradients {
         const ViscousSystem& system = work_.system;
         forEachBlock(grid_.count(), [&](int b) {
             Pack sum = broadcast(0.0);
-            forEachUnknownRow(system, b, [&](int a, int row) {
+            system.forEachUnknownRow(b, [&](int a, int row) {
                 sum += loadPack(work_.residual.block(b, a) + row) * loadPack(z.block(b, a) + row);
             });
             work_.sums[b] = sumLanes(sum);
         });
         const double next = sumOf(work_.sums), beta = rho > 0.0 ? next / rho : 0.0;
         forEachBlock(grid_.count(), [&](int b) {
-            forEachUnknownRow(system, b, [&](int a, int row) {
+            system.forEachUnknownRow(b, [&](int a, int row) {
                 double* direction = work_.direction.block(b, a) + row;
                 storePack(direction, loadPack(z.block(b, a) + row) + beta * loadPack(direction));
             });
@@ -134,7 +127,7 @@ class ConjugateGradients {
         forEachBlock(grid_.count(), [&](int b) {
             system.multiply(grid_, work_.direction, b, work_.applied);
             Pack sum = broadcast(0.0);
-            forEachUnknownRow(system, b, [&](int a, int row) {
+            system.forEachUnknownRow(b, [&](int a, int row) {
                 sum += loadPack(work_.direction.block(b, a) + row) * loadPack(work_.applied.block(b, a) + row);
             });
             work_.sums[b] = sumLanes(sum);
@@ -148,7 +141,7 @@ class ConjugateGradients {
         const ViscousSystem& system = work_.system;
         forEachBlock(grid_.count(), [&](int b) {
             Pack largest = broadcast(0.0);
-            forEachUnknownRow(system, b, [&](int a, int row) {
+            system.forEachUnknownRow(b, [&](int a, int row) {
                 double *u = liquid_.faces.velocity.block(b, a) + row, *residual = work_.residual.block(b, a) + row;
                 const Pack r = loadPack(residual) - alpha * loadPack(work_.applied.block(b, a) + row);
                 storePack(u, loadPack(u) + alpha * loadPack(work_.direction.block(b, a) + row));

@@ -18,12 +18,6 @@ constexpr int kSmoothingSteps = 3;
 constexpr double kStiff = 0.5;      ///< levels stiffer than this get a coarser one
 constexpr double kSmallest = 0.04;  ///< that the coarsest level takes care of at most
 
-template <class Body>
-void forEachUnknownRow(const ViscousSystem& system, int b, Body&& body)
-{
-    for (int a = 0; a < kAxes; ++a) forEachRow(system.rowsOf(b, a), [&](int r) { body(a, r * kBlockEdge); });
-}
-
 }  // namespace
 
 /// Each level to its grid: levels may have been moved or copied.
@@ -98,7 +92,7 @@ void ViscousMultigrid::smooth(Level& level, const BlockArray<double, 3>& rhs, do
             ratio = next;
         }
         forEachBlock(grid.count(), [&](int b) {
-            forEachUnknownRow(system, b, [&](int a, int row) {
+            system.forEachUnknownRow(b, [&](int a, int row) {
                 double *x = level.solution.block(b, a) + row, *r = level.residual.block(b, a) + row;
                 double* d = level.direction.block(b, a) + row;
                 const bool isFresh = step == 0;

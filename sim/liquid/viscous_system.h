@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/liquid/liquid_grid.h"
+#include "sim/solvers/block_rows.h"
 
 #include <vector>
 
@@ -38,6 +39,12 @@ struct ViscousSystem {
     void multiply(const BlockGrid& grid, const BlockArray<double, 3>& v, int block, BlockArray<double, 3>& out) const;
 
     std::uint64_t rowsOf(int block, int axis) const { return rows[static_cast<std::size_t>(block) * kAxes + axis]; }
+    /// body(axis, index of its first cell) for the rows of a block with unknowns.
+    template <class Body>
+    void forEachUnknownRow(int block, Body&& body) const
+    {
+        for (int a = 0; a < kAxes; ++a) forEachRow(rowsOf(block, a), [&](int r) { body(a, r * kBlockEdge); });
+    }
     bool hasUnknowns(int block) const { return (rowsOf(block, 0) | rowsOf(block, 1) | rowsOf(block, 2)) != 0; }
 };
 
