@@ -68,6 +68,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"iterations", report.pressure.iterations},
         {"residual", report.pressure.residual},
         {"converged", report.pressure.converged},
+        {"taken_back", report.takenBack},
         {"reflected", report.isReflected},
         {"volume_iterations", report.volume.iterations},
         {"viscosity_iterations", report.viscosity.iterations},
@@ -152,6 +153,7 @@ Json reportJson(const RunSummary& s)
                    {"halvings", s.fabricHalvings},
                    {"shortened", s.fabricShortened},
                    {"least_taken_fraction", s.leastTakenFraction}}},
+                 {"taken_back", s.takenBack},
                  {"largest_cfl", s.largestCfl},
                  {"mass_error", s.massError},
                  {"state_hash", s.stateHash},
@@ -262,6 +264,7 @@ void Reports::step(const sim::State& state, const sim::StepReport& report)
     summary_.fabricHalvings += report.fabric.halvings;
     summary_.fabricShortened += report.fabric.shortened;
     summary_.leastTakenFraction = std::min(summary_.leastTakenFraction, report.fabric.takenFraction);
+    summary_.takenBack += report.takenBack;
     summary_.largestCfl = std::max(summary_.largestCfl, report.cfl);
     const double entered = state.ledger.emittedMass;
     if (entered > 0.0)

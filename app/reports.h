@@ -44,6 +44,7 @@ struct RunSummary {
     std::size_t fabricVertices = 0, fabricElements = 0;   ///< elements: edges of yarns and faces of cloth
     std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
     double leastTakenFraction = 1.0;         ///< of the moves that the fabric's Newton asked for, over the steps [-]
+    std::int64_t takenBack = 0;              ///< steps that turned out bad and were made again
     double largestCfl = 0.0;
     double massError = 0.0;                  ///< (entered − left − there) / entered, largest over the steps [-]
     std::optional<EnergyLedger::Summary> energyLedger;    ///< where it was asked for

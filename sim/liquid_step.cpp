@@ -230,6 +230,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (plan.reflects) gather.reflected = &work.reflection.velocity;
     if (plan.relaxes) gather.displacement = work.displacement.data();
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
+    if (work.kept) work.kept->keepModes(particles, plan.flips);
     const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
     if (!work.obstacles.empty()) {

@@ -11,6 +11,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -43,6 +44,9 @@ double nominalMass(const Scene& scene)
     return scene.settings.liquid.density * packingOf(fill.pattern) * std::pow(particleSpacing(fill, scene.settings.cell), 3);
 }
 
+constexpr int kMostTakenBack = 10;  ///< halvings until a run gives up: to a thousandth of the step
+constexpr double kGrowth = 1.2;     ///< of the longest step allowed, from each good one to the next, after one was taken back
+
 double fastest(const LiquidParticles& particles)
 {
     return parallelMax(particles.count, [&](std::size_t p) { return particles.velocity(p).norm(); });
@@ -50,7 +54,7 @@ double fastest(const LiquidParticles& particles)
 
 }  // namespace
 
-Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics))
+Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), check_(scene_, fabric_)
 {
     const Settings& settings = scene_.settings;
     state_.time = settings.time.start;
@@ -61,17 +65,17 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     state_.ledger.emittedMass = std::accumulate(state_.fabric.absorbed.begin(), state_.fabric.absorbed.end(), 0.0);
     prepareWorkspace();
     emitLiquid(scene_, state_, state_.time, state_.time);
-    maxSpeed_ = fastest(state_.liquid);
+    begin();
 }
 
 Simulation::Simulation(Scene scene, State state)
-    : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state))
+    : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state)), check_(scene_, fabric_)
 {
     SIM_CHECK(state_.grid.dx == scene_.settings.cell && state_.emittedVolume.size() == scene_.sources.size());
     SIM_CHECK(state_.fabric.x.size() == fabric_.vertexCount());
     SIM_CHECK(state_.liquid.modeCount == storedModes(scene_.settings.transfer.modeCount()));
     prepareWorkspace();
-    maxSpeed_ = fastest(state_.liquid);
+    begin();
 }
 
 void Simulation::prepareWorkspace()
@@ -88,6 +92,15 @@ void Simulation::prepareWorkspace()
         work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
         work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
+}
+
+/// From the state as it is.
+void Simulation::begin()
+{
+    maxSpeed_ = fastest(state_.liquid);
+    if (scene_.settings.time.mode != TimeMode::Adaptive) return;
+    work_.kept = std::make_unique<KeptState>();
+    check_.start(energies());
 }
 
 void Simulation::bookEnergy()
@@ -110,33 +123,86 @@ Energies Simulation::energies() const
 double Simulation::lengthOfStep(double left, double largest) const
 {
     constexpr double kRoundOff = 1.0e-9;  // steps may be longer by that much, so that 4e-3 s in steps of 2e-4 s are 20 and not 21
-    if (state_.reflected) return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
+    if (state_.reflected && state_.lastDt <= longest_) return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
     const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - kRoundOff)));
     return left / (mayReflect(state_, scene_.settings.time, work_) ? 2.0 * std::ceil(0.5 * parts) : parts);
 }
 
-StepReport Simulation::step(double until)
+RunError Simulation::failure(std::string_view stage, const std::string& why) const
 {
-    const auto fail = [&](std::string_view stage, std::string_view why) {
-        return RunError(fmt::format("scene {}, step {}, t = {:.6g} s, stage {}: {}", scene_.name, state_.step + 1, state_.time, stage, why));
-    };
-    const double largest = chooseTimeStep(scene_.settings, state_, maxSpeed_);
-    if (!(largest >= scene_.settings.time.dtMin))
-        throw fail("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: a particle moves at {:.3g} cm/s",
-                                            largest, scene_.settings.time.dtMin, maxSpeed_));
-    const double left = until - state_.time, dt = lengthOfStep(left, largest);
-    const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, maxSpeed_, dt) : 0.0;
-    StepReport report;
+    return RunError(fmt::format("scene {}, step {}, t = {:.6g} s, stage {}: {}", scene_.name, state_.step + 1, state_.time, stage, why));
+}
+
+RunError Simulation::failure(const Fault& fault, int halvings, double dt) const
+{
+    std::string why = fault.what;
+    if (halvings > 0) why += fmt::format("; {} halvings of the step to {:.3g} s did not help", halvings, dt);
+    if (!fault.remedy.empty()) why += fmt::format("; try {}", fault.remedy);
+    return failure(kStageNames[static_cast<int>(fault.stage)], why);
+}
+
+double Simulation::chooseLength(double until) const
+{
+    const double largest = std::min(longest_, chooseTimeStep(scene_.settings, state_, maxSpeed_)), least = scene_.settings.time.dtMin;
+    if (!(largest >= least))
+        throw failure("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: a particle moves at {:.3g} cm/s",
+                                               largest, least, maxSpeed_));
+    return lengthOfStep(until - state_.time, largest);
+}
+
+/// One step of dt [s], and what is wrong with it.
+std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
+{
     try {
         report = sim::step(state_, scene_, work_, dt);
     } catch (const RunError& error) {
-        throw fail("sort", error.what());
+        return Fault{Stage::Sort, error.what(), ""};
     }
-    if (dt == left) state_.time = until;
-    report.cfl = cfl;
+    if (auto fault = check_.broken(state_, report)) return fault;
+    return work_.kept ? check_.rash(state_, report) : std::nullopt;
+}
+
+/// The step is good.
+void Simulation::accept(const StepReport& report)
+{
     maxSpeed_ = report.maxSpeed;
-    if (!report.failure.empty()) throw fail(kStageNames[static_cast<int>(report.failedStage)], report.failure);
-    return report;
+    if (!work_.kept) return;
+    check_.accept(report);
+    longest_ *= kGrowth;
+    if (longest_ >= scene_.settings.time.dt) longest_ = std::numeric_limits<double>::infinity();
+}
+
+StepReport Simulation::step(double until)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+    double keeping = 0.0, lost = 0.0;
+    for (int takenBack = 0;; ++takenBack) {
+        const double left = until - state_.time, dt = chooseLength(until);
+        const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, maxSpeed_, dt) : 0.0;
+        const auto begin = Clock::now();
+        if (work_.kept) work_.kept->keep(state_);
+        const auto kept = Clock::now();
+        keeping += seconds(kept - begin);
+
+        StepReport report;
+        const std::optional<Fault> fault = attempt(dt, report);
+        if (!fault) {
+            if (dt == left) state_.time = until;
+            report.cfl = cfl;
+            report.takenBack = takenBack;
+            if (work_.kept) report.charge(Stage::Keep, keeping);
+            if (takenBack > 0) report.charge(Stage::TakenBack, lost);
+            accept(report);
+            return report;
+        }
+        if (!work_.kept) throw failure(*fault, 0, dt);
+        work_.kept->restore(state_);
+        work_.obstacleField = ObstacleField();  // it is that of the blocks that the bad step had
+        longest_ = 0.5 * dt;
+        if (takenBack == kMostTakenBack || longest_ < scene_.settings.time.dtMin) throw failure(*fault, takenBack, dt);
+        lost += seconds(Clock::now() - kept);
+    }
 }
 
 std::uint64_t stateHash(const State& state)

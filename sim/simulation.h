@@ -1,9 +1,16 @@
 #pragma once
 
+#include "sim/core/check.h"
 #include "sim/fabric/vertex_solver.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/step.h"
+#include "sim/step_check.h"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace sim {
 
@@ -25,19 +32,28 @@ class Simulation {
     void bookEnergy();
 
     /// One time step towards `until` [s]: what is left is cut into equal parts no longer than the largest stable step, so that the time
-    /// is hit exactly and no step is tiny. Throws RunError naming scene, step, stage and why; the state then is that of the last good
-    /// step, except for what the failed step moved.
+    /// is hit exactly and no step is tiny. Throws RunError naming scene, step, stage, why and what would do. In mode adaptive a bad step is
+    /// taken back and made again half as long, up to ten times; from there steps grow again. If that does not help the state is that
+    /// of the last good step; in other modes it is, except for what the failed step moved.
     StepReport step(double until);
 
  private:
     void prepareWorkspace();
+    void begin();
+    double chooseLength(double until) const;
     double lengthOfStep(double left, double largest) const;
+    std::optional<Fault> attempt(double dt, StepReport& report);
+    void accept(const StepReport& report);
+    RunError failure(std::string_view stage, const std::string& why) const;
+    RunError failure(const Fault& fault, int halvings, double dt) const;
 
     Scene scene_;
     Fabric fabric_;
     State state_;
     Workspace work_;
+    StepCheck check_;
     double maxSpeed_ = 0.0;  ///< of the particles [cm/s]
+    double longest_ = std::numeric_limits<double>::infinity();  ///< that a step may be after one was taken back [s]
 };
 
 /// Hash of everything that evolves; equal for any number of threads.

@@ -21,6 +21,7 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
     if (work.fabric) {
         const LiquidLoads* loads = plan.isMixed ? &work.coupling->mixture.loads(work.grid) : nullptr;
         report.fabric = work.fabric->step(state.time, dt, settings.gravity, state.fabric, clock, loads);
+        if (work.kept) report.fabric.deepest = work.fabric->deepestInObstacles(state.fabric);
         if (!plan.isMixed) return;
         clock.start(Stage::Mixture);
         work.coupling->mixture.separate(state.fabric, work.grid);
@@ -30,6 +31,7 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
         if (plan.isMixed) loads.emplace(work.coupling->mixture.faceLoads(work.grid));
         if (!plan.meetsFabric) work.gridFabric->spread(state.fabric, clock);
         report.fabric = work.gridFabric->advance(state.time, dt, settings.gravity, state.fabric, clock, loads ? &*loads : nullptr);
+        if (work.kept) report.fabric.deepest = work.gridFabric->deepestInObstacles(state.fabric);
         if (!plan.isMixed) return;
         clock.start(Stage::Mixture);
         work.coupling->mixture.separate(work.gridFabric->faces(), work.grid);
@@ -96,7 +98,10 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
 
     if (emits(scene, state, state.time, state.time + dt)) {
         clock.start(Stage::Emit);
+        const std::size_t before = state.liquid.count;
         emitLiquid(scene, state, state.time, state.time + dt);
+        for (std::size_t p = before; p < state.liquid.count; ++p)
+            report.emittedKinetic += 0.5 * state.liquid.mass[p] * state.liquid.velocity(p).squaredNorm();
     }
     const bool isWet = hasLiquid(state);
     LiquidPlan plan;

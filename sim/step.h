@@ -3,6 +3,7 @@
 #include "sim/coupling/coupling.h"
 #include "sim/fabric/grid/grid_solver.h"
 #include "sim/fabric/vertex_solver.h"
+#include "sim/kept_state.h"
 #include "sim/liquid/extrapolate.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
@@ -39,6 +40,7 @@ struct Workspace {
     RelaxScratch relax;
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
+    std::unique_ptr<KeptState> kept;                       ///< mode adaptive: the state before the step
     bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
     std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these two …

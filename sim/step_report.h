@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -12,6 +13,8 @@ namespace sim {
 
 /// The stages of a step, in the order in which they run.
 enum class Stage {
+    Keep,              ///< the state to go back to if the step turns out bad, mode adaptive
+    TakenBack,         ///< steps that did, and were made again in halves
     Emit,
     Sort,
     Obstacles,
@@ -40,7 +43,7 @@ enum class Stage {
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension", "pressure", "volume", "reflection", "walls", "grid_to_particles",
+    "keep", "taken_back", "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension", "pressure", "volume", "reflection", "walls", "grid_to_particles",
     "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
 
 /// What an iterative solve did.
@@ -63,6 +66,7 @@ struct FabricReport {
     std::size_t candidates = 0;  ///< pairs that may touch, at the end
     std::size_t contacts = 0;    ///< pairs that do, at the last look
     std::size_t obstacleContacts = 0;  ///< vertices and edges that touch obstacles, at the last look
+    double deepest = -std::numeric_limits<double>::infinity();  ///< reach of the fabric into an obstacle, mode adaptive only [cm]
     std::optional<EnergyChanges> energyChanges;  ///< where they are booked; what liquid did is all under Drag
 };
 
@@ -104,16 +108,23 @@ struct StepReport {
     SolveReport volume;                          ///< of the correction of the volume, if it ran
     FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
+    int takenBack = 0;                           ///< attempts that turned out bad before this one, each longer than the next
     bool isReflected = false;                    ///< the first of two steps: particles hold velocities that the flow never has
     Energies energies;                           ///< at the end of the step, of what the particles hold
     std::optional<EnergyChanges> energyChanges;  ///< where they are booked
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
     double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]
+    double emittedKinetic = 0.0;                 ///< of liquid that came from sources in this step [erg]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
     Vec3 toPins = Vec3::Zero();                  ///< momentum of liquid that fabric took up and moved, which pins held back in this step [g cm/s]
     std::string_view failure;                    ///< empty, or why the state can't be trusted …
     Stage failedStage = Stage::GridToParticles;  ///< … and since when
 
+    void charge(Stage stage, double seconds)
+    {
+        stageSeconds[static_cast<int>(stage)] += seconds;
+        stageRan[static_cast<int>(stage)] = true;
+    }
     double seconds() const
     {
         double sum = 0.0;

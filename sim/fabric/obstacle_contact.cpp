@@ -113,13 +113,17 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
 
 double FabricObstacles::deepest(const Fabric& fabric, std::span<const Vec3> x) const
 {
-    double deepest = -std::numeric_limits<double>::infinity();
-    const auto look = [&](const Vec3& at, double radius) {
+    const auto reach = [&](const Vec3& at, double radius) {
+        double deepest = -std::numeric_limits<double>::infinity();
         for (const Body& body : bodies_) deepest = std::max(deepest, radius - body.pose.distance(at));
+        return deepest;
     };
-    for (std::size_t v = 0; v < x.size(); ++v) look(x[v], fabric.radius[v]);
-    for (const Vec2i& e : edges_) look(0.5 * (x[e[0]] + x[e[1]]), 0.5 * (fabric.radius[e[0]] + fabric.radius[e[1]]));
-    return deepest;
+    const double ofVertices = parallelMax(x.size(), [&](std::size_t v) { return reach(x[v], fabric.radius[v]); });
+    const double ofEdges = parallelMax(edges_.size(), [&](std::size_t i) {
+        const auto [a, b] = std::pair(edges_[i][0], edges_[i][1]);
+        return reach(0.5 * (x[a] + x[b]), 0.5 * (fabric.radius[a] + fabric.radius[b]));
+    });
+    return std::max(ofVertices, ofEdges);
 }
 
 }  // namespace sim

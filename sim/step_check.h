@@ -1,0 +1,58 @@
+#pragma once
+
+#include "sim/scene/scene.h"
+#include "sim/state.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace sim {
+
+/// What is wrong with a step.
+struct Fault {
+    Stage stage = Stage::GridToParticles;
+    std::string what;    ///< the law that is broken, by how much, and by which particle or vertex
+    std::string remedy;  ///< what would do
+};
+
+/// Watches over what must hold after every step, whatever the scene: all numbers are finite, nothing crosses more cells than it may, liquid
+/// is neither made nor lost, fabric is not inside of obstacles, and energy comes from somewhere.
+class StepCheck {
+ public:
+    /// @param fabric  must stay where it is
+    StepCheck(const Scene& scene, const Fabric& fabric);
+
+    /// The first step starts from a state of these energies …
+    void start(const Energies& energies);
+    /// … the next one from where a good step came to.
+    void accept(const StepReport& report);
+
+    /// What makes the step useless whatever follows: numbers that are not finite, liquid that is not accounted for.
+    std::optional<Fault> broken(const State& state, const StepReport& report) const;
+
+    /// What a shorter step would have done better. `state` is that after the step.
+    std::optional<Fault> rash(const State& state, const StepReport& report) const;
+
+ private:
+    std::optional<Fault> tooFar(const State& state, const StepReport& report) const;
+    std::optional<Fault> tooDeep(const StepReport& report) const;
+    std::optional<Fault> fromNowhere(const State& state, const StepReport& report) const;
+    double drivingSpeed(const State& state, const StepReport& report) const;
+    double energyAllowed(const State& state, const StepReport& report) const;
+    std::string fastestParticle(const State& state) const;
+    std::string fastestVertex(const State& state) const;
+    std::string nameOf(std::size_t vertex) const;
+
+    const Scene& scene_;
+    const Fabric& fabric_;
+    double fabricMass_ = 0.0;  ///< dry [g]
+    double radius_ = 0.0;      ///< of the thickest vertex [cm]
+    /// Of motion and elasticity at the ends of the last steps [erg]: what contact took in it may give back in some steps.
+    static constexpr int kWindow = 8;
+    std::array<double, kWindow> recent_{};
+    int next_ = 0;             ///< row to be overwritten
+    double elastic_ = 0.0;     ///< at the end of the last step [erg]
+};
+
+}  // namespace sim
