@@ -112,12 +112,21 @@ std::string StepCheck::fastestVertex(const State& state) const
     return fmt::format("{} {}", nameOf(f.index), placeAndSpeed(fabric.x[f.index], f.speed));
 }
 
+/// What makes explosions less likely.
+std::string StepCheck::calmer(bool isFabrics) const
+{
+    const Settings& settings = scene_.settings;
+    if (settings.time.mode != TimeMode::Adaptive) return "time.mode: adaptive, or a smaller time.dt";
+    if (isFabrics) return "softer or heavier fabric, or slower motions";
+    return settings.transfer.xi != XiMap::Translation ? "transfer.xi: translation" : "fewer transfer.modes, or a smaller time.cfl";
+}
+
 std::optional<Fault> StepCheck::broken(const State& state, const StepReport& report) const
 {
     if (!report.failure.empty()) {
         const bool isFabrics = report.failedStage == Stage::FabricSolve;
         return Fault{report.failedStage, fmt::format("{}: {}", report.failure, isFabrics ? fastestVertex(state) : fastestParticle(state)),
-                     "a smaller time.dt, or time.mode: adaptive"};
+                     calmer(isFabrics)};
     }
     const Ledger& ledger = state.ledger;
     const double missing = ledger.emittedMass - ledger.leftMass - report.liquidMass - report.absorbedMass;
@@ -137,7 +146,7 @@ std::optional<Fault> StepCheck::rash(const State& state, const StepReport& repor
 std::optional<Fault> StepCheck::tooFar(const State& state, const StepReport& report) const
 {
     const TimeSettings& time = scene_.settings.time;
-    const double cells = hasLiquid(state) ? cflNumber(scene_.settings, report.maxSpeed, report.dt) : 0.0;
+    const double cells = hasLiquid(state) ? report.dt * report.maxSpeed / scene_.settings.cell : 0.0;
     const double bound = kSurprise * std::min(time.cfl, time.maxCflLiquid);
     if (cells <= bound) return std::nullopt;
     return Fault{Stage::GridToParticles, fmt::format("liquid crossed {:.3g} cells in the step, more than {:.3g}: {}", cells, bound, fastestParticle(state)),
@@ -193,7 +202,7 @@ std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport
     return Fault{isFabrics ? Stage::FabricSolve : Stage::GridToParticles,
                  fmt::format("energy of motion and elasticity came to {:.4g} erg, {:.3g} erg more than there was and was given: {}", energy,
                              energy - allowed, isFabrics ? fastestVertex(state) : fastestParticle(state)),
-                 isFabrics ? "softer or heavier fabric, or slower motions" : "fewer transfer.modes, or a smaller time.cfl"};
+                 calmer(isFabrics)};
 }
 
 }  // namespace sim

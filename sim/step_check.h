@@ -43,6 +43,7 @@ class StepCheck {
     std::string fastestParticle(const State& state) const;
     std::string fastestVertex(const State& state) const;
     std::string nameOf(std::size_t vertex) const;
+    std::string calmer(bool isFabrics) const;
 
     const Scene& scene_;
     const Fabric& fabric_;

@@ -113,6 +113,20 @@ TEST(Allocation, MovingObstaclesAllocateNothing)
     EXPECT_EQ(count, 0);
 }
 
+TEST(Allocation, KeepingTheStateAllocatesNothing)
+{
+    for (const Transfer& transfer : kTransfers) {
+        Scene scene = pool(transfer);
+        scene.settings.time.mode = TimeMode::Adaptive;
+        const long count = onThreads(1, [&] {
+            Simulation simulation(scene);
+            allocationsOf(simulation, 10);
+            return allocationsOf(simulation, 10);
+        });
+        EXPECT_EQ(count, 0) << transfer.name;
+    }
+}
+
 TEST(Allocation, SurfaceTensionAllocatesNothing)
 {
     Scene scene = pool(kPoly8);

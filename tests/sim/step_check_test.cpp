@@ -1,0 +1,137 @@
+#include "sim/step_check.h"
+
+#include "sim/fabric/generators.h"
+#include "sim/simulation.h"
+#include "tests/physics/runs.h"
+#include "tests/sim/fabric/pieces.h"
+
+#include <gtest/gtest.h>
+
+// What a step is reproached with.
+
+namespace sim::test {
+namespace {
+
+/// A pool at rest and a sheet above it, a state and a report of a step of 1e-3 s in which nothing went wrong.
+struct Sample {
+    Scene scene = tankScene(kPoly8, 1.0, {8.0, 8.0, 8.0}, {0.0, 0.0, 0.0}, {8.0, 4.0, 8.0});
+    std::optional<Simulation> simulation;
+    std::optional<StepCheck> check;
+    StepReport report;
+
+    explicit Sample(const Motion& pinMotion = {})
+    {
+        scene.settings.time.mode = TimeMode::Adaptive;
+        scene.settings.time.dt = 1.0e-3;
+        FabricPiece cloth = testing::pieceOf(clothGrid({{5, 5}, {0.5, 0.5}, Vec3(3.0, 6.0, 3.0)}), testing::wool(), {0.01, 0.01});
+        cloth.name = "sheet";
+        PinGroup corner;
+        corner.vertices = {0};
+        corner.motion = pinMotion;
+        cloth.pins.push_back(corner);
+        scene.fabrics.push_back(cloth);
+        simulation.emplace(scene);
+        check.emplace(simulation->scene(), simulation->fabric());
+        check->start(simulation->energies());
+        report = simulation->step(1.0e-3);
+    }
+    std::optional<Fault> rash() const { return check->rash(simulation->state(), report); }
+    std::optional<Fault> broken() const { return check->broken(simulation->state(), report); }
+};
+
+TEST(StepCheck, FindsNothingInAGoodStep)
+{
+    const Sample good;
+    EXPECT_FALSE(good.broken());
+    EXPECT_FALSE(good.rash());
+}
+
+TEST(StepCheck, SeesEnergyFromNowhere)
+{
+    Sample sample;
+    const double mass = sample.report.liquidMass;
+    sample.report.energies.kinetic = 0.5 * mass * 20.0 * 20.0;  // all at 20 cm/s after a thousandth of a second
+    ASSERT_TRUE(sample.rash());
+    EXPECT_EQ(sample.rash()->stage, Stage::GridToParticles);
+    EXPECT_NE(sample.rash()->what.find("particle "), std::string::npos);
+
+    Sample cloth;
+    cloth.report.energies.fabric.membrane = 1.0e6;
+    ASSERT_TRUE(cloth.rash());
+    EXPECT_EQ(cloth.rash()->stage, Stage::FabricSolve);
+    EXPECT_NE(cloth.rash()->what.find(" of sheet at "), std::string::npos) << cloth.rash()->what;
+}
+
+TEST(StepCheck, LetsGravityAndSourcesGiveEnergy)
+{
+    Sample sample;
+    const double mass = sample.report.liquidMass, speed = 981.0 * 1.0e-3;
+    sample.report.energies.kinetic = 0.5 * mass * speed * speed;  // free fall from rest
+    EXPECT_FALSE(sample.rash());
+    sample.report.energies.kinetic = sample.report.emittedKinetic = 1.0e6;
+    EXPECT_FALSE(sample.rash());
+}
+
+TEST(StepCheck, LetsContactGiveBackWhatItTook)
+{
+    Sample sample;
+    StepReport fast = sample.report;
+    fast.energies.fabric.kinetic = 1.0e6;
+    sample.check->accept(fast);
+    for (int step = 0; step < 5; ++step) sample.check->accept(sample.report);
+    sample.report.energies.fabric.kinetic = 1.0e6;
+    EXPECT_FALSE(sample.rash());
+    sample.report.energies.fabric.kinetic = 1.2e6;
+    EXPECT_TRUE(sample.rash());
+}
+
+TEST(StepCheck, LetsPinsDrive)
+{
+    Motion pull;
+    pull.addTranslation(0.0, 1.0, {100.0, 0.0, 0.0}, 0.0, 0.0);
+    Sample driven(pull);
+    driven.report.energies.fabric.membrane += 1.0e6;  // wound up by the pin
+    EXPECT_FALSE(driven.rash());
+    driven.report.energies.fabric.kinetic += 1.0e8;   // far more than being thrown at the pin's speed
+    EXPECT_TRUE(driven.rash());
+}
+
+TEST(StepCheck, SeesWhatWentTooFar)
+{
+    Sample sample;
+    sample.report.maxSpeed = 3000.0;  // 3 cells in the step that was to be at most 1 of them
+    ASSERT_TRUE(sample.rash());
+    EXPECT_NE(sample.rash()->what.find("crossed 3 cells"), std::string::npos) << sample.rash()->what;
+}
+
+TEST(StepCheck, SeesFabricInsideObstacles)
+{
+    Sample sample;
+    sample.report.fabric.deepest = 0.2;
+    EXPECT_FALSE(sample.rash());
+    sample.report.fabric.deepest = 0.3;
+    ASSERT_TRUE(sample.rash());
+    EXPECT_EQ(sample.rash()->stage, Stage::FabricContact);
+}
+
+TEST(StepCheck, SeesLostLiquid)
+{
+    Sample sample;
+    sample.report.liquidMass *= 1.0 - 1.0e-8;
+    ASSERT_TRUE(sample.broken());
+    EXPECT_NE(sample.broken()->what.find("are not accounted for"), std::string::npos);
+}
+
+TEST(StepCheck, NamesWhatIsNotFinite)
+{
+    Sample sample;
+    State state = sample.simulation->state();
+    state.liquid.mode(1, 0)[7] = std::numeric_limits<double>::quiet_NaN();
+    sample.report.failure = "velocities are not finite";
+    const auto fault = sample.check->broken(state, sample.report);
+    ASSERT_TRUE(fault);
+    EXPECT_NE(fault->what.find("particle " + std::to_string(state.liquid.id[7]) + " at "), std::string::npos) << fault->what;
+}
+
+}  // namespace
+}  // namespace sim::test
