@@ -20,8 +20,8 @@ struct TimeSettings {
     double dt = 1.0e-3;        ///< Time step; in modes cfl and adaptive its upper bound [s]
     double duration = 1.0;     ///< Simulated time from start to end [s]
     double start = 0.0;        ///< Time of the initial state [s]
-    TimeMode mode = TimeMode::Fixed;
-    double cfl = 1.0;          ///< Cells a particle may cross per step, mode cfl [-]
+    TimeMode mode = TimeMode::Fixed;  ///< Adaptive: as cfl, and a step that turns out bad is made again in halves
+    double cfl = 1.0;          ///< Cells a particle may cross per step, modes cfl and adaptive [-]
     double maxCflLiquid = 3.0; ///< Hard bound on the same number in every mode [-]
     double maxCflFabric = 1.0 / 3.0;  ///< The fabric's bound, read by fabric.solver grid only [-]
     double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]

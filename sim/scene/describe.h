@@ -66,8 +66,8 @@ void describe(V& v, TimeSettings& t)
     v.number("dt", t.dt, Quantity::Time, Range::above(0.0), "Time step; its upper bound in modes cfl and adaptive");
     v.number("duration", t.duration, Quantity::Time, Range::atLeast(0.0), "Simulated time from start to end");
     v.number("start", t.start, Quantity::Time, Range::any(), "Time of the initial state");
-    v.choice("mode", t.mode, "How steps are chosen");
-    v.number("cfl", t.cfl, Quantity::None, Range::above(0.0), "Cells a particle may cross per step, mode cfl");
+    v.choice("mode", t.mode, "How steps are chosen; adaptive: as cfl, and a bad step is taken back and made again half as long");
+    v.number("cfl", t.cfl, Quantity::None, Range::above(0.0), "Cells a particle may cross per step, modes cfl and adaptive");
     v.group("max_cfl", "Hard bounds on the cells crossed per step, in every mode", [&](auto& w) {
         w.number("liquid", t.maxCflLiquid, Quantity::None, Range::above(0.0), "Bound of the liquid");
         w.number("fabric", t.maxCflFabric, Quantity::None, Range::above(0.0), "Bound of the fabric, solver grid only");
