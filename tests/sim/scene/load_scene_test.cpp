@@ -104,7 +104,7 @@ domain: {box: {min: [-9, -9, -9], max: [9, 9, 9]}}
     EXPECT_EQ((std::vector<std::string>{"a", "b"}), scene.tags);
     EXPECT_EQ(1.0e-2, s.time.dt);
     EXPECT_EQ(2.0, s.time.duration);
-    EXPECT_EQ(sim::TimeMode::Cfl, s.time.mode);
+    EXPECT_EQ(sim::TimeMode::Adaptive, s.time.mode);
     EXPECT_EQ(0.5, s.time.cfl);
     EXPECT_EQ(2.0, s.time.maxCflLiquid);
     EXPECT_TRUE(s.time.reflects());
@@ -391,7 +391,7 @@ TEST(LoadScene, DamBreakIsTheOneOfThePaper)
     EXPECT_GT(0.0, -scene.obstacles[0].shape.distance(Vec3(-7.2, 14.4, 0.72)) + 0.0);
     const Scene best = sim::loadScene(file, {"best", {}});
     EXPECT_EQ(sim::FillSettings::Pattern::Lattice, best.sources[0].fill.pattern);
-    EXPECT_EQ(sim::TimeMode::Cfl, best.settings.time.mode);
+    EXPECT_EQ(sim::TimeMode::Adaptive, best.settings.time.mode);
 }
 
 TEST(LoadScene, IncludedFilesLieUnderTheFileInOrder)
