@@ -104,7 +104,7 @@ domain: {box: {min: [-9, -9, -9], max: [9, 9, 9]}}
     EXPECT_EQ((std::vector<std::string>{"a", "b"}), scene.tags);
     EXPECT_EQ(1.0e-2, s.time.dt);
     EXPECT_EQ(2.0, s.time.duration);
-    EXPECT_EQ(sim::TimeMode::Adaptive, s.time.mode);
+    EXPECT_EQ(sim::TimeMode::Cfl, s.time.mode);
     EXPECT_EQ(0.5, s.time.cfl);
     EXPECT_EQ(2.0, s.time.maxCflLiquid);
     EXPECT_TRUE(s.time.reflects());
