@@ -26,17 +26,16 @@ struct PrecisionNames {
 
 /// The section `precision` of a scene: what it is run with, and what its outcome is held against.
 struct Precision {
-    explicit Precision(sim::Formula of) : energy(std::move(of)) {}
-
     std::string about;
-    double every = 0.0;         ///< time between readings [s]
-    std::vector<Check> errors;  ///< the error of a run is the root mean square of these
-    sim::Formula energy;        ///< of which the table tells what is left
-    double decay = 0.0;         ///< the energy decays at this times the kinematic viscosity [1/cm²]; 0: not known
-    double speed = 0.0;         ///< [cm/s]
+    double every = 0.0;                  ///< time between readings [s]
+    std::vector<Check> errors;           ///< the error of a run is the root mean square of these
+    std::optional<sim::Formula> energy;  ///< of which the table tells what is left
+    double decay = 0.0;  ///< the energy decays at this times the kinematic viscosity [1/cm²]; 0: not known
+    double speed = 0.0;  ///< [cm/s]
     std::vector<PrecisionChoice> methods, integrators, steps, resolutions;  ///< every combination is run
     PrecisionNames published;            ///< the scheme to compare with, of any resolution; empty: none
     std::vector<std::string> converged;  ///< changes that make the run which tells what is not known otherwise
+    bool isHeadline = false;             ///< drawn beside the other such cases
     std::string question;                ///< as text: all that the error of a run depends on beside the run
     std::shared_ptr<Measures> measures;  ///< what the formulas look at
 

@@ -142,7 +142,7 @@ void plotPrecision(const std::vector<PrecisionCase>& cases, const std::filesyste
     std::vector<const PrecisionCase*> drawn;
     for (const PrecisionCase& of : cases) {
         if (of.front().empty()) continue;
-        drawn.push_back(&of);
+        if (of.precision.isHeadline) drawn.push_back(&of);
         drawPlot(folder, "work_precision_" + of.name,
                  [&](const std::string& picture) { return workPrecisionScript({&of}, picture); });
         const auto hasViscosity = [](const PrecisionRow& row) { return std::isfinite(row.viscosity); };
@@ -150,8 +150,7 @@ void plotPrecision(const std::vector<PrecisionCase>& cases, const std::filesyste
             drawPlot(folder, "numerical_viscosity",
                      [&](const std::string& picture) { return viscosityScript(of, picture); });
     }
-    if (drawn.size() > 2) drawn.resize(2);
-    if (drawn.size() == 2)
+    if (drawn.size() > 1)
         drawPlot(folder, "work_precision",
                  [&](const std::string& picture) { return workPrecisionScript(drawn, picture); });
 }

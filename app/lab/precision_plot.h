@@ -15,8 +15,8 @@ std::string workPrecisionScript(const std::vector<const PrecisionCase*>& cases, 
 /// Numerical viscosity over the time step of the case's first resolution, likewise.
 std::string viscosityScript(const PrecisionCase& of, const std::string& picture);
 
-/// work_precision_CASE.png of each, numerical_viscosity.png where it is known, and work_precision.png with the first
-/// two. Throws std::runtime_error.
+/// work_precision_CASE.png of each, numerical_viscosity.png where it is known, and work_precision.png with the
+/// headline's. Throws std::runtime_error.
 void plotPrecision(const std::vector<PrecisionCase>& cases, const std::filesystem::path& folder);
 
 }  // namespace app

@@ -68,7 +68,7 @@ Outcome runOnce(const SceneSetup& setup, const std::vector<Check>& checks, const
     const auto read = [&](double time) {
         for (std::size_t i = 0; i < checks.size(); ++i)
             if (const auto reading = readOnce(checks[i], time)) outcome.errors[i].push_back(*reading);
-        outcome.energies.push_back({time, precision.energy(std::array{time}), 0.0});
+        if (precision.energy) outcome.energies.push_back({time, (*precision.energy)(std::array{time}), 0.0});
     };
     outcome.followed = follow(*simulation, setup.scene.settings.time, precision.every, read, stopWanted);
     return outcome;
@@ -77,7 +77,7 @@ Outcome runOnce(const SceneSetup& setup, const std::vector<Check>& checks, const
 /// Of the energies after the start, whose particles the grid has not yet smoothed.
 double viscosityOf(const Precision& precision, const std::vector<Reading>& energies)
 {
-    if (precision.decay <= 0.0) return std::numeric_limits<double>::quiet_NaN();
+    if (precision.decay <= 0.0 || energies.empty()) return std::numeric_limits<double>::quiet_NaN();
     return take(Take::Rate, std::span(energies).subspan(1)) / precision.decay;
 }
 
@@ -159,7 +159,7 @@ PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& conver
             row.steps = outcome.followed.steps;
             row.cfl = outcome.followed.largestCfl;
             row.error = errorOf(checks, outcome.errors);
-            row.energyLeft = outcome.energies.back().value / outcome.energies.front().value;
+            row.energyLeft = take(Take::Last, outcome.energies) / take(Take::First, outcome.energies);
             row.viscosity = viscosityOf(*run.setup.precision, outcome.energies);
         }
         row.dt = run.setup.scene.settings.time.duration / static_cast<double>(std::max<std::int64_t>(1, row.steps));

@@ -127,17 +127,19 @@ std::optional<Precision> readPrecision(const sim::SceneFile& file, const sim::Sc
     sim::SectionReader section(*node, "precision");
     sim::SectionReader::read(node, "precision", [](auto& v) {
         for (const char* key : {"about", "every", "let", "flow", "errors", "energy", "decay", "speed", "methods",
-                                "integrators", "steps", "resolutions", "published", "converged", "quick"})
+                                "integrators", "steps", "resolutions", "published", "headline", "converged", "quick"})
             v.other(key, "");
     });
     auto measures = std::make_shared<Measures>(scene.settings.liquid.density);
     const ReadingContext context = readContext(section, scene, *measures);
-    section.needs("energy", "a formula of the energy whose rest is told, like energy: kinetic");
     section.needs("errors", "a list of what is compared, like errors: [{read: flow_error, expect: 0}]");
-    Precision precision(readFormula(*section.find("energy"), "precision.energy", context.reading));
+    Precision precision;
     precision.measures = std::move(measures);
     section.text("about", precision.about, "");
     precision.every = readInterval(section, context);
+    if (const Node* at = section.find("energy"))
+        precision.energy = readFormula(*at, "precision.energy", context.reading);
+    section.flag("headline", precision.isHeadline, "");
     if (const Node* at = section.find("decay")) precision.decay = readConstant(*at, "precision.decay", context);
     if (const Node* at = section.find("speed")) precision.speed = readConstant(*at, "precision.speed", context);
     precision.errors = errorsIn(section, context);

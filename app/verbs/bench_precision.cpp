@@ -37,7 +37,7 @@ void tell(const PrecisionRow& row)
     fmt::print("{:<14} {:<11} {:<10} {:<10} {:<10} {:>7} steps {:>9.3f} s  ", row.scene, row.names.method,
                row.names.integrator, row.names.step, row.names.resolution, row.steps, row.wallSeconds);
     if (row.isDone())
-        fmt::print("error {:.4g}, energy left {:.4f}\n", row.error, row.energyLeft);
+        fmt::print("error {:.4g}, energy left {:.4g}\n", row.error, row.energyLeft);
     else
         fmt::print("{}\n", row.outcome);
     std::fflush(stdout);

@@ -199,7 +199,6 @@ TEST(Precision, MistakesNameTheirLine)
     };
     const std::vector<std::array<std::string, 3>> all = {
         {"  every: 0.01\n", "", "precision.every is missing"},
-        {"  energy: kinetic\n", "", "precision.energy is missing"},
         {"energy: kinetic", "energy: kinetik", "flight.yaml:6: precision.energy: \"kinetik\""},
         {", expect: t", "", "precision.converged is missing"},
         {"take: rms_error, expect: t", "take: mean", "flight.yaml:9: precision.errors.0: needs expect"},
