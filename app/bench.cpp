@@ -104,6 +104,16 @@ std::string benchCsv(const std::string& scene, const Options& options, const std
     return csv;
 }
 
+std::string machineOf(const Options& options)
+{
+    return options.machine.empty() ? machineName() : options.machine;
+}
+
+std::filesystem::path machineFolder(const Options& options)
+{
+    return options.results / machineOf(options);
+}
+
 std::string machineName()
 {
     std::ifstream info("/proc/cpuinfo");

@@ -38,6 +38,10 @@ bool sameState(const std::vector<BenchResult>& results);
 std::string benchTable(const std::vector<BenchResult>& results);
 std::string benchCsv(const std::string& scene, const Options& options, const std::vector<BenchResult>& results);
 
+/// Names the results of this machine, or as --machine says; and their folder.
+std::string machineOf(const Options& options);
+std::filesystem::path machineFolder(const Options& options);
+
 /// "amd_epyc_7b13_2_cores": this machine's processor in [a-z0-9_].
 std::string machineName();
 

@@ -30,6 +30,7 @@ SceneSetup loadScene(const SceneRequest& request)
     setup.pictures = readPictureSettings(file);
     setup.pictures.contents = contentsOf(setup.scene);
     setup.validation = readValidation(file, setup.scene);
+    setup.precision = readPrecision(file, setup.scene);
     const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);
     if (variant != setup.pictures.compare.variants.end()) {
         setup.variant = variant->name;
@@ -37,7 +38,8 @@ SceneSetup loadScene(const SceneRequest& request)
     }
     const std::string scene = sim::printScene(setup.scene);
     setup.resolved = scene + printPictureSettings(setup.pictures);
-    if (const sim::Node* node = file.root.find("validate")) setup.resolved += "validate: " + node->flow() + '\n';
+    for (const std::string key : {"validate", "precision"})
+        if (const sim::Node* node = file.root.find(key)) setup.resolved += key + ": " + node->flow() + '\n';
     PictureSettings alone = setup.pictures;
     alone.compare = {};
     setup.identity = scene + printPictureSettings(alone);

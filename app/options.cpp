@@ -36,6 +36,26 @@ void addOutput(CLI::App& verb, Options& options)
     verb.add_flag("!--no-video", options.video, "no video");
 }
 
+constexpr int kPrecisionThreads = 2;
+
+CLI::App* addBenchPrecision(CLI::App& bench, Options& options)
+{
+    auto* verb = bench.add_subcommand("precision", "error against run time of methods, integrators, steps and cells");
+    verb->add_option("case", options.cases, "names in scenes/bench/precision (default: all)");
+    verb->add_option("--out", options.out, "folder of table, plots and report");
+    auto* threads = verb->add_option("--threads", options.threads, "threads of the simulation (default: 2)")->check(CLI::Range(1, kMaxThreads));
+    auto* repeats = verb->add_option("--repeats", options.repeats, "runs of each, of which the median counts (default: 1)")->check(CLI::Range(1, 1000));
+    verb->add_flag("--quick", options.quick, "few of them, within minutes");
+    verb->add_flag("--csv", options.csv, "keep them in <results>/<machine>/precision");
+    verb->add_option("--results", options.results, "folder of the machines' results");
+    verb->add_option("--machine", options.machine, "name of this machine in them");
+    verb->callback([&options, threads, repeats] {
+        if (threads->count() == 0) options.threads = kPrecisionThreads;
+        if (repeats->count() == 0) options.repeats = 1;
+    });
+    return verb;
+}
+
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
@@ -77,7 +97,7 @@ void addVerbs(CLI::App& program, Options& options)
     check->callback([&options] { options.verb = Verb::Check; });
 
     auto* bench = program.add_subcommand("bench", "time a scene by stage");
-    bench->add_option("--scene", options.scene, "a name in scenes/bench, or a scene file")->required();
+    bench->add_option("--scene", options.scene, "a name in scenes/bench, or a scene file");
     bench->add_option("--threads", options.benchThreads, "numbers of threads to try: 1,2,4")
         ->delimiter(',')
         ->check(CLI::Range(1, kMaxThreads));
@@ -89,7 +109,11 @@ void addVerbs(CLI::App& program, Options& options)
     bench->add_flag("--csv", options.csv, "write <results>/<machine>/<scene>.csv");
     bench->add_option("--results", options.results, "folder of the CSV files");
     bench->add_option("--machine", options.machine, "name of this machine in them");
-    bench->callback([&options] { options.verb = Verb::Bench; });
+    auto* precision = addBenchPrecision(*bench, options);
+    bench->callback([&options, precision] {
+        options.verb = precision->parsed() ? Verb::BenchPrecision : Verb::Bench;
+        if (options.verb == Verb::Bench && options.scene.empty()) throw CLI::RequiredError("--scene");
+    });
 }
 
 /// The parser takes a word that is no verb for nothing at all and only misses the verb.

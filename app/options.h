@@ -9,7 +9,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, Bench, Paper, Validate };
+enum class Verb { Run, Compare, Check, Bench, BenchPrecision, Paper, Validate };
 
 /// The command line.
 struct Options {
@@ -18,13 +18,13 @@ struct Options {
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
-    int threads = 1;                     ///< run, compare, paper, validate
+    int threads = 1;                     ///< all verbs but bench, which has benchThreads
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     bool force = false;                  ///< compare, paper: redo variants that are done
-    bool quick = false;                  ///< paper, validate: shortened
+    bool quick = false;                  ///< paper, validate, bench precision: shortened
     bool full = false;                   ///< validate: not shortened, as is the default
-    std::vector<std::string> cases;      ///< validate: names in scenes/validation; none: all
+    std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
 
     std::vector<int> benchThreads = {1};

@@ -23,6 +23,7 @@ int runVerb(const Options& options, const Parts& parts)
         case Verb::Compare: return runVerbCompare(options, parts);
         case Verb::Check: return runVerbCheck(options, parts);
         case Verb::Bench: return runVerbBench(options, parts);
+        case Verb::BenchPrecision: return runVerbBenchPrecision(options, parts);
         case Verb::Paper: return runVerbPaper(options, parts);
         case Verb::Validate: return runVerbValidate(options, parts);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/lab/precision.h"
 #include "app/lab/validation.h"
 #include "app/picture_settings.h"
 #include "sim/scene/scene.h"
@@ -24,6 +25,7 @@ struct SceneSetup {
     sim::Scene scene;
     PictureSettings pictures;
     std::optional<Validation> validation;
+    std::optional<Precision> precision;
     std::string variant = "default";  ///< names its output folder
     std::string label;                ///< stands in its pictures; empty where the file is run as written
     std::string resolved;             ///< every setting with its unit, as `check` prints it

@@ -119,13 +119,15 @@ Energies Simulation::energies() const
 }
 
 /// Equal parts of what is left, none beyond the largest; an even number where each first one of two reflects, and the
-/// second is as long.
+/// second is as long, unless the liquid has become so fast that it would break a hard bound.
 double Simulation::lengthOfStep(double left, double largest) const
 {
     constexpr double kRoundOff = 1.0e-9;  // steps may be longer by that much, so that 4e-3 s in steps of 2e-4 s are 20 and not 21
-    if (state_.reflected && state_.lastDt <= longest_) return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
+    const TimeSettings& time = scene_.settings.time;
+    if (state_.reflected && state_.lastDt <= longest_ && cflNumber(scene_.settings, maxSpeed_, state_.lastDt) <= time.maxCflLiquid)
+        return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
     const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - kRoundOff)));
-    return left / (mayReflect(state_, scene_.settings.time, work_) ? 2.0 * std::ceil(0.5 * parts) : parts);
+    return left / (mayReflect(state_, time, work_) ? 2.0 * std::ceil(0.5 * parts) : parts);
 }
 
 RunError Simulation::failure(std::string_view stage, const std::string& why) const

@@ -1,10 +1,10 @@
 #include "app/lab/run_case.h"
 
+#include "app/lab/follow.h"
 #include "sim/core/check.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace app {
 
@@ -21,18 +21,8 @@ void follow(const SceneSetup& setup, const Parts& parts, const std::function<boo
     const Validation& validation = *setup.validation;
     const auto simulation = parts.startSimulation(setup);
     validation.measures->look(*simulation);
-    const auto& time = setup.scene.settings.time;
-    // Readings end on the duration itself but for the rounding of sums.
-    constexpr double kRounding = 1.0e-9;
-    const auto count = static_cast<std::int64_t>(std::floor(time.duration / validation.every + kRounding));
-    readAll(validation, time.start, result);
-    for (std::int64_t n = 1; n <= count; ++n) {
-        const double until = time.start + static_cast<double>(n) * validation.every;
-        while (simulation->state().time < until - kRounding * validation.every) simulation->step(until);
-        readAll(validation, simulation->state().time, result);
-        if (stopWanted()) throw sim::RunError("stopped by the user");
-    }
-    result.steps = simulation->state().step;
+    const auto read = [&](double time) { readAll(validation, time, result); };
+    result.steps = follow(*simulation, setup.scene.settings.time, validation.every, read, stopWanted).steps;
 }
 
 }  // namespace

@@ -80,6 +80,16 @@ std::vector<double> errors(std::span<const Reading> all)
     return errors;
 }
 
+double rmsError(std::span<const Reading> all)
+{
+    double error = 0.0, size = 0.0;
+    for (const Reading& r : all) {
+        error += (r.value - r.expected) * (r.value - r.expected);
+        size += (r.expected - all.front().expected) * (r.expected - all.front().expected);
+    }
+    return std::sqrt(error / size);
+}
+
 double reach(std::span<const Reading> all, double level)
 {
     for (std::size_t i = 1; i < all.size(); ++i) {
@@ -125,6 +135,8 @@ double take(Take what, std::span<const Reading> all, double level)
         }
         case Take::LargestError:
             return std::ranges::max(errors(all));
+        case Take::RmsError:
+            return rmsError(all);
         case Take::Reach:
             return reach(all, level);
     }

@@ -27,13 +27,14 @@ enum class Take {
     Period,        ///< twice the mean distance of passings of the mean
     MeanError,     ///< mean of |value / expected − 1|
     LargestError,  ///< largest of it
+    RmsError,      ///< root mean square of value − expected, relative to that of how far the latter goes from its first
     Reach,         ///< where they first pass a level upwards
 };
 
 /// As scene files write them, in the order of Take.
-inline constexpr std::array<std::string_view, 14> kTakes = {
+inline constexpr std::array<std::string_view, 15> kTakes = {
     "first",    "last", "mean",          "smallest", "largest",    "change",        "slope",
-    "exponent", "rate", "envelope_rate", "period",   "mean_error", "largest_error", "reach"};
+    "exponent", "rate", "envelope_rate", "period",   "mean_error", "largest_error", "rms_error", "reach"};
 
 /// NaN where there are too few readings for it.
 /// @param level  of Take::Reach

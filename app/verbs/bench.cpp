@@ -25,7 +25,7 @@ std::filesystem::path benchScene(const std::string& name)
 
 void writeCsv(const std::string& scene, const Options& options, const std::vector<BenchResult>& results)
 {
-    const auto folder = options.results / (options.machine.empty() ? machineName() : options.machine);
+    const auto folder = machineFolder(options);
     std::filesystem::create_directories(folder);
     const auto file = folder / (scene + ".csv");
     writeWhole(file, benchCsv(scene, options, results));

@@ -1,6 +1,6 @@
-#include "app/data_folder.h"
 #include "app/gnuplot.h"
 #include "app/interrupt.h"
+#include "app/lab/case_files.h"
 #include "app/lab/validation_report.h"
 #include "app/output_files.h"
 #include "app/output_folder.h"
@@ -18,28 +18,6 @@
 namespace app {
 
 namespace {
-
-/// Of scenes/validation, here or where Drench keeps its own: all, or those asked for.
-std::vector<std::filesystem::path> caseFiles(const std::vector<std::string>& names)
-{
-    const std::filesystem::path here = "scenes/validation";
-    const std::filesystem::path folder =
-        std::filesystem::is_directory(here) ? here : dataFolder("scenes") / "validation";
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-    std::ranges::sort(files);
-    if (names.empty()) return files;
-    std::vector<std::string> known;
-    for (const auto& file : files) known.push_back(file.stem().string());
-    for (const std::string& name : names)
-        if (std::ranges::find(known, name) == known.end())
-            throw sim::InputError(
-                fmt::format("validate: there is no case {}: there are {}", name, fmt::join(known, ", ")));
-    std::erase_if(files,
-                  [&](const auto& file) { return std::ranges::find(names, file.stem().string()) == names.end(); });
-    return files;
-}
 
 SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts& parts)
 {
@@ -69,7 +47,7 @@ int runVerbValidate(const Options& options, const Parts& parts)
                             : options.out;
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::pair<std::string, SceneSetup>> cases;
-    for (const auto& file : caseFiles(options.cases))
+    for (const auto& file : caseFiles("validation", options.cases))
         cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
     makeFolder(folder);
     const auto stopWanted = [] { return interruptsSeen() > 0; };

@@ -29,7 +29,7 @@ void describeTop(V& v, Settings& settings)
     describe(v, settings);
     describeFabric(v, settings);
     for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion"}) v.other(key, "");
-    for (const char* key : {"render", "output", "compare", "validate"}) v.other(key, "");
+    for (const char* key : {"render", "output", "compare", "validate", "precision"}) v.other(key, "");
     for (const char* key : {"benchmark", "test"}) v.other(key, "");  // of other verbs; they change nothing in a run
     describeLater(v);
 }

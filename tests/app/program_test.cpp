@@ -53,6 +53,9 @@ TEST_F(Program, MistakesOnTheCommandLineExitWithTwoAndOneLine)
     expectOneLine(run({"run", "toy.yaml", "--treads", "2"}), 2, "--treads");
     expectOneLine(run({"run", "toy.yaml", "--threads", "0"}), 2, "--threads");
     expectOneLine(run({"bench", "--scene", "toy.yaml", "--threads", "1,x"}), 2, "--threads");
+    expectOneLine(run({"bench"}), 2, "--scene");
+    expectOneLine(run({"bench", "precision", "nowhere"}), 2, "nowhere");
+    expectOneLine(run({"bench", "precision", "--repeats", "0"}), 2, "--repeats");
 }
 
 TEST_F(Program, MistakesInASceneExitWithTwoAndOneLine)

@@ -104,6 +104,19 @@ TEST(Reflection, LeavesSloshingAsItIs)
     }
 }
 
+/// The second step of two is as long as the first, but liquid that falls becomes faster.
+TEST(Reflection, KeepsToTheHardBoundOfTheStep)
+{
+    Scene scene = coarseDamBreak(kPoly8);
+    scene.settings.time.integrator = TimeIntegrator::Reflected;
+    scene.settings.time.cfl = scene.settings.time.maxCflLiquid;
+    Simulation simulation(scene);
+    double largest = 0.0;
+    while (simulation.state().time < 0.4) largest = std::max(largest, simulation.step(0.4).cfl);
+    EXPECT_GT(largest, 2.0);
+    EXPECT_LE(largest, scene.settings.time.maxCflLiquid * (1.0 + 1.0e-9));
+}
+
 Vec3 centreOfMass(const State& state)
 {
     Vec3 sum = Vec3::Zero();

@@ -55,6 +55,13 @@ TEST(Take, ErrorsAreRelativeToWhatIsKnown)
     EXPECT_NEAR(take(Take::LargestError, all), 0.5, 1.0e-12);
 }
 
+TEST(Take, RmsErrorIsRelativeToTheWayOfWhatIsKnown)
+{
+    // What is known goes from 2 to 5 and 6: 3 and 4 away from where it began.
+    const std::vector<Reading> all = {{0, 2.0, 2.0}, {1, 5.0, 5.0}, {2, 8.0, 6.0}};
+    EXPECT_NEAR(take(Take::RmsError, all), 2.0 / 5.0, 1.0e-12);
+}
+
 TEST(Take, IsNotANumberWhereThereAreTooFewReadings)
 {
     EXPECT_TRUE(std::isnan(take(Take::Last, {})));

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/parts.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace app {
+
+/// What it took to follow a run to its end.
+struct Followed {
+    std::int64_t steps = 0;
+    double stepSeconds = 0.0;  ///< of the clock on the wall, in the steps alone
+    double largestCfl = 0.0;   ///< [-]
+};
+
+/// Steps to the end, and calls `read` at the start and after every `every` seconds. Throws RunError, also when it
+/// is to stop.
+Followed follow(Steppable& simulation, const sim::TimeSettings& time, double every,
+                const std::function<void(double time)>& read, const std::function<bool()>& stopWanted);
+
+}  // namespace app

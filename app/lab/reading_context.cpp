@@ -1,0 +1,148 @@
+#include "app/lab/reading_context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace app {
+
+namespace {
+
+using sim::Node;
+
+void define(const std::string& name, double value, ReadingContext& context)
+{
+    for (sim::FormulaNames* names : {&context.reading, &context.known, &context.constant})
+        names->constants[name] = value;
+}
+
+/// What formulas know of the scene.
+ReadingContext contextOf(const std::string& path, const sim::Scene& scene)
+{
+    ReadingContext context;
+    context.path = path;
+    context.reading.variables = context.known.variables = {"t"};
+    const sim::Settings& s = scene.settings;
+    define("g", s.gravity.norm(), context);
+    define("density", s.liquid.density, context);
+    define("viscosity", s.liquid.viscosity, context);
+    define("surface_tension", s.liquid.surfaceTension, context);
+    define("dx", s.cell, context);
+    define("duration", s.time.duration, context);
+    return context;
+}
+
+void readConstants(const Node* let, ReadingContext& context)
+{
+    if (!let) return;
+    const std::string path = context.path + ".let";
+    if (!let->isMap())
+        sim::fail(let->place, path + ": needs names and formulas, like {k: pi/10}, not " + let->called());
+    for (std::size_t i = 0; i < let->keys.size(); ++i)
+        define(let->keys[i], readConstant(let->items[i], path + "." + let->keys[i], context), context);
+}
+
+void readFlow(const Node* node, const ReadingContext& context, Measures& measures)
+{
+    if (!node) return;
+    const std::string path = context.path + ".flow";
+    sim::FormulaNames names = context.constant;
+    names.variables = {"x", "y", "z", "t"};
+    if (!node->isList() || node->items.size() != sim::kAxes)
+        sim::fail(node->place, path + ": needs three formulas of x, y, z, t like [\"-y\", \"x\", \"0\"]");
+    const auto at = [&](std::size_t i) { return readFormula(node->items[i], path, names); };
+    measures.setFlow({at(0), at(1), at(2)});
+}
+
+Take takeIn(const Node& node, const std::string& path)
+{
+    const std::vector<std::string> words(kTakes.begin(), kTakes.end());
+    return static_cast<Take>(sim::readChoice(node, path, words, std::vector<bool>(words.size(), true)));
+}
+
+std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& path)
+{
+    if (!node.isList() || node.items.empty())
+        sim::fail(node.place, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
+    std::vector<std::array<double, 2>> table;
+    for (const Node& row : node.items)
+        sim::readNumbers(row, path, table.emplace_back(), sim::Quantity::None, sim::Range::any());
+    if (!std::ranges::is_sorted(table, {}, [](const auto& row) { return row[0]; }))
+        sim::fail(node.place, path + ": its first numbers must ascend");
+    return table;
+}
+
+}  // namespace
+
+sim::Formula readFormula(const Node& node, const std::string& path, const sim::FormulaNames& names)
+{
+    const std::string& text = sim::readText(node, path);
+    try {
+        return sim::Formula(text, names);
+    } catch (const sim::FormulaError& error) {
+        sim::fail(node.place, fmt::format("{}: {}: {}", path, sim::inQuotes(text), error.what()));
+    }
+}
+
+double readConstant(const Node& node, const std::string& path, const ReadingContext& context)
+{
+    const sim::Formula formula = readFormula(node, path, context.constant);
+    try {
+        return formula();
+    } catch (const sim::FormulaError& error) {
+        sim::fail(node.place, fmt::format("{}: {}: {}", path, sim::inQuotes(formula.text()), error.what()));
+    }
+}
+
+ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& scene, Measures& measures)
+{
+    ReadingContext context = contextOf(section.path(), scene);
+    readConstants(section.find("let"), context);
+    readFlow(section.find("flow"), context, measures);
+    context.reading.functions = measures.names();
+    return context;
+}
+
+double readInterval(sim::SectionReader& section, const ReadingContext& context)
+{
+    section.needs("every", "the time between two readings, like every: 1.0e-2");
+    const double every = readConstant(*section.find("every"), section.pathOf("every"), context);
+    if (every <= 0.0) sim::fail(section.placeOf("every"), section.pathOf("every") + ": must be above 0 s");
+    return every;
+}
+
+Check readCheck(const Node& node, const std::string& path, const ReadingContext& context, const std::string& name)
+{
+    sim::SectionReader section(node, path);
+    sim::SectionReader::read(&node, path, [](auto& v) {
+        for (const char* key : {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table",
+                                "tolerance", "within", "at_most", "at_least"})
+            v.other(key, "");
+    });
+    section.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
+    const auto readings = [&](const char* key, const char* otherwise) {
+        const Node* at = section.find(key);
+        return at ? readFormula(*at, section.pathOf(key), context.reading) : sim::Formula(otherwise, context.reading);
+    };
+    const auto constant = [&](const char* key) -> std::optional<double> {
+        const Node* at = section.find(key);
+        return at ? std::optional(readConstant(*at, section.pathOf(key), context)) : std::nullopt;
+    };
+    Check check{.name = name, .read = readings("read", ""), .against = readings("against", "t")};
+    section.text("name", check.name, "");
+    section.text("unit", check.unit, "");
+    check.from = constant("from").value_or(check.from);
+    check.to = constant("to").value_or(check.to);
+    check.level = constant("level").value_or(check.level);
+    if (const Node* at = section.find("take")) check.take = takeIn(*at, section.pathOf("take"));
+    if (const Node* at = section.find("expect"))
+        check.expect = readFormula(*at, section.pathOf("expect"), context.known);
+    if (const Node* at = section.find("table")) check.table = tableIn(*at, section.pathOf("table"));
+    check.tolerance = constant("tolerance");
+    check.within = constant("within");
+    check.atMost = constant("at_most");
+    check.atLeast = constant("at_least");
+    return check;
+}
+
+}  // namespace app
