@@ -36,6 +36,18 @@ void addOutput(CLI::App& verb, Options& options)
     verb.add_flag("!--no-video", options.video, "no video");
 }
 
+void addStress(CLI::App& program, Options& options)
+{
+    auto* stress = program.add_subcommand("stress", "look for runs that explode");
+    stress->add_option("--random", options.randomScenes, "run so many random scenes")->check(CLI::Range(1, 1'000'000));
+    stress->add_option("--seed", options.seed, "of the random scenes");
+    stress->add_option("--first", options.firstScene, "number of the first random scene")->check(CLI::Range(0, 1'000'000'000));
+    stress->add_option("--limit", options.limitSeconds, "seconds after which a run is ended")->check(CLI::Range(1.0, 1.0e6));
+    stress->add_option("--out", options.out, "folder of the report");
+    stress->add_option("--threads", options.threads, "runs side by side (default: one per thread)")->check(CLI::Range(1, kMaxThreads));
+    stress->callback([&options] { options.verb = Verb::Stress; });
+}
+
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
@@ -70,6 +82,8 @@ void addVerbs(CLI::App& program, Options& options)
     auto* quick = validate->add_flag("--quick", options.quick, "shorter or coarser, within minutes");
     validate->add_flag("--full", options.full, "as the scenes are written (default)")->excludes(quick);
     validate->callback([&options] { options.verb = Verb::Validate; });
+
+    addStress(program, options);
 
     auto* check = program.add_subcommand("check", "validate a scene and print it resolved, with units");
     addScene(*check, options);

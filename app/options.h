@@ -2,6 +2,7 @@
 
 #include "app/scene_setup.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, Bench, Paper, Validate };
+enum class Verb { Run, Compare, Check, Bench, Paper, Validate, Stress };
 
 /// The command line.
 struct Options {
@@ -18,7 +19,7 @@ struct Options {
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
-    int threads = 1;                     ///< run, compare, paper, validate
+    int threads = 1;                     ///< run, compare, paper, validate; stress: so many runs side by side
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     bool force = false;                  ///< compare, paper: redo variants that are done
@@ -26,6 +27,11 @@ struct Options {
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate: names in scenes/validation; none: all
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
+
+    int randomScenes = 0;                ///< stress: so many random scenes …
+    int firstScene = 0;                  ///< … from this number on …
+    std::uint64_t seed = 1;              ///< … of this seed
+    double limitSeconds = 120.0;         ///< stress: a run is ended that takes longer
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;

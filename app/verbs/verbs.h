@@ -13,5 +13,6 @@ int runVerbCheck(const Options& options, const Parts& parts);
 int runVerbBench(const Options& options, const Parts& parts);
 int runVerbPaper(const Options& options, const Parts& parts);
 int runVerbValidate(const Options& options, const Parts& parts);
+int runVerbStress(const Options& options, const Parts& parts);
 
 }  // namespace app
