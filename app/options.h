@@ -23,15 +23,21 @@ struct Options {
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     bool force = false;                  ///< compare, paper: redo variants that are done
-    bool quick = false;                  ///< paper, validate: shortened
+    bool quick = false;                  ///< paper, validate, stress: shortened
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate: names in scenes/validation; none: all
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
 
-    int randomScenes = 0;                ///< stress: so many random scenes …
+    std::vector<std::string> scenes;     ///< stress: files, or names in scenes/; none: the paper's
+    std::vector<std::string> methods;    ///< stress: like polypic_8; none: all
+    std::vector<double> stepFactors;     ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
+    std::string knob;                    ///< stress: what else is turned …
+    std::vector<double> knobFactors = {0.01, 0.1, 1.0, 10.0, 100.0};  ///< … and how far
+    double duration = 0.0;               ///< stress: simulated time of each run [s]; 0: enough for the first moments
+    int randomScenes = 0;                ///< stress: instead so many random scenes …
     int firstScene = 0;                  ///< … from this number on …
     std::uint64_t seed = 1;              ///< … of this seed
-    double limitSeconds = 120.0;         ///< stress: a run is ended that takes longer
+    double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;

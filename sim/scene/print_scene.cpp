@@ -2,7 +2,6 @@
 #include "sim/scene/describe.h"
 #include "sim/scene/describe_fabric.h"
 #include "sim/scene/load_scene.h"
-#include "sim/scene/measure_region.h"
 #include "sim/scene/section_writer.h"
 
 #include <fmt/format.h>
@@ -27,9 +26,8 @@ std::string boundsText(const Shape& shape)
 
 void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
 {
-    const double volume = measureRegion(source, scene).volume;
     w.line("- name", Node::scalar(source.name, {}).flow(),
-           fmt::format("about {:.4g} cm^3 of liquid, {}", volume, boundsText(source.shape)));
+           fmt::format("about {:.4g} cm^3 of liquid, {}", source.volume, boundsText(source.shape)));
     w.line("  shape", source.shapeText, "[cm]");
     if (source.velocityField) {
         Node formulas;
