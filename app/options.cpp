@@ -44,6 +44,7 @@ void addStress(CLI::App& program, Options& options)
     stress->add_option("--steps", options.stepFactors, "time steps in units of the published 2e-4 s (default: 0.5,1,2,5,10,20)")
         ->delimiter(',')
         ->check(CLI::PositiveNumber);
+    stress->add_flag("--largest-only", options.largestOnly, "of each method only the steps from the longest to the first stable one");
     stress->add_option("--knob", options.knob, "also turn stiffness, density, viscosity or cell");
     stress->add_option("--factors", options.knobFactors, "by these factors (default: 0.01,0.1,1,10,100)")->delimiter(',')->check(CLI::PositiveNumber);
     stress->add_option("--duration", options.duration, "simulated seconds of each run")->check(CLI::PositiveNumber);

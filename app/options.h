@@ -31,6 +31,7 @@ struct Options {
     std::vector<std::string> scenes;     ///< stress: files, or names in scenes/; none: the paper's
     std::vector<std::string> methods;    ///< stress: like polypic_8; none: all
     std::vector<double> stepFactors;     ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
+    bool largestOnly = false;            ///< stress: no shorter steps than the largest stable one
     std::string knob;                    ///< stress: what else is turned …
     std::vector<double> knobFactors = {0.01, 0.1, 1.0, 10.0, 100.0};  ///< … and how far
     double duration = 0.0;               ///< stress: simulated time of each run [s]; 0: enough for the first moments

@@ -150,7 +150,7 @@ std::string randomScene(std::uint64_t seed, int number)
     constexpr double kPublishedStep = 2.0e-4;  // [s]
     Dice dice(seed, static_cast<std::uint64_t>(number));
     const double cell = dice.acrossScales(0.08, 0.5), dt = kPublishedStep * dice.acrossScales(0.5, 20.0);
-    RandomPile pile{.cell = cell, .duration = dt * dice.whole(20, 50), .height = 0.5 * cell};
+    RandomPile pile{.cell = cell, .duration = dt * dice.whole(30, 80), .height = 0.5 * cell};
     const Cast cast = randomCast(dice);
 
     std::string text = fmt::format("drench: 1\nscene: {{name: {}}}\n", randomSceneName(seed, number));

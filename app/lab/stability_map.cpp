@@ -36,18 +36,17 @@ std::filesystem::path folderOf(const StabilityMap& map, const StabilityRow& row)
     return map.folder / "runs" / name;
 }
 
-/// Longest steps first: they are over soonest.
-std::vector<Job> jobsOf(const StabilityMap& map, const std::vector<StabilityRow>& done)
+/// What is left to do at one step.
+std::vector<Job> jobsOf(const StabilityMap& map, double dt, const std::vector<StabilityRow>& done)
 {
-    std::vector<double> steps = map.steps;
-    std::ranges::sort(steps, std::greater());
     std::vector<Job> jobs;
-    for (const double dt : steps) {
-        for (const StabilityMethod& method : map.methods) {
-            StabilityRow row{.method = method.name, .dt = dt, .duration = map.duration, .why = {}};
-            const auto isThere = [&](const StabilityRow& other) { return isOf(other, row); };
-            if (std::ranges::none_of(done, isThere)) jobs.push_back({&method, row, folderOf(map, row)});
-        }
+    for (const StabilityMethod& method : map.methods) {
+        StabilityRow row{.method = method.name, .dt = dt, .duration = map.duration, .why = {}};
+        const auto isThere = [&](const StabilityRow& other) { return isOf(other, row); };
+        const auto isEnough = [&](const StabilityRow& other) {
+            return map.largestOnly && other.isStable && other.dt > dt && other.method == row.method && isSame(other.duration, row.duration);
+        };
+        if (std::ranges::none_of(done, isThere) && std::ranges::none_of(done, isEnough)) jobs.push_back({&method, row, folderOf(map, row)});
     }
     return jobs;
 }
@@ -68,11 +67,26 @@ std::vector<std::string> argumentsOf(const StabilityMap& map, const Job& job)
     return arguments;
 }
 
-void tell(const StabilityRow& row, std::size_t number, std::size_t count)
+void tell(const StabilityRow& row)
 {
-    fmt::print("[{}/{}] {:<28} dt {:<8g} {:>7.1f} s  {}\n", number, count, row.method, row.dt, row.seconds,
-               row.isStable ? "stable" : row.why);
+    fmt::print("{:<28} dt {:<8g} {:>7.1f} s  {}\n", row.method, row.dt, row.seconds, row.isStable ? "stable" : row.why);
     std::fflush(stdout);
+}
+
+void runStep(const StabilityMap& map, double dt, const std::filesystem::path& csv, std::vector<StabilityRow>& rows)
+{
+    const std::vector<Job> jobs = jobsOf(map, dt, rows);
+    Crew crew{.count = jobs.size(), .width = map.width, .limitSeconds = map.limitSeconds};
+    crew.stopWanted = map.stopWanted;
+    crew.arguments = [&](std::size_t n) { return argumentsOf(map, jobs[n]); };
+    crew.ended = [&](std::size_t n, const CrewEnd& end) {
+        if (map.stopWanted()) return;
+        rows.push_back(judgeStability(end, jobs[n].folder, jobs[n].row));
+        tell(rows.back());
+        std::filesystem::remove_all(jobs[n].folder);
+        writeWhole(csv, stabilityTable(rows));
+    };
+    runCrew(crew);
 }
 
 }  // namespace
@@ -82,20 +96,9 @@ std::vector<StabilityRow> runStabilityMap(const StabilityMap& map)
     makeFolder(map.folder);
     const auto csv = map.folder / "map.csv";
     std::vector<StabilityRow> rows = readStabilityTable(csv);
-    const std::vector<Job> jobs = jobsOf(map, rows);
-    std::size_t finished = 0;
-    Crew crew{.count = jobs.size(), .width = map.width, .limitSeconds = map.limitSeconds};
-    crew.stopWanted = map.stopWanted;
-    crew.arguments = [&](std::size_t n) { return argumentsOf(map, jobs[n]); };
-    crew.ended = [&](std::size_t n, const CrewEnd& end) {
-        if (map.stopWanted()) return;
-        const Job& job = jobs[n];
-        rows.push_back(judgeStability(end, job.folder, job.row));
-        tell(rows.back(), ++finished, jobs.size());
-        std::filesystem::remove_all(job.folder);
-        writeWhole(csv, stabilityTable(rows));
-    };
-    runCrew(crew);
+    std::vector<double> steps = map.steps;
+    std::ranges::sort(steps, std::greater());  // the longest are over soonest
+    for (const double dt : steps) runStep(map, dt, csv, rows);
     return rows;
 }
 

@@ -42,6 +42,7 @@ struct StabilityMap {
     std::vector<double> steps;                ///< [s]
     double duration = 0.0;                    ///< of every run: a whole number of the longest step [s]
     std::filesystem::path folder;             ///< scene's own: map.csv, map.png, and a folder per run
+    bool largestOnly = false;                 ///< of each method only from the longest step to the first that is stable
     int width = 1;                            ///< so many runs side by side, each on one thread
     double limitSeconds = 3600.0;
     std::function<bool()> stopWanted = [] { return false; };

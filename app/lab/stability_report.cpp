@@ -31,14 +31,14 @@ std::string reasonWord(const StabilityRow& row)
 
 std::string plotScript(const StabilityResult& result, const std::string& picture)
 {
-    const auto& [scene, sets, methods, steps, duration, folder, width, limit, stop] = result.map;
+    const auto& [scene, sets, methods, steps, duration, folder, largestOnly, width, limit, stop] = result.map;
     std::string cells, words, methodNames, stepNames;
     for (std::size_t m = 0; m < methods.size(); ++m) {
         methodNames += fmt::format("{}{} {}", m > 0 ? ", " : "", gnuplotText(methods[m].name), m);
         for (std::size_t s = 0; s < steps.size(); ++s) {
             const StabilityRow* row = rowOf(result, methods[m], steps[s]);
             fmt::format_to(std::back_inserter(cells), "{} {} {}\n", s, m, !row ? "0.5" : row->isStable ? "1" : "0");
-            fmt::format_to(std::back_inserter(words), "{} {} \"{}\"\n", s, m, row ? reasonWord(*row) : "?");
+            fmt::format_to(std::back_inserter(words), "{} {} \"{}\"\n", s, m, row ? reasonWord(*row) : "");
         }
     }
     for (std::size_t s = 0; s < steps.size(); ++s)

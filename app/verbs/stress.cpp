@@ -77,7 +77,7 @@ double wholeDuration(double duration, const std::vector<double>& steps)
 
 StabilityResult mapOf(const std::string& scene, const Options& options, const Parts& parts, const std::filesystem::path& folder)
 {
-    constexpr double kFirstMoments = 0.16, kQuick = 0.12;  // [s]: water of the paper's splashes meets the fabric at 0.094 s
+    constexpr double kFirstMoments = 0.32, kQuick = 0.24;  // [s]: so long until water and fabric of the paper's splashes have met
     const auto file = sceneFile(scene);
     const SceneSetup setup = parts.loadScene({file.string(), "", options.sets});
     const double whole = setup.scene.settings.time.duration;
@@ -91,6 +91,7 @@ StabilityResult mapOf(const std::string& scene, const Options& options, const Pa
                            .steps = steps,
                            .duration = wholeDuration(wanted, steps),
                            .folder = folder / setup.scene.name,
+                           .largestOnly = options.largestOnly,
                            .width = options.threads,
                            .limitSeconds = options.limitSeconds,
                            .stopWanted = stopWanted};
