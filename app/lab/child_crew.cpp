@@ -17,7 +17,7 @@ struct Member {
     ChildProcess child;
     bool timedOut = false;
 
-    Member(std::size_t n, const std::vector<std::string>& arguments) : number(n), child("/proc/self/exe", arguments) {}
+    Member(std::size_t n, const Crew& crew) : number(n), child(crew.program, crew.arguments(n)) {}
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
 };
 
@@ -47,7 +47,7 @@ void runCrew(const Crew& crew)
     const auto width = static_cast<std::size_t>(std::max(1, crew.width));
     for (std::size_t next = 0; next < crew.count || !members.empty();) {
         if (crew.stopWanted()) next = crew.count;
-        for (; next < crew.count && members.size() < width; ++next) members.emplace_back(next, crew.arguments(next));
+        for (; next < crew.count && members.size() < width; ++next) members.emplace_back(next, crew);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         lookAfter(members, crew);
     }

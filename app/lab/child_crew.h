@@ -3,6 +3,7 @@
 #include "app/child_process.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,8 +17,9 @@ struct CrewEnd {
     bool timedOut = false;  ///< it was ended because it took too long
 };
 
-/// This very program, run many times with different arguments, some of them side by side.
+/// A program, run many times with different arguments, some of them side by side.
 struct Crew {
+    std::filesystem::path program = "/proc/self/exe";  ///< this very one
     std::size_t count = 0;
     int width = 1;               ///< so many at a time
     double limitSeconds = 60.0;  ///< for each, wall
