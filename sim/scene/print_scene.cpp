@@ -24,7 +24,7 @@ std::string boundsText(const Shape& shape)
     return fmt::format("{} to {} cm", vectorText(bounds.min()), vectorText(bounds.max()));
 }
 
-void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
+void writeSource(SectionWriter& w, SourceSettings source)
 {
     w.line("- name", Node::scalar(source.name, {}).flow(),
            fmt::format("about {:.4g} cm^3 of liquid, {}", source.volume, boundsText(source.shape)));
@@ -54,7 +54,7 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
     top.below("liquid", "", [&](SectionWriter& w) {
         describe(w, liquid);
         if (!scene.sources.empty()) w.line("sources", "", "");
-        for (const SourceSettings& source : scene.sources) writeSource(w, source, scene);
+        for (const SourceSettings& source : scene.sources) writeSource(w, source);
     });
 }
 
