@@ -116,7 +116,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vect
 ChildProcess::~ChildProcess()
 {
     if (id_ > 0) {
-        kill(id_, SIGKILL);
+        kill();
         waitpid(id_, nullptr, 0);
     }
     closeOnce(input_);
@@ -137,21 +137,32 @@ bool ChildProcess::write(std::span<const std::uint8_t> bytes)
 ChildExit ChildProcess::wait()
 {
     closeOnce(input_);
-    int status = 0;
-    bool passedOn = false;
-    for (pid_t ended = 0; ended == 0;) {
-        ended = waitpid(id_, &status, WNOHANG);
-        if (ended < 0) throw std::runtime_error(fmt::format("lost a child process: {}", std::strerror(errno)));
-        if (ended > 0) break;
-        if (interruptsSeen() > 0 && !passedOn) passedOn = kill(id_, SIGTERM) == 0;
+    for (;;) {
+        if (auto end = poll()) return std::move(*end);
         const timespec pause = {0, 10'000'000};
         nanosleep(&pause, nullptr);
+    }
+}
+
+std::optional<ChildExit> ChildProcess::poll()
+{
+    int status = 0;
+    const pid_t ended = waitpid(id_, &status, WNOHANG);
+    if (ended < 0) throw std::runtime_error(fmt::format("lost a child process: {}", std::strerror(errno)));
+    if (ended == 0) {
+        if (interruptsSeen() > 0 && !passedOn_) passedOn_ = ::kill(id_, SIGTERM) == 0;
+        return std::nullopt;
     }
     id_ = -1;
     ChildExit result;
     result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (errors_ >= 0) result.errorText = contentOf(errors_);
     return result;
+}
+
+void ChildProcess::kill()
+{
+    if (id_ > 0) ::kill(id_, SIGKILL);
 }
 
 ChildExit runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,

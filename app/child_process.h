@@ -47,8 +47,15 @@ class ChildProcess {
     /// Close its input and wait for its end. A wish to stop (interrupt.h) is passed on to it once.
     ChildExit wait();
 
+    /// Has it ended? Passes on a wish to stop likewise.
+    std::optional<ChildExit> poll();
+
+    /// End it at once; wait() and poll() still tell.
+    void kill();
+
  private:
     pid_t id_ = -1;
+    bool passedOn_ = false;  ///< a wish to stop
     int input_ = -1, errors_ = -1;
 };
 

@@ -2,6 +2,7 @@
 
 #include "app/scene_setup.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, Bench, BenchPrecision, Paper, Validate };
+enum class Verb { Run, Compare, Check, Bench, BenchPrecision, Paper, Validate, Stress };
 
 /// The command line.
 struct Options {
@@ -18,14 +19,26 @@ struct Options {
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
-    int threads = 1;                     ///< all verbs but bench, which has benchThreads
+    int threads = 1;                     ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     bool force = false;                  ///< compare, paper: redo variants that are done
-    bool quick = false;                  ///< paper, validate, bench precision: shortened
+    bool quick = false;                  ///< paper, validate, bench precision, stress: shortened
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
+
+    std::vector<std::string> scenes;     ///< stress: files, or names in scenes/; none: the paper's
+    std::vector<std::string> methods;    ///< stress: like polypic_8; none: all
+    std::vector<double> stepFactors;     ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
+    bool largestOnly = false;            ///< stress: no shorter steps than the largest stable one
+    std::string knob;                    ///< stress: what else is turned …
+    std::vector<double> knobFactors = {0.01, 0.1, 1.0, 10.0, 100.0};  ///< … and how far
+    double duration = 0.0;               ///< stress: simulated time of each run [s]; 0: enough for the first moments
+    int randomScenes = 0;                ///< stress: instead so many random scenes …
+    int firstScene = 0;                  ///< … from this number on …
+    std::uint64_t seed = 1;              ///< … of this seed
+    double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;

@@ -26,6 +26,7 @@ int runVerb(const Options& options, const Parts& parts)
         case Verb::BenchPrecision: return runVerbBenchPrecision(options, parts);
         case Verb::Paper: return runVerbPaper(options, parts);
         case Verb::Validate: return runVerbValidate(options, parts);
+        case Verb::Stress: return runVerbStress(options, parts);
     }
     return 1;
 }

@@ -14,5 +14,6 @@ int runVerbBench(const Options& options, const Parts& parts);
 int runVerbBenchPrecision(const Options& options, const Parts& parts);
 int runVerbPaper(const Options& options, const Parts& parts);
 int runVerbValidate(const Options& options, const Parts& parts);
+int runVerbStress(const Options& options, const Parts& parts);
 
 }  // namespace app

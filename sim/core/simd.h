@@ -171,12 +171,24 @@ inline void streamFence()
     return (lane & static_cast<long long>(bits)) != 0;
 }
 
+/// Lane i is lane from[i] of the 16 lanes of a and b.
+[[gnu::always_inline]] inline Pack pickLanes(Pack a, Pack b, PackMask from)
+{
+#ifdef __clang__  // knows g++'s function for constants only
+    Pack picked = a;
+    for (int i = 0; i < kLanes; ++i) picked[i] = from[i] < kLanes ? a[from[i]] : b[from[i] - kLanes];
+    return picked;
+#else
+    return __builtin_shuffle(a, b, from);
+#endif
+}
+
 /// v[i][j] becomes v[j][i].
 [[gnu::always_inline]] inline void transposeLanes(Pack (&v)[kLanes])
 {
     const auto exchange = [](Pack& a, Pack& b, PackMask first, PackMask second) __attribute__((always_inline)) {
-        const Pack left = __builtin_shuffle(a, b, first);
-        b = __builtin_shuffle(a, b, second);
+        const Pack left = pickLanes(a, b, first);
+        b = pickLanes(a, b, second);
         a = left;
     };
     for (int i = 0; i < kLanes; i += 2)
@@ -190,13 +202,13 @@ inline void streamFence()
 /// {before[7], row[0] … row[6]}: a row of cells seen from one cell further right, before being the row to its left.
 [[gnu::always_inline]] inline Pack shiftRight(Pack before, Pack row)
 {
-    return __builtin_shuffle(before, row, PackMask{7, 8, 9, 10, 11, 12, 13, 14});
+    return pickLanes(before, row, PackMask{7, 8, 9, 10, 11, 12, 13, 14});
 }
 
 /// {row[1] … row[7], after[0]}.
 [[gnu::always_inline]] inline Pack shiftLeft(Pack row, Pack after)
 {
-    return __builtin_shuffle(row, after, PackMask{1, 2, 3, 4, 5, 6, 7, 8});
+    return pickLanes(row, after, PackMask{1, 2, 3, 4, 5, 6, 7, 8});
 }
 
 /// Lanes added in a fixed order.

@@ -54,14 +54,15 @@ double pitchInCells(const FillSettings& fill)
 }
 
 /// A source must hold some liquid, and not more than fits into memory.
-void checkSource(const SourceSettings& source, const Scene& scene)
+void checkSource(const Scene& scene, std::size_t mostBoxes, SourceSettings& source)
 {
     const std::string path = joinPath("liquid.sources", source.name);
-    const RegionMeasure region = measureRegion(source, scene);
+    const RegionMeasure region = measureRegion(source, scene, mostBoxes);
+    source.volume = region.volume;
     if (region.isUnbounded)
         fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
     if (region.isEmpty) {
-        const bool isBodiless = measureRegion(source, Scene{}).isEmpty;
+        const bool isBodiless = measureRegion(source, Scene{}, mostBoxes).isEmpty;
         fail(source.where,
              fmt::format("{}: is empty: {}", path,
                          isBodiless ? "its shape has no volume; make its parts overlap"
@@ -127,7 +128,7 @@ Scene readScene(const SceneFile& file)
         scene.domainText = std::move(shape.text);
     }
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
-    for (const SourceSettings& source : scene.sources) checkSource(source, scene);
+    for (SourceSettings& source : scene.sources) checkSource(scene, root.place.source->bounds.regionBoxes, source);
     checkCoupling(scene);
     return scene;
 }

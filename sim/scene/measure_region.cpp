@@ -19,12 +19,12 @@ double regionDistance(const Vec3& x, const SourceSettings& source, const Scene& 
 }
 
 /// Boxes of one level that can be looked at in a fraction of a second.
-std::size_t affordableBoxes(const SourceSettings& source, const Scene& scene)
+std::size_t affordableBoxes(const SourceSettings& source, const Scene& scene, std::size_t mostBoxes)
 {
-    constexpr std::size_t kTextOfOnePart = 40, kDistancesInAll = 4'000'000, kMostBoxes = 100'000;
+    constexpr std::size_t kTextOfOnePart = 40, kDistancesInAll = 4'000'000;
     std::size_t text = source.shapeText.size() + scene.domainText.size();
     for (const ObstacleSettings& o : scene.obstacles) text += o.shapeText.size();
-    return std::min(kMostBoxes, kDistancesInAll / (1 + text / kTextOfOnePart));
+    return std::min(mostBoxes, kDistancesInAll / (1 + text / kTextOfOnePart));
 }
 
 Vec3 childCenter(const Vec3& center, const Vec3& half, int child)
@@ -33,19 +33,19 @@ Vec3 childCenter(const Vec3& center, const Vec3& half, int child)
     return center + 0.5 * half.cwiseProduct(sign);
 }
 
-/// Boxes along each axis with which to start: 12 along the longest, so that they are nearly cubes.
-Vec3i boxCounts(const Eigen::AlignedBox3d& bounds)
+/// Boxes along each axis with which to start: 12 along the longest if that many are affordable, so that they are nearly
+/// cubes.
+Vec3i boxCounts(const Eigen::AlignedBox3d& bounds, std::size_t affordable)
 {
-    const double longest = bounds.sizes().maxCoeff();
+    const double longest = bounds.sizes().maxCoeff(), most = std::clamp(std::cbrt(static_cast<double>(affordable)), 1.0, 12.0);
     Vec3i counts = Vec3i::Ones();
     for (int a = 0; a < kAxes && longest > 0.0; ++a)
-        counts[a] = std::max(1, static_cast<int>(std::ceil(12.0 * bounds.sizes()[a] / longest)));
+        counts[a] = std::max(1, static_cast<int>(std::ceil(std::floor(most) * bounds.sizes()[a] / longest)));
     return counts;
 }
 
-std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds)
+std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds, const Vec3i& counts)
 {
-    const Vec3i counts = boxCounts(bounds);
     const Vec3 size = bounds.sizes().cwiseQuotient(counts.cast<double>());
     std::vector<Vec3> centers;
     for (int i = 0; i < counts[0]; ++i) {
@@ -59,7 +59,7 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds)
 
 }  // namespace
 
-RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene)
+RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene, std::size_t mostBoxes)
 {
     RegionMeasure result;
     Eigen::AlignedBox3d bounds = source.shape.bounds();
@@ -73,10 +73,11 @@ RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene)
         return result;
     }
     // Boxes that are surely full or surely empty are settled, the others are halved along each axis, level by level.
-    std::vector<Vec3> open = boxCenters(bounds), next;
-    Vec3 half = 0.5 * bounds.sizes().cwiseQuotient(boxCounts(bounds).cast<double>());
+    const std::size_t affordable = affordableBoxes(source, scene, mostBoxes);
+    const Vec3i counts = boxCounts(bounds, affordable);
+    std::vector<Vec3> open = boxCenters(bounds, counts), next;
+    Vec3 half = 0.5 * bounds.sizes().cwiseQuotient(counts.cast<double>());
     bool isSomewhere = false;
-    const std::size_t affordable = affordableBoxes(source, scene);
     for (int level = 0; !open.empty(); ++level) {
         const double boxVolume = 8.0 * half.prod(), reach = half.norm();
         const bool isLast = 8 * open.size() > affordable || level == kMaxLevels;

@@ -12,6 +12,6 @@ struct RegionMeasure {
 };
 
 /// Quick even for shapes of thousands of parts: the more parts, the coarser.
-RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene);
+RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene, std::size_t mostBoxes);
 
 }  // namespace sim

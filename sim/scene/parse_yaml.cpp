@@ -14,7 +14,6 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kMaxDepth = 48;       // maps and lists inside each other; a scene needs about ten
-constexpr std::size_t kMaxNodes = 500'000;  // values, after aliases are copied out
 
 /// Builds the tree; bounded in depth and size, so that no file can ask for more memory than its own order of magnitude.
 class TreeBuilder : public YAML::EventHandler {
@@ -81,9 +80,8 @@ class TreeBuilder : public YAML::EventHandler {
 
     void checkCount(const YAML::Mark& mark) const
     {
-        if (count_ > kMaxNodes)
-            fail(placeOf(mark),
-                 fmt::format("more than {} values, aliases copied out; a scene has hundreds", kMaxNodes));
+        if (const std::size_t most = source_->bounds.values; count_ > most)
+            fail(placeOf(mark), fmt::format("more than {} values, aliases copied out; a scene has hundreds", most));
     }
 
     Node leaf(Node::Kind kind, const YAML::Mark& mark, const std::string& text)

@@ -55,6 +55,16 @@ void fail(const std::string& where, const std::string& message)
     throw InputError(withoutControls(where + ": " + message));
 }
 
+void requireAllowed(const std::filesystem::path& file, const Place& place)
+{
+    if (!place.source || place.source->bounds.folder.empty()) return;
+    std::error_code error;
+    const auto folder = std::filesystem::weakly_canonical(place.source->bounds.folder, error);
+    const auto whole = std::filesystem::weakly_canonical(file, error);
+    if (error || std::ranges::mismatch(folder, whole).in1 != folder.end())
+        fail(place, fmt::format("{} does not lie below the scene's folder", fileInQuotes(file.string())));
+}
+
 void fail(const Place& place, const std::string& message)
 {
     fail(place.text(), message);

@@ -2,6 +2,8 @@
 
 #include "sim/core/check.h"
 
+#include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,12 +11,21 @@
 
 namespace sim {
 
+/// What a text may ask of this machine. Scenes of one's own may ask for much; readers of texts from anywhere allow less.
+struct ReadingBounds {
+    std::filesystem::path folder = {};     ///< the files it names must lie below; empty: anywhere
+    std::size_t values = 500'000;          ///< words, lists and maps, aliases copied out
+    int vertices = 5'000'000;              ///< of all fabrics
+    std::size_t regionBoxes = 100'000;     ///< into which a source is cut to measure its volume
+};
+
 /// One scene file, or one override of the command line, as messages name it.
 struct TextSource {
     std::string name;             ///< "scenes/drop.yaml", or "--set time.dt=1e-3"
     bool numbered = true;         ///< messages add the line
     bool isSi = false;            ///< unit system of its bare numbers: cgs, or si
     std::string directory = ".";  ///< what the file names in it are relative to
+    ReadingBounds bounds = {};
 };
 
 /// Where in the user's text a value stands. Survives merging, so that every complaint can name a line.
@@ -25,6 +36,9 @@ struct Place {
     /// "drop.yaml:14", or the override as it was given.
     std::string text() const;
 };
+
+/// Throws InputError where the file does not lie below the folder that the bounds of the place's text name.
+void requireAllowed(const std::filesystem::path& file, const Place& place);
 
 /// Throws InputError "place: message", as one line.
 [[noreturn]] void fail(const Place& place, const std::string& message);

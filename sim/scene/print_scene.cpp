@@ -2,7 +2,6 @@
 #include "sim/scene/describe.h"
 #include "sim/scene/describe_fabric.h"
 #include "sim/scene/load_scene.h"
-#include "sim/scene/measure_region.h"
 #include "sim/scene/section_writer.h"
 
 #include <fmt/format.h>
@@ -25,11 +24,10 @@ std::string boundsText(const Shape& shape)
     return fmt::format("{} to {} cm", vectorText(bounds.min()), vectorText(bounds.max()));
 }
 
-void writeSource(SectionWriter& w, SourceSettings source, const Scene& scene)
+void writeSource(SectionWriter& w, SourceSettings source)
 {
-    const double volume = measureRegion(source, scene).volume;
     w.line("- name", Node::scalar(source.name, {}).flow(),
-           fmt::format("about {:.4g} cm^3 of liquid, {}", volume, boundsText(source.shape)));
+           fmt::format("about {:.4g} cm^3 of liquid, {}", source.volume, boundsText(source.shape)));
     w.line("  shape", source.shapeText, "[cm]");
     if (source.velocityField) {
         Node formulas;
@@ -56,7 +54,7 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
     top.below("liquid", "", [&](SectionWriter& w) {
         describe(w, liquid);
         if (!scene.sources.empty()) w.line("sources", "", "");
-        for (const SourceSettings& source : scene.sources) writeSource(w, source, scene);
+        for (const SourceSettings& source : scene.sources) writeSource(w, source);
     });
 }
 

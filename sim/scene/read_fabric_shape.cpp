@@ -18,8 +18,6 @@ static std::span<const Choice<Weave>> choicesOf(Weave)
 
 namespace {
 
-constexpr int kMostVertices = 5'000'000;
-
 const Range kSize = Range::aboveTo(0.0, kFarthest);
 
 struct Context {
@@ -27,6 +25,7 @@ struct Context {
     std::string path;
 
     [[noreturn]] void fail(const std::string& message) const { sim::fail(node.place, path + ": " + message); }
+    int mostVertices() const { return node.place.source->bounds.vertices; }
 };
 
 /// The fields that every kind has.
@@ -71,9 +70,9 @@ void place(const Placement& p, double alongU, double alongV, const Context& cont
 
 void requireFew(double count, const Context& context)
 {
-    if (count > kMostVertices)
-        context.fail(fmt::format("would have {:.3g} vertices (at most {:.0e} are possible); ask for fewer", count,
-                                 static_cast<double>(kMostVertices)));
+    const double most = context.mostVertices();
+    if (count > most)
+        context.fail(fmt::format("would have {:.3g} vertices (at most {:.0e} are possible); ask for fewer", count, most));
 }
 
 ReadFabricShape readClothGrid(const Context& context)
@@ -85,7 +84,7 @@ ReadFabricShape readClothGrid(const Context& context)
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
         v.needs("nodes", "the number of vertices each way, like nodes: [50, 50]");
-        v.counts("nodes", grid.nodes, 2, kMostVertices, "");
+        v.counts("nodes", grid.nodes, 2, context.mostVertices(), "");
         v.whenReading([&](auto& r) {
             bySize = r.has("size");
             if (bySize == r.has("spacing")) context.fail("needs either spacing or size");
@@ -113,7 +112,7 @@ ReadFabricShape readWovenYarns(const Context& context)
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
         v.needs("yarns", "their number along u and along v, the border included, like yarns: [50, 50]");
-        v.counts("yarns", cloth.yarns, 3, kMostVertices, "");
+        v.counts("yarns", cloth.yarns, 3, context.mostVertices(), "");
         v.needs("spacing", "the distance from yarn to yarn, like spacing: 0.144");
         v.number("spacing", cloth.spacing, Quantity::Length, kSize, "");
         v.whenReading([&](auto&) { cloth.amplitude = 0.5 * cloth.spacing; });
@@ -156,7 +155,7 @@ ReadFabricShape readStrand(const Context& context)
             });
             w.vector("from", from, Quantity::Length, "");
             w.vector("to", to, Quantity::Length, "");
-            w.integer("segments", segments, 1, kMostVertices - 1, "");
+            w.integer("segments", segments, 1, context.mostVertices() - 1, "");
         });
     };
     SectionReader::read(&context.node, context.path, fields);

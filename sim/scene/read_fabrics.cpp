@@ -10,8 +10,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kMostVertices = 5'000'000;  // of all pieces
-
 /// The one key of a piece that says what it is.
 std::string kindOf(const Node& node, const std::string& path)
 {
@@ -119,9 +117,8 @@ std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene)
             pieces.emplace_back(readPiece(list->items[i], name, joinPath("fabrics", name), scene));
         assembleFabric({&piece, 1});  // complains about what is no fabric
         vertices += piece.points.size();
-        if (vertices > kMostVertices)
-            fail(piece.where,
-                 fmt::format("fabrics: together have {} vertices; at most {} are possible", vertices, kMostVertices));
+        if (const int most = root.place.source->bounds.vertices; vertices > static_cast<std::size_t>(most))
+            fail(piece.where, fmt::format("fabrics: together have {} vertices; at most {} are possible", vertices, most));
     }
     requireUnique(pieces, "fabrics");
     return pieces;

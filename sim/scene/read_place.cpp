@@ -26,6 +26,7 @@ std::filesystem::path existingFile(const Node& name, const std::string& path)
     namespace fs = std::filesystem;
     const fs::path directory = name.place.source ? name.place.source->directory : ".";
     const fs::path file = directory / fs::path(readText(name, path));
+    requireAllowed(file, name.place);
     std::error_code error;
     if (!fs::is_regular_file(file, error))
         fail(name.place, fmt::format("{}: there is no file {}", path, fileInQuotes(file.string())));

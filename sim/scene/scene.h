@@ -34,6 +34,7 @@ struct SourceSettings {
     Shape shape;
     FillSettings fill;
     std::vector<Emission> emissions;  ///< at least one
+    double volume = 0.0;              ///< estimate, inside the domain and outside of obstacles [cm^3]
     std::string where;                ///< "drop.yaml:14", for messages
     std::string shapeText;            ///< the shape as a scene says it, in cgs, on one line
     std::optional<VelocityField> velocityField;  ///< of the initial body, beside the emission's velocity

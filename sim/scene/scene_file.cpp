@@ -43,10 +43,13 @@ std::string readText(const fs::path& path, const std::string& where)
 /// Follows includes, depth first; `open` are the files being read, outermost first.
 class IncludeReader {
  public:
+    explicit IncludeReader(const ReadingBounds& bounds) : bounds_(bounds) {}
+
     Node read(const std::string& text, const fs::path& path)
     {
         auto source = std::make_shared<TextSource>();
         source->name = path.string();
+        source->bounds = bounds_;
         if (path.has_parent_path()) source->directory = path.parent_path().string();
         Node root = parseYaml(text, source);
         if (root.isNull()) fail(path.string(), "the file is empty; a scene needs at least grid and one source");
@@ -76,6 +79,7 @@ class IncludeReader {
         if (!name.isScalar() || name.text.empty())
             fail(name.place, fmt::format("include names files, like [dam_break.yaml], not {}", name.called()));
         const fs::path path = (from.parent_path() / name.text).lexically_normal();
+        requireAllowed(path, name.place);
         if (++included_ > kMaxIncludes) fail(name.place, fmt::format("more than {} included files", kMaxIncludes));
         const fs::path canonical = canonicalOf(path);
         for (const fs::path& open : open_) {
@@ -115,6 +119,7 @@ class IncludeReader {
         return isSi;
     }
 
+    ReadingBounds bounds_;
     std::vector<fs::path> open_;
     std::size_t included_ = 0;
 };
@@ -147,7 +152,7 @@ SceneFile finish(Node root, bool isSi, const fs::path& path, const LoadOptions& 
 
 SceneFile sceneFileFromText(const std::string& text, const fs::path& name, const LoadOptions& options)
 {
-    Node root = IncludeReader().read(text, name);
+    Node root = IncludeReader(options.bounds).read(text, name);
     const bool isSi = root.place.source->isSi;
     return finish(std::move(root), isSi, name, options);
 }

@@ -10,8 +10,9 @@ namespace sim {
 
 /// What of a scene file to load.
 struct LoadOptions {
-    std::string variant;           ///< name of the variant; empty: the scene as written
-    std::vector<std::string> set;  ///< overrides "key.key=value", applied last
+    std::string variant = {};      ///< name of the variant; empty: the scene as written
+    std::vector<std::string> set = {};  ///< overrides "key.key=value", applied last
+    ReadingBounds bounds = {};     ///< of the file and all that it includes
 };
 
 /// A scene file as one tree: includes merged, variant and overrides applied, nothing validated but syntax.

@@ -1,5 +1,4 @@
-#include "app/read_picture_settings.h"
-#include "sim/scene/load_scene.h"
+#include "tests/sim/scene/loads_or_complains.h"
 
 #include <gtest/gtest.h>
 
@@ -47,26 +46,13 @@ std::string mutated(std::string text, std::mt19937& random)
     return text;
 }
 
-/// Loads or throws InputError with one line; anything else fails the test. True if it loaded.
+/// Anything else than loading or one line fails the test. True if it loaded.
 bool loadsOrComplains(const std::string& text)
 {
     try {
-        const sim::SceneFile file = sim::sceneFileFromText(text, "mutated.yaml");
-        const sim::Scene scene = sim::readScene(file);
-        const app::PictureSettings pictures = app::readPictureSettings(file);
-        const std::string again = sim::printScene(scene) + app::printPictureSettings(pictures);
-        const sim::SceneFile reloaded = sim::sceneFileFromText(again, "printed.yaml");
-        EXPECT_EQ(again, sim::printScene(sim::readScene(reloaded)) +
-                             app::printPictureSettings(app::readPictureSettings(reloaded)))
-            << text;
-        return true;
-    } catch (const sim::InputError& e) {
-        const std::string message = e.what();
-        EXPECT_EQ(std::string::npos, message.find('\n')) << message;
-        EXPECT_EQ(0u, message.find("mutated.yaml")) << message << "\n" << text;
-        return false;
-    } catch (const std::exception& e) {
-        ADD_FAILURE() << e.what() << "\n" << text;
+        return test::loadsOrComplains(text, "mutated.yaml");
+    } catch (const std::exception& error) {
+        ADD_FAILURE() << error.what() << "\n" << text;
         return false;
     }
 }

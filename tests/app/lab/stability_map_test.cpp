@@ -1,0 +1,92 @@
+#include "app/lab/stability_map.h"
+
+#include "sim/core/check.h"
+#include "tests/app/temporary_folder.h"
+
+#include <fmt/format.h>
+
+namespace app {
+namespace {
+
+/// The logs of a run at steps of 1e-3 s: 1 g of liquid that starts with 1 erg and has at most 8 erg of kinetic energy.
+struct Logs {
+    test::TemporaryFolder folder;
+
+    void steps(double dt, double speed)
+    {
+        test::writeFile(folder / "steps.jsonl",
+                        fmt::format("{{\"dt\":{},\"max_speed\":{},\"ledger\":{{\"liquid_mass\":1.0}}}}\n", dt, speed));
+    }
+    void energy(double total, double suction)
+    {
+        test::writeFile(folder / "energy_ledger.csv",
+                        fmt::format("time_s,total_erg,kinetic_erg,suction_erg,walls_erg,unbooked_erg\n0,1,0,0,0,0\n1e-3,{},8,{},-3,0\n", total, suction));
+    }
+    StabilityRow judged() const { return judgeStability({ChildExit{}, 1.0, false}, folder.path(), {.method = "apic", .dt = 1.0e-3, .duration = 0.1, .why = {}}); }
+    std::string word() const { return judged().why.substr(0, judged().why.find(':')); }
+};
+
+TEST(StabilityMap, EnergyMayRiseOnlyByWhatIsDoneFromOutside)
+{
+    Logs logs;
+    logs.steps(1.0e-3, 4.0);
+    logs.energy(1.3, 0.0);
+    EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
+    logs.energy(2.0, 0.0);
+    EXPECT_EQ(logs.word(), "energy");
+    EXPECT_NEAR(logs.judged().energyGain, 1.0 / 8.0, 1.0e-12);
+    logs.energy(2.0, 0.9);
+    EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
+}
+
+TEST(StabilityMap, NoParticleMayBeMuchFasterThanTheEnergyAllows)
+{
+    Logs logs;
+    logs.energy(1.0, 0.0);
+    logs.steps(1.0e-3, 0.99 * kAllowedSpeed * 4.0);
+    EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
+    logs.steps(1.0e-3, 1.01 * kAllowedSpeed * 4.0);
+    EXPECT_EQ(logs.word(), "speed");
+}
+
+TEST(StabilityMap, StepsMustBeAsLongAsTheyWereToBe)
+{
+    Logs logs;
+    logs.energy(1.0, 0.0);
+    logs.steps(0.5e-3, 1.0);
+    EXPECT_EQ(logs.word(), "cut");
+}
+
+TEST(StabilityMap, TheLargestStableStepHasNoUnstableOneBelow)
+{
+    const auto row = [](double dt, bool isStable) { return StabilityRow{.method = "apic", .dt = dt, .duration = 0.1, .isStable = isStable, .why = {}}; };
+    EXPECT_EQ(largestStableStep({row(1, true), row(2, true), row(4, false)}, "apic", 0.1), 2.0);
+    EXPECT_EQ(largestStableStep({row(1, true), row(2, false), row(4, true)}, "apic", 0.1), 1.0);
+    EXPECT_EQ(largestStableStep({row(1, false), row(2, true)}, "apic", 0.1), 0.0);
+    EXPECT_EQ(largestStableStep({row(1, true)}, "apic", 0.2), 0.0);
+}
+
+TEST(StabilityMap, TablesReadBack)
+{
+    const test::TemporaryFolder folder;
+    const std::vector<StabilityRow> rows = {{"apic vertex", 2.0e-4, 0.32, true, "", 0.01, 12.5, 3.5}, {"polypic_27 grid", 4.0e-3, 0.32, false, "energy: gained 7", 7.0, 1.0e5, 0.5}};
+    test::writeFile(folder / "map.csv", stabilityTable(rows));
+    EXPECT_EQ(stabilityTable(readStabilityTable(folder / "map.csv")), stabilityTable(rows));
+    EXPECT_TRUE(readStabilityTable(folder / "nothing.csv").empty());
+}
+
+TEST(StabilityMap, MethodsGoWithBothFabricSolversWhereThereIsFabric)
+{
+    SceneSetup setup;
+    EXPECT_EQ(stabilityMethods(setup, {}).size(), 5u);
+    setup.scene.fabrics.emplace_back();
+    EXPECT_EQ(stabilityMethods(setup, {}).size(), 10u);
+    const auto two = stabilityMethods(setup, {"polypic_27"});
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_EQ(withKnob(two, setup, "density", {0.1, 10.0}).back().sets.back(), "liquid.density=10");
+    EXPECT_THROW(stabilityMethods(setup, {"flip_9"}), sim::InputError);
+    EXPECT_THROW(withKnob(two, setup, "colour", {1.0}), sim::InputError);
+}
+
+}  // namespace
+}  // namespace app
