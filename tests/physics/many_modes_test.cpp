@@ -18,7 +18,7 @@ TEST(ManyModes, GainNoEnergyInALongDamBreak)
         Scene scene = coarseDamBreak(polyPic(modes));
         scene.settings.time.cfl = 1.0;
         Simulation simulation(scene);
-        const EnergyCourse course = followEnergy(simulation, 6.0);
+        const EnergyCourse course = followEnergy(simulation, 5.0);
         std::printf("%d modes: energy %.4f after %.1f s, risen by up to %.4f\n", modes, course.end,
                     simulation.state().time, course.rise);
         EXPECT_TRUE(course.isFinite) << modes;
@@ -27,13 +27,13 @@ TEST(ManyModes, GainNoEnergyInALongDamBreak)
     }
 }
 
-/// Eight modes reach 14 times the energy of the noise, 11 modes 20 times and 27 modes 35 times; where particles at the
-/// surface gather all modes, 85 and 174 times.
+/// Eight modes reach 13 times the energy of the noise, more modes 25 to 28 times; where particles at the surface gather
+/// all modes, 11 of them reach 99 times and 27 reach 188 times.
 TEST(ManyModes, LeaveStillLiquidStill)
 {
-    for (const auto& [modes, limit] : {std::pair(11, 40.0), std::pair(27, 80.0)}) {
+    for (const auto& [modes, limit] : {std::pair(11, 50.0), std::pair(27, 70.0)}) {
         const double growth = noiseAtRest(polyPic(modes));
-        std::printf("%d modes: the noise at rest has %.1f times its energy after 10 s\n", modes, growth);
+        std::printf("%d modes: the noise at rest has %.1f times its energy later\n", modes, growth);
         EXPECT_LT(growth, limit) << modes;
     }
 }

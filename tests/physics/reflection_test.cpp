@@ -14,7 +14,7 @@ Scene reflecting(Scene scene)
 
 double vortexError(const Transfer& transfer, double cfl, TimeIntegrator integrator)
 {
-    const double error = turnVortex(transfer, cfl, integrator).error;
+    const double error = turnVortex(moving(vortexScene(transfer, cfl, integrator), vortex)).error;
     std::printf("%s, CFL %.3f, %s: error of the vortex %.4f\n", transfer.name.c_str(), cfl,
                 integrator == TimeIntegrator::Plain ? "plain" : "reflected", error);
     return error;

@@ -50,15 +50,26 @@ void gatherVelocities(State& state, int modes, U&& u)
         }
 }
 
-/// One turnover, 2π s, of the vortex in its box.
-inline VortexEnd turnVortex(const Transfer& transfer, double cfl, TimeIntegrator integrator)
+/// The scene's initial state with what its particles would gather from u(x).
+template <class U>
+Simulation gathered(const Scene& scene, U&& u)
 {
-    constexpr double kEnd = 2.0 * kPi;
+    State state = Simulation(scene).state();
+    gatherVelocities(state, scene.settings.transfer.modeCount(), u);
+    return Simulation(scene, std::move(state));
+}
+
+inline Scene vortexScene(const Transfer& transfer, double cfl, TimeIntegrator integrator)
+{
     Scene scene = vortexScene(transfer, cfl);
     scene.settings.time.integrator = integrator;
-    State state = Simulation(scene).state();
-    gatherVelocities(state, transfer.modes, vortex);
-    Simulation simulation(scene, std::move(state));
+    return scene;
+}
+
+/// One turnover, 2π s, of the vortex in its box.
+inline VortexEnd turnVortex(Simulation simulation)
+{
+    constexpr double kEnd = 2.0 * kPi;
     while (simulation.state().time < kEnd) simulation.step(kEnd);
     return compareVortex(simulation);
 }
