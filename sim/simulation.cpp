@@ -44,6 +44,11 @@ double nominalMass(const Scene& scene)
     return scene.settings.liquid.density * packingOf(fill.pattern) * std::pow(particleSpacing(fill, scene.settings.cell), 3);
 }
 
+double fastestOf(const FabricState& fabric)
+{
+    return parallelMax(fabric.v.size(), [&](std::size_t v) { return fabric.v[v].norm(); });
+}
+
 constexpr int kMostTakenBack = 10;  ///< halvings until a run gives up: to a thousandth of the step
 constexpr double kGrowth = 1.2;     ///< of the longest step allowed, from each good one to the next, after one was taken back
 
@@ -147,8 +152,8 @@ double Simulation::chooseLength(double until) const
 {
     const double largest = std::min(longest_, chooseTimeStep(scene_.settings, state_, maxSpeed_)), least = scene_.settings.time.dtMin;
     if (!(largest >= least))
-        throw failure("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: a particle moves at {:.3g} cm/s",
-                                               largest, least, maxSpeed_));
+        throw failure("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: liquid moves at {:.3g} cm/s, fabric at {:.3g} cm/s",
+                                               largest, least, maxSpeed_, fastestOf(state_.fabric)));
     return lengthOfStep(until - state_.time, largest);
 }
 

@@ -83,6 +83,7 @@ void StepCheck::accept(const StepReport& report)
     recent_[next_] = activeEnergy(report.energies);
     next_ = (next_ + 1) % kWindow;
     elastic_ = report.energies.fabric.elastic();
+    deepest_ = report.fabric.deepest;
 }
 
 std::string StepCheck::fastestParticle(const State& state) const
@@ -153,12 +154,13 @@ std::optional<Fault> StepCheck::tooFar(const State& state, const StepReport& rep
                  "slower sources and obstacles, or a larger time.cfl"};
 }
 
+/// Fabric that is squeezed into an obstacle little by little gets there in short steps too; one that jumps there does not.
 std::optional<Fault> StepCheck::tooDeep(const StepReport& report) const
 {
     const double depth = report.fabric.deepest - radius_, bound = std::max(radius_, kDepth * scene_.settings.cell);
-    if (!(depth > bound)) return std::nullopt;
-    return Fault{Stage::FabricContact, fmt::format("fabric got {:.3g} cm into an obstacle, more than {:.3g}", depth, bound),
-                 "slower motions, or obstacles that do not begin inside of fabric"};
+    if (!(depth > bound && report.fabric.deepest > std::max(deepest_, 0.0) + bound)) return std::nullopt;
+    return Fault{Stage::FabricContact, fmt::format("fabric got {:.3g} cm into an obstacle in one step, more than {:.3g}", depth, bound),
+                 "slower motions, or a smaller time.dt"};
 }
 
 /// Largest speed of pins, and of moving obstacles where there is anything for them to push [cm/s].

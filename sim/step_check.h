@@ -4,6 +4,7 @@
 #include "sim/state.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -54,6 +55,7 @@ class StepCheck {
     std::array<double, kWindow> recent_{};
     int next_ = 0;             ///< row to be overwritten
     double elastic_ = 0.0;     ///< at the end of the last step [erg]
+    double deepest_ = std::numeric_limits<double>::infinity();  ///< that fabric was in an obstacle then; before the first step it may be anywhere [cm]
 };
 
 }  // namespace sim

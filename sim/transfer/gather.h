@@ -31,8 +31,9 @@ struct GatherSettings {
 };
 
 /// N_r of particles at the surface. Quadratic modes are fitted to second differences that don't see the weights: where a stencil
-/// reaches out of the liquid, faces that carry next to nothing would set them. With them there, the energy of the modes grows without end in
-/// liquid at rest: 11 modes at CFL 1 reach twice the energy that the dam break began with after 13 s.
+/// reaches out of the liquid, faces that carry next to nothing would set them. With them there, noise in liquid at rest grows four (11 modes)
+/// to seven times (27) as far, and a dam break with 27 modes has more energy than it began with. Four modes there would be calmer still,
+/// but lose more energy than eight everywhere (tests/bench/results/mode_stability.md).
 inline constexpr int kModesAtSurface = 8;
 
 /// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speeds [cm²/s²].

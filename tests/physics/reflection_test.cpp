@@ -1,5 +1,5 @@
 // Advection-reflection against the plain splitting (time-splitting 1, 2).
-#include "tests/physics/runs.h"
+#include "tests/physics/vortex_run.h"
 
 #include <gtest/gtest.h>
 
@@ -12,30 +12,12 @@ Scene reflecting(Scene scene)
     return scene;
 }
 
-/// Relative error of the faces' velocities after one turnover of a Taylor-Green vortex.
 double vortexError(const Transfer& transfer, double cfl, TimeIntegrator integrator)
 {
-    constexpr double kEnd = 2.0 * kPi;
-    Scene scene = vortexScene(transfer, cfl);
-    scene.settings.time.integrator = integrator;
-    Simulation simulation = moving(scene, vortex);
-    while (simulation.state().time < kEnd) simulation.step(kEnd);
-
-    const BlockGrid& grid = simulation.state().grid;
-    double error = 0.0, size = 0.0;
-    for (int b = 0; b < grid.count(); ++b)
-        for (int a = 0; a < kAxes; ++a)
-            for (int c = 0; c < kBlockCells; ++c) {
-                const Vec3i inBlock(c & 7, (c >> 3) & 7, c >> 6), cell = kBlockEdge * grid.coords(b) + inBlock;
-                if (cell.minCoeff() < 0 || cell.x() >= 16 || cell.y() >= 16 || cell.z() >= 4) continue;
-                const Vec3 x = grid.dx * (cell.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
-                const double exact = vortex(x)[a], found = simulation.workspace().grid.faces.velocity.block(b, a)[c];
-                error += (found - exact) * (found - exact);
-                size += exact * exact;
-            }
+    const double error = turnVortex(moving(vortexScene(transfer, cfl, integrator), vortex)).error;
     std::printf("%s, CFL %.3f, %s: error of the vortex %.4f\n", transfer.name.c_str(), cfl,
-                integrator == TimeIntegrator::Plain ? "plain" : "reflected", std::sqrt(error / size));
-    return std::sqrt(error / size);
+                integrator == TimeIntegrator::Plain ? "plain" : "reflected", error);
+    return error;
 }
 
 TEST(Reflection, AThirdOfTheErrorInAnEighthOfTheSteps)

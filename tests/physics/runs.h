@@ -50,10 +50,10 @@ inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, 
     return scene;
 }
 
-/// A column at one end of a short tank: 10 × 12 × 4 cells of 1 cm in 24.
+/// A column at one end of a short tank, 10 × 12 × 4 cells of 1 cm in 24, so high that nothing reaches its lid.
 inline Scene coarseDamBreak(const Transfer& transfer)
 {
-    Scene scene = tankScene(transfer, 1.0, {24.0, 30.0, 4.0}, {0.0, 0.0, 0.0}, {10.0, 12.0, 4.0});
+    Scene scene = tankScene(transfer, 1.0, {24.0, 80.0, 4.0}, {0.0, 0.0, 0.0}, {10.0, 12.0, 4.0});
     scene.name = "coarse dam break";
     scene.sources[0].fill.spacing = 0.5;
     return scene;

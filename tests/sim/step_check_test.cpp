@@ -104,14 +104,22 @@ TEST(StepCheck, SeesWhatWentTooFar)
     EXPECT_NE(sample.rash()->what.find("crossed 3 cells"), std::string::npos) << sample.rash()->what;
 }
 
-TEST(StepCheck, SeesFabricInsideObstacles)
+TEST(StepCheck, SeesFabricThatJumpsIntoObstacles)
 {
     Sample sample;
+    sample.report.fabric.deepest = 0.3;
+    EXPECT_FALSE(sample.rash()) << "where it begins is the scene's business";
+    sample.report.fabric.deepest = 0.0;
+    sample.check->accept(sample.report);
     sample.report.fabric.deepest = 0.2;
     EXPECT_FALSE(sample.rash());
     sample.report.fabric.deepest = 0.3;
     ASSERT_TRUE(sample.rash());
     EXPECT_EQ(sample.rash()->stage, Stage::FabricContact);
+    sample.report.fabric.deepest = 0.2;
+    sample.check->accept(sample.report);
+    sample.report.fabric.deepest = 0.3;
+    EXPECT_FALSE(sample.rash()) << "it is squeezed there little by little";
 }
 
 TEST(StepCheck, SeesLostLiquid)
