@@ -1,4 +1,6 @@
 #include "app/lab/stability_map.h"
+
+#include "app/csv.h"
 #include "app/lab/stress_ending.h"
 #include "app/output_files.h"
 
@@ -8,21 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace app {
 
 namespace {
 
 using nlohmann::json;
-
-std::vector<std::string> cellsOf(const std::string& line)
-{
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-    return cells;
-}
 
 struct Energy {
     double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
@@ -34,12 +27,12 @@ Energy energyOf(const std::filesystem::path& csv)
     std::ifstream in(csv);
     std::string line;
     std::getline(in, line);
-    const std::vector<std::string> names = cellsOf(line);
+    const std::vector<std::string> names = csvCells(line);
     const std::vector<std::string> outside = {"sources_erg", "suction_erg", "surface_tension_erg", "obstacles_erg", "pins_erg"};
     Energy energy;
     double start = std::numeric_limits<double>::quiet_NaN();
     while (std::getline(in, line)) {
-        const std::vector<std::string> cells = cellsOf(line);
+        const std::vector<std::string> cells = csvCells(line);
         double paid = 0.0, total = 0.0;
         for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
             const double value = std::strtod(cells[i].c_str(), nullptr);

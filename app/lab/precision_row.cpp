@@ -1,5 +1,6 @@
 #include "app/lab/precision_row.h"
 
+#include "app/csv.h"
 #include "app/output_files.h"
 #include "sim/core/check.h"
 
@@ -19,18 +20,10 @@ constexpr std::string_view kHeader =
     "settings,outcome";
 constexpr std::size_t kColumns = 18;
 
-std::vector<std::string> cellsOf(const std::string& line)
-{
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-    return cells;
-}
-
 /// Reads cells one after the other.
 class Cells {
  public:
-    explicit Cells(const std::string& line) : cells_(cellsOf(line)) {}
+    explicit Cells(const std::string& line) : cells_(csvCells(line)) {}
     bool areComplete() const { return cells_.size() == kColumns; }
     bool areNumbers() const { return areNumbers_; }
     const std::string& text() { return cells_[next_++]; }

@@ -1,5 +1,6 @@
 #include "app/lab/stability_map.h"
 
+#include "app/csv.h"
 #include "app/output_files.h"
 #include "app/output_folder.h"
 
@@ -118,9 +119,8 @@ std::vector<StabilityRow> readStabilityTable(const std::filesystem::path& csv)
     std::istringstream in(readWhole(csv));
     std::string line;
     for (std::getline(in, line); std::getline(in, line);) {
-        std::istringstream cells(line);
-        std::string cell[8];
-        for (std::string& c : cell) std::getline(cells, c, ',');
+        std::vector<std::string> cell = csvCells(line);
+        cell.resize(8);
         const auto number = [&](int i) { return std::strtod(cell[i].c_str(), nullptr); };
         rows.push_back({.method = cell[0], .dt = number(1), .duration = number(2), .isStable = cell[3] == "yes", .why = cell[7],
                         .energyGain = number(4), .largestSpeed = number(5), .seconds = number(6)});

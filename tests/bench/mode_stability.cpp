@@ -86,17 +86,7 @@ double damBreakKeeps(int modes)
     Scene scene = coarseDamBreak(transferOf(modes));
     scene.settings.time.cfl = 0.25;
     scene.settings.time.integrator = TimeIntegrator::Reflected;
-    Simulation simulation(scene);
-    const double start = simulation.energies().total();
-    constexpr int kSamples = 16;
-    double sum = 0.0;
-    for (int sample = 0; sample < kSamples; ++sample) {
-        const double time = 0.25 + 0.02 * sample;
-        StepReport report;
-        while (simulation.state().time < time) report = simulation.step(time);
-        sum += report.energies.total() / start / kSamples;
-    }
-    return sum;
+    return energyKept(scene, 16);
 }
 
 void printNumbers(std::initializer_list<double> numbers)

@@ -39,6 +39,22 @@ inline EnergyCourse followEnergy(Simulation& simulation, double duration)
     return course;
 }
 
+/// Energy that a dam break keeps of its start, on average while its front climbs the far wall: at one time it differs by half a
+/// percent between any two runs.
+inline double energyKept(const Scene& scene, int samples)
+{
+    Simulation simulation(scene);
+    const double start = simulation.energies().total();
+    double sum = 0.0;
+    for (int sample = 0; sample < samples; ++sample) {
+        const double time = 0.25 + 0.02 * sample;
+        StepReport report;
+        while (simulation.state().time < time) report = simulation.step(time);
+        sum += report.energies.total() / start / samples;
+    }
+    return sum;
+}
+
 /// Kinetic and modal energy of liquid in a half-full tank, on average from 5 s to 10 s, relative to that of the noise of up to 1 cm/s
 /// that its particles start with.
 inline double noiseAtRest(const Transfer& transfer)

@@ -1,4 +1,5 @@
 // Advection-reflection against the plain splitting (time-splitting 1, 2).
+#include "tests/physics/energy_course.h"
 #include "tests/physics/vortex_run.h"
 
 #include <gtest/gtest.h>
@@ -35,19 +36,10 @@ double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integr
     Scene scene = tankScene(transfer, 1.0, {64.0, 60.0, 4.0}, {0.0, 0.0, 0.0}, {24.0, 32.0, 4.0});
     scene.settings.time.cfl = cfl;
     scene.settings.time.integrator = integrator;
-    Simulation simulation(scene);
-    const double start = simulation.energies().total();
-    constexpr int kSamples = 15;
-    double sum = 0.0;
-    for (int sample = 0; sample < kSamples; ++sample) {
-        const double time = 0.25 + 0.02 * sample;
-        StepReport report;
-        while (simulation.state().time < time) report = simulation.step(time);
-        sum += report.energies.total() / start / kSamples;
-    }
+    const double kept = energyKept(scene, 15);
     std::printf("%s, CFL %.2f, %s: the dam break keeps %.4f\n", transfer.name.c_str(), cfl,
-                integrator == TimeIntegrator::Plain ? "plain" : "reflected", sum);
-    return sum;
+                integrator == TimeIntegrator::Plain ? "plain" : "reflected", kept);
+    return kept;
 }
 
 TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
