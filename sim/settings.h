@@ -25,7 +25,7 @@ struct TimeSettings {
     double maxCflLiquid = 3.0; ///< Hard bound on the same number in every mode [-]
     double maxCflFabric = 1.0 / 3.0;  ///< The fabric's bound, read by fabric.solver grid only [-]
     double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]
-    TimeIntegrator integrator = TimeIntegrator::Plain;  ///< Reflected: of two steps the first reflects (time-splitting 2)
+    TimeIntegrator integrator = TimeIntegrator::Reflected;  ///< Reflected: of two steps the first reflects (time-splitting 2)
     Advection advection = Advection::ByIntegrator;      ///< Euler with plain, midpoint with reflected
 
     bool reflects() const { return integrator == TimeIntegrator::Reflected; }

@@ -10,13 +10,13 @@ namespace {
 
 constexpr int kRepeats = 2;  ///< the second for edges, and for distances that are only bounds
 
-void pushOut(const Obstacles& obstacles, std::size_t p, LiquidParticles& particles)
+void pushOut(const Obstacles& obstacles, double inFront, std::size_t p, LiquidParticles& particles)
 {
     for (int repeat = 0; repeat < kRepeats; ++repeat) {
         const Vec3 x = particles.position(p);
         const double distance = obstacles.distance(x);
         if (distance >= 0.0) return;
-        const Vec3 moved = x - distance * obstacles.normal(x);
+        const Vec3 moved = x + (inFront - distance) * obstacles.normal(x);
         for (int a = 0; a < kAxes; ++a) particles.x[a][p] = moved[a];
     }
 }
@@ -34,7 +34,7 @@ void pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);
             if (start[0] == start[1] || (field.nearSolid(b) && field.centerDistance(b)[c] > safe)) continue;
-            for (int s = start[0]; s < start[1]; ++s) pushOut(obstacles, s, particles);
+            for (int s = start[0]; s < start[1]; ++s) pushOut(obstacles, kPushedInFront * grid.dx, s, particles);
         }
     });
 }
