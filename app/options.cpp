@@ -44,7 +44,7 @@ CLI::App* addBenchPrecision(CLI::App& bench, Options& options)
     verb->add_option("case", options.cases, "names in scenes/bench/precision (default: all)");
     verb->add_option("--out", options.out, "folder of table, plots and report");
     auto* threads = verb->add_option("--threads", options.threads, "threads of the simulation (default: 2)")->check(CLI::Range(1, kMaxThreads));
-    auto* repeats = verb->add_option("--repeats", options.repeats, "runs of each, of which the median counts (default: 1)")->check(CLI::Range(1, 1000));
+    auto* repeats = verb->add_option("--repeats", options.repeats, "runs of the front and of the published scheme, of which the median counts (default: 1)")->check(CLI::Range(1, 1000));
     verb->add_flag("--quick", options.quick, "few of them, within minutes");
     verb->add_flag("--csv", options.csv, "keep them in <results>/<machine>/precision");
     verb->add_option("--results", options.results, "folder of the machines' results");

@@ -5,17 +5,18 @@
 
 namespace sim {
 
-EnergyBook::EnergyBook(const State& state, const Vec3& gravity, const Workspace& work, StepReport& report)
-    : state_(state), gravity_(gravity), work_(work), changes_(report.energyChanges)
+EnergyBook::EnergyBook(const State& state, const Settings& settings, const Workspace& work, StepReport& report)
+    : state_(state), settings_(settings), work_(work), changes_(report.energyChanges)
 {
     if (!work.booksEnergy) return;
     changes_.emplace();
     last_ = look();
+    lag_ = potentialLag(state_, settings_);
 }
 
 double EnergyBook::particlesKinetic() const
 {
-    const Energies e = liquidEnergies(state_.liquid, state_.grid, gravity_, isSorted_ ? &work_.order : nullptr);
+    const Energies e = liquidEnergies(state_.liquid, state_.grid, settings_.gravity, isSorted_ ? &work_.order : nullptr);
     return e.kinetic + e.modal;
 }
 
@@ -28,9 +29,9 @@ EnergyBook::Energy EnergyBook::look() const
 {
     Energy e;
     e.liquidKinetic = isOnFaces_ ? facesKinetic() : particlesKinetic();
-    e.potential = weightSums(state_.liquid, gravity_).potential;
-    if (work_.fabric) e.fabric = work_.fabric->energies(state_.fabric, gravity_).total();
-    if (work_.gridFabric) e.fabric = work_.gridFabric->energies(state_.fabric, gravity_).total();
+    e.potential = weightSums(state_.liquid, settings_.gravity).potential;
+    if (work_.fabric) e.fabric = work_.fabric->energies(state_.fabric, settings_.gravity).total();
+    if (work_.gridFabric) e.fabric = work_.gridFabric->energies(state_.fabric, settings_.gravity).total();
     return e;
 }
 
@@ -113,11 +114,16 @@ void EnergyBook::toParticles(double dt)
     isOnFaces_ = isSorted_ = false;
     const Energy now = look();
     const LiquidParticles& liquid = state_.liquid;
-    const double fallen = -dt * parallelSum(liquid.count, [&](std::size_t p) { return liquid.mass[p] * gravity_.dot(liquid.velocity(p)); });
+    const double fallen = -dt * parallelSum(liquid.count, [&](std::size_t p) { return liquid.mass[p] * settings_.gravity.dot(liquid.velocity(p)); });
     book(EnergyChange::ToParticles, now.liquidKinetic - last_.liquidKinetic);
     book(EnergyChange::Gravity, fallen);
     book(EnergyChange::Places, now.potential - last_.potential - fallen);
     last_ = now;
+}
+
+void EnergyBook::finished()
+{
+    if (changes_) book(EnergyChange::Gravity, potentialLag(state_, settings_) - lag_);
 }
 
 }  // namespace sim

@@ -8,7 +8,7 @@ namespace sim {
 /// on, particles or faces (model-fluid 9.5). Does nothing, and measures nothing, unless the workspace asks for it.
 class EnergyBook {
  public:
-    EnergyBook(const State& state, const Vec3& gravity, const Workspace& work, StepReport& report);
+    EnergyBook(const State& state, const Settings& settings, const Workspace& work, StepReport& report);
 
     /// Particles have come, gone, and been sorted: their modes are where they were.
     void sorted();
@@ -25,6 +25,8 @@ class EnergyBook {
     void after(EnergyChange change);
     /// Liquid and fabric have been solved for.
     void solved(bool isMixed, const FabricReport& fabric);
+    /// The step is over.
+    void finished();
 
  private:
     struct Energy {
@@ -40,13 +42,14 @@ class EnergyBook {
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
 
     const State& state_;
-    const Vec3& gravity_;
+    const Settings& settings_;
     const Workspace& work_;
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
     BlockArray<double, 3> pulled_;  ///< by how much surface tension changed velocities [cm/s], if it acts
     Energy last_;
+    double lag_ = 0.0;  ///< of potential energy behind the present places [erg]
 };
 
 }  // namespace sim

@@ -232,9 +232,10 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     if (work.kept) work.kept->keepModes(particles, plan.flips);
     const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
-    report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
+    const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
+    report.maxSpeed = plan.reflects ? along : held;
     if (!work.obstacles.empty()) {
-        const double farthest = std::max(report.maxSpeed, std::sqrt(sums.maxPathSquared)) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
+        const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
     }
@@ -246,7 +247,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     report.particles = particles.count;
     report.blocks = grid.count();
     report.liquidCells = countLiquidCells(grid, work.grid);
-    if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
+    if (!std::isfinite(held) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
 }
 
 }  // namespace sim

@@ -50,6 +50,7 @@ double fastestOf(const FabricState& fabric)
 }
 
 constexpr int kMostTakenBack = 10;  ///< halvings until a run gives up: to a thousandth of the step
+constexpr double kSecondIsFaster = 1.5;  ///< cells that the second of two steps may cross relative to time.cfl [-]
 constexpr double kGrowth = 1.2;     ///< of the longest step allowed, from each good one to the next, after one was taken back
 
 double fastest(const LiquidParticles& particles)
@@ -118,18 +119,21 @@ void Simulation::bookEnergy()
 Energies Simulation::energies() const
 {
     Energies energies = liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity);
+    energies.potential += potentialLag(state_, scene_.settings);
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
     if (work_.gridFabric) energies.fabric = work_.gridFabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
 }
 
 /// Equal parts of what is left, none beyond the largest; an even number where each first one of two reflects, and the
-/// second is as long, unless the liquid has become so fast that it would break a hard bound.
+/// second is as long, unless the liquid has become so fast that it would cross far more cells than the first was to, or
+/// break the hard bound.
 double Simulation::lengthOfStep(double left, double largest) const
 {
     constexpr double kRoundOff = 1.0e-9;  // steps may be longer by that much, so that 4e-3 s in steps of 2e-4 s are 20 and not 21
     const TimeSettings& time = scene_.settings.time;
-    if (state_.reflected && state_.lastDt <= longest_ && cflNumber(scene_.settings, maxSpeed_, state_.lastDt) <= time.maxCflLiquid)
+    const double mostCells = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(kSecondIsFaster * time.cfl, time.maxCflLiquid);
+    if (state_.reflected && state_.lastDt <= longest_ && cflNumber(scene_.settings, maxSpeed_, state_.lastDt) <= mostCells)
         return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
     const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - kRoundOff)));
     return left / (mayReflect(state_, time, work_) ? 2.0 * std::ceil(0.5 * parts) : parts);

@@ -4,6 +4,7 @@
 #include "sim/core/parallel.h"
 #include "sim/coupling/exchange_watch.h"
 #include "sim/energy_book.h"
+#include "sim/liquid/energy.h"
 #include "sim/liquid_step.h"
 #include "sim/particles/emit.h"
 
@@ -83,6 +84,12 @@ void findFabricEnergies(const State& state, const Settings& settings, const Work
 
 }  // namespace
 
+double potentialLag(const State& state, const Settings& settings)
+{
+    if (!settings.time.reflects() || state.reflected) return 0.0;
+    return weightWork(state.liquid, settings.gravity, 0.5 * state.lastDt);
+}
+
 bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work)
 {
     return time.reflects() && hasLiquid(state) && !(work.coupling && reachesLiquid(state.grid, state.fabric));
@@ -93,7 +100,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     StepReport report;
     report.dt = dt;
     StageClock clock(report);
-    EnergyBook energy(state, scene.settings.gravity, work, report);
+    EnergyBook energy(state, scene.settings, work, report);
     const bool reflects = mayReflect(state, scene.settings.time, work) && !state.reflected;
 
     if (emits(scene, state, state.time, state.time + dt)) {
@@ -117,6 +124,8 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     ++state.step;
     state.lastDt = dt;
     state.reflected = report.isReflected = plan.reflects;
+    report.energies.potential += potentialLag(state, scene.settings);
+    energy.finished();
     return report;
 }
 

@@ -50,6 +50,11 @@ struct Workspace {
 /// Advance liquid and fabric by dt [s] (model-fluid 15.1). What is not there runs none of its stages.
 StepReport step(State& state, const Scene& scene, Workspace& work, double dt);
 
+/// With the integrator reflected, particles hold the velocities that they had halfway through their last step. Energies are those of
+/// then: by this much the potential energy was above that of the present places [erg], 0 after a step that reflects. Taken at different
+/// times their sum would swing by dt/2 times the power of the weight.
+double potentialLag(const State& state, const Settings& settings);
+
 /// Is the next step to reflect, if it is not the second of two? Liquid near fabric is not reflected.
 bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work);
 

@@ -101,7 +101,7 @@ struct StepReport {
     std::array<bool, kStages> stageRan{};        ///< … which is told here
     double dt = 0.0;                             ///< [s]
     double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
-    double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
+    double maxSpeed = 0.0;                       ///< of the particles at the end of the step; where it reflects, along their paths [cm/s]
     SolveReport viscosity;                       ///< if it was solved for
     SolveReport pressure;
     SolveReport reflection;
@@ -110,7 +110,7 @@ struct StepReport {
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     int takenBack = 0;                           ///< attempts that turned out bad before this one, each longer than the next
     bool isReflected = false;                    ///< the first of two steps: particles hold velocities that the flow never has
-    Energies energies;                           ///< at the end of the step, of what the particles hold
+    Energies energies;                           ///< at the end of the step, of what the particles hold; see potentialLag
     std::optional<EnergyChanges> energyChanges;  ///< where they are booked
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
     double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]

@@ -10,6 +10,7 @@ namespace app {
 struct Cost {
     double seconds = 0.0;
     double error = 0.0;
+    bool operator==(const Cost&) const = default;
 };
 
 /// Those of which no other is both faster and nearer: seconds ascend, errors descend. Only finite, positive ones.

@@ -1,5 +1,7 @@
 #include "app/lab/precision_cases.h"
 
+#include <algorithm>
+
 namespace app {
 
 std::vector<Cost> PrecisionCase::front() const
@@ -16,6 +18,12 @@ std::vector<Cost> PrecisionCase::costsOf(const std::string& method, const std::s
         if (row.names.method == method && row.names.integrator == integrator)
             costs.push_back({row.wallSeconds, row.error});
     return costs;
+}
+
+bool PrecisionCase::isOnFront(const PrecisionRow& row) const
+{
+    const std::vector<Cost> all = front();
+    return std::ranges::find(all, Cost{row.wallSeconds, row.error}) != all.end();
 }
 
 bool PrecisionCase::isPublished(const PrecisionRow& row) const

@@ -17,6 +17,7 @@ struct PrecisionCase {
 
     std::vector<Cost> front() const;  ///< of all of them
     std::vector<Cost> costsOf(const std::string& method, const std::string& integrator) const;
+    bool isOnFront(const PrecisionRow& row) const;
     bool isPublished(const PrecisionRow& row) const;
 };
 

@@ -73,8 +73,9 @@ std::string precisionReport(const std::vector<PrecisionCase>& cases, const std::
     for (const PrecisionCase& of : cases) {
         text += fmt::format("\n## {}\n\n{}\n", of.title, of.precision.about);
         if (of.front().empty()) continue;
-        const PrecisionRow& any = of.rows.front();
-        text += fmt::format("{} runs on {} threads, {} repeats.\n", of.rows.size(), any.threads, any.repeats);
+        const int repeats = std::ranges::max(of.rows, {}, &PrecisionRow::repeats).repeats;
+        text += fmt::format("{} runs, threads: {}, times of the front and of the published scheme: median of {}.\n",
+                            of.rows.size(), of.rows.front().threads, repeats);
         if (const std::string sentence = gainSentence(of); !sentence.empty())
             text += fmt::format("\n**{}: {}.**\n", of.title, sentence);
         text += gainsTable(of) + viscosityTable(of);

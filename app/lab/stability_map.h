@@ -48,7 +48,7 @@ struct StabilityMap {
     std::function<bool()> stopWanted = [] { return false; };
 };
 
-/// APIC and PolyPIC of 8, 11, 15 and 27 modes, those of them that are named (none: all), with each fabric solver where the
+/// PIC, APIC and PolyPIC of 8, 11, 15 and 27 modes, those of them that are named (none: all), with each fabric solver where the
 /// scene has fabric. Throws InputError for a name that there is not.
 std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std::vector<std::string>& names);
 

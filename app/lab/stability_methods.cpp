@@ -17,7 +17,8 @@ struct Transfer {
 
 const std::vector<Transfer>& transfers()
 {
-    static const std::vector<Transfer> all = {{"apic", {"transfer.method=apic"}},
+    static const std::vector<Transfer> all = {{"pic", {"transfer.method=pic"}},
+                                              {"apic", {"transfer.method=apic"}},
                                               {"polypic_8", {"transfer.method=polypic", "transfer.modes=8"}},
                                               {"polypic_11", {"transfer.method=polypic", "transfer.modes=11"}},
                                               {"polypic_15", {"transfer.method=polypic", "transfer.modes=15"}},

@@ -43,28 +43,51 @@ void tell(const PrecisionRow& row)
     std::fflush(stdout);
 }
 
+/// What the table has of a case.
+PrecisionCase caseOf(const std::vector<PrecisionRun>& runs, const Options& options, const PrecisionTable& table)
+{
+    const SceneSetup& setup = runs.front().setup;
+    PrecisionCase of{runs.front().scene, setup.scene.title, *setup.precision, {}};
+    for (const PrecisionRun& run : runs) {
+        const PrecisionRow* row = table.find(run, options.threads, 1);
+        if (row && row->isDone()) of.rows.push_back(*row);
+    }
+    return of;
+}
+
+/// The next run that the report's sentences rest on and that was not repeated yet: of the front or the published scheme.
+const PrecisionRun* nextToRepeat(const std::vector<PrecisionRun>& runs, const PrecisionCase& of, int repeats)
+{
+    for (const PrecisionRow& row : of.rows) {
+        if (row.repeats >= repeats || !(of.isOnFront(row) || of.isPublished(row))) continue;
+        return &*std::ranges::find(runs, row.names, &PrecisionRun::names);
+    }
+    return nullptr;
+}
+
 /// All runs of a case that are not in the table, then its rows.
 PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& runs, const Options& options,
                       const Parts& parts, const fs::path& folder, PrecisionTable& table)
 {
     const auto stopWanted = [] { return interruptsSeen() > 0; };
-    const SceneSetup& setup = runs.front().setup;
-    PrecisionCase of{runs.front().scene, setup.scene.title, *setup.precision, {}};
-    const auto isMissing = [&](const PrecisionRun& run) { return !table.find(run, options.threads, options.repeats); };
+    const auto isMissing = [&](const PrecisionRun& run) { return !table.find(run, options.threads, 1); };
+    PrecisionCase of = caseOf(runs, options, table);
     std::vector<std::vector<Reading>> converged;
-    if (setup.precision->needsConverged() && std::ranges::any_of(runs, isMissing))
+    if (of.precision.needsConverged() &&
+        (std::ranges::any_of(runs, isMissing) || nextToRepeat(runs, of, options.repeats)))
         converged = convergedReadings(folder / (of.name + "_converged.csv"), convergedSetup(file, parts),
                                       options.threads, parts, stopWanted);
-    for (const PrecisionRun& run : runs) {
-        if (isMissing(run)) {
-            const PrecisionRow row =
-                measurePrecision(run, converged, options.threads, options.repeats, parts, stopWanted);
-            table.add(row);
-            tell(row);
-        }
-        const PrecisionRow* row = table.find(run, options.threads, options.repeats);
-        if (row->isDone()) of.rows.push_back(*row);
-    }
+    const auto measure = [&](const PrecisionRun& run, int repeats) {
+        const PrecisionRow row = measurePrecision(run, converged, options.threads, repeats, parts, stopWanted);
+        table.add(row);
+        tell(row);
+    };
+    for (const PrecisionRun& run : runs)
+        if (isMissing(run)) measure(run, 1);
+    // Other times make another front.
+    for (of = caseOf(runs, options, table); const PrecisionRun* run = nextToRepeat(runs, of, options.repeats);
+         of = caseOf(runs, options, table))
+        measure(*run, options.repeats);
     return of;
 }
 

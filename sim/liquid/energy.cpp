@@ -15,6 +15,11 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity)
                           [](WeightSums a, WeightSums b) { return WeightSums{a.potential + b.potential, a.mass + b.mass}; });
 }
 
+double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration)
+{
+    return duration * parallelSum(particles.count, [&](std::size_t p) { return particles.mass[p] * gravity.dot(particles.velocity(p)); });
+}
+
 namespace {
 
 /// ⟨s_d, s_d⟩ of the 1-D factor of degree d (model-fluid 4.3), lengths in cells.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kJetStart = 0.02;  ///< [s]
 
-/// A jet at `speed` goes for a column that collapses, in blocks that were not there before. Nothing tells the step in which it begins
-/// how fast it will be.
+/// A jet at `speed` goes for a column that collapses, in blocks that were not there before. Nothing tells the step in
+/// which it begins how fast it will be.
 Scene columnAndJet(const Transfer& transfer, double speed = 1000.0)
 {
     Scene scene = tankScene(transfer, 1.0, {24.0, 16.0, 8.0}, {12.0, 0.0, 0.0}, {24.0, 5.0, 8.0});
@@ -42,7 +42,8 @@ Scene columnJetAndCloth(FabricSolver solver)
 {
     Scene scene = columnAndJet(kPoly8);
     scene.settings.fabric.solver = solver;
-    FabricPiece cloth = testing::pieceOf(clothGrid({{9, 9}, {0.5, 0.5}, Vec3(4.0, 4.0, 2.0)}), testing::wool(), {0.0165, 0.018});
+    FabricPiece cloth =
+        testing::pieceOf(clothGrid({{9, 9}, {0.5, 0.5}, Vec3(4.0, 4.0, 2.0)}), testing::wool(), {0.0165, 0.018});
     cloth.material.volumeFraction = 0.4;
     scene.fabrics.push_back(cloth);
     return scene;
@@ -76,7 +77,8 @@ Retry firstRetry(const Scene& scene)
 TEST(Adaptive, ARetriedStepBeginsFromTheStateBefore)
 {
     std::vector<std::pair<std::string, Scene>> scenes;
-    for (const Transfer& transfer : {kFlip, kApic, kPoly8, kPoly27}) scenes.emplace_back(transfer.name, columnAndJet(transfer));
+    for (const Transfer& transfer : {kFlip, kApic, kPoly8, kPoly27})
+        scenes.emplace_back(transfer.name, columnAndJet(transfer));
     scenes.emplace_back("stirred", stirredColumnAndJet());
     scenes.emplace_back("vertex", columnJetAndCloth(FabricSolver::Vertex));
     scenes.emplace_back("grid", columnJetAndCloth(FabricSolver::Grid));
@@ -143,7 +145,10 @@ TEST(Adaptive, StepsGrowAgain)
 /// A jet so fast that the squares of its speeds are not numbers.
 TEST(Adaptive, GivesUpWithTheLastGoodState)
 {
-    Simulation simulation(columnAndJet(kPoly8, 1.0e200));
+    Scene scene = columnAndJet(kPoly8, 1.0e200);
+    scene.settings.time.integrator =
+        TimeIntegrator::Plain;  // one of its steps begins just with the jet, which cannot have moved yet
+    Simulation simulation(scene);
     std::uint64_t last = 0;
     try {
         while (simulation.state().time < 0.1) {
@@ -153,11 +158,14 @@ TEST(Adaptive, GivesUpWithTheLastGoodState)
         FAIL() << "it went on";
     } catch (const RunError& error) {
         const std::string message = error.what();
-        for (const char* part : {"scene tank, step 5, ", "stage grid_to_particles: velocities are not finite: particle ", "10 halvings of the step", "try "})
+        for (const char* part :
+             {"scene tank, step 5, ", "stage grid_to_particles: velocities are not finite: particle ",
+              "10 halvings of the step", "try "})
             EXPECT_NE(message.find(part), std::string::npos) << message;
     }
     EXPECT_EQ(stateHash(simulation.state()), last);
-    for (std::size_t p = 0; p < simulation.state().liquid.count; ++p) ASSERT_LT(simulation.state().liquid.velocity(p).norm(), 1.0e3);
+    for (std::size_t p = 0; p < simulation.state().liquid.count; ++p)
+        ASSERT_LT(simulation.state().liquid.velocity(p).norm(), 1.0e3);
 }
 
 TEST(Adaptive, TellsHowOftenAndWhatItCost)

@@ -31,8 +31,10 @@ inline EnergyCourse followEnergy(Simulation& simulation, double duration)
     EnergyCourse course;
     const double start = simulation.energies().total();
     try {
-        while (simulation.state().time < duration && course.isFinite && course.end < 2.0)
-            course.add(simulation.step(duration).energies.total() / start);
+        while (simulation.state().time < duration && course.isFinite && course.end < 2.0) {
+            const StepReport report = simulation.step(duration);
+            if (!report.isReflected) course.add(report.energies.total() / start);
+        }
     } catch (const RunError&) {
         course.isFinite = false;
     }

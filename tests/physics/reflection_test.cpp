@@ -44,10 +44,11 @@ double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integr
 
 TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
 {
-    constexpr double kNoise = 1.0e-3;  // what other lengths of the steps change
-    for (const Transfer& transfer : {kApic, kPoly8, kPoly27})
+    // What other lengths of the steps change; 27 modes lose so little to the grid that the steps are most of it.
+    for (const auto& [transfer, noise] :
+         {std::pair(kApic, 1.0e-3), std::pair(kPoly8, 1.0e-3), std::pair(kPoly27, 2.0e-3)})
         EXPECT_GT(damBreakKeeps(transfer, 1.0, TimeIntegrator::Reflected),
-                  damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - kNoise)
+                  damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - noise)
             << transfer.name;
 }
 

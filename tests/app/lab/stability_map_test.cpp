@@ -78,9 +78,9 @@ TEST(StabilityMap, TablesReadBack)
 TEST(StabilityMap, MethodsGoWithBothFabricSolversWhereThereIsFabric)
 {
     SceneSetup setup;
-    EXPECT_EQ(stabilityMethods(setup, {}).size(), 5u);
+    EXPECT_EQ(stabilityMethods(setup, {}).size(), 6u);
     setup.scene.fabrics.emplace_back();
-    EXPECT_EQ(stabilityMethods(setup, {}).size(), 10u);
+    EXPECT_EQ(stabilityMethods(setup, {}).size(), 12u);
     const auto two = stabilityMethods(setup, {"polypic_27"});
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(withKnob(two, setup, "density", {0.1, 10.0}).back().sets.back(), "liquid.density=10");
