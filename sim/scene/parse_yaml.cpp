@@ -128,16 +128,16 @@ class TreeBuilder : public YAML::EventHandler {
         if (parent.node.isList()) {
             parent.node.items.push_back(std::move(node));
         } else if (!parent.hasKey) {
-            takeKey(parent, node);
+            takeKey(parent, std::move(node));
         } else {
             node.place = parent.keyPlace;
-            parent.node.keys.push_back(parent.key);
+            parent.node.keys.push_back(std::move(parent.key));
             parent.node.items.push_back(std::move(node));
             parent.hasKey = false;
         }
     }
 
-    void takeKey(Open& parent, const Node& node)
+    void takeKey(Open& parent, Node node)
     {
         if (!node.isScalar() || node.text.empty())
             fail(node.place, fmt::format("a key must be a word, not {}", node.called()));
@@ -145,8 +145,8 @@ class TreeBuilder : public YAML::EventHandler {
         if (!isNew)
             fail(node.place,
                  fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
-        parent.key = node.text;
-        parent.keyPlace = node.place;
+        parent.key = std::move(node.text);
+        parent.keyPlace = std::move(node.place);
         parent.hasKey = true;
     }
 
@@ -156,12 +156,11 @@ class TreeBuilder : public YAML::EventHandler {
     std::size_t count_ = 0;
 };
 
-/// Length of the UTF-8 character that starts at text[i]; 0 if the bytes there are none.
+/// Length of the UTF-8 character beyond ASCII that starts at text[i]; 0 if the bytes there are none.
 std::size_t characterLength(std::string_view text, std::size_t i)
 {
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
     const unsigned first = byte(i);
-    if (first < 0x80) return 1;
     const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
                                : (first & 0xF0) == 0xE0        ? 3
                                : first >= 0xF0 && first < 0xF5 ? 4
@@ -179,7 +178,7 @@ void checkText(const std::string& text, const std::shared_ptr<const TextSource>&
     bool inIndentation = true;
     for (std::size_t i = 0; i < text.size();) {
         const auto c = static_cast<unsigned char>(text[i]);
-        const std::size_t length = characterLength(text, i);
+        const std::size_t length = c < 0x80 ? 1 : characterLength(text, i);
         const bool isControl = (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
         if (length == 0 || isControl) fail(place, "a byte that is no text (not UTF-8); a scene is a YAML text file");
         if (c == '\t' && inIndentation) fail(place, "a tab in the indentation; YAML wants spaces there");

@@ -104,9 +104,12 @@ std::string suggestion(std::string_view text, const std::vector<std::string>& kn
     constexpr std::size_t kLongestKey = 64;
     std::size_t best = std::max<std::size_t>(1, text.size() / 3) + 1;
     const std::string* nearest = nullptr;
+    const std::string meant = lowered(text);
     for (const std::string& candidate : known) {
         if (text.size() > kLongestKey) break;
-        const std::size_t d = editDistance(lowered(text), lowered(candidate));
+        const auto [shorter, longer] = std::minmax({text.size(), candidate.size()});
+        if (longer - shorter >= best) continue;  // so many letters at least are missing or too many
+        const std::size_t d = editDistance(meant, lowered(candidate));
         if (d < best) {
             best = d;
             nearest = &candidate;

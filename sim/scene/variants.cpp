@@ -58,6 +58,8 @@ std::vector<SceneVariant> product(const Node& map)
     for (std::size_t k = 0; k < map.keys.size(); ++k) {
         const Node& values = map.items[k];
         checkPath(map.keys[k], values.place);
+        if (map.keys[k] == "name" || map.keys[k] == "label")
+            fail(values.place, fmt::format("compare.variants.{} is no key of a scene; write one like transfer.method", map.keys[k]));
         if (!values.isList() || values.items.empty()) {
             fail(values.place, fmt::format("compare.variants.{} must be a list of values to try, not {}", map.keys[k],
                                            values.called()));
@@ -67,7 +69,7 @@ std::vector<SceneVariant> product(const Node& map)
         std::vector<SceneVariant> next;
         for (const SceneVariant& base : all) {
             for (const Node& value : values.items) {
-                if (value.isNull())
+                if (value.isNull() || label(value).empty())
                     fail(value.place, fmt::format("compare.variants.{} has an empty value", map.keys[k]));
                 SceneVariant& variant = next.emplace_back(base);
                 variant.name += (base.name.empty() ? "" : "_") + asName(label(value));

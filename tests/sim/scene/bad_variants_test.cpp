@@ -131,6 +131,16 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 compare: {variants: []}
 )",
      "bad.yaml:3: compare.variants must list variants, or map keys to lists of values, not an empty list"},
+    {"VariantsProductOfEmptyWord", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: {transfer.method: [pic, ""]}}
+)",
+     "bad.yaml:3: compare.variants.transfer.method has an empty value"},
+    {"VariantsProductOfNames", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {variants: {name: [pic, apic]}}
+)",
+     "bad.yaml:3: compare.variants.name is no key of a scene; write one like transfer.method"},
     {"VariantsProductOfWord", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 compare: {variants: {transfer.method: pic}}
