@@ -49,6 +49,7 @@ SceneSetup loadScene(const SceneRequest& request)
 class RealSimulation : public Steppable {
  public:
     explicit RealSimulation(const sim::Scene& scene) : simulation_(scene) {}
+    RealSimulation(const sim::Scene& scene, const sim::State& state) : simulation_(scene, state) {}
     const sim::State& state() const override { return simulation_.state(); }
     const sim::Fabric& fabric() const override { return simulation_.fabric(); }
     const sim::LiquidGrid& liquidGrid() const override { return simulation_.workspace().grid; }
@@ -67,6 +68,8 @@ Parts drenchParts()
 {
     return {.loadScene = loadScene,
             .startSimulation = [](const SceneSetup& setup) { return std::make_unique<RealSimulation>(setup.scene); },
+            .resumeSimulation =
+                [](const SceneSetup& setup, const sim::State& state) { return std::make_unique<RealSimulation>(setup.scene, state); },
             .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
             .startRenderer = startOffscreenRenderer,
             .putSideBySide = putSideBySide,

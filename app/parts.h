@@ -45,6 +45,8 @@ struct Panel {
 struct Parts {
     std::function<SceneSetup(const SceneRequest&)> loadScene;                       ///< throws InputError
     std::function<std::unique_ptr<Steppable>(const SceneSetup&)> startSimulation;   ///< throws InputError
+    /// The same from a state of that scene: what follows is what would have followed.
+    std::function<std::unique_ptr<Steppable>(const SceneSetup&, const sim::State&)> resumeSimulation;
     std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
     /// Called on the thread that will draw. Panels of a comparison have no label, time and colour bar of their own.
     std::function<DrawFrame(const SceneSetup&, bool asPanel)> startRenderer;

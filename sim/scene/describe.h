@@ -87,7 +87,7 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
         w.choice(key, m, "How velocities go to the grid and back");
     });
     v.perPhase("modes", liquid.modes, fabric.modes, [](auto& w, const char* key, int& m) {
-        w.integer(key, m, 1, 27, "Velocity modes per component, polypic only");
+        w.integer(key, m, 1, 27, "Velocity modes per component, polypic only; more than 8 amid the liquid only");
     });
     v.perPhase("xi", liquid.xi, fabric.xi, [](auto& w, const char* key, XiMap& xi) {
         w.choice(key, xi, "How modes move with the particle, polypic only");

@@ -36,6 +36,7 @@ class ToySimulation : public Steppable {
         state_.liquid.add(sim::Vec3::Zero(), 2.0, 0, sim::Vec3(toy.speed, 0.0, 0.0));
         state_.ledger.emittedMass = 2.0;
     }
+    ToySimulation(const ToySettings& toy, const sim::State& state) : toy_(toy), state_(state) {}
     const sim::State& state() const override { return state_; }
     const sim::Fabric& fabric() const override { return fabric_; }
     const sim::LiquidGrid& liquidGrid() const override { return grid_; }
@@ -159,6 +160,7 @@ Parts toyParts(const ToySettings& toy)
     Parts parts;
     parts.loadScene = [toy](const SceneRequest&) { return toySetup(toy); };
     parts.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(toy); };
+    parts.resumeSimulation = [toy](const SceneSetup&, const sim::State& state) { return std::make_unique<ToySimulation>(toy, state); };
     parts.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
     parts.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
     parts.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };

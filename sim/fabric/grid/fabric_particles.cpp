@@ -4,6 +4,7 @@
 #include "sim/transfer/modes.h"
 #include "sim/transfer/scatter_affine.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sim {
@@ -17,7 +18,7 @@ FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
     if (transfer_.method == TransferMethod::Flip) transfer_.method = TransferMethod::Apic;
     modes_ = transfer_.method == TransferMethod::Pic    ? 1
              : transfer_.method == TransferMethod::Apic ? 4
-                                                        : transfer_.modes;
+                                                        : std::min(transfer_.modes, kModesAtSurface);  // a sheet is surface everywhere
     particles_.modeCount = storedModes(modes_);
     grid_.dx = settings.cell;
     particles_.resize(fabric.vertexCount());

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "app/parts.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace app {
+
+enum class LiveMode { Paused, Playing, Ended, Failed };
+
+/// Where a live simulation is.
+struct LiveStatus {
+    LiveMode mode = LiveMode::Paused;
+    std::int64_t step = 0;
+    double time = 0.0;                  ///< [s]
+    std::string failure;                ///< why it went no further: one line
+    std::vector<double> moments;        ///< it can go back to, in order [s]
+};
+
+/// What the plots of a window show of a step.
+struct LiveStep {
+    std::int64_t step = 0;              ///< its number; going back makes numbers come again
+    double time = 0.0;                  ///< at its end [s]
+    double seconds = 0.0;               ///< it took, wall
+    sim::StepReport report;
+};
+
+/// A scene that is simulated on a thread of its own while somebody looks at it. It takes the steps that a run without a window takes. Calls
+/// return at once: what they ask for is done when the step in hand is over.
+class LiveSimulation {
+ public:
+    /// Begins paused, with the initial state. Throws InputError.
+    /// @param memory  for the moments it can go back to [bytes]; where it is too little there are fewer
+    LiveSimulation(SceneSetup setup, const Parts& parts, std::size_t memory = std::size_t{1} << 30);
+    /// Waits for the step in hand.
+    ~LiveSimulation();
+    LiveSimulation(const LiveSimulation&) = delete;
+    LiveSimulation& operator=(const LiveSimulation&) = delete;
+
+    void play();
+    void pause();
+    void stepOnce();                    ///< and pause
+    void restart();                     ///< go back to the initial state, and pause
+    void goBackTo(double time);         ///< the latest moment that is not after it [s], and pause
+
+    LiveStatus status() const;
+    /// What has happened since the last call, oldest first.
+    std::vector<LiveStep> takeSteps();
+    /// The latest picture to draw, whole as it was between two steps, if there is one that was not taken yet. `old` gives its storage back.
+    std::unique_ptr<FrameSnapshot> takeSnapshot(std::unique_ptr<FrameSnapshot> old = nullptr);
+
+ private:
+    struct Moment {
+        sim::State state;
+        std::int64_t frame = 0;         ///< its number
+    };
+    using Command = std::function<void()>;
+
+    void ask(Command command);
+    void work(const std::stop_token& stop);
+    void runCommands(std::unique_lock<std::mutex>& lock);
+    void advance();
+    void setMode(LiveMode mode);
+    void fail(const std::string& why);
+    void goTo(const Moment& moment);
+    void keepMoment();
+    void publish(bool always);
+
+    const SceneSetup setup_;
+    const Parts parts_;
+    const std::size_t memory_;
+    const PlaceObstacles placeObstacles_;
+
+    // The simulation's thread has these to itself once it runs.
+    std::unique_ptr<Steppable> simulation_;
+    std::vector<Moment> moments_;       ///< the initial state first
+    std::int64_t momentEvery_ = 1;      ///< frames
+    std::int64_t frame_ = 0;            ///< the last one that was reached
+
+    mutable std::mutex mutex_;          ///< guards what follows
+    std::condition_variable_any wake_;
+    std::deque<Command> commands_;
+    LiveStatus status_;
+    std::vector<LiveStep> steps_;
+    std::unique_ptr<FrameSnapshot> ready_, spare_;
+    std::jthread thread_;               ///< last: it ends before what it uses
+};
+
+}  // namespace app
