@@ -2,6 +2,7 @@
 #include "app/obstacle_meshes.h"
 #include "app/parts.h"
 #include "app/read_picture_settings.h"
+#include "app/view/viewer.h"
 #include "sim/scene/load_scene.h"
 #include "sim/simulation.h"
 
@@ -73,7 +74,12 @@ Parts drenchParts()
             .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
             .startRenderer = startOffscreenRenderer,
             .putSideBySide = putSideBySide,
-            .writePng = writeRgbPng};
+            .writePng = writeRgbPng,
+#ifdef DRENCH_WINDOWS
+            .view = view};
+#else
+            .view = nullptr};
+#endif
 }
 
 }  // namespace app

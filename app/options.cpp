@@ -121,6 +121,13 @@ void addVerbs(CLI::App& program, Options& options)
     addVariant(*check, options);
     check->callback([&options] { options.verb = Verb::Check; });
 
+    auto* view = program.add_subcommand("view", "show a scene in a window while it is simulated");
+    addScene(*view, options);
+    addVariant(*view, options);
+    view->add_option("--threads", options.threads, "threads of the simulation (default: all)")->check(CLI::Range(1, kMaxThreads));
+    view->add_flag("--paused", options.paused, "wait with the first step");
+    view->callback([&options] { options.verb = Verb::View; });
+
     auto* bench = program.add_subcommand("bench", "time a scene by stage");
     bench->add_option("--scene", options.scene, "a name in scenes/bench, or a scene file");
     bench->add_option("--threads", options.benchThreads, "numbers of threads to try: 1,2,4")

@@ -10,7 +10,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, Bench, BenchPrecision, Paper, Validate, Stress };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress };
 
 /// The command line.
 struct Options {
@@ -24,6 +24,7 @@ struct Options {
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     bool force = false;                  ///< compare, paper: redo variants that are done
     bool quick = false;                  ///< paper, validate, bench precision, stress: shortened
+    bool paused = false;                 ///< view: wait with the first step until somebody asks for it
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does

@@ -2,6 +2,7 @@
 
 #include "app/frame_pipeline.h"
 #include "app/scene_setup.h"
+#include "app/view/view_options.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/state.h"
 
@@ -53,6 +54,8 @@ struct Parts {
     /// Pictures of one time [s], one per variant, put together into one; always of the same size for the same panels.
     std::function<RgbPicture(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
     std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;   ///< whole or not at all
+    /// Show a scene in a window until that is closed. Empty in a program without windows; throws RunError where there is no display.
+    std::function<void(const SceneSetup&, const Parts&, const ViewOptions&)> view;
 };
 
 /// The real ones.

@@ -22,6 +22,7 @@ int runVerb(const Options& options, const Parts& parts)
         case Verb::Run: return runVerbRun(options, parts);
         case Verb::Compare: return runVerbCompare(options, parts);
         case Verb::Check: return runVerbCheck(options, parts);
+        case Verb::View: return runVerbView(options, parts);
         case Verb::Bench: return runVerbBench(options, parts);
         case Verb::BenchPrecision: return runVerbBenchPrecision(options, parts);
         case Verb::Paper: return runVerbPaper(options, parts);

@@ -26,6 +26,21 @@ void requireComplete(const Gl& gl, int width, int height)
 
 }  // namespace
 
+Image readFramebuffer(const Gl& gl, GLuint framebuffer, int width, int height)
+{
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width) * height);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    Image image(width, height);
+    for (int y = 0; y < height; ++y) {
+        const std::uint8_t* from = &rgba[4 * static_cast<std::size_t>(height - 1 - y) * width];
+        std::uint8_t* to = image.at(0, y);
+        for (int x = 0; x < width; ++x, from += 4, to += 3) to[0] = from[0], to[1] = from[1], to[2] = from[2];
+    }
+    return image;
+}
+
 DrawTargets::DrawTargets(const Gl& gl, int width, int height, int samples)
     : gl_(gl),
       width_(width),
@@ -109,19 +124,13 @@ void DrawTargets::endOcclusion() const
     gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
 }
 
-Image DrawTargets::read(const Framebuffer& framebuffer) const
+void DrawTargets::show() const
 {
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-    std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(width_) * height_);
-    gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    Image image(width_, height_);
-    for (int y = 0; y < height_; ++y) {
-        const std::uint8_t* from = &rgba[4 * static_cast<std::size_t>(height_ - 1 - y) * width_];
-        std::uint8_t* to = image.at(0, y);
-        for (int x = 0; x < width_; ++x, from += 4, to += 3) to[0] = from[0], to[1] = from[1], to[2] = from[2];
-    }
-    return image;
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.id());
+    gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    requireNoGlError(gl_, "showing a picture");
 }
 
 }  // namespace render

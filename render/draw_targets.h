@@ -7,6 +7,9 @@
 
 namespace render {
 
+/// What a framebuffer (0: the context's own) holds in its lower left, rows from the top.
+Image readFramebuffer(const Gl& gl, GLuint framebuffer, int width, int height);
+
 /// The framebuffers of one picture size: the scene is drawn into `scene` (multisampled), resolved into textures, and
 /// shaded into `picture`, which is read back or shown.
 class DrawTargets {
@@ -19,16 +22,15 @@ class DrawTargets {
     void resolve() const;                          ///< scene → colour and depth textures; draw into `picture` next
     void beginOcclusion();                         ///< draw into the openness texture from here on …
     void endOcclusion() const;                     ///< … and into `picture` again
-    Image read() const { return read(picture_); }  ///< what `picture` holds, rows from the top
-    Image readResolved() const { return read(resolved_); }  ///< the same of the scene before shading
+    Image read() const { return readFramebuffer(gl_, picture_.id(), width_, height_); }  ///< what `picture` holds, rows from the top
+    void show() const;                             ///< the same into the context's own framebuffer, which is bound then
+    Image readResolved() const { return readFramebuffer(gl_, resolved_.id(), width_, height_); }  ///< the same of the scene before shading
 
     GLuint colorTexture() const { return color_.id(); }
     GLuint depthTexture() const { return depth_.id(); }
     GLuint opennessTexture() const { return openness_.id(); }
 
  private:
-    Image read(const Framebuffer& framebuffer) const;
-
     const Gl& gl_;
     int width_, height_, samples_;
     Renderbuffer sceneColor_, sceneDepth_, pictureColor_;

@@ -185,6 +185,20 @@ Renderer::~Renderer()
 
 Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& look)
 {
+    paint(view, camera, look);
+    Image image = parts_->targets->read();
+    drawOverlay(view, look, parts_->font, image);
+    return image;
+}
+
+void Renderer::show(const FrameView& view, const Camera& camera, const Look& look)
+{
+    paint(view, camera, look);
+    parts_->targets->show();
+}
+
+void Renderer::paint(const FrameView& view, const Camera& camera, const Look& look)
+{
     requireConsistent(view, look);
     Parts& p = *parts_;
     p.context.makeCurrent();
@@ -216,10 +230,6 @@ Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& lo
     constexpr float kStepInRadii = 12.0f;  // a drop in depth of this many particles is an edge
     p.shading.draw(p.targets->colorTexture(), p.targets->depthTexture(), transforms, look.liquid.depthShading,
                    std::max(kStepInRadii * view.liquid.radius, 1e-6f), solids);
-
-    Image image = p.targets->read();
-    drawOverlay(view, look, p.font, image);
-    return image;
 }
 
 Eigen::AlignedBox3d bounds(const FrameView& view)

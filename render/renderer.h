@@ -27,7 +27,12 @@ class Renderer {
     /// OpenGL fails (its reason is in the message).
     Image draw(const FrameView& view, const Camera& camera, const Look& look);
 
+    /// The same, but for what is written over it, into the lower left of the context's own framebuffer. Throws like draw().
+    void show(const FrameView& view, const Camera& camera, const Look& look);
+
  private:
+    void paint(const FrameView& view, const Camera& camera, const Look& look);
+
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };

@@ -10,6 +10,7 @@ namespace app {
 int runVerbRun(const Options& options, const Parts& parts);
 int runVerbCompare(const Options& options, const Parts& parts);
 int runVerbCheck(const Options& options, const Parts& parts);
+int runVerbView(const Options& options, const Parts& parts);
 int runVerbBench(const Options& options, const Parts& parts);
 int runVerbBenchPrecision(const Options& options, const Parts& parts);
 int runVerbPaper(const Options& options, const Parts& parts);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <utility>
 
 namespace app {
@@ -19,7 +20,8 @@ std::size_t bytesOf(const sim::State& state)
     const sim::LiquidParticles& liquid = state.liquid;
     constexpr std::size_t kPerVertex = 7 * sizeof(sim::Vec3) + 8 * sizeof(double);
     const auto rows = static_cast<std::size_t>(sim::kAxes * (1 + liquid.modeCount) + 2);
-    return liquid.count * rows * sizeof(double) + static_cast<std::size_t>(state.grid.count()) * sim::kBlockCells * sizeof(double) +
+    return liquid.count * rows * sizeof(double) +
+           static_cast<std::size_t>(state.grid.count()) * sim::kBlockCells * sizeof(double) +
            state.fabric.x.size() * kPerVertex;
 }
 
@@ -91,6 +93,13 @@ LiveStatus LiveSimulation::status() const
     return status_;
 }
 
+std::uint64_t LiveSimulation::stateHash()
+{
+    std::promise<std::uint64_t> hash;
+    ask([&] { hash.set_value(simulation_->stateHash()); });
+    return hash.get_future().get();
+}
+
 std::vector<LiveStep> LiveSimulation::takeSteps()
 {
     const std::lock_guard lock(mutex_);
@@ -100,7 +109,8 @@ std::vector<LiveStep> LiveSimulation::takeSteps()
 std::unique_ptr<FrameSnapshot> LiveSimulation::takeSnapshot(std::unique_ptr<FrameSnapshot> old)
 {
     const std::lock_guard lock(mutex_);
-    if (old) spare_ = std::move(old);
+    if (!ready_) return old;
+    spare_ = std::move(old);
     return std::exchange(ready_, nullptr);
 }
 
@@ -215,7 +225,8 @@ void LiveSimulation::publish(bool always)
     }
     if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
     snapshot->number = frame_;
-    app::takeSnapshot(state, simulation_->fabric(), setup_.scene.settings.liquid.density, setup_.pictures.render, *snapshot);
+    app::takeSnapshot(state, simulation_->fabric(), setup_.scene.settings.liquid.density, setup_.pictures.render,
+                      *snapshot);
     placeObstacles_(state.time, snapshot->obstacles);
     const std::lock_guard lock(mutex_);
     ready_ = std::move(snapshot);

@@ -21,21 +21,21 @@ enum class LiveMode { Paused, Playing, Ended, Failed };
 struct LiveStatus {
     LiveMode mode = LiveMode::Paused;
     std::int64_t step = 0;
-    double time = 0.0;                  ///< [s]
-    std::string failure;                ///< why it went no further: one line
-    std::vector<double> moments;        ///< it can go back to, in order [s]
+    double time = 0.0;            ///< [s]
+    std::string failure;          ///< why it went no further: one line
+    std::vector<double> moments;  ///< it can go back to, in order [s]
 };
 
 /// What the plots of a window show of a step.
 struct LiveStep {
-    std::int64_t step = 0;              ///< its number; going back makes numbers come again
-    double time = 0.0;                  ///< at its end [s]
-    double seconds = 0.0;               ///< it took, wall
+    std::int64_t step = 0;  ///< its number; going back makes numbers come again
+    double time = 0.0;      ///< at its end [s]
+    double seconds = 0.0;   ///< it took, wall
     sim::StepReport report;
 };
 
-/// A scene that is simulated on a thread of its own while somebody looks at it. It takes the steps that a run without a window takes. Calls
-/// return at once: what they ask for is done when the step in hand is over.
+/// A scene that is simulated on a thread of its own while somebody looks at it. It takes the steps that a run without a
+/// window takes. Calls return at once: what they ask for is done when the step in hand is over.
 class LiveSimulation {
  public:
     /// Begins paused, with the initial state. Throws InputError.
@@ -48,20 +48,22 @@ class LiveSimulation {
 
     void play();
     void pause();
-    void stepOnce();                    ///< and pause
-    void restart();                     ///< go back to the initial state, and pause
-    void goBackTo(double time);         ///< the latest moment that is not after it [s], and pause
+    void stepOnce();             ///< and pause
+    void restart();              ///< go back to the initial state, and pause
+    void goBackTo(double time);  ///< the latest moment that is not after it [s], and pause
 
     LiveStatus status() const;
+    std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
     /// What has happened since the last call, oldest first.
     std::vector<LiveStep> takeSteps();
-    /// The latest picture to draw, whole as it was between two steps, if there is one that was not taken yet. `old` gives its storage back.
+    /// The latest picture to draw, whole as it was between two steps; `old`, the one that was taken before it, if there
+    /// is no newer one.
     std::unique_ptr<FrameSnapshot> takeSnapshot(std::unique_ptr<FrameSnapshot> old = nullptr);
 
  private:
     struct Moment {
         sim::State state;
-        std::int64_t frame = 0;         ///< its number
+        std::int64_t frame = 0;  ///< its number
     };
     using Command = std::function<void()>;
 
@@ -82,17 +84,17 @@ class LiveSimulation {
 
     // The simulation's thread has these to itself once it runs.
     std::unique_ptr<Steppable> simulation_;
-    std::vector<Moment> moments_;       ///< the initial state first
-    std::int64_t momentEvery_ = 1;      ///< frames
-    std::int64_t frame_ = 0;            ///< the last one that was reached
+    std::vector<Moment> moments_;   ///< the initial state first
+    std::int64_t momentEvery_ = 1;  ///< frames
+    std::int64_t frame_ = 0;        ///< the last one that was reached
 
-    mutable std::mutex mutex_;          ///< guards what follows
+    mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable_any wake_;
     std::deque<Command> commands_;
     LiveStatus status_;
     std::vector<LiveStep> steps_;
     std::unique_ptr<FrameSnapshot> ready_, spare_;
-    std::jthread thread_;               ///< last: it ends before what it uses
+    std::jthread thread_;  ///< last: it ends before what it uses
 };
 
 }  // namespace app

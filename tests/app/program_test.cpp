@@ -66,6 +66,12 @@ TEST_F(Program, MistakesInASceneExitWithTwoAndOneLine)
     EXPECT_FALSE(std::filesystem::exists(folder / "out")) << "nothing is begun for a scene that cannot be read";
 }
 
+TEST_F(Program, AWindowThatCannotBeOpenedExitsWithOneLine)
+{
+    expectOneLine(run({"view", "nowhere.yaml"}), 2, "nowhere.yaml");
+    expectOneLine(run({"view", "toy.yaml"}), 1, "drench run");  // the toy has none
+}
+
 TEST_F(Program, AnOutThatIsAFileExitsWithTwo)
 {
     expectOneLine(run({"run", "toy.yaml", "--out", "toy.yaml"}), 2, "is a file");

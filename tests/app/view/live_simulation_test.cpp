@@ -29,7 +29,10 @@ struct Live {
     ToySettings toy;
     LiveSimulation live;
 
-    explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20) : toy(t), live(toySetup(t), toyParts(t), memory) {}
+    explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20)
+        : toy(t), live(toySetup(t), toyParts(t), memory)
+    {
+    }
     bool comesTo(LiveMode mode)
     {
         return comesTrue([&] { return live.status().mode == mode; });
@@ -63,7 +66,8 @@ TEST(LiveSimulation, PlaysToTheEndInTheStepsOfARun)
     ASSERT_TRUE(l.comesTo(LiveMode::Ended));
     const auto steps = l.live.takeSteps();
     ASSERT_EQ(steps.size(), 15u);
-    for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_NEAR(steps[i].report.dt, i % 3 == 2 ? 0.002 : 0.004, 1.0e-12) << i;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        EXPECT_NEAR(steps[i].report.dt, i % 3 == 2 ? 0.002 : 0.004, 1.0e-12) << i;
     EXPECT_EQ(l.live.status().time, 0.05);
     EXPECT_NEAR(l.seen(), 0.05, 1.0e-6) << "the last state is shown";
     l.live.play();
@@ -108,13 +112,12 @@ TEST(LiveSimulation, ShowsWholeStatesWhileItRuns)
     std::unique_ptr<FrameSnapshot> shown;
     double last = -1.0;
     for (int pictures = 0; pictures < 50;) {
-        auto next = l.live.takeSnapshot(std::move(shown));
-        if (!next) continue;
-        ASSERT_NEAR(next->positions.at(0).x(), next->time, 1.0e-6 * (1.0 + next->time));
-        ASSERT_GE(next->time, last);
-        last = next->time;
-        shown = std::move(next);
-        ++pictures;
+        shown = l.live.takeSnapshot(std::move(shown));
+        ASSERT_TRUE(shown);
+        ASSERT_NEAR(shown->positions.at(0).x(), shown->time, 1.0e-6 * (1.0 + shown->time));
+        ASSERT_GE(shown->time, last);
+        if (shown->time > last) ++pictures;
+        last = shown->time;
     }
 }
 
@@ -153,7 +156,8 @@ TEST(LiveSimulation, KeepsFewerMomentsInLessMemory)
     EXPECT_LE(moments.size(), 8u);
     EXPECT_GE(moments.size(), 4u);
     EXPECT_EQ(moments.front(), 0.0);
-    for (std::size_t i = 2; i < moments.size(); ++i) EXPECT_NEAR(moments[i] - moments[i - 1], moments[1], 1.0e-9) << "evenly";
+    for (std::size_t i = 2; i < moments.size(); ++i)
+        EXPECT_NEAR(moments[i] - moments[i - 1], moments[1], 1.0e-9) << "evenly";
     EXPECT_GT(moments.back(), 0.5);
 }
 

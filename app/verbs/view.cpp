@@ -1,0 +1,20 @@
+#include "app/thread_limit.h"
+#include "app/verbs/verbs.h"
+#include "sim/core/check.h"
+
+namespace app {
+
+int runVerbView(const Options& options, const Parts& parts)
+{
+    const SceneSetup setup = parts.loadScene(options.request());
+    if (!parts.view)
+        throw sim::RunError(
+            "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
+    withThreads(options.threads, [&] {
+        parts.view(setup, parts, {.paused = options.paused});
+        return 0;
+    });
+    return 0;
+}
+
+}  // namespace app

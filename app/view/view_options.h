@@ -1,0 +1,10 @@
+#pragma once
+
+namespace app {
+
+struct ViewOptions {
+    int width = 1280, height = 800;  ///< of the window [screen units]
+    bool paused = false;             ///< wait with the first step until somebody asks for it
+};
+
+}  // namespace app

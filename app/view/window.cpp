@@ -1,0 +1,89 @@
+#include "app/view/window.h"
+
+#include "render/gl_context_glfw.h"
+#include "sim/core/check.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace app {
+
+namespace {
+
+std::string lastGlfwError()
+{
+    const char* reason = nullptr;
+    return glfwGetError(&reason) == GLFW_NO_ERROR || reason == nullptr ? "no reason is given" : reason;
+}
+
+[[noreturn]] void failWithoutWindow()
+{
+    throw sim::RunError(
+        fmt::format("no window can be opened ({}); without a display, use drench run", lastGlfwError()));
+}
+
+}  // namespace
+
+Window::Window(const std::string& title, int width, int height)
+{
+    if (glfwInit() == GLFW_FALSE) failWithoutWindow();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+        const std::string reason = lastGlfwError();
+        glfwTerminate();
+        throw sim::RunError(fmt::format("no window with OpenGL 3.3 core can be opened ({}); use drench run", reason));
+    }
+    context_ = render::contextOf(window_);
+    glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window_, &keys_);
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+        if (action == GLFW_PRESS) static_cast<std::vector<int>*>(glfwGetWindowUserPointer(window))->push_back(key);
+    });
+    panels_ = ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;         // nothing is left behind in the folder that the program is started in
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);  // it hands keys on to the callback above
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Window::~Window()
+{
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext(panels_);
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+bool Window::begin()
+{
+    keys_.clear();
+    glfwPollEvents();
+    glfwGetFramebufferSize(window_, &width_, &height_);
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    return glfwWindowShouldClose(window_) == GLFW_FALSE;
+}
+
+void Window::drawPanels()
+{
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Window::present()
+{
+    glfwSwapBuffers(window_);
+}
+
+}  // namespace app
