@@ -5,6 +5,7 @@
 #include "sim/fabric/pins.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace sim {
@@ -14,12 +15,12 @@ namespace {
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
 constexpr double kAccelerationTolerance = 10.0;  ///< rms error at which a linear solve is good enough: 1 % of gravity [cm/s^2]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii]
-constexpr double kQuietAcceleration = 250.0;  ///< largest change that a Newton iteration makes after which no other is made [cm/s^2]
+constexpr double kQuietAcceleration = 250.0;  ///< largest change by a Newton iteration after whose small move no other is made [cm/s^2]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
 constexpr double kLastMove = 0.1;             ///< rms move of a Newton iteration that may be the last [radii]
 constexpr double kSettledMove = 0.25;         ///< rms move of one after which a step needs no halves [radii] …
-constexpr double kSmallMove = 0.03;           ///< … or this, where moves do not become smaller [radii]
+constexpr double kSmallMove = 0.03;           ///< … or this small, where moves do not become smaller [radii]
 constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
 constexpr int kMostNewton = 6;                ///< iterations to get there; more ask for halves
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
@@ -68,12 +69,13 @@ void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, F
 }
 
 /// Where vertices and angles go without forces of the fabric's own, and in move_ where forces like those of the last step take the
-/// vertices, by no more than contact is sure to notice; pins go where their motion has them. Newton begins there: quiet fabric finds its
-/// forces in balance and its friction at the speed that it has, instead of after a fall for one step.
+/// vertices, where there is contact by no more than it is sure to notice; pins go where their motion has them. Newton begins there: quiet
+/// fabric finds its forces in balance and its friction at the speed that it has, instead of after a fall for one step.
 void VertexSolver::predict(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     const Vec3 fall = h * h * gravity;
     const double part = h / wholeStep_;
+    const double expectedMove = contact_ ? kExpectedMove : std::numeric_limits<double>::infinity();  // radii
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
         const double mass = mass_[v];
         inertia_[v] = Vec3::Constant(mass);
@@ -84,7 +86,7 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
             move_[v] = (mass * move_[v] + (h * part) * loads_->impulse[v]).cwiseQuotient(inertia_[v]);
             byForces = (mass * byForces).cwiseQuotient(inertia_[v]);
         }
-        const double most = kExpectedMove * fabric_.radius[v], size = byForces.norm();
+        const double most = expectedMove * fabric_.radius[v], size = byForces.norm();
         free_[v] = state.x[v] + move_[v];
         move_[v] += (size > most ? most / size : 1.0) * byForces;
     });
@@ -184,7 +186,7 @@ void VertexSolver::judge(double h, Newton& newton) const
 {
     const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
     const double move = rmsInRadii(move_);
-    newton.isQuiet = largest < kQuietAcceleration * h * h;
+    newton.isQuiet = largest < kQuietAcceleration * h * h && move < kSmallMove;
     newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
     newton.isNear = newton.isSettled && move < kLastMove;
     newton.lastMove = move;

@@ -61,6 +61,27 @@ TEST(YarnCantilever, FollowsTheHeavyElastica)
     }
 }
 
+/// A step of gravity alone takes the yarn several radii, its stiffness takes it back: Newton's last iteration must not leave a part of
+/// that for the next step, or the yarn hangs lower, for as long as it is watched.
+TEST(YarnCantilever, HangsAsHighAfterLongStepsAsAfterShortOnes)
+{
+    constexpr int kEdges = 10;
+    const double l = kLength / kEdges;
+    Cantilever beam(kEdges, l, kRadius, youngFor(1.0, (kEdges + 0.5) * l));
+    beam.piece.material.dampingViscosity = 4.0e6;  // P: as good as at rest after 3 s
+    const auto sag = [&](double h, bool contact) {
+        FabricSettings settings;
+        settings.contact = contact;
+        FabricRun run(beam.piece, settings);
+        run.steps(static_cast<int>(std::lround(3.0 / h)), h);
+        return run.largestIn(10, h, [&] { return -run.state.x[beam.tip].y(); });
+    };
+    const double known = sag(2.0e-3, false);
+    EXPECT_NEAR(sag(2.0e-2, false), known, 0.01 * known);
+    EXPECT_NEAR(sag(2.0e-2, true), known, 0.01 * known);
+    EXPECT_NEAR(sag(5.0e-2, false), known, 0.01 * known);
+}
+
 /// A yarn sewn along the middle of a strip: both bend together, like a beam with the stiffness and the weight of both.
 TEST(ClothStrip, YarnSewnOnAddsItsStiffnessAndItsWeight)
 {
