@@ -58,6 +58,7 @@ class RealSimulation : public Steppable {
     sim::Energies energies() const override { return simulation_.energies(); }
     void bookEnergy() override { simulation_.bookEnergy(); }
     std::uint64_t stateHash() const override { return sim::stateHash(simulation_.state()); }
+    void setChanges(std::vector<sim::SettingsChange> changes) override { simulation_.setChanges(std::move(changes)); }
 
  private:
     sim::Simulation simulation_;

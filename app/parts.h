@@ -26,6 +26,7 @@ class Steppable {
     virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]
     virtual void bookEnergy() = 0;                ///< from now on reports tell where energy goes
     virtual std::uint64_t stateHash() const = 0;
+    virtual void setChanges(std::vector<sim::SettingsChange> changes) = 0;   ///< see sim::Simulation
 };
 
 /// Puts the triangles of every obstacle where they are at a time [s], reusing the storage.
@@ -55,7 +56,7 @@ struct Parts {
     std::function<RgbPicture(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
     std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;   ///< whole or not at all
     /// Show a scene in a window until that is closed. Empty in a program without windows; throws RunError where there is no display.
-    std::function<void(const SceneSetup&, const Parts&, const ViewOptions&)> view;
+    std::function<void(const SceneRequest&, const Parts&, const ViewOptions&)> view;
 };
 
 /// The real ones.

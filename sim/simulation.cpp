@@ -60,7 +60,7 @@ double fastest(const LiquidParticles& particles)
 
 }  // namespace
 
-Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), check_(scene_, fabric_)
+Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics))
 {
     const Settings& settings = scene_.settings;
     state_.time = settings.time.start;
@@ -75,17 +75,61 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
 }
 
 Simulation::Simulation(Scene scene, State state)
-    : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state)), check_(scene_, fabric_)
+    : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state))
 {
     SIM_CHECK(state_.grid.dx == scene_.settings.cell && state_.emittedVolume.size() == scene_.sources.size());
     SIM_CHECK(state_.fabric.x.size() == fabric_.vertexCount());
+    if (const SettingsChange* last = lastChange(0, state_.step)) takeOver(*last);
     SIM_CHECK(state_.liquid.modeCount == storedModes(scene_.settings.transfer.modeCount()));
+    changedUpTo_ = state_.step;
     prepareWorkspace();
     begin();
 }
 
+/// The last one for a step behind `after`, up to `upTo`; nullptr if there is none.
+const SettingsChange* Simulation::lastChange(std::int64_t after, std::int64_t upTo) const
+{
+    const SettingsChange* last = nullptr;
+    for (const SettingsChange& change : scene_.changes)
+        if (change.step > after && change.step <= upTo) last = &change;
+    return last;
+}
+
+void Simulation::takeOver(const SettingsChange& change)
+{
+    scene_.settings = change.settings;
+    scene_.materials = change.materials;
+    for (FabricPiece& piece : scene_.fabrics)
+        for (const NamedMaterial& named : change.materials)
+            if (named.name == piece.materialName) piece.material = named.material;
+    fabric_ = assembleFabric(scene_.fabrics);
+}
+
+/// What the next step is to be taken with. Everything but the state is built anew, as when a run is gone on with.
+void Simulation::applyChanges()
+{
+    const SettingsChange* change = lastChange(changedUpTo_, state_.step + 1);
+    changedUpTo_ = state_.step + 1;
+    if (!change) return;
+    const bool booksEnergy = work_.booksEnergy;
+    work_ = Workspace();
+    takeOver(*change);
+    state_.liquid.changeModes(storedModes(scene_.settings.transfer.modeCount()));
+    prepareWorkspace();
+    if (booksEnergy) bookEnergy();
+    longest_ = std::numeric_limits<double>::infinity();
+    begin();
+}
+
+void Simulation::setChanges(std::vector<SettingsChange> changes)
+{
+    scene_.changes = std::move(changes);
+    changedUpTo_ = state_.step;
+}
+
 void Simulation::prepareWorkspace()
 {
+    check_.emplace(scene_, fabric_);
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
@@ -106,7 +150,7 @@ void Simulation::begin()
     maxSpeed_ = fastest(state_.liquid);
     if (scene_.settings.time.mode != TimeMode::Adaptive) return;
     work_.kept = std::make_unique<KeptState>();
-    check_.start(energies());
+    check_->start(energies());
 }
 
 void Simulation::bookEnergy()
@@ -169,8 +213,8 @@ std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
     } catch (const RunError& error) {
         return Fault{Stage::Sort, error.what(), ""};
     }
-    if (auto fault = check_.broken(state_, report)) return fault;
-    return work_.kept ? check_.rash(state_, report) : std::nullopt;
+    if (auto fault = check_->broken(state_, report)) return fault;
+    return work_.kept ? check_->rash(state_, report) : std::nullopt;
 }
 
 /// The step is good.
@@ -178,7 +222,7 @@ void Simulation::accept(const StepReport& report)
 {
     maxSpeed_ = report.maxSpeed;
     if (!work_.kept) return;
-    check_.accept(report);
+    check_->accept(report);
     longest_ *= kGrowth;
     if (longest_ >= scene_.settings.time.dt) longest_ = std::numeric_limits<double>::infinity();
 }
@@ -188,6 +232,7 @@ StepReport Simulation::step(double until)
     using Clock = std::chrono::steady_clock;
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
     double keeping = 0.0, lost = 0.0;
+    applyChanges();
     for (int takenBack = 0;; ++takenBack) {
         const double left = until - state_.time, dt = chooseLength(until);
         const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, maxSpeed_, dt) : 0.0;

@@ -19,7 +19,7 @@ class Simulation {
  public:
     /// Builds the initial state. Throws InputError when a source has no room for a single particle.
     explicit Simulation(Scene scene);
-    /// Goes on from a state of the same scene.
+    /// Goes on from a state of the same scene, with what the scene's changes have set until then.
     Simulation(Scene scene, State state);
 
     const State& state() const { return state_; }
@@ -37,7 +37,13 @@ class Simulation {
     /// of the last good step; in other modes it is, except for what the failed step moved.
     StepReport step(double until);
 
+    /// From now on the scene's changes are these. Those for steps that were taken already do nothing.
+    void setChanges(std::vector<SettingsChange> changes);
+
  private:
+    const SettingsChange* lastChange(std::int64_t after, std::int64_t upTo) const;
+    void takeOver(const SettingsChange& change);
+    void applyChanges();
     void prepareWorkspace();
     void begin();
     double chooseLength(double until) const;
@@ -51,7 +57,8 @@ class Simulation {
     Fabric fabric_;
     State state_;
     Workspace work_;
-    StepCheck check_;
+    std::optional<StepCheck> check_;
+    std::int64_t changedUpTo_ = 0;  ///< changes for steps up to this were applied
     double maxSpeed_ = 0.0;  ///< of the particles [cm/s]
     double longest_ = std::numeric_limits<double>::infinity();  ///< that a step may be after one was taken back [s]
 };

@@ -6,12 +6,11 @@ namespace app {
 
 int runVerbView(const Options& options, const Parts& parts)
 {
-    const SceneSetup setup = parts.loadScene(options.request());
     if (!parts.view)
         throw sim::RunError(
             "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
     withThreads(options.threads, [&] {
-        parts.view(setup, parts, {.paused = options.paused});
+        parts.view(options.request(), parts, {.paused = options.paused});
         return 0;
     });
     return 0;

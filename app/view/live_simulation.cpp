@@ -1,6 +1,7 @@
 #include "app/view/live_simulation.h"
 
 #include "app/frame_view_from_state.h"
+#include "sim/core/check.h"
 
 #include <algorithm>
 #include <chrono>
@@ -27,14 +28,10 @@ std::size_t bytesOf(const sim::State& state)
 
 }  // namespace
 
-LiveSimulation::LiveSimulation(SceneSetup setup, const Parts& parts, std::size_t memory)
-    : setup_(std::move(setup)),
-      parts_(parts),
-      memory_(memory),
-      placeObstacles_(parts.meshObstacles(setup_)),
-      simulation_(parts.startSimulation(setup_))
+LiveSimulation::LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory)
+    : parts_(parts), memory_(memory), settings_(std::move(request), parts.loadScene)
 {
-    keepMoment();
+    startAnew();
     publish(true);
     thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
@@ -60,7 +57,9 @@ void LiveSimulation::play()
 void LiveSimulation::pause()
 {
     ask([this] {
-        if (status().mode == LiveMode::Playing) setMode(LiveMode::Paused);
+        if (status().mode != LiveMode::Playing) return;
+        pausesAtFrame_ = !isAtFrame();
+        if (!pausesAtFrame_) setMode(LiveMode::Paused);
     });
 }
 
@@ -70,13 +69,19 @@ void LiveSimulation::stepOnce()
         const LiveMode mode = status().mode;
         if (mode == LiveMode::Ended || mode == LiveMode::Failed) return;
         setMode(LiveMode::Paused);
-        advance();
+        do advance();
+        while (!isAtFrame() && status().mode == LiveMode::Paused);
     });
 }
 
 void LiveSimulation::restart()
 {
-    ask([this] { goTo(moments_.front()); });
+    ask([this] {
+        if (settings_.restart())
+            startAnew();
+        else
+            goTo(moments_.front());
+    });
 }
 
 void LiveSimulation::goBackTo(double time)
@@ -87,10 +92,51 @@ void LiveSimulation::goBackTo(double time)
     });
 }
 
+void LiveSimulation::change(std::vector<std::string> sets)
+{
+    ask([this, sets = std::move(sets)] {
+        std::string refused;
+        try {
+            tryToChange(sets);
+        } catch (const sim::InputError& error) {
+            refused = error.what();
+        }
+        const std::lock_guard lock(mutex_);
+        status_.refused = refused;
+    });
+}
+
+void LiveSimulation::tryToChange(const std::vector<std::string>& sets)
+{
+    const LiveMode mode = status().mode;
+    if (settings_.change(sets, simulation_->state().step)) {
+        startAnew();
+        setMode(mode == LiveMode::Playing ? mode : LiveMode::Paused);
+        return;
+    }
+    simulation_->setChanges(settings_.setup().scene.changes);
+    publishScene();
+}
+
+void LiveSimulation::frameByFrame(bool isOn)
+{
+    {
+        const std::lock_guard lock(mutex_);
+        frameByFrame_ = isOn;
+    }
+    wake_.notify_one();
+}
+
 LiveStatus LiveSimulation::status() const
 {
     const std::lock_guard lock(mutex_);
     return status_;
+}
+
+std::shared_ptr<const LiveScene> LiveSimulation::scene() const
+{
+    const std::lock_guard lock(mutex_);
+    return scene_;
 }
 
 std::uint64_t LiveSimulation::stateHash()
@@ -110,8 +156,15 @@ std::unique_ptr<FrameSnapshot> LiveSimulation::takeSnapshot(std::unique_ptr<Fram
 {
     const std::lock_guard lock(mutex_);
     if (!ready_) return old;
-    spare_ = std::move(old);
+    if (old) spare_ = std::move(old);
+    if (frameByFrame_) wake_.notify_one();
     return std::exchange(ready_, nullptr);
+}
+
+std::optional<double> LiveSimulation::waiting() const
+{
+    const std::lock_guard lock(mutex_);
+    return ready_ ? std::optional(ready_->time) : std::nullopt;
 }
 
 void LiveSimulation::setMode(LiveMode mode)
@@ -131,9 +184,10 @@ void LiveSimulation::work(const std::stop_token& stop)
 {
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-        wake_.wait(lock, stop, [&] { return !commands_.empty() || status_.mode == LiveMode::Playing; });
+        const auto goesOn = [&] { return status_.mode == LiveMode::Playing && !(frameByFrame_ && ready_); };
+        wake_.wait(lock, stop, [&] { return !commands_.empty() || goesOn(); });
         runCommands(lock);
-        if (stop.stop_requested() || status_.mode != LiveMode::Playing) continue;
+        if (stop.stop_requested() || !goesOn()) continue;
         lock.unlock();
         advance();
         lock.lock();
@@ -159,8 +213,8 @@ void LiveSimulation::runCommands(std::unique_lock<std::mutex>& lock)
 /// One step towards the next frame, as a run without a window takes it.
 void LiveSimulation::advance()
 {
-    const sim::TimeSettings& time = setup_.scene.settings.time;
-    const double end = time.start + time.duration, until = std::min(frameTime(setup_, frame_ + 1), end);
+    const sim::TimeSettings& time = settings_.setup().scene.settings.time;
+    const double end = time.start + time.duration, until = std::min(frameTime(settings_.setup(), frame_ + 1), end);
     const auto begin = std::chrono::steady_clock::now();
     LiveStep step;
     try {
@@ -178,20 +232,52 @@ void LiveSimulation::advance()
         const std::lock_guard lock(mutex_);
         if (steps_.size() < kMostSteps) steps_.push_back(std::move(step));
     }
+    if (state.step + 1 >= nextChange_) publishScene();
     if (state.time == until && until < end) {
         ++frame_;
         if (frame_ % momentEvery_ == 0) keepMoment();
+        if (std::exchange(pausesAtFrame_, false)) setMode(LiveMode::Paused);
     }
     if (state.time >= end) setMode(LiveMode::Ended);
     publish(state.time >= end);
+}
+
+/// May it pause here? Anywhere, but frame by frame.
+bool LiveSimulation::isAtFrame() const
+{
+    {
+        const std::lock_guard lock(mutex_);
+        if (!frameByFrame_) return true;
+    }
+    return simulation_->state().time == frameTime(settings_.setup(), frame_);
 }
 
 void LiveSimulation::goTo(const Moment& moment)
 {
     const double time = moment.state.time;
     frame_ = moment.frame;
-    simulation_ = parts_.resumeSimulation(setup_, moment.state);
+    pausesAtFrame_ = false;
+    settings_.goBackTo(moment.state.step);
+    simulation_ = parts_.resumeSimulation(settings_.setup(), moment.state);
     std::erase_if(moments_, [&](const Moment& m) { return m.state.time > time; });
+    publishScene();
+    const std::lock_guard lock(mutex_);
+    status_.mode = LiveMode::Paused;
+    status_.failure.clear();
+}
+
+/// From the initial state of the scene as it is set.
+void LiveSimulation::startAnew()
+{
+    const SceneSetup& setup = settings_.setup();
+    simulation_ = parts_.startSimulation(setup);
+    placeObstacles_ = parts_.meshObstacles(setup);
+    moments_.clear();
+    momentEvery_ = 1;
+    frame_ = 0;
+    pausesAtFrame_ = false;
+    keepMoment();
+    publishScene();
     const std::lock_guard lock(mutex_);
     status_.mode = LiveMode::Paused;
     status_.failure.clear();
@@ -209,6 +295,16 @@ void LiveSimulation::keepMoment()
     if (frame_ % momentEvery_ == 0 && (moments_.empty() || moments_.size() < fits)) moments_.push_back({state, frame_});
 }
 
+/// What holds now, and until when.
+void LiveSimulation::publishScene()
+{
+    const std::int64_t step = simulation_->state().step;
+    nextChange_ = settings_.nextChange(step);
+    auto scene = std::make_shared<const LiveScene>(settings_.scene(step));
+    const std::lock_guard lock(mutex_);
+    scene_ = std::move(scene);
+}
+
 /// Hand out how it stands. Without `always` only if the last snapshot was taken: who looks seldom costs little.
 void LiveSimulation::publish(bool always)
 {
@@ -220,12 +316,12 @@ void LiveSimulation::publish(bool always)
         status_.time = state.time;
         status_.moments.clear();
         for (const Moment& moment : moments_) status_.moments.push_back(moment.state.time);
-        if (ready_ && !always) return;
+        if (!always && (ready_ || (frameByFrame_ && state.time != frameTime(settings_.setup(), frame_)))) return;
         snapshot = ready_ ? std::move(ready_) : std::move(spare_);
     }
     if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
     snapshot->number = frame_;
-    app::takeSnapshot(state, simulation_->fabric(), setup_.scene.settings.liquid.density, setup_.pictures.render,
+    app::takeSnapshot(state, simulation_->fabric(), settings_.setup().scene.settings.liquid.density, settings_.setup().pictures.render,
                       *snapshot);
     placeObstacles_(state.time, snapshot->obstacles);
     const std::lock_guard lock(mutex_);

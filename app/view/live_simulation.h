@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/parts.h"
+#include "app/view/live_scene.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -23,6 +24,7 @@ struct LiveStatus {
     std::int64_t step = 0;
     double time = 0.0;            ///< [s]
     std::string failure;          ///< why it went no further: one line
+    std::string refused;          ///< why the last change of settings was not taken: the reader's line; empty if it was
     std::vector<double> moments;  ///< it can go back to, in order [s]
 };
 
@@ -40,7 +42,7 @@ class LiveSimulation {
  public:
     /// Begins paused, with the initial state. Throws InputError.
     /// @param memory  for the moments it can go back to [bytes]; where it is too little there are fewer
-    LiveSimulation(SceneSetup setup, const Parts& parts, std::size_t memory = std::size_t{1} << 30);
+    LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory = std::size_t{1} << 30);
     /// Waits for the step in hand.
     ~LiveSimulation();
     LiveSimulation(const LiveSimulation&) = delete;
@@ -49,16 +51,24 @@ class LiveSimulation {
     void play();
     void pause();
     void stepOnce();             ///< and pause
-    void restart();              ///< go back to the initial state, and pause
-    void goBackTo(double time);  ///< the latest moment that is not after it [s], and pause
+    void restart();              ///< go back to the initial state, and pause; all settings are as they were changed
+    void goBackTo(double time);  ///< the latest moment that is not after it [s], and pause; settings stay as they are now
+    /// Give settings other values, each as `--set` takes it: from the next step on, or, those that hold for a whole run,
+    /// when it is restarted. What is refused is told by the status.
+    void change(std::vector<std::string> sets);
+    /// Hand out every frame and nothing between, and wait until it is taken; pauses and steps end at frames.
+    void frameByFrame(bool isOn);
 
     LiveStatus status() const;
+    std::shared_ptr<const LiveScene> scene() const;
     std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
     /// What has happened since the last call, oldest first.
     std::vector<LiveStep> takeSteps();
     /// The latest picture to draw, whole as it was between two steps; `old`, the one that was taken before it, if there
     /// is no newer one.
     std::unique_ptr<FrameSnapshot> takeSnapshot(std::unique_ptr<FrameSnapshot> old = nullptr);
+    /// Time of the picture that waits to be taken, if one does [s].
+    std::optional<double> waiting() const;
 
  private:
     struct Moment {
@@ -71,27 +81,35 @@ class LiveSimulation {
     void work(const std::stop_token& stop);
     void runCommands(std::unique_lock<std::mutex>& lock);
     void advance();
+    bool isAtFrame() const;
     void setMode(LiveMode mode);
     void fail(const std::string& why);
     void goTo(const Moment& moment);
+    void startAnew();
     void keepMoment();
     void publish(bool always);
+    void publishScene();
+    void tryToChange(const std::vector<std::string>& sets);
 
-    const SceneSetup setup_;
     const Parts parts_;
     const std::size_t memory_;
-    const PlaceObstacles placeObstacles_;
 
     // The simulation's thread has these to itself once it runs.
+    LiveSettings settings_;
+    PlaceObstacles placeObstacles_;
     std::unique_ptr<Steppable> simulation_;
     std::vector<Moment> moments_;   ///< the initial state first
     std::int64_t momentEvery_ = 1;  ///< frames
     std::int64_t frame_ = 0;        ///< the last one that was reached
+    std::int64_t nextChange_ = 0;   ///< the step with which settings change next by themselves
+    bool pausesAtFrame_ = false;
 
     mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable_any wake_;
     std::deque<Command> commands_;
     LiveStatus status_;
+    std::shared_ptr<const LiveScene> scene_;
+    bool frameByFrame_ = false;
     std::vector<LiveStep> steps_;
     std::unique_ptr<FrameSnapshot> ready_, spare_;
     std::jthread thread_;  ///< last: it ends before what it uses

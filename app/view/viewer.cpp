@@ -15,19 +15,25 @@
 
 namespace app {
 
+namespace {
+
+std::string titleOf(const sim::Scene& scene)
+{
+    return fmt::format("{} - Drench", scene.title.empty() ? scene.name : scene.title);
+}
+
+}  // namespace
+
 struct Viewer::Inner {
-    Inner(const SceneSetup& s, const Parts& parts, const ViewOptions& options)
-        : setup(s),
-          live(s, parts),
-          window(fmt::format("{} - Drench", s.scene.title.empty() ? s.scene.name : s.scene.title), options.width,
-                 options.height),
+    Inner(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
+        : live(request, parts),
+          window(titleOf(live.scene()->setup.scene), options.width, options.height),
           renderer(window.context()),
-          look(lookOf(s.pictures, "", false))
+          look(lookOf(live.scene()->setup.pictures, "", false))
     {
         if (!options.paused) live.play();
     }
 
-    const SceneSetup setup;
     LiveSimulation live;
     Window window;
     render::Renderer renderer;
@@ -51,7 +57,7 @@ void Viewer::Inner::takeNewest()
     shown = live.takeSnapshot(std::move(shown));
     panel.add(live.takeSteps());
     if (!shown || camera || window.height() == 0) return;
-    camera.emplace(cameraAt(setup.pictures.render.camera, shown->time, render::bounds(shown->view()), aspect()));
+    camera.emplace(cameraAt(live.scene()->setup.pictures.render.camera, shown->time, render::bounds(shown->view()), aspect()));
 }
 
 void Viewer::Inner::frameAll()
@@ -97,8 +103,8 @@ void Viewer::Inner::writeScreenshot()
     screenshotFile.clear();
 }
 
-Viewer::Viewer(const SceneSetup& setup, const Parts& parts, const ViewOptions& options)
-    : inner_(std::make_unique<Inner>(setup, parts, options))
+Viewer::Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
+    : inner_(std::make_unique<Inner>(request, parts, options))
 {
 }
 
@@ -129,9 +135,9 @@ void Viewer::screenshot(const std::filesystem::path& file)
     inner_->screenshotFile = file;
 }
 
-void view(const SceneSetup& setup, const Parts& parts, const ViewOptions& options)
+void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
 {
-    Viewer viewer(setup, parts, options);
+    Viewer viewer(request, parts, options);
     while (viewer.frame() && interruptsSeen() == 0) {
     }
 }

@@ -12,7 +12,7 @@ namespace app {
 class Viewer {
  public:
     /// Throws InputError for what is wrong with the scene, RunError where there is no display or no OpenGL 3.3 core.
-    Viewer(const SceneSetup& setup, const Parts& parts, const ViewOptions& options);
+    Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options);
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
@@ -29,6 +29,6 @@ class Viewer {
 };
 
 /// Show a scene until its window is closed.
-void view(const SceneSetup& setup, const Parts& parts, const ViewOptions& options);
+void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options);
 
 }  // namespace app

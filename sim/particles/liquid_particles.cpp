@@ -2,6 +2,7 @@
 
 #include "sim/transfer/modes.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace sim {
@@ -49,6 +50,20 @@ void LiquidParticles::resize(std::size_t n)
             for (int r = 0; r < modeCount; ++r) mode(axis, r)[p] = 0.0;
     }
     count = n;
+}
+
+void LiquidParticles::changeModes(int n)
+{
+    if (n == modeCount) return;
+    for (auto& m : modes) {
+        AlignedArray<double> changed(modeStride * n);  // all zero
+        const std::size_t kept = modeStride * std::min(n, modeCount);
+        std::copy(m.data(), m.data() + kept, changed.data());
+        for (int r = n; r < modeCount; ++r)
+            for (std::size_t p = 0; p < count; ++p) changed[p] += kMeanOfMode[r] * m[r * modeStride + p];
+        m.swap(changed);
+    }
+    modeCount = n;
 }
 
 void LiquidParticles::copy(std::size_t from, std::size_t to)

@@ -33,6 +33,9 @@ struct LiquidParticles {
     /// Change the number of particles; the first min(count, n) keep everything. New ones have no mass and zero modes.
     void resize(std::size_t n);
 
+    /// Store `n` modes per component, as storedModes names them. Every particle keeps its velocity; modes that were not stored are zero.
+    void changeModes(int n);
+
     /// Make particle `to` what particle `from` is.
     void copy(std::size_t from, std::size_t to);
 

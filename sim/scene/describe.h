@@ -10,7 +10,8 @@
 #include <span>
 
 // The one declaration of every key of a scene: where it is stored, unit, range, one line of help. Visitors do the rest:
-// SectionReader (YAML → struct), KeyList (what keys there are), SectionWriter (struct → commented YAML).
+// SectionReader (YAML → struct), KeyList (what keys there are), SectionWriter (struct → commented YAML), ParameterList (struct → what a
+// panel shows).
 
 namespace sim {
 
@@ -64,8 +65,10 @@ template <class V>
 void describe(V& v, TimeSettings& t)
 {
     v.number("dt", t.dt, Quantity::Time, Range::above(0.0), "Time step; its upper bound in modes cfl and adaptive");
-    v.number("duration", t.duration, Quantity::Time, Range::atLeast(0.0), "Simulated time from start to end");
-    v.number("start", t.start, Quantity::Time, Range::any(), "Time of the initial state");
+    v.fixed([&](auto& w) {
+        w.number("duration", t.duration, Quantity::Time, Range::atLeast(0.0), "Simulated time from start to end");
+        w.number("start", t.start, Quantity::Time, Range::any(), "Time of the initial state");
+    });
     v.choice("mode", t.mode, "How steps are chosen; adaptive: as cfl, and a bad step is taken back and made again half as long");
     v.number("cfl", t.cfl, Quantity::None, Range::above(0.0), "Cells a particle may cross per step, modes cfl and adaptive");
     v.group("max_cfl", "Hard bounds on the cells crossed per step, in every mode", [&](auto& w) {
@@ -123,6 +126,13 @@ void describe(V& v, VolumeSettings& s)
              "Rate at which cells that hold too much liquid expand and holes in it close; 0 = off");
 }
 
+/// Constants that go together.
+struct LiquidPreset {
+    const char* name;
+    double density, viscosity, surfaceTension;  ///< [g/cm^3], [P], [dyn/cm]
+};
+std::span<const LiquidPreset> liquidPresets();
+
 class SectionReader;
 
 /// Sets the material constants that `preset` names, if the section has it; "none" changes nothing.
@@ -133,15 +143,17 @@ void describe(V& v, LiquidSettings& l)
 {
     v.other("preset", "Sets the next constants: water | oil | honey | acetal | none");
     v.whenReading([&](auto& reader) { readLiquidPreset(reader, l); });
-    v.number("density", l.density, Quantity::Density, Range::above(0.0), "Mass per volume");
+    v.fixed([&](auto& w) { w.number("density", l.density, Quantity::Density, Range::above(0.0), "Mass per volume"); });
     v.number("viscosity", l.viscosity, Quantity::Viscosity, Range::atLeast(0.0), "Dynamic viscosity");
     v.number("surface_tension", l.surfaceTension, Quantity::SurfaceTension, Range::atLeast(0.0),
              "Surface tension against air");
     v.number("contact_angle", l.contactAngle, Quantity::Angle, Range::between(0.0, 180.0),
              "Angle of the surface at fibres");
-    v.numberOr("particle_spacing", l.particleSpacing, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0),
-               "Pitch of the particles in cells; left out: 0.4, or 0.35355 for the reference pattern");
-    v.flag("full", l.full, "The liquid fills a closed box: there is no air");
+    v.fixed([&](auto& w) {
+        w.numberOr("particle_spacing", l.particleSpacing, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0),
+                   "Pitch of the particles in cells; left out: 0.4, or 0.35355 for the reference pattern");
+        w.flag("full", l.full, "The liquid fills a closed box: there is no air");
+    });
     v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0),
              "0 = free slip, 1 = the liquid sticks to walls");
     v.section("volume", l.volume, "Keeping the liquid's volume");
@@ -207,7 +219,7 @@ void describe(V& v, Settings& s)
     v.needs("grid", "where the size of cells stands, like grid: {cell: 0.288}");
     v.group("grid", "", [&](auto& w) {
         w.needs("cell", "the edge of a grid cell, like cell: 0.288");
-        w.number("cell", s.cell, Quantity::Length, Range::above(0.0), "Edge of a grid cell");
+        w.fixed([&](auto& f) { f.number("cell", s.cell, Quantity::Length, Range::above(0.0), "Edge of a grid cell"); });
     });
     v.vector("gravity", s.gravity, Quantity::Acceleration, "Acceleration of everything");
     v.section("coupling", s.coupling, "");
@@ -218,7 +230,6 @@ void describe(V& v, Settings& s)
 template <class V>
 void describeLater(V& v)
 {
-    v.later("changes", "this version cannot change settings during a run; remove the section");
     v.later("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
 }
 

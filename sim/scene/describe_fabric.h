@@ -48,7 +48,7 @@ inline std::span<const Choice<TorsionModel>> choicesOf(TorsionModel)
 template <class V>
 void describe(V& v, FabricSettings& f)
 {
-    v.choice("solver", f.solver, "off: the fabric stands still");
+    v.fixed([&](auto& w) { w.choice("solver", f.solver, "off: the fabric stands still"); });
     v.choice("membrane", f.membrane, "How cloth resists stretching");
     v.choice("bending", f.bending, "How cloth resists bending");
     v.group("hinge", "Read by bending: hinge only", [&](auto& w) {
@@ -61,7 +61,7 @@ void describe(V& v, FabricSettings& f)
     v.integer("newton", f.newton, 1, 100, "Newton iterations per step, solver vertex only");
     v.numberOr("tolerance", f.tolerance, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0e3),
                "Left out: 1e-2 of the residual with solver vertex, 5 cm/s^2 times the step with grid");
-    v.flag("contact", f.contact, "Fabric touches itself and obstacles");
+    v.fixed([&](auto& w) { w.flag("contact", f.contact, "Fabric touches itself and obstacles"); });
     v.integer("max_halvings", f.maxHalvings, 0, 30, "Of a step that could not be taken, solver vertex only");
 }
 
@@ -84,9 +84,11 @@ void resolvePorous(const SectionReader& section, double poreRadius, double threa
 template <class V>
 void describe(V& v, PorousSettings& p)
 {
-    v.number("fibre_diameter", p.fibreDiameter, Quantity::Length, Range::above(0.0), "Thickness of a fibre");
-    v.number("volume_fraction", p.volumeFraction, Quantity::None, Range::aboveTo(0.0, 1.0),
-             "Fibres per volume of fabric, for materials that do not say their own");
+    v.fixed([&](auto& w) {
+        w.number("fibre_diameter", p.fibreDiameter, Quantity::Length, Range::above(0.0), "Thickness of a fibre");
+        w.number("volume_fraction", p.volumeFraction, Quantity::None, Range::aboveTo(0.0, 1.0),
+                 "Fibres per volume of fabric, for materials that do not say their own");
+    });
     v.when(false, [&](auto& w) {
         double poreRadius = 0.0, threads = 0.0, thickness = 0.0;
         w.number("pore_radius", poreRadius, Quantity::Length, Range::above(0.0), "");
@@ -103,7 +105,7 @@ void describe(V& v, FabricMaterial& m)
     v.needs("young", "Young's modulus of the fibres, like young: 6.6e+7 (dyn/cm^2) or young: 6.6 MPa");
     v.number("young", m.young, Quantity::Pressure, Range::above(0.0), "Young's modulus of the fibres");
     v.number("poisson", m.poisson, Quantity::None, Range::inside(-1.0, 0.5), "Poisson's ratio");
-    v.number("density", m.density, Quantity::Density, Range::above(0.0), "Of the fibres");
+    v.fixed([&](auto& w) { w.number("density", m.density, Quantity::Density, Range::above(0.0), "Of the fibres"); });
     v.number("damping_viscosity", m.dampingViscosity, Quantity::Viscosity, Range::atLeast(0.0),
              "Viscosity of the fibres, which damps; 0 = none");
     v.flag("damp_bending", m.dampBending, "It acts on bending and twisting");
@@ -116,10 +118,12 @@ void describe(V& v, FabricMaterial& m)
              "Of pins relative to young, fabric.solver grid only");
     v.number("friction_angle", m.frictionAngle, Quantity::Angle, Range::between(0.0, 89.0),
              "Slope on which it starts to slide; its tangent is Coulomb's coefficient");
-    v.number("volume_fraction", m.volumeFraction, Quantity::None, Range::aboveTo(0.0, 1.0),
-             "Fibres per volume of fabric; left out: that of porous, 1 without it");
-    v.number("section_rotation", m.sectionRotation, Quantity::Angle, Range::between(-360.0, 360.0),
-             "Of an elliptic section about the yarn");
+    v.fixed([&](auto& w) {
+        w.number("volume_fraction", m.volumeFraction, Quantity::None, Range::aboveTo(0.0, 1.0),
+                 "Fibres per volume of fabric; left out: that of porous, 1 without it");
+        w.number("section_rotation", m.sectionRotation, Quantity::Angle, Range::between(-360.0, 360.0),
+                 "Of an elliptic section about the yarn");
+    });
 }
 
 /// The sections of fabric that are plain settings.

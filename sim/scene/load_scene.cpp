@@ -4,6 +4,7 @@
 #include "sim/scene/describe_fabric.h"
 #include "sim/scene/measure_region.h"
 #include "sim/scene/read_bodies.h"
+#include "sim/scene/read_changes.h"
 #include "sim/scene/read_fabrics.h"
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
@@ -28,7 +29,7 @@ void describeTop(V& v, Settings& settings)
     v.other("scene", "");
     describe(v, settings);
     describeFabric(v, settings);
-    for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion"}) v.other(key, "");
+    for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion", "changes"}) v.other(key, "");
     for (const char* key : {"render", "output", "compare", "validate", "precision"}) v.other(key, "");
     for (const char* key : {"benchmark", "test"}) v.other(key, "");  // of other verbs; they change nothing in a run
     describeLater(v);
@@ -92,22 +93,35 @@ void checkCoupling(const Scene& scene)
 
 }  // namespace
 
+std::span<const LiquidPreset> liquidPresets()
+{
+    static constexpr LiquidPreset kAll[] = {{"water", 1.0, 8.9e-3, 72.0},
+                                            {"oil", 0.92, 0.81, 32.0},
+                                            {"honey", 1.45, 80.0, 50.0},
+                                            {"acetal", 0.7802, 2.208e-3, 20.59375}};
+    return kAll;
+}
+
 void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid)
 {
-    struct Preset {
-        double density, viscosity, surfaceTension;  // [g/cm^3], [P], [dyn/cm]
-    };
-    static constexpr Preset kPresets[] = {
-        {1.0, 8.9e-3, 72.0}, {0.92, 0.81, 32.0}, {1.45, 80.0, 50.0}, {0.7802, 2.208e-3, 20.59375}};
     const Node* node = section.find("preset");
     if (!node) return;
-    const std::vector<std::string> names = {"water", "oil", "honey", "acetal", "none"};
-    const std::size_t chosen =
-        readChoice(*node, section.pathOf("preset"), names, std::vector<bool>(names.size(), true));
-    if (chosen >= std::size(kPresets)) return;
-    liquid.density = kPresets[chosen].density;
-    liquid.viscosity = kPresets[chosen].viscosity;
-    liquid.surfaceTension = kPresets[chosen].surfaceTension;
+    std::vector<std::string> names;
+    for (const LiquidPreset& preset : liquidPresets()) names.emplace_back(preset.name);
+    names.emplace_back("none");
+    const std::size_t chosen = readChoice(*node, section.pathOf("preset"), names, std::vector<bool>(names.size(), true));
+    if (chosen >= liquidPresets().size()) return;
+    const LiquidPreset& preset = liquidPresets()[chosen];
+    liquid.density = preset.density;
+    liquid.viscosity = preset.viscosity;
+    liquid.surfaceTension = preset.surfaceTension;
+}
+
+void readSettings(const Node& root, Settings& settings, std::vector<NamedMaterial>& materials)
+{
+    SectionReader::read(&root, "", [&](auto& v) { describeTop(v, settings); });
+    SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, settings.liquid); });
+    materials = readMaterials(root, settings.porous);
 }
 
 Scene readScene(const SceneFile& file)
@@ -115,10 +129,8 @@ Scene readScene(const SceneFile& file)
     Scene scene;
     scene.file = file.file;
     const Node& root = file.root;
-    SectionReader::read(&root, "", [&](auto& v) { describeTop(v, scene.settings); });
+    readSettings(root, scene.settings, scene.materials);
     readNames(root, file.file, scene);
-    SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, scene.settings.liquid); });
-    scene.materials = readMaterials(root, scene.settings.porous);
     scene.fabrics = readFabrics(root, scene);
     scene.obstacles = readObstacles(root, scene.settings);
     readMotions(root, scene);
@@ -130,6 +142,7 @@ Scene readScene(const SceneFile& file)
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
     for (SourceSettings& source : scene.sources) checkSource(scene, root.place.source->bounds.regionBoxes, source);
     checkCoupling(scene);
+    scene.changes = readChanges(root, scene);
     return scene;
 }
 

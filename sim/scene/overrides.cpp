@@ -66,10 +66,22 @@ Node wrapped(const Node& value, const std::string& key)
     return map;
 }
 
+bool isPhase(const std::string& key) { return key == "liquid" || key == "fabric"; }
+
+/// One value there stands for both phases.
+bool isOfBothPhases(const std::string& path) { return path == "transfer.method" || path == "transfer.modes" || path == "transfer.xi"; }
+
+Node perPhase(const Node& value)
+{
+    Node map = Node::map(value.place);
+    map.keys = {"liquid", "fabric"};
+    map.items = {value, value};
+    return map;
+}
+
 /// transfer: {liquid: polypic, fabric: apic} speaks of the method too.
 bool isPerPhase(const Node& value)
 {
-    const auto isPhase = [](const std::string& key) { return key == "liquid" || key == "fabric"; };
     return value.isMap() && !value.keys.empty() && std::all_of(value.keys.begin(), value.keys.end(), isPhase);
 }
 
@@ -136,6 +148,9 @@ void apply(const Override& change, Node& root)
         } else if (node->isNull()) {
             *node = Node::map(place);
             node = &node->at(part, place);
+        } else if (isOfBothPhases(before) && isPhase(part)) {
+            *node = perPhase(*node);
+            node = node->find(part);
         } else {
             fail(place, fmt::format("{} is {}, it has no key {}", before, node->called(), inQuotes(part)));
         }

@@ -2,6 +2,7 @@
 #include "sim/scene/describe.h"
 #include "sim/scene/describe_fabric.h"
 #include "sim/scene/load_scene.h"
+#include "sim/scene/read_changes.h"
 #include "sim/scene/section_writer.h"
 
 #include <fmt/format.h>
@@ -139,6 +140,8 @@ std::string printScene(const Scene& scene)
     if (!scene.obstacles.empty()) w.line("obstacles", "", "");
     for (const ObstacleSettings& o : scene.obstacles) writeObstacle(w, o);
     if (scene.domain) w.line("domain", scene.domainText, "[cm] Liquid outside is deleted");
+    if (!scene.changes.empty()) w.line("changes", "", "");
+    for (std::size_t i = 0; i < scene.changes.size(); ++i) w.item(changeText(scene.changes[i].step, changedSettings(scene, i)));
     return w.take();
 }
 

@@ -57,6 +57,13 @@ struct NamedMaterial {
     FabricMaterial material;
 };
 
+/// What holds from a step on.
+struct SettingsChange {
+    std::int64_t step = 0;  ///< the first step with it, counted from 1
+    Settings settings;
+    std::vector<NamedMaterial> materials;
+};
+
 /// One scene file, resolved: includes, variant and overrides applied, units converted to CGS.
 struct Scene {
     std::string name, title, description;
@@ -69,6 +76,7 @@ struct Scene {
     std::vector<ObstacleSettings> obstacles;
     std::optional<Shape> domain;      ///< liquid outside of it is deleted
     std::string domainText;           ///< the same as a scene says it, in cgs, on one line
+    std::vector<SettingsChange> changes;  ///< during the run, in order
 };
 
 }  // namespace sim

@@ -78,6 +78,11 @@ class KeyList {
         fields(*this);
     }
     template <class Fields>
+    void fixed(Fields fields)
+    {
+        fields(*this);
+    }
+    template <class Fields>
     void withoutEffect(Fields fields)
     {
         fields(*this);
@@ -206,6 +211,12 @@ class SectionReader {
     /// Fields that are printed only under a condition.
     template <class Fields>
     void when(bool, Fields fields)
+    {
+        fields(*this);
+    }
+    /// Fields that hold for a whole run.
+    template <class Fields>
+    void fixed(Fields fields)
     {
         fields(*this);
     }

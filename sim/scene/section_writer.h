@@ -130,6 +130,11 @@ class SectionWriter {
         if (holds) fields(*this);
     }
     template <class Fields>
+    void fixed(Fields fields)
+    {
+        fields(*this);
+    }
+    template <class Fields>
     void withoutEffect(Fields)
     {
     }

@@ -42,6 +42,7 @@ class ToySimulation : public Steppable {
     const sim::LiquidGrid& liquidGrid() const override { return grid_; }
     void bookEnergy() override { booksEnergy_ = true; }
     sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0], .fabric = {}}; }
+    void setChanges(std::vector<sim::SettingsChange>) override {}
     std::uint64_t stateHash() const override { return static_cast<std::uint64_t>(1.0e9 * state_.liquid.x[0][0]) + 1; }
 
     sim::StepReport step(double until) override

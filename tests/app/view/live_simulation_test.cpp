@@ -30,7 +30,7 @@ struct Live {
     LiveSimulation live;
 
     explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20)
-        : toy(t), live(toySetup(t), toyParts(t), memory)
+        : toy(t), live(SceneRequest(), toyParts(t), memory)
     {
     }
     bool comesTo(LiveMode mode)

@@ -17,11 +17,11 @@ namespace {
 
 constexpr int kWidth = 900, kHeight = 600;
 
-SceneSetup drop()
+SceneRequest drop()
 {
-    return drenchParts().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml",
-                                    .variant = "",
-                                    .sets = {"render.size=[900, 600]", "render.hud=false", "render.colorbar=false"}});
+    return {.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml",
+            .variant = "",
+            .sets = {"render.size=[900, 600]", "render.hud=false", "render.colorbar=false"}};
 }
 
 /// The frame after those in which the window has come up.
@@ -45,9 +45,9 @@ render::Image rightHalf(const render::Image& image)
 
 TEST(Viewer, ShowsWhatARunDraws)
 {
-    const SceneSetup setup = drop();
     const Parts parts = drenchParts();
-    Viewer viewer(setup, parts, {.width = kWidth, .height = kHeight, .paused = true});
+    const SceneSetup setup = parts.loadScene(drop());
+    Viewer viewer(drop(), parts, {.width = kWidth, .height = kHeight, .paused = true});
     const render::Image window = shot(viewer);
     if (const char* keep = std::getenv("DRENCH_KEEP_SCREENSHOT")) render::writePng(window, keep);
 
@@ -113,29 +113,6 @@ TEST(Viewer, TheMouseTurnsTheView)
     doWithHands("mouseup 1");
     const render::Image after = shot(viewer);
     EXPECT_GT(render::meanColorDifference(rightHalf(before), rightHalf(after)), 1.0 / 255.0);
-}
-
-/// What is looked at is what a run without a window computes, to the last bit, and so is what follows after going back.
-TEST(LiveScene, EndsAsARunDoes)
-{
-    const SceneSetup setup = drenchParts().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml",
-                                                      .variant = "",
-                                                      .sets = {"time.duration=0.02", "output.every=0.005"}});
-    const auto run = drenchParts().startSimulation(setup);
-    for (std::int64_t frame = 1; frame <= frameCount(setup); ++frame)
-        while (run->state().time < frameTime(setup, frame)) run->step(frameTime(setup, frame));
-
-    LiveSimulation live(setup, drenchParts());
-    const auto ends = [&] {
-        live.play();
-        while (live.status().mode != LiveMode::Ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return live.stateHash();
-    };
-    EXPECT_EQ(ends(), run->stateHash());
-    live.goBackTo(0.011);
-    while (live.status().mode == LiveMode::Ended) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    EXPECT_EQ(live.status().time, 0.01);
-    EXPECT_EQ(ends(), run->stateHash());
 }
 
 }  // namespace

@@ -10,11 +10,6 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 coupling: {cohesion: {strength: 1}}
 )",
      "bad.yaml:3: coupling.cohesion: this version has no cohesion of wet fabric; remove the key"},
-    {"Changes", R"(grid: {cell: 0.1}
-liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-changes: []
-)",
-     "bad.yaml:3: changes: this version cannot change settings during a run; remove the section"},
     {"Sinks", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 sinks: []
