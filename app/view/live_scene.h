@@ -31,8 +31,8 @@ class LiveSettings {
     /// Does a change with this or a later step come from the scene itself?
     std::int64_t nextChange(std::int64_t step) const;
 
-    /// Let settings have other values from the step after `step` on; 0 is before the first. True if the initial state has
-    /// to be built anew for it. Throws InputError, and has changed nothing then.
+    /// Let settings have other values from the step after `step` on; 0 is before the first. True if the initial state
+    /// has to be built anew for it. Throws InputError, and has changed nothing then.
     bool change(const std::vector<std::string>& sets, std::int64_t step);
     /// What was changed after this step holds from the step after it on.
     void goBackTo(std::int64_t step);
@@ -41,9 +41,9 @@ class LiveSettings {
 
  private:
     struct Change {
-        std::int64_t step = 0;          ///< the first with it
+        std::int64_t step = 0;  ///< the first with it
         std::vector<std::string> sets;
-        bool isOfScene = false;         ///< it stands in the file
+        bool isOfScene = false;  ///< it stands in the file
     };
 
     static void tidy(std::vector<Change>& changes);

@@ -316,13 +316,15 @@ void LiveSimulation::publish(bool always)
         status_.time = state.time;
         status_.moments.clear();
         for (const Moment& moment : moments_) status_.moments.push_back(moment.state.time);
-        if (!always && (ready_ || (frameByFrame_ && state.time != frameTime(settings_.setup(), frame_)))) return;
+        const bool isBetween =
+            frameByFrame_ && status_.mode < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
+        if (isBetween || (ready_ && !always)) return;
         snapshot = ready_ ? std::move(ready_) : std::move(spare_);
     }
     if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
     snapshot->number = frame_;
-    app::takeSnapshot(state, simulation_->fabric(), settings_.setup().scene.settings.liquid.density, settings_.setup().pictures.render,
-                      *snapshot);
+    app::takeSnapshot(state, simulation_->fabric(), settings_.setup().scene.settings.liquid.density,
+                      settings_.setup().pictures.render, *snapshot);
     placeObstacles_(state.time, snapshot->obstacles);
     const std::lock_guard lock(mutex_);
     ready_ = std::move(snapshot);

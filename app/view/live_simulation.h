@@ -50,11 +50,12 @@ class LiveSimulation {
 
     void play();
     void pause();
-    void stepOnce();             ///< and pause
-    void restart();              ///< go back to the initial state, and pause; all settings are as they were changed
-    void goBackTo(double time);  ///< the latest moment that is not after it [s], and pause; settings stay as they are now
-    /// Give settings other values, each as `--set` takes it: from the next step on, or, those that hold for a whole run,
-    /// when it is restarted. What is refused is told by the status.
+    void stepOnce();  ///< and pause
+    void restart();   ///< go back to the initial state, and pause; all settings are as they were changed
+    void goBackTo(
+        double time);  ///< the latest moment that is not after it [s], and pause; settings stay as they are now
+    /// Give settings other values, each as `--set` takes it: from the next step on, or, those that hold for a whole
+    /// run, when it is restarted. What is refused is told by the status.
     void change(std::vector<std::string> sets);
     /// Hand out every frame and nothing between, and wait until it is taken; pauses and steps end at frames.
     void frameByFrame(bool isOn);

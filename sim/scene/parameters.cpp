@@ -29,7 +29,8 @@ class ParameterList {
         number(key, x, q, range, help);
         if (x == unset) all_.back().value.clear();
     }
-    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity q, Range range, const char* help)
+    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity q, Range range,
+                      const char* help)
     {
         number(key, x, q, range, help);
         if (isWord) all_.back().value = word;
@@ -38,7 +39,10 @@ class ParameterList {
     {
         add(key, Parameter::Kind::Integer, std::to_string(x), help).range = Range::between(low, high);
     }
-    void flag(const char* key, bool& x, const char* help) { add(key, Parameter::Kind::Flag, x ? "true" : "false", help); }
+    void flag(const char* key, bool& x, const char* help)
+    {
+        add(key, Parameter::Kind::Flag, x ? "true" : "false", help);
+    }
     template <class E>
     void choice(const char* key, E& x, const char* help)
     {
@@ -138,7 +142,8 @@ std::string overrideText(const Parameter& parameter, const std::string& value)
     std::string said;
     const bool takesUnit = !parameter.unit.empty() && isBare(value);
     for (const char c : value) {
-        if (takesUnit && parameter.kind == Parameter::Kind::Numbers && (c == ',' || c == ']')) said += " " + parameter.unit;
+        if (takesUnit && parameter.kind == Parameter::Kind::Numbers && (c == ',' || c == ']'))
+            said += " " + parameter.unit;
         said += c;
     }
     if (takesUnit && parameter.kind == Parameter::Kind::Number) said += " " + parameter.unit;

@@ -12,7 +12,7 @@ namespace sim {
 struct Parameter {
     enum class Kind { Number, Numbers, Integer, Flag, Word };
 
-    std::string path;                ///< "time.dt"
+    std::string path;  ///< "time.dt"
     Kind kind = Kind::Number;
     std::string value;               ///< as a scene in cgs says it; empty where it is left out
     std::string unit;                ///< of bare numbers; "" for plain ones
@@ -22,8 +22,8 @@ struct Parameter {
     bool isFixed = false;            ///< holds for a whole run: a change needs a new one
 };
 
-/// What `--set` takes to give the parameter a value, with its unit where the value is of bare numbers: it means the same
-/// in scenes of every system of units.
+/// What `--set` takes to give the parameter a value, with its unit where the value is of bare numbers: it means the
+/// same in scenes of every system of units.
 std::string overrideText(const Parameter& parameter, const std::string& value);
 
 /// Every plain setting, in the order of the declarations, then those of the materials.

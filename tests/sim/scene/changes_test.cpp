@@ -52,7 +52,8 @@ TEST(SceneChanges, ArePrintedInUnitsThatReadBackAlike)
         ASSERT_EQ(first.size(), second.size());
         for (std::size_t p = 0; p < first.size(); ++p) EXPECT_EQ(first[p].value, second[p].value) << first[p].path;
     }
-    EXPECT_EQ(sim::changeText(3, sim::changedSettings(scene, 1)), "{step: 3, set: {transfer.method.fabric: apic, transfer.keep_dt: step}}");
+    EXPECT_EQ(sim::changeText(3, sim::changedSettings(scene, 1)),
+              "{step: 3, set: {transfer.method.fabric: apic, transfer.keep_dt: step}}");
 }
 
 TEST(Parameters, EveryValueIsTakenBackAsAnOverride)
@@ -62,7 +63,9 @@ TEST(Parameters, EveryValueIsTakenBackAsAnOverride)
     std::vector<std::string> sets;
     for (const sim::Parameter& p : parameters)
         if (!p.value.empty()) sets.push_back(sim::overrideText(p, p.value));
-    const std::string si = "units: si\nmaterials: {wool: {young: 1}}\nliquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1 cm}}}]}\n";
+    const std::string si =
+        "units: si\nmaterials: {wool: {young: 1}}\nliquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1 "
+        "cm}}}]}\n";
     for (const std::string& start : {kScene, si}) {
         const sim::Scene again = sim::readScene(sim::sceneFileFromText(start, "scene.yaml", {.set = sets}));
         const auto found = sim::parametersOf(again.settings, again.materials);
@@ -102,7 +105,8 @@ TEST_P(BadChange, IsRefusedAtItsLine)
 }
 
 const BadScene kBadChanges[] = {
-    {"NoList", "  step: 3\n", "bad.yaml:3: changes: needs a list like - {step: 100, set: {time.dt: 1.0e-3}}, not a map"},
+    {"NoList", "  step: 3\n",
+     "bad.yaml:3: changes: needs a list like - {step: 100, set: {time.dt: 1.0e-3}}, not a map"},
     {"NoStep", "  - {set: {time.dt: 1}}\n",
      "bad.yaml:4: changes.0.step is missing; it is the first step with what is set, like step: 100"},
     {"Order", "  - {step: 5, set: {time.dt: 1}}\n  - {step: 4, set: {time.dt: 1}}\n",
@@ -112,7 +116,8 @@ const BadScene kBadChanges[] = {
     {"FixedByPreset", "  - {step: 5, set: {liquid.preset: honey}}\n",
      "bad.yaml:4: changes: liquid.density holds for a whole run; give it its value at the start"},
     {"Sources", "  - {step: 5, set: {liquid: {sources: []}}}\n",
-     "bad.yaml:4: changes: liquid.sources cannot change during a run; only settings of time, transfer, liquid, coupling, "
+     "bad.yaml:4: changes: liquid.sources cannot change during a run; only settings of time, transfer, liquid, "
+     "coupling, "
      "fabric, materials, solver and gravity can"},
     {"Value", "  - {step: 5, set: {time.dt: -1}}\n", "bad.yaml:4: time.dt: \"-1\" is out of range; must be above 0 s"},
     {"Key", "  - {step: 5, set: {time.steps: 3}}\n",
