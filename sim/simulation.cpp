@@ -83,7 +83,6 @@ Simulation::Simulation(Scene scene, State state)
     SIM_CHECK(state_.liquid.modeCount == storedModes(scene_.settings.transfer.modeCount()));
     changedUpTo_ = state_.step;
     prepareWorkspace();
-    begin();
 }
 
 /// The last one for a step behind `after`, up to `upTo`; nullptr if there is none.
@@ -117,7 +116,7 @@ void Simulation::applyChanges()
     state_.liquid.changeModes(storedModes(scene_.settings.transfer.modeCount()));
     prepareWorkspace();
     if (booksEnergy) bookEnergy();
-    longest_ = std::numeric_limits<double>::infinity();
+    state_.memory.longest = std::numeric_limits<double>::infinity();
     begin();
 }
 
@@ -130,6 +129,7 @@ void Simulation::setChanges(std::vector<SettingsChange> changes)
 void Simulation::prepareWorkspace()
 {
     check_.emplace(scene_, fabric_);
+    if (scene_.settings.time.mode == TimeMode::Adaptive) work_.kept = std::make_unique<KeptState>();
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
@@ -144,13 +144,11 @@ void Simulation::prepareWorkspace()
         work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
 }
 
-/// From the state as it is.
+/// From the state as it is: nothing is known of steps before.
 void Simulation::begin()
 {
-    maxSpeed_ = fastest(state_.liquid);
-    if (scene_.settings.time.mode != TimeMode::Adaptive) return;
-    work_.kept = std::make_unique<KeptState>();
-    check_->start(energies());
+    state_.memory.maxSpeed = fastest(state_.liquid);
+    StepCheck::start(energies(), state_.memory);
 }
 
 void Simulation::bookEnergy()
@@ -177,7 +175,7 @@ double Simulation::lengthOfStep(double left, double largest) const
     constexpr double kRoundOff = 1.0e-9;  // steps may be longer by that much, so that 4e-3 s in steps of 2e-4 s are 20 and not 21
     const TimeSettings& time = scene_.settings.time;
     const double mostCells = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(kSecondIsFaster * time.cfl, time.maxCflLiquid);
-    if (state_.reflected && state_.lastDt <= longest_ && cflNumber(scene_.settings, maxSpeed_, state_.lastDt) <= mostCells)
+    if (state_.reflected && state_.lastDt <= state_.memory.longest && cflNumber(scene_.settings, state_.memory.maxSpeed, state_.lastDt) <= mostCells)
         return state_.lastDt < left * (1.0 - kRoundOff) ? state_.lastDt : left;
     const double parts = std::max(1.0, std::ceil(left / largest * (1.0 - kRoundOff)));
     return left / (mayReflect(state_, time, work_) ? 2.0 * std::ceil(0.5 * parts) : parts);
@@ -198,10 +196,10 @@ RunError Simulation::failure(const Fault& fault, int halvings, double dt) const
 
 double Simulation::chooseLength(double until) const
 {
-    const double largest = std::min(longest_, chooseTimeStep(scene_.settings, state_, maxSpeed_)), least = scene_.settings.time.dtMin;
+    const double largest = std::min(state_.memory.longest, chooseTimeStep(scene_.settings, state_, state_.memory.maxSpeed)), least = scene_.settings.time.dtMin;
     if (!(largest >= least))
         throw failure("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: liquid moves at {:.3g} cm/s, fabric at {:.3g} cm/s",
-                                               largest, least, maxSpeed_, fastestOf(state_.fabric)));
+                                               largest, least, state_.memory.maxSpeed, fastestOf(state_.fabric)));
     return lengthOfStep(until - state_.time, largest);
 }
 
@@ -220,11 +218,10 @@ std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
 /// The step is good.
 void Simulation::accept(const StepReport& report)
 {
-    maxSpeed_ = report.maxSpeed;
-    if (!work_.kept) return;
-    check_->accept(report);
-    longest_ *= kGrowth;
-    if (longest_ >= scene_.settings.time.dt) longest_ = std::numeric_limits<double>::infinity();
+    state_.memory.maxSpeed = report.maxSpeed;
+    StepCheck::accept(report, state_.memory);
+    state_.memory.longest *= kGrowth;
+    if (state_.memory.longest >= scene_.settings.time.dt) state_.memory.longest = std::numeric_limits<double>::infinity();
 }
 
 StepReport Simulation::step(double until)
@@ -235,7 +232,7 @@ StepReport Simulation::step(double until)
     applyChanges();
     for (int takenBack = 0;; ++takenBack) {
         const double left = until - state_.time, dt = chooseLength(until);
-        const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, maxSpeed_, dt) : 0.0;
+        const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, state_.memory.maxSpeed, dt) : 0.0;
         const auto begin = Clock::now();
         if (work_.kept) work_.kept->keep(state_);
         const auto kept = Clock::now();
@@ -255,8 +252,8 @@ StepReport Simulation::step(double until)
         if (!work_.kept) throw failure(*fault, 0, dt);
         work_.kept->restore(state_);
         work_.obstacleField = ObstacleField();  // it is that of the blocks that the bad step had
-        longest_ = 0.5 * dt;
-        if (takenBack == kMostTakenBack || longest_ < scene_.settings.time.dtMin) throw failure(*fault, takenBack, dt);
+        state_.memory.longest = 0.5 * dt;
+        if (takenBack == kMostTakenBack || state_.memory.longest < scene_.settings.time.dtMin) throw failure(*fault, takenBack, dt);
         lost += seconds(Clock::now() - kept);
     }
 }

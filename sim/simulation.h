@@ -59,8 +59,6 @@ class Simulation {
     Workspace work_;
     std::optional<StepCheck> check_;
     std::int64_t changedUpTo_ = 0;  ///< changes for steps up to this were applied
-    double maxSpeed_ = 0.0;  ///< of the particles [cm/s]
-    double longest_ = std::numeric_limits<double>::infinity();  ///< that a step may be after one was taken back [s]
 };
 
 /// Hash of everything that evolves; equal for any number of threads.

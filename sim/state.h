@@ -5,7 +5,22 @@
 #include "sim/particles/liquid_particles.h"
 #include "sim/step_report.h"
 
+#include <array>
+#include <limits>
+#include <vector>
+
 namespace sim {
+
+/// What steps that were taken tell those to come: how long they may be, and what is to be expected of them.
+struct StepMemory {
+    double maxSpeed = 0.0;  ///< of the liquid, as the last step found it [cm/s]
+    double longest = std::numeric_limits<double>::infinity();  ///< that a step may be after one was taken back [s]
+    /// Of motion and elasticity at the ends of the last steps [erg]: what contact took in them it may give back.
+    std::array<double, 8> energies{};
+    int next = 0;           ///< element of them to be overwritten
+    double elastic = 0.0;   ///< at the end of the last step [erg]
+    double deepest = std::numeric_limits<double>::infinity();  ///< that fabric was in an obstacle then; before the first step it may be anywhere [cm]
+};
 
 /// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (step.h).
 struct State {
@@ -22,6 +37,7 @@ struct State {
     double unrelaxed = 0.0;        ///< time since the particles were last relaxed [s]
     double uncorrected = 0.0;      ///< time since the liquid's volume was last corrected [s]
     Ledger ledger;
+    StepMemory memory;
 };
 
 /// Is there liquid, or are there blocks of the grid that liquid has just left?

@@ -72,18 +72,19 @@ StepCheck::StepCheck(const Scene& scene, const Fabric& fabric)
     if (!fabric.radius.empty()) radius_ = std::ranges::max(fabric.radius);
 }
 
-void StepCheck::start(const Energies& energies)
+void StepCheck::start(const Energies& energies, StepMemory& memory)
 {
-    recent_.fill(activeEnergy(energies));
-    elastic_ = energies.fabric.elastic();
+    memory.energies.fill(activeEnergy(energies));
+    memory.elastic = energies.fabric.elastic();
+    memory.deepest = StepMemory().deepest;
 }
 
-void StepCheck::accept(const StepReport& report)
+void StepCheck::accept(const StepReport& report, StepMemory& memory)
 {
-    recent_[next_] = activeEnergy(report.energies);
-    next_ = (next_ + 1) % kWindow;
-    elastic_ = report.energies.fabric.elastic();
-    deepest_ = report.fabric.deepest;
+    memory.energies[memory.next] = activeEnergy(report.energies);
+    memory.next = (memory.next + 1) % static_cast<int>(memory.energies.size());
+    memory.elastic = report.energies.fabric.elastic();
+    memory.deepest = report.fabric.deepest;
 }
 
 std::string StepCheck::fastestParticle(const State& state) const
@@ -140,7 +141,7 @@ std::optional<Fault> StepCheck::broken(const State& state, const StepReport& rep
 std::optional<Fault> StepCheck::rash(const State& state, const StepReport& report) const
 {
     if (auto fault = tooFar(state, report)) return fault;
-    if (auto fault = tooDeep(report)) return fault;
+    if (auto fault = tooDeep(state, report)) return fault;
     return fromNowhere(state, report);
 }
 
@@ -155,10 +156,10 @@ std::optional<Fault> StepCheck::tooFar(const State& state, const StepReport& rep
 }
 
 /// Fabric that is squeezed into an obstacle little by little gets there in short steps too; one that jumps there does not.
-std::optional<Fault> StepCheck::tooDeep(const StepReport& report) const
+std::optional<Fault> StepCheck::tooDeep(const State& state, const StepReport& report) const
 {
     const double depth = report.fabric.deepest - radius_, bound = std::max(radius_, kDepth * scene_.settings.cell);
-    if (!(depth > bound && report.fabric.deepest > std::max(deepest_, 0.0) + bound)) return std::nullopt;
+    if (!(depth > bound && report.fabric.deepest > std::max(state.memory.deepest, 0.0) + bound)) return std::nullopt;
     return Fault{Stage::FabricContact, fmt::format("fabric got {:.3g} cm into an obstacle in one step, more than {:.3g}", depth, bound),
                  "slower motions, or a smaller time.dt"};
 }
@@ -188,11 +189,11 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
     const double kinetic = e.kinetic + e.modal + e.fabric.kinetic;
     double given = report.dt * settings.gravity.norm() * std::sqrt(2.0 * kinetic * mass);  // Cauchy and Schwarz
     const double speed = drivingSpeed(state, report);
-    if (speed > 0.0) given += 2.0 * mass * speed * speed + std::max(0.0, e.fabric.elastic() - elastic_);  // thrown off at twice the speed
+    if (speed > 0.0) given += 2.0 * mass * speed * speed + std::max(0.0, e.fabric.elastic() - state.memory.elastic);  // thrown off at twice the speed
     if (feelsSurfaceTension(settings.liquid))
         given += settings.liquid.surfaceTension * settings.cell * settings.cell * static_cast<double>(report.liquidCells);
     const double quiet = kQuiet * settings.cell / report.dt;
-    return (1.0 + kEnergyGain) * std::ranges::max(recent_) + report.emittedKinetic + given + 0.5 * mass * quiet * quiet;
+    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + given + 0.5 * mass * quiet * quiet;
 }
 
 std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport& report) const

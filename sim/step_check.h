@@ -3,8 +3,6 @@
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 
-#include <array>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -25,9 +23,9 @@ class StepCheck {
     StepCheck(const Scene& scene, const Fabric& fabric);
 
     /// The first step starts from a state of these energies …
-    void start(const Energies& energies);
+    static void start(const Energies& energies, StepMemory& memory);
     /// … the next one from where a good step came to.
-    void accept(const StepReport& report);
+    static void accept(const StepReport& report, StepMemory& memory);
 
     /// What makes the step useless whatever follows: numbers that are not finite, liquid that is not accounted for.
     std::optional<Fault> broken(const State& state, const StepReport& report) const;
@@ -37,7 +35,7 @@ class StepCheck {
 
  private:
     std::optional<Fault> tooFar(const State& state, const StepReport& report) const;
-    std::optional<Fault> tooDeep(const StepReport& report) const;
+    std::optional<Fault> tooDeep(const State& state, const StepReport& report) const;
     std::optional<Fault> fromNowhere(const State& state, const StepReport& report) const;
     double drivingSpeed(const State& state, const StepReport& report) const;
     double energyAllowed(const State& state, const StepReport& report) const;
@@ -50,12 +48,6 @@ class StepCheck {
     const Fabric& fabric_;
     double fabricMass_ = 0.0;  ///< dry [g]
     double radius_ = 0.0;      ///< of the thickest vertex [cm]
-    /// Of motion and elasticity at the ends of the last steps [erg]: what contact took in it may give back in some steps.
-    static constexpr int kWindow = 8;
-    std::array<double, kWindow> recent_{};
-    int next_ = 0;             ///< row to be overwritten
-    double elastic_ = 0.0;     ///< at the end of the last step [erg]
-    double deepest_ = std::numeric_limits<double>::infinity();  ///< that fabric was in an obstacle then; before the first step it may be anywhere [cm]
 };
 
 }  // namespace sim

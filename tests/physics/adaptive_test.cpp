@@ -181,5 +181,29 @@ TEST(Adaptive, TellsHowOftenAndWhatItCost)
     EXPECT_FALSE(Simulation(fixed).step(1.0).stageRan[static_cast<int>(Stage::Keep)]);
 }
 
+/// How long steps may be, and what is expected of them, is part of the state.
+TEST(Adaptive, IsResumedAsIfNothingHadHappened)
+{
+    const Scene scene = columnAndJet(kPoly8);
+    Simulation whole(scene);
+    std::vector<State> states;
+    std::vector<std::uint64_t> hashes;
+    bool wasTakenBack = false;
+    while (whole.state().time < 0.04) {
+        const StepReport report = whole.step(0.04);
+        wasTakenBack = wasTakenBack || report.takenBack > 0;
+        states.push_back(whole.state());
+        hashes.push_back(stateHash(whole.state()));
+    }
+    ASSERT_TRUE(wasTakenBack);
+    for (std::size_t s = 0; s + 3 < states.size(); ++s) {
+        Simulation resumed(scene, states[s]);
+        for (int step = 1; step <= 3; ++step) {
+            resumed.step(0.04);
+            ASSERT_EQ(stateHash(resumed.state()), hashes[s + step]) << step << " steps after step " << states[s].step;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace sim::test
