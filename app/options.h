@@ -25,6 +25,7 @@ struct Options {
     bool force = false;                  ///< compare, paper: redo variants that are done
     bool quick = false;                  ///< paper, validate, bench precision, stress: shortened
     bool paused = false;                 ///< view: wait with the first step until somebody asks for it
+    std::string beside;                  ///< view: a variant to be shown beside; empty: none
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does

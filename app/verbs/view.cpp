@@ -10,7 +10,7 @@ int runVerbView(const Options& options, const Parts& parts)
         throw sim::RunError(
             "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
     withThreads(options.threads, [&] {
-        parts.view(options.request(), parts, {.paused = options.paused});
+        parts.view(options.request(), parts, {.paused = options.paused, .beside = options.beside});
         return 0;
     });
     return 0;

@@ -8,21 +8,6 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 2000;  ///< of a plot: older steps are forgotten
-
-void addTo(std::vector<float>& values, double value)
-{
-    if (values.size() == kMostPoints) values.erase(values.begin(), values.begin() + kMostPoints / 2);
-    values.push_back(static_cast<float>(value));
-}
-
-void plot(const char* label, const std::vector<float>& values)
-{
-    const float height = 3.0f * ImGui::GetTextLineHeight();
-    ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, nullptr, FLT_MAX, FLT_MAX,
-                     ImVec2(0.0f, height));
-}
-
 const char* wordFor(LiveMode mode)
 {
     switch (mode) {
@@ -37,82 +22,70 @@ const char* wordFor(LiveMode mode)
     }
 }
 
+void explainKey(const char* key)
+{
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", key);
+}
+
 }  // namespace
 
-void LivePanel::add(std::vector<LiveStep> steps)
+void LivePanel::take(LivePair& pair)
 {
-    for (LiveStep& step : steps) {
-        if (!step.report.isReflected) addTo(energy_, step.report.energies.total());
-        addTo(cfl_, step.report.cfl);
-        addTo(iterations_, step.report.pressure.iterations);
-        addTo(milliseconds_, 1000.0 * step.seconds);
-        last_ = std::move(step);
+    for (std::size_t s = 0; s < pair.sides().size(); ++s) plots_[s].add(pair.sides()[s]->live.takeSteps());
+}
+
+void LivePanel::draw(LivePair& pair)
+{
+    drawStatus(pair);
+    drawButtons(pair);
+    drawMoments(pair);
+    const bool isPair = pair.sides().size() > 1;
+    for (std::size_t s = 0; s < pair.sides().size(); ++s) {
+        ImGui::PushID(static_cast<int>(s));
+        const char* title = !isPair ? "Steps" : s == 0 ? "Steps of A" : "Steps of B";
+        if (ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen)) plots_[s].draw();
+        ImGui::PopID();
     }
 }
 
-void LivePanel::playOrPause(LiveSimulation& live) const
+void LivePanel::drawStatus(const LivePair& pair) const
 {
-    if (live.status().mode == LiveMode::Playing)
-        live.pause();
-    else
-        live.play();
-}
-
-void LivePanel::draw(LiveSimulation& live, render::Look& look)
-{
-    const float unit = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos(ImVec2(0.5f * unit, 0.5f * unit), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(22.0f * unit, 34.0f * unit), ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Simulation")) {
-        const LiveStatus status = live.status();
+    for (const auto& side : pair.sides()) {
+        const LiveStatus status = side->live.status();
         ImGui::Text("t = %.4f s, step %lld, %s", status.time, static_cast<long long>(status.step),
                     wordFor(status.mode));
         if (!status.failure.empty()) ImGui::TextWrapped("%s", status.failure.c_str());
-        drawButtons(live, status);
-        if (ImGui::CollapsingHeader("Steps", ImGuiTreeNodeFlags_DefaultOpen)) drawPlots();
-        if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) drawLook(look);
     }
-    ImGui::End();
 }
 
-void LivePanel::drawButtons(LiveSimulation& live, const LiveStatus& status)
+void LivePanel::drawButtons(LivePair& pair) const
 {
-    if (ImGui::Button(status.mode == LiveMode::Playing ? "Pause###play" : "Play###play")) playOrPause(live);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("space");
+    const bool isPlaying = std::ranges::any_of(
+        pair.sides(), [](const auto& side) { return side->live.status().mode == LiveMode::Playing; });
+    if (ImGui::Button(isPlaying ? "Pause###play" : "Play###play")) pair.playOrPause();
+    explainKey("space");
     ImGui::SameLine();
-    if (ImGui::Button("Step")) live.stepOnce();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("S");
+    if (ImGui::Button("Step")) pair.all([](LiveSimulation& live) { live.stepOnce(); });
+    explainKey("S");
     ImGui::SameLine();
-    if (ImGui::Button("Restart")) live.restart();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("R");
+    if (ImGui::Button("Restart")) pair.all([](LiveSimulation& live) { live.restart(); });
+    explainKey("R");
+}
+
+/// The slider over the moments that are kept.
+void LivePanel::drawMoments(LivePair& pair) const
+{
+    const LiveStatus status = pair.first().status();
     const int last = static_cast<int>(status.moments.size()) - 1;
+    if (last <= 0) return;
     const auto current = std::ranges::upper_bound(status.moments, status.time);
     int moment = static_cast<int>(current - status.moments.begin()) - 1;
     ImGui::SetNextItemWidth(-6.0f * ImGui::GetFontSize());
-    if (last > 0 && ImGui::SliderInt("go back", &moment, 0, last, "moment %d"))
-        live.goBackTo(status.moments[std::clamp(moment, 0, last)]);
-}
-
-void LivePanel::drawPlots() const
-{
-    const sim::StepReport& report = last_.report;
-    ImGui::Text("dt %.3g s, %zu particles, %.1f ms per step", report.dt, report.particles, 1000.0 * last_.seconds);
-    plot("energy [erg]", energy_);
-    plot("CFL [-]", cfl_);
-    plot("iterations", iterations_);
-    plot("step [ms]", milliseconds_);
-}
-
-void LivePanel::drawLook(render::Look& look) const
-{
-    ImGui::Checkbox("liquid in one colour", &look.liquid.flat);
-    ImGui::DragFloatRange2("speed [cm/s]", &look.liquid.range[0], &look.liquid.range[1], 1.0f, 0.0f, 1.0e5f, "%.0f");
-    look.liquid.range[1] = std::max(look.liquid.range[1], look.liquid.range[0] + 1.0e-3f);
-    int map = static_cast<int>(look.liquid.colorMap), obstacles = static_cast<int>(look.obstacles.style);
-    if (ImGui::Combo("colour map", &map, "jet\0turbo\0viridis\0"))
-        look.liquid.colorMap = static_cast<render::ColorMap>(map);
-    if (ImGui::Combo("obstacles", &obstacles, "translucent\0wire\0hidden\0solid\0"))
-        look.obstacles.style = static_cast<render::ObstacleStyle>(obstacles);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4f s", status.moments[std::clamp(moment, 0, last)]);
+    if (!ImGui::SliderInt("go back", &moment, 0, last, text)) return;
+    const double time = status.moments[std::clamp(moment, 0, last)];
+    pair.all([&](LiveSimulation& live) { live.goBackTo(time); });
 }
 
 }  // namespace app

@@ -1,29 +1,26 @@
 #pragma once
 
-#include "app/view/live_simulation.h"
-#include "render/look.h"
+#include "app/view/live_pair.h"
+#include "app/view/step_plots.h"
 
-#include <vector>
+#include <array>
 
 namespace app {
 
-/// The panel beside the picture: what the simulation does, buttons that tell it what to do, plots of its steps, and how
-/// it is drawn.
+/// What the simulations do, buttons that tell them what to do, and plots of their steps.
 class LivePanel {
  public:
-    /// More steps for the plots.
-    void add(std::vector<LiveStep> steps);
-    /// One frame of the panel. What it changes of the look is drawn at once.
-    void draw(LiveSimulation& live, render::Look& look);
-    void playOrPause(LiveSimulation& live) const;
+    /// Steps for the plots.
+    void take(LivePair& pair);
+    /// Into the window that is begun.
+    void draw(LivePair& pair);
 
  private:
-    void drawButtons(LiveSimulation& live, const LiveStatus& status);
-    void drawPlots() const;
-    void drawLook(render::Look& look) const;
+    void drawStatus(const LivePair& pair) const;
+    void drawButtons(LivePair& pair) const;
+    void drawMoments(LivePair& pair) const;
 
-    std::vector<float> energy_, cfl_, iterations_, milliseconds_;  ///< of the steps so far
-    LiveStep last_;
+    std::array<StepPlots, 2> plots_;  ///< one for each side
 };
 
 }  // namespace app

@@ -227,6 +227,7 @@ void LiveSimulation::advance()
     const sim::State& state = simulation_->state();
     step.step = state.step;
     step.time = state.time;
+    step.ledger = state.ledger;
     step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     {
         const std::lock_guard lock(mutex_);

@@ -34,6 +34,7 @@ struct LiveStep {
     double time = 0.0;      ///< at its end [s]
     double seconds = 0.0;   ///< it took, wall
     sim::StepReport report;
+    sim::Ledger ledger;     ///< at its end
 };
 
 /// A scene that is simulated on a thread of its own while somebody looks at it. It takes the steps that a run without a

@@ -1,12 +1,18 @@
 #include "app/view/viewer.h"
 
 #include "app/interrupt.h"
+#include "app/output_files.h"
 #include "app/scene_look.h"
 #include "app/view/live_panel.h"
+#include "app/view/look_panel.h"
+#include "app/view/parameter_panel.h"
+#include "app/view/saved_scene.h"
+#include "app/view/scene_panel.h"
 #include "app/view/view_camera.h"
 #include "app/view/window.h"
 #include "render/draw_targets.h"
 #include "render/renderer.h"
+#include "sim/core/check.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -22,46 +28,126 @@ std::string titleOf(const sim::Scene& scene)
     return fmt::format("{} - Drench", scene.title.empty() ? scene.name : scene.title);
 }
 
+SceneRequest withVariant(SceneRequest request, const std::string& variant)
+{
+    if (!variant.empty()) request.variant = variant;
+    return request;
+}
+
 }  // namespace
 
 struct Viewer::Inner {
-    Inner(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
-        : live(request, parts),
-          window(titleOf(live.scene()->setup.scene), options.width, options.height),
-          renderer(window.context()),
-          look(lookOf(live.scene()->setup.pictures, "", false))
+    Inner(const SceneRequest& asked, const Parts& p, const ViewOptions& options)
+        : parts(p),
+          request(asked),
+          pair(std::make_unique<LivePair>(request, parts)),
+          window(titleOf(scene()), options.width, options.height),
+          renderer(window.context())
     {
-        if (!options.paused) live.play();
+        lookAtScene();
+        if (!options.beside.empty()) putBeside(options.beside);
+        if (!options.paused) pair->playOrPause();
     }
 
-    LiveSimulation live;
+    const Parts parts;
+    SceneRequest request;
+    std::unique_ptr<LivePair> pair;
     Window window;
     render::Renderer renderer;
-    render::Look look;
-    LivePanel panel;
+    LivePanel livePanel;
+    ParameterPanel parameterPanel;
+    std::optional<LookPanel> lookPanel;
+    ScenePanel scenePanel;
+    RecentFiles recent;
+    std::size_t tuned = 0;             ///< the side whose settings are shown
     std::optional<ViewCamera> camera;  ///< once there is something to look at
-    std::unique_ptr<FrameSnapshot> shown;
-    std::filesystem::path screenshotFile;  ///< of the next frame; empty: none is wanted
+    std::filesystem::path screenshotFile, pictureFile;  ///< of the next frame, with and without panels; empty: none is wanted
+    std::filesystem::path recordFolder;  ///< of recorded frames
+    std::int64_t recorded = -1;          ///< number of the last one
 
-    double aspect() const { return static_cast<double>(window.width()) / window.height(); }
+    const sim::Scene& scene() const { return pair->first().scene()->setup.scene; }
+    LivePair::Side& tunedSide() { return *pair->sides()[std::min(tuned, pair->sides().size() - 1)]; }
+    int widthOfSide() const { return window.width() / static_cast<int>(pair->sides().size()); }
+    double aspect() const { return static_cast<double>(widthOfSide()) / window.height(); }
+    bool isShowing() const { return camera && widthOfSide() > 0 && window.height() > 0; }
+
+    void lookAtScene();
+    void open(const std::string& file);
+    void putBeside(const std::string& variant);
+    void showWhatIsWanted();
     void takeNewest();
     void moveCamera();
     void followKeys();
     void frameAll();
-    void draw();
-    void writeScreenshot();
+    void drawScenes();
+    void drawPanels();
+    void drawSettings();
+    void follow(const SceneWishes& wishes);
+    void record(bool isOn);
+    void save();
+    void writePictures();
+    void writeTo(const std::filesystem::path& file);
 };
+
+/// The window begins with what the scene's file says of its pictures.
+void Viewer::Inner::lookAtScene()
+{
+    const auto live = pair->first().scene();
+    lookPanel.emplace(live->setup.pictures);
+    camera.reset();
+    window.setTitle(titleOf(live->setup.scene));
+    recent.add(request.file);
+}
+
+void Viewer::Inner::open(const std::string& file)
+{
+    try {
+        const SceneRequest other = {.file = file, .variant = "", .sets = {}};
+        auto opened = std::make_unique<LivePair>(other, parts);
+        pair = std::move(opened);
+        request = other;
+        livePanel = {};
+        scenePanel = {};
+        lookAtScene();
+    } catch (const sim::InputError& error) {
+        scenePanel.message = error.what();
+    }
+}
+
+void Viewer::Inner::putBeside(const std::string& variant)
+{
+    try {
+        if (variant.empty())
+            pair->removeBeside();
+        else
+            pair->putBeside(withVariant(request, variant), parts);
+        showWhatIsWanted();
+        livePanel = {};
+        scenePanel.beside = variant;
+        camera.reset();
+    } catch (const sim::InputError& error) {
+        scenePanel.message = error.what();
+    }
+}
+
+void Viewer::Inner::showWhatIsWanted()
+{
+    pair->all([&](LiveSimulation& live) { live.show(lookPanel->wanted()); });
+}
 
 void Viewer::Inner::takeNewest()
 {
-    shown = live.takeSnapshot(std::move(shown));
-    panel.add(live.takeSteps());
-    if (!shown || camera || window.height() == 0) return;
-    camera.emplace(cameraAt(live.scene()->setup.pictures.render.camera, shown->time, render::bounds(shown->view()), aspect()));
+    pair->takeNewest();
+    livePanel.take(*pair);
+    const auto& shown = pair->sides().front()->shown;
+    if (!shown || camera || window.height() == 0 || widthOfSide() == 0) return;
+    const CameraSettings& settings = pair->first().scene()->setup.pictures.render.camera;
+    camera.emplace(cameraAt(settings, shown->time, render::bounds(shown->view()), aspect()));
 }
 
 void Viewer::Inner::frameAll()
 {
+    const auto& shown = pair->sides().front()->shown;
     if (shown) camera->frame(render::bounds(shown->view()), aspect());
 }
 
@@ -80,27 +166,123 @@ void Viewer::Inner::followKeys()
 {
     if (ImGui::GetIO().WantCaptureKeyboard) return;
     for (const int key : window.keys()) {
-        if (key == ' ') panel.playOrPause(live);
-        if (key == 'S') live.stepOnce();
-        if (key == 'R') live.restart();
+        if (ImGui::GetIO().KeyCtrl) {
+            if (key == 'S') follow({.save = true});
+            if (key == 'C') follow({.copyCommand = true});
+            if (key == 'Q') window.close();
+            continue;
+        }
+        if (key == ' ') pair->playOrPause();
+        if (key == 'S') pair->all([](LiveSimulation& live) { live.stepOnce(); });
+        if (key == 'R') pair->all([](LiveSimulation& live) { live.restart(); });
         if (key == 'F' && camera) frameAll();
+        if (key == 'P') follow({.picture = true});
     }
 }
 
-void Viewer::Inner::draw()
+/// Side by side, by one camera and with one range of colours.
+void Viewer::Inner::drawScenes()
 {
-    if (!shown || !camera || window.width() == 0 || window.height() == 0) return;
-    look.width = window.width();
-    look.height = window.height();
-    renderer.show(shown->view(), camera->camera(), look);
+    if (!isShowing()) return;
+    render::Viewport part = {.x = 0, .y = 0, .width = widthOfSide(), .height = window.height()};
+    for (const auto& side : pair->sides()) {
+        if (!side->shown) continue;
+        render::Look look = lookPanel->lookFor(*side->shown);
+        look.overlay.label = pair->sides().size() > 1 ? side->live.scene()->setup.label : "";
+        renderer.show(side->shown->view(), camera->camera(), look, part);
+        part.x += part.width;
+    }
 }
 
-void Viewer::Inner::writeScreenshot()
+void Viewer::Inner::drawPanels()
 {
-    if (screenshotFile.empty() || window.width() == 0 || window.height() == 0) return;
-    render::writePng(render::readFramebuffer(window.context().gl(), 0, window.width(), window.height()),
-                     screenshotFile);
-    screenshotFile.clear();
+    const float unit = ImGui::GetFontSize(), height = ImGui::GetIO().DisplaySize.y;
+    const float width = std::min(23.0f * unit, 0.9f * ImGui::GetIO().DisplaySize.x);
+    ImGui::SetNextWindowPos(ImVec2(0.4f * unit, 0.4f * unit), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(width, 0.48f * height), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Simulation")) {
+        livePanel.draw(*pair);
+        if (ImGui::CollapsingHeader("Picture") && lookPanel->draw()) showWhatIsWanted();
+        if (ImGui::CollapsingHeader("Scene")) follow(scenePanel.draw(*pair->first().scene(), recent));
+    }
+    ImGui::End();
+    ImGui::SetNextWindowPos(ImVec2(0.4f * unit, 0.5f * height), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(width, 0.48f * height), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Settings")) drawSettings();
+    ImGui::End();
+}
+
+void Viewer::Inner::drawSettings()
+{
+    if (pair->sides().size() > 1) {
+        int side = static_cast<int>(tuned);
+        ImGui::RadioButton("A", &side, 0);
+        ImGui::SameLine();
+        ImGui::RadioButton("B", &side, 1);
+        tuned = static_cast<std::size_t>(side);
+    }
+    parameterPanel.draw(tunedSide().live);
+}
+
+void Viewer::Inner::follow(const SceneWishes& wishes)
+{
+    if (wishes.save) save();
+    if (wishes.copyCommand) {
+        ImGui::SetClipboardText(commandLine(tunedSide().live.scene()->request).c_str());
+        scenePanel.message = "copied";
+    }
+    if (wishes.picture) pictureFile = freeName(scene().name, ".png");
+    if (wishes.record) record(*wishes.record);
+    if (wishes.beside) putBeside(*wishes.beside);
+    if (wishes.open) open(*wishes.open);  // last: the scene is another one then
+}
+
+void Viewer::Inner::record(bool isOn)
+{
+    scenePanel.isRecording = isOn;
+    pair->showEveryFrame(isOn);
+    if (!isOn) return;
+    recordFolder = freeName(scene().name + "_frames", "");
+    recorded = -1;
+    scenePanel.message = "frames go to " + recordFolder.string();
+}
+
+void Viewer::Inner::save()
+{
+    if (!camera) return;
+    const auto live = tunedSide().live.scene();
+    const std::filesystem::path file = freeName(live->setup.scene.name + "_live", ".yaml");
+    try {
+        writeWhole(file, savedScene(*live, camera->camera()));
+        scenePanel.message = "saved as " + file.string();
+    } catch (const std::runtime_error& error) {
+        scenePanel.message = error.what();
+    }
+}
+
+void Viewer::Inner::writeTo(const std::filesystem::path& file)
+{
+    try {
+        std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
+        render::writePng(render::readFramebuffer(window.context().gl(), 0, window.width(), window.height()), file);
+    } catch (const std::exception& error) {
+        scenePanel.message = error.what();
+        if (scenePanel.isRecording) record(false);
+    }
+}
+
+/// Of the scenes alone: before the panels are drawn over them.
+void Viewer::Inner::writePictures()
+{
+    if (!isShowing()) return;
+    if (!pictureFile.empty()) {
+        scenePanel.message = "picture in " + pictureFile.string();
+        writeTo(std::exchange(pictureFile, {}));
+    }
+    const auto& shown = pair->sides().front()->shown;
+    if (!scenePanel.isRecording || !shown || shown->number == recorded) return;
+    recorded = shown->number;
+    writeTo(recordFolder / fmt::format("frame_{:05}.png", recorded));
 }
 
 Viewer::Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
@@ -114,25 +296,52 @@ bool Viewer::frame()
 {
     Inner& in = *inner_;
     const bool goesOn = in.window.begin();
+    for (const std::string& file : in.window.dropped()) in.open(file);
     in.takeNewest();
-    in.panel.draw(in.live, in.look);
     in.moveCamera();
     in.followKeys();
-    in.draw();
+    in.drawScenes();
+    in.writePictures();
+    in.drawPanels();
     in.window.drawPanels();
-    in.writeScreenshot();
+    if (!in.screenshotFile.empty()) in.writeTo(std::exchange(in.screenshotFile, {}));
     in.window.present();
     return goesOn;
 }
 
-LiveStatus Viewer::status() const
+LivePair& Viewer::pair()
 {
-    return inner_->live.status();
+    return *inner_->pair;
+}
+
+void Viewer::open(const std::string& file)
+{
+    inner_->open(file);
+}
+
+void Viewer::record(bool isOn)
+{
+    inner_->record(isOn);
 }
 
 void Viewer::screenshot(const std::filesystem::path& file)
 {
     inner_->screenshotFile = file;
+}
+
+std::optional<std::array<float, 2>> Viewer::placeOf(const std::string& setting) const
+{
+    return inner_->parameterPanel.placeOf(setting);
+}
+
+std::string Viewer::message() const
+{
+    return inner_->scenePanel.message;
+}
+
+std::vector<std::string> Viewer::takeComplaints()
+{
+    return inner_->window.context().takeComplaints();
 }
 
 void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options)

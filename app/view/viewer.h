@@ -1,10 +1,13 @@
 #pragma once
 
 #include "app/parts.h"
-#include "app/view/live_simulation.h"
+#include "app/view/live_pair.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace app {
 
@@ -19,9 +22,16 @@ class Viewer {
 
     /// Take what the user did and draw the window anew. Never waits for a step. False once the window is to be closed.
     bool frame();
-    LiveStatus status() const;
+    LivePair& pair();
+    /// Look at another scene, as when its file is dropped on the window. What is wrong with it is told there.
+    void open(const std::string& file);
+    void record(bool isOn);  ///< every frame into a PNG
     /// The next frame goes into a PNG file too, with its panels.
     void screenshot(const std::filesystem::path& file);
+    /// Where the value of a setting stands in the window [pixels], if it is to be seen.
+    std::optional<std::array<float, 2>> placeOf(const std::string& setting) const;
+    std::string message() const;  ///< that the window shows of what was done last
+    std::vector<std::string> takeComplaints();  ///< of OpenGL, since the last call
 
  private:
     struct Inner;

@@ -11,6 +11,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cmath>
+
 namespace app {
 
 namespace {
@@ -45,14 +47,42 @@ Window::Window(const std::string& title, int width, int height)
     }
     context_ = render::contextOf(window_);
     glfwSwapInterval(1);
-    glfwSetWindowUserPointer(window_, &keys_);
+    glfwSetWindowUserPointer(window_, &events_);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-        if (action == GLFW_PRESS) static_cast<std::vector<int>*>(glfwGetWindowUserPointer(window))->push_back(key);
+        if (action == GLFW_PRESS) static_cast<Events*>(glfwGetWindowUserPointer(window))->keys.push_back(key);
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
+        std::vector<std::string>& all = static_cast<Events*>(glfwGetWindowUserPointer(window))->files;
+        all.insert(all.end(), files, files + count);
     });
     panels_ = ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;         // nothing is left behind in the folder that the program is started in
+    ImGui::GetIO().IniFilename = nullptr;  // nothing is left behind in the folder that the program is started in
+    scalePanels();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);  // it hands keys on to the callback above
     ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+/// As large as the monitor's owner wants everything to be.
+void Window::scalePanels()
+{
+    float scale = 1.0f, across = 1.0f;
+    glfwGetWindowContentScale(window_, &across, &scale);
+    if (!(scale > 0.0f)) return;
+    constexpr float kPixels = 13.0f;  // height of the font at scale 1
+    ImFontConfig font;
+    font.SizePixels = std::round(kPixels * scale);
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
+    ImGui::GetStyle().ScaleAllSizes(scale);
+}
+
+void Window::setTitle(const std::string& title)
+{
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::close()
+{
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
 Window::~Window()
@@ -66,7 +96,7 @@ Window::~Window()
 
 bool Window::begin()
 {
-    keys_.clear();
+    events_ = {};
     glfwPollEvents();
     glfwGetFramebufferSize(window_, &width_, &height_);
     ImGui_ImplOpenGL3_NewFrame();

@@ -27,15 +27,25 @@ class Window {
     void present();     ///< show what was drawn
     /// Pressed since the frame before, as GLFW numbers them: letters are their capitals. None is lost, however short or
     /// slow the frame.
-    const std::vector<int>& keys() const { return keys_; }
+    const std::vector<int>& keys() const { return events_.keys; }
+    /// Files that were dropped on the window since then.
+    const std::vector<std::string>& dropped() const { return events_.files; }
+    void setTitle(const std::string& title);
+    void close();  ///< begin() says so from now on
     int width() const { return width_; }  ///< [pixels], 0 while it is iconified
     int height() const { return height_; }
 
  private:
+    void scalePanels();
+
     GLFWwindow* window_ = nullptr;
     ImGuiContext* panels_ = nullptr;
     std::unique_ptr<render::GlContext> context_;
-    std::vector<int> keys_;
+    struct Events {
+        std::vector<int> keys;
+        std::vector<std::string> files;
+    };
+    Events events_;  ///< since the last frame
     int width_ = 0, height_ = 0;
 };
 

@@ -4,60 +4,28 @@
 #include "app/frame_view_from_state.h"
 #include "render/image.h"
 #include "render/image_compare.h"
-#include "tests/app/temporary_folder.h"
+#include "tests/app/view/hands.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <thread>
+// Pictures in the window.
 
 namespace app::test {
 namespace {
-
-constexpr int kWidth = 900, kHeight = 600;
-
-SceneRequest drop()
-{
-    return {.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml",
-            .variant = "",
-            .sets = {"render.size=[900, 600]", "render.hud=false", "render.colorbar=false"}};
-}
-
-/// The frame after those in which the window has come up.
-render::Image shot(Viewer& viewer)
-{
-    const TemporaryFolder folder;
-    for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(viewer.frame());
-    viewer.screenshot(folder / "window.png");
-    viewer.frame();
-    return render::readPng(folder / "window.png");
-}
-
-/// The right half, where there is no panel.
-render::Image rightHalf(const render::Image& image)
-{
-    render::Image half(image.width / 2, image.height);
-    for (int y = 0; y < image.height; ++y)
-        std::copy_n(image.at(image.width - half.width, y), 3 * half.width, half.at(0, y));
-    return half;
-}
 
 TEST(Viewer, ShowsWhatARunDraws)
 {
     const Parts parts = drenchParts();
     const SceneSetup setup = parts.loadScene(drop());
-    Viewer viewer(drop(), parts, {.width = kWidth, .height = kHeight, .paused = true});
-    const render::Image window = shot(viewer);
-    if (const char* keep = std::getenv("DRENCH_KEEP_SCREENSHOT")) render::writePng(window, keep);
+    Desktop desktop(drop(), kPaused);
+    const render::Image window = desktop.shot();
 
-    const TemporaryFolder folder;
-    const auto simulation = parts.startSimulation(setup);
     FrameSnapshot snapshot;
-    takeSnapshot(simulation->state(), simulation->fabric(), 1.0, setup.pictures.render, snapshot);
+    const auto simulation = parts.startSimulation(setup);
+    takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0, extrasOf(setup.pictures.render), snapshot);
     parts.meshObstacles(setup)(0.0, snapshot.obstacles);
-    parts.startRenderer(setup, false)(snapshot)(folder / "run.png");
-    const render::Image drawn = render::readPng(folder / "run.png");
+    parts.startRenderer(setup, false)(snapshot)("run.png");
+    const render::Image drawn = render::readPng("run.png");
     ASSERT_EQ(window.width, drawn.width);
     ASSERT_EQ(window.height, drawn.height);
     // Two drivers round edges differently.
@@ -65,54 +33,71 @@ TEST(Viewer, ShowsWhatARunDraws)
     EXPECT_LT(render::meanColorDifference(rightHalf(window), rightHalf(drawn)), 2.0 / 255.0);
 }
 
-/// As somebody at the keyboard and the mouse would.
-void doWithHands(const std::string& what)
+TEST(Viewer, LooksAsItDidWithItsPanels)
 {
-    ASSERT_EQ(std::system(("xdotool " + what).c_str()), 0) << what;
+    Desktop desktop(drop(), kPaused);
+    desktop.expectGolden("start");
 }
 
-/// Frames until it is true, for as long as any machine may take.
-template <class F>
-bool comesTrue(Viewer& viewer, F&& isTrue)
+TEST(Viewer, TwoVariantsStandSideBySideAtOneTime)
 {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!isTrue()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-        viewer.frame();
+    Desktop desktop(drop(), {.width = kWidth, .height = kHeight, .paused = true, .beside = "pic"});
+    desktop.focus();
+    desktop.keys("s s s s");
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.timeShown(0) == 0.02 && desktop.timeShown(1) == 0.02; }));
+    desktop.expectGolden("beside");
+    desktop.keys("space");
+    ASSERT_TRUE(desktop.comesTrue([&] {
+        EXPECT_EQ(desktop.timeShown(0), desktop.timeShown(1));
+        return desktop.timeShown(0) > 0.05;
+    }));
+    const auto& sides = desktop.viewer.pair().sides();
+    EXPECT_NE(sides[0]->live.scene()->setup.scene.settings.transfer.method, sides[1]->live.scene()->setup.scene.settings.transfer.method);
+}
+
+TEST(Viewer, TinyWindowsAreNoTrouble)
+{
+    Desktop desktop(drop(), kPaused);
+    desktop.shot();
+    for (const char* size : {"60 40", "1 1", "5 300", "700 500"}) {
+        doWithHands(std::string("search --name Drench windowsize --sync ") + size);
+        for (int frame = 0; frame < 5; ++frame) desktop.viewer.frame();
     }
-    return true;
+    const render::Image after = desktop.shot();
+    EXPECT_EQ(after.width, 700);
+    EXPECT_EQ(after.height, 500);
 }
 
-TEST(Viewer, KeysPlayPauseStepAndRestart)
+TEST(Viewer, EveryFrameIsRecorded)
 {
-    Viewer viewer(drop(), drenchParts(), {.width = kWidth, .height = kHeight, .paused = true});
-    shot(viewer);
-    doWithHands("search --name Drench windowfocus");  // there is no window manager to do it
-    viewer.frame();
-    doWithHands("key s");
-    ASSERT_TRUE(comesTrue(viewer, [&] { return viewer.status().step == 1; }));
-    doWithHands("key space");
-    ASSERT_TRUE(
-        comesTrue(viewer, [&] { return viewer.status().mode == LiveMode::Playing && viewer.status().step > 3; }));
-    doWithHands("key space");
-    ASSERT_TRUE(comesTrue(viewer, [&] { return viewer.status().mode == LiveMode::Paused; }));
-    doWithHands("key r");
-    ASSERT_TRUE(comesTrue(viewer, [&] { return viewer.status().step == 0; }));
+    Desktop desktop(shortDrop(), kPaused);
+    desktop.focus();
+    desktop.viewer.record(true);
+    desktop.keys("space");
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.status().mode == LiveMode::Ended && desktop.timeShown(0) == desktop.status().time; }));
+    desktop.viewer.frame();
+    for (int frame = 0; frame <= 4; ++frame) {
+        const std::string name = "drop_frames/frame_0000" + std::to_string(frame) + ".png";
+        ASSERT_TRUE(std::filesystem::exists(name)) << name;
+        EXPECT_EQ(render::readPng(name).width, kWidth);
+    }
+    desktop.keys("p");
+    ASSERT_TRUE(desktop.comesTrue([&] { return std::filesystem::exists("drop.png"); }));
 }
 
-TEST(Viewer, TheMouseTurnsTheView)
+TEST(Viewer, WithoutADisplayItSaysWhatWouldDo)
 {
-    Viewer viewer(drop(), drenchParts(), {.width = kWidth, .height = kHeight, .paused = true});
-    const render::Image before = shot(viewer);
-    doWithHands("mousemove 700 300");
-    viewer.frame();
-    doWithHands("mousedown 1");
-    viewer.frame();
-    doWithHands("mousemove 800 300");
-    viewer.frame();
-    doWithHands("mouseup 1");
-    const render::Image after = shot(viewer);
-    EXPECT_GT(render::meanColorDifference(rightHalf(before), rightHalf(after)), 1.0 / 255.0);
+    const char* display = std::getenv("DISPLAY");
+    ASSERT_TRUE(display);
+    const std::string kept = display;
+    unsetenv("DISPLAY");
+    try {
+        Viewer viewer(drop(), drenchParts(), kPaused);
+        ADD_FAILURE() << "a window without a display";
+    } catch (const sim::RunError& error) {
+        EXPECT_NE(std::string(error.what()).find("drench run"), std::string::npos) << error.what();
+    }
+    setenv("DISPLAY", kept.c_str(), 1);
 }
 
 }  // namespace

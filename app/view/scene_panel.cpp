@@ -1,0 +1,37 @@
+#include "app/view/scene_panel.h"
+
+#include <imgui.h>
+
+namespace app {
+
+SceneWishes ScenePanel::draw(const LiveScene& scene, const RecentFiles& recent) const
+{
+    SceneWishes wishes;
+    wishes.save = ImGui::Button("Save as YAML");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("control S: a scene whose run repeats what was done here");
+    ImGui::SameLine();
+    wishes.copyCommand = ImGui::Button("Copy command line");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("control C: the same as a command");
+    wishes.picture = ImGui::Button("Picture");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("P");
+    ImGui::SameLine();
+    bool records = isRecording;
+    if (ImGui::Checkbox("record frames", &records)) wishes.record = records;
+
+    const auto& variants = scene.setup.pictures.compare.variants;
+    if (!variants.empty() && ImGui::BeginCombo("beside", beside.empty() ? "nothing" : beside.c_str())) {
+        if (ImGui::Selectable("nothing", beside.empty())) wishes.beside = "";
+        for (const Variant& variant : variants)
+            if (ImGui::Selectable(variant.name.c_str(), variant.name == beside)) wishes.beside = variant.name;
+        ImGui::EndCombo();
+    }
+    if (!recent.files().empty() && ImGui::BeginCombo("open", "a recent scene, or drop a file")) {
+        for (const std::string& file : recent.files())
+            if (ImGui::Selectable(file.c_str())) wishes.open = file;
+        ImGui::EndCombo();
+    }
+    if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());
+    return wishes;
+}
+
+}  // namespace app
