@@ -84,9 +84,7 @@ void Viewer::Inner::followKeys()
 void Viewer::Inner::draw()
 {
     if (!shown || !camera || window.width() == 0 || window.height() == 0) return;
-    look.width = window.width();
-    look.height = window.height();
-    renderer.show(shown->view(), camera->camera(), look);
+    renderer.show(shown->view(), camera->camera(), look, {.width = window.width(), .height = window.height()});
 }
 
 void Viewer::Inner::writeScreenshot()
