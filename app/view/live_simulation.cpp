@@ -32,7 +32,8 @@ LiveSimulation::LiveSimulation(SceneSetup setup, const Parts& parts, std::size_t
       parts_(parts),
       memory_(memory),
       placeObstacles_(parts.meshObstacles(setup_)),
-      simulation_(parts.startSimulation(setup_))
+      simulation_(parts.startSimulation(setup_)),
+      extras_(extrasOf(setup_.pictures.render))
 {
     keepMoment();
     publish(true);
@@ -85,6 +86,11 @@ void LiveSimulation::goBackTo(double time)
         const auto after = std::ranges::find_if(moments_, [&](const Moment& m) { return m.state.time > time; });
         goTo(after == moments_.begin() ? moments_.front() : *std::prev(after));
     });
+}
+
+void LiveSimulation::show(const SnapshotExtras& extras)
+{
+    ask([this, extras] { extras_ = extras; });  // as after every command, a snapshot is published
 }
 
 LiveStatus LiveSimulation::status() const
@@ -225,8 +231,8 @@ void LiveSimulation::publish(bool always)
     }
     if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
     snapshot->number = frame_;
-    app::takeSnapshot(state, simulation_->fabric(), setup_.scene.settings.liquid.density, setup_.pictures.render,
-                      *snapshot);
+    app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(), setup_.scene.settings.liquid.density,
+                      extras_, *snapshot);
     placeObstacles_(state.time, snapshot->obstacles);
     const std::lock_guard lock(mutex_);
     ready_ = std::move(snapshot);

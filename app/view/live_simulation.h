@@ -52,6 +52,9 @@ class LiveSimulation {
     void restart();              ///< go back to the initial state, and pause
     void goBackTo(double time);  ///< the latest moment that is not after it [s], and pause
 
+    /// What snapshots show from now on, beginning with one of the state as it is. At first: what the scene's file says.
+    void show(const SnapshotExtras& extras);
+
     LiveStatus status() const;
     std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
     /// What has happened since the last call, oldest first.
@@ -87,6 +90,7 @@ class LiveSimulation {
     std::vector<Moment> moments_;   ///< the initial state first
     std::int64_t momentEvery_ = 1;  ///< frames
     std::int64_t frame_ = 0;        ///< the last one that was reached
+    SnapshotExtras extras_;
 
     mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable_any wake_;

@@ -54,7 +54,7 @@ TEST(Viewer, ShowsWhatARunDraws)
     const TemporaryFolder folder;
     const auto simulation = parts.startSimulation(setup);
     FrameSnapshot snapshot;
-    takeSnapshot(simulation->state(), simulation->fabric(), 1.0, setup.pictures.render, snapshot);
+    takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0, extrasOf(setup.pictures.render), snapshot);
     parts.meshObstacles(setup)(0.0, snapshot.obstacles);
     parts.startRenderer(setup, false)(snapshot)(folder / "run.png");
     const render::Image drawn = render::readPng(folder / "run.png");
