@@ -122,6 +122,11 @@ LiveStatus Viewer::status() const
     return inner_->live.status();
 }
 
+std::vector<std::string> Viewer::takeComplaints()
+{
+    return inner_->window.context().takeComplaints();
+}
+
 void Viewer::screenshot(const std::filesystem::path& file)
 {
     inner_->screenshotFile = file;

@@ -20,6 +20,8 @@ class Viewer {
     /// Take what the user did and draw the window anew. Never waits for a step. False once the window is to be closed.
     bool frame();
     LiveStatus status() const;
+    /// Errors that OpenGL has told of since the last call, for tests.
+    std::vector<std::string> takeComplaints();
     /// The next frame goes into a PNG file too, with its panels.
     void screenshot(const std::filesystem::path& file);
 

@@ -21,16 +21,24 @@ SceneSetup drop()
 {
     return drenchParts().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml",
                                     .variant = "",
-                                    .sets = {"render.size=[900, 600]", "render.hud=false", "render.colorbar=false"}});
+                                    .sets = {"render.size=[900, 600]"}});
+}
+
+/// A frame that OpenGL has nothing to complain about.
+bool frame(Viewer& viewer)
+{
+    const bool goesOn = viewer.frame();
+    for (const std::string& complaint : viewer.takeComplaints()) ADD_FAILURE() << complaint;
+    return goesOn;
 }
 
 /// The frame after those in which the window has come up.
 render::Image shot(Viewer& viewer)
 {
     const TemporaryFolder folder;
-    for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(viewer.frame());
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(frame(viewer));
     viewer.screenshot(folder / "window.png");
-    viewer.frame();
+    frame(viewer);
     return render::readPng(folder / "window.png");
 }
 
@@ -78,7 +86,7 @@ bool comesTrue(Viewer& viewer, F&& isTrue)
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!isTrue()) {
         if (std::chrono::steady_clock::now() > end) return false;
-        viewer.frame();
+        frame(viewer);
     }
     return true;
 }
@@ -88,7 +96,7 @@ TEST(Viewer, KeysPlayPauseStepAndRestart)
     Viewer viewer(drop(), drenchParts(), {.width = kWidth, .height = kHeight, .paused = true});
     shot(viewer);
     doWithHands("search --name Drench windowfocus");  // there is no window manager to do it
-    viewer.frame();
+    frame(viewer);
     doWithHands("key s");
     ASSERT_TRUE(comesTrue(viewer, [&] { return viewer.status().step == 1; }));
     doWithHands("key space");
@@ -105,11 +113,11 @@ TEST(Viewer, TheMouseTurnsTheView)
     Viewer viewer(drop(), drenchParts(), {.width = kWidth, .height = kHeight, .paused = true});
     const render::Image before = shot(viewer);
     doWithHands("mousemove 700 300");
-    viewer.frame();
+    frame(viewer);
     doWithHands("mousedown 1");
-    viewer.frame();
+    frame(viewer);
     doWithHands("mousemove 800 300");
-    viewer.frame();
+    frame(viewer);
     doWithHands("mouseup 1");
     const render::Image after = shot(viewer);
     EXPECT_GT(render::meanColorDifference(rightHalf(before), rightHalf(after)), 1.0 / 255.0);
