@@ -58,7 +58,7 @@ void LivePanel::playOrPause(LiveSimulation& live) const
         live.play();
 }
 
-void LivePanel::draw(LiveSimulation& live, render::Look& look)
+void LivePanel::draw(LiveSimulation& live)
 {
     const float unit = ImGui::GetFontSize();
     ImGui::SetNextWindowPos(ImVec2(0.5f * unit, 0.5f * unit), ImGuiCond_FirstUseEver);
@@ -70,7 +70,7 @@ void LivePanel::draw(LiveSimulation& live, render::Look& look)
         if (!status.failure.empty()) ImGui::TextWrapped("%s", status.failure.c_str());
         drawButtons(live, status);
         if (ImGui::CollapsingHeader("Steps", ImGuiTreeNodeFlags_DefaultOpen)) drawPlots();
-        if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) drawLook(look);
+        if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen) && look_.draw()) live.show(look_.wanted());
     }
     ImGui::End();
 }
@@ -101,18 +101,6 @@ void LivePanel::drawPlots() const
     plot("CFL [-]", cfl_);
     plot("iterations", iterations_);
     plot("step [ms]", milliseconds_);
-}
-
-void LivePanel::drawLook(render::Look& look) const
-{
-    ImGui::Checkbox("liquid in one colour", &look.liquid.flat);
-    ImGui::DragFloatRange2("speed [cm/s]", &look.liquid.range[0], &look.liquid.range[1], 1.0f, 0.0f, 1.0e5f, "%.0f");
-    look.liquid.range[1] = std::max(look.liquid.range[1], look.liquid.range[0] + 1.0e-3f);
-    int map = static_cast<int>(look.liquid.colorMap), obstacles = static_cast<int>(look.obstacles.style);
-    if (ImGui::Combo("colour map", &map, "jet\0turbo\0viridis\0"))
-        look.liquid.colorMap = static_cast<render::ColorMap>(map);
-    if (ImGui::Combo("obstacles", &obstacles, "translucent\0wire\0hidden\0solid\0"))
-        look.obstacles.style = static_cast<render::ObstacleStyle>(obstacles);
 }
 
 }  // namespace app

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/view/live_simulation.h"
-#include "render/look.h"
+#include "app/view/look_panel.h"
 
 #include <vector>
 
@@ -11,17 +11,20 @@ namespace app {
 /// it is drawn.
 class LivePanel {
  public:
+    explicit LivePanel(const PictureSettings& pictures) : look_(pictures) {}
+
     /// More steps for the plots.
     void add(std::vector<LiveStep> steps);
     /// One frame of the panel. What it changes of the look is drawn at once.
-    void draw(LiveSimulation& live, render::Look& look);
+    void draw(LiveSimulation& live);
+    render::Look lookFor(const FrameSnapshot& snapshot) const { return look_.lookFor(snapshot); }
     void playOrPause(LiveSimulation& live) const;
 
  private:
     void drawButtons(LiveSimulation& live, const LiveStatus& status);
     void drawPlots() const;
-    void drawLook(render::Look& look) const;
 
+    LookPanel look_;
     std::vector<float> energy_, cfl_, iterations_, milliseconds_;  ///< of the steps so far
     LiveStep last_;
 };

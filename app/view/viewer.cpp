@@ -22,7 +22,7 @@ struct Viewer::Inner {
           window(fmt::format("{} - Drench", s.scene.title.empty() ? s.scene.name : s.scene.title), options.width,
                  options.height),
           renderer(window.context()),
-          look(lookOf(s.pictures, "", false))
+          panel(s.pictures)
     {
         if (!options.paused) live.play();
     }
@@ -31,7 +31,6 @@ struct Viewer::Inner {
     LiveSimulation live;
     Window window;
     render::Renderer renderer;
-    render::Look look;
     LivePanel panel;
     std::optional<ViewCamera> camera;  ///< once there is something to look at
     std::unique_ptr<FrameSnapshot> shown;
@@ -84,7 +83,8 @@ void Viewer::Inner::followKeys()
 void Viewer::Inner::draw()
 {
     if (!shown || !camera || window.width() == 0 || window.height() == 0) return;
-    renderer.show(shown->view(), camera->camera(), look, {.width = window.width(), .height = window.height()});
+    renderer.show(shown->view(), camera->camera(), panel.lookFor(*shown),
+                  {.width = window.width(), .height = window.height()});
 }
 
 void Viewer::Inner::writeScreenshot()
@@ -107,7 +107,7 @@ bool Viewer::frame()
     Inner& in = *inner_;
     const bool goesOn = in.window.begin();
     in.takeNewest();
-    in.panel.draw(in.live, in.look);
+    in.panel.draw(in.live);
     in.moveCamera();
     in.followKeys();
     in.draw();
