@@ -117,7 +117,7 @@ TEST(Lines, AreLiftedOutOfThinThings)
     EXPECT_GT(Ink(drawing.draw()).area - Ink(cubeAlone).area, 150.0) << "not lost before the near plane";
 }
 
-TEST(Lines, AreHiddenBehindLiquidAndHideNothing)
+TEST(Lines, AreHiddenBehindLiquid)
 {
     LineDrawing drawing;
     drawing.look.liquid.depthShading = 0.0f;
@@ -130,6 +130,21 @@ TEST(Lines, AreHiddenBehindLiquidAndHideNothing)
     EXPECT_LT(image.color(160, middleY).r, 100) << "the ball is in front";
     EXPECT_GT(image.color(160 - 30, middleY).r, 200);
     EXPECT_LT(image.color(160 - 30, middleY).g, 60);
+}
+
+/// Not even each other: what is drawn later is on top.
+TEST(Lines, HideNothing)
+{
+    Drawing drawing;
+    const std::array<Vector3f, 2> near = {{{-1.0f, 0.0f, 2.0f}, {1.0f, 0.0f, 2.0f}}},
+                                  far = {{{0.0f, -1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}};
+    const std::array<FrameView::Lines, 2> lines = {{{.points = near, .color = {1.0f, 0.0f, 0.0f}, .width = 16.0f},
+                                                    {.points = far, .color = {0.0f, 0.0f, 1.0f}, .width = 16.0f}}};
+    FrameView view = drawing.view();
+    view.lines = lines;
+    const Image image = drawing.renderer.draw(view, drawing.camera, drawing.look);
+    EXPECT_EQ(image.color(160, 90), (Rgb{0, 0, 255}));
+    EXPECT_EQ(image.color(170, 90), (Rgb{255, 0, 0}));
 }
 
 /// A line that begins behind the camera is cut where the picture begins, not lost.
