@@ -26,9 +26,8 @@ inline std::span<const Choice<LiquidStyle>> choicesOf(LiquidStyle)
 inline std::span<const Choice<ColorBy>> choicesOf(ColorBy)
 {
     static constexpr Choice<ColorBy> kAll[] = {{"speed", ColorBy::Speed},
-                                               {"flat", ColorBy::Flat},
-                                               {"pressure", ColorBy::Flat, false},
-                                               {"saturation", ColorBy::Flat, false}};
+                                               {"pressure", ColorBy::Pressure},
+                                               {"flat", ColorBy::Flat}};
     return kAll;
 }
 
@@ -102,13 +101,22 @@ void describe(V& v, CameraSettings& c)
     });
 }
 
+/// Values at the ends of the colours where a scene gives none: fast liquid, or a column of 10 cm of water [cm/s, or
+/// dyn/cm^2].
+inline std::array<double, 2> usualRange(ColorBy colorBy)
+{
+    return colorBy == ColorBy::Pressure ? std::array{0.0, 1.0e4} : std::array{0.0, 200.0};
+}
+
 template <class V>
 void describeLiquidLook(V& v, RenderSettings& r)
 {
     v.choice("style", r.liquidStyle, "How particles are drawn");
     v.choice("color_by", r.colorBy, "What the colour shows");
     v.choice("colormap", r.colorMap, "Colours from low to high");
-    v.pair("range", r.range, Quantity::Velocity, Range::any(), "Values at the ends of the colours");
+    v.whenReading([&](auto&) { r.range = usualRange(r.colorBy); });
+    v.pair("range", r.range, r.colorBy == ColorBy::Pressure ? Quantity::Pressure : Quantity::Velocity, Range::any(),
+           "Values at the ends of the colours");
     v.require(r.range[0] < r.range[1], "range", "must end above its beginning");
 }
 

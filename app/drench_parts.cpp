@@ -53,6 +53,11 @@ class RealSimulation : public Steppable {
     RealSimulation(const sim::Scene& scene, const sim::State& state) : simulation_(scene, state) {}
     const sim::State& state() const override { return simulation_.state(); }
     const sim::Fabric& fabric() const override { return simulation_.fabric(); }
+    const sim::ActiveContacts* contacts() const override
+    {
+        const auto& solver = simulation_.workspace().fabric;
+        return solver ? solver->contacts() : nullptr;
+    }
     const sim::LiquidGrid& liquidGrid() const override { return simulation_.workspace().grid; }
     sim::StepReport step(double until) override { return simulation_.step(until); }
     sim::Energies energies() const override { return simulation_.energies(); }

@@ -7,8 +7,10 @@ render::FrameView FrameSnapshot::view()
     borrowedObstacles.clear();
     for (const Mesh& mesh : obstacles)
         borrowedObstacles.push_back({.positions = mesh.positions, .triangles = mesh.triangles, .inside = mesh.inside});
+    borrowedLines.clear();
+    for (const Lines& l : lines) borrowedLines.push_back({l.points, l.color, l.width, l.isTapered, l.lift});
     return {.time = time,
-            .liquid = {.positions = positions, .values = speeds, .radius = radius},
+            .liquid = {.positions = positions, .values = values, .radius = radius},
             .obstacles = borrowedObstacles,
             .yarns = {.positions = yarns.positions,
                       .directions = yarns.directions,
@@ -23,7 +25,8 @@ render::FrameView FrameSnapshot::view()
                       .thickness = cloth.thickness,
                       .materials = cloth.materials,
                       .values = cloth.values,
-                      .wetness = cloth.wetness}};
+                      .wetness = cloth.wetness},
+            .lines = borrowedLines};
 }
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/picture_settings.h"
 #include "render/frame_view.h"
 
 #include <Eigen/Core>
@@ -9,6 +10,18 @@
 #include <vector>
 
 namespace app {
+
+/// What a snapshot shows of liquid and fabric beside where they are. Nothing that is not wanted costs anything.
+struct SnapshotExtras {
+    bool pressure = false;                        ///< the liquid's values are pressures [dyn/cm^2], not speeds [cm/s]
+    FabricColorBy yarns = FabricColorBy::Material, cloth = FabricColorBy::Material;  ///< what their values are
+    bool blocks = false;                          ///< edges of the grid's blocks
+    bool arrows = false;                          ///< where some of the particles go
+    bool contacts = false;                        ///< lines between fabric and the fabric it touches
+    double arrowTime = 0.01;                      ///< that an arrow tells ahead [s]
+
+    bool operator==(const SnapshotExtras&) const = default;
+};
 
 /// One frame as it was when the simulation passed it: what a picture needs, copied out of the state in single precision,
 /// so that drawing it does not hold up the simulation.
@@ -32,15 +45,26 @@ struct FrameSnapshot {
         std::vector<int> materials;
     };
 
+    struct Lines {
+        std::vector<Eigen::Vector3f> points;      ///< two per segment [cm]
+        Eigen::Vector3f color = Eigen::Vector3f::Zero();
+        float width = 1.5f;                       ///< and the rest as in render::FrameView::Lines
+        bool isTapered = false;
+        float lift = 0.0f;
+    };
+
     std::int64_t number = 0;                      ///< 0 is the initial state
     double time = 0.0;                            ///< [s]
     std::vector<Eigen::Vector3f> positions;       ///< of the particles [cm]
-    std::vector<float> speeds;                    ///< one per position [cm/s]
+    std::vector<float> values;                    ///< one per position: its speed [cm/s] or pressure [dyn/cm^2]
     float radius = 0.0f;                          ///< of a particle [cm]
     Yarns yarns;
     Cloth cloth;
     std::vector<Mesh> obstacles;
+    std::vector<Lines> lines;
+    SnapshotExtras extras;                        ///< what it shows of all this
     std::vector<render::FrameView::Mesh> borrowedObstacles;  ///< the same, as view() lends them
+    std::vector<render::FrameView::Lines> borrowedLines;
 
     /// Valid until the snapshot changes.
     render::FrameView view();

@@ -1,6 +1,8 @@
 #include "app/frame_view_from_state.h"
 
 #include "app/fabric_in_frame.h"
+#include "app/lines_in_frame.h"
+#include "app/pressure_in_frame.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
@@ -21,20 +23,31 @@ float meanRadius(const sim::LiquidParticles& liquid, double density)
 
 }  // namespace
 
-void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, double density, const RenderSettings& look, FrameSnapshot& snapshot)
+SnapshotExtras extrasOf(const RenderSettings& settings)
+{
+    return {.pressure = settings.colorBy == ColorBy::Pressure,
+            .yarns = settings.yarns.colorBy,
+            .cloth = settings.cloth.colorBy};
+}
+
+void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, double density,
+                  const SnapshotExtras& extras, FrameSnapshot& snapshot)
 {
     const sim::LiquidParticles& liquid = state.liquid;
     snapshot.time = state.time;
     snapshot.radius = meanRadius(liquid, density);
     snapshot.positions.resize(liquid.count);
-    snapshot.speeds.resize(liquid.count);
+    snapshot.values.resize(liquid.count);
     constexpr std::size_t kGrain = 4096;
     sim::parallelFor(liquid.count, kGrain, [&](std::size_t p) {
-        snapshot.positions[p] = liquid.position(p).cast<float>();
-        snapshot.speeds[p] = static_cast<float>(liquid.velocity(p).norm());
+        const sim::Vec3 x = liquid.position(p);
+        snapshot.positions[p] = x.cast<float>();
+        snapshot.values[p] = static_cast<float>(extras.pressure ? smoothPressure(state, x) : liquid.velocity(p).norm());
     });
-    takeYarns(fabric, state.fabric, density, look.yarns.colorBy, snapshot.yarns);
-    takeCloth(fabric, state.fabric, density, look.cloth.colorBy, snapshot.cloth);
+    takeYarns(fabric, state.fabric, density, extras.yarns, snapshot.yarns);
+    takeCloth(fabric, state.fabric, density, extras.cloth, snapshot.cloth);
+    takeLines(state, fabric, contacts, extras, snapshot.lines);
+    snapshot.extras = extras;
 }
 
 }  // namespace app

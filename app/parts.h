@@ -3,6 +3,7 @@
 #include "app/frame_pipeline.h"
 #include "app/scene_setup.h"
 #include "app/view/view_options.h"
+#include "sim/fabric/contact/contact.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/state.h"
 
@@ -20,6 +21,7 @@ class Steppable {
     virtual ~Steppable() = default;
     virtual const sim::State& state() const = 0;
     virtual const sim::Fabric& fabric() const = 0;   ///< what state().fabric is the state of
+    virtual const sim::ActiveContacts* contacts() const = 0;   ///< between fabric and fabric, of the last step; null where there are none
     virtual const sim::LiquidGrid& liquidGrid() const = 0;   ///< of the last step, in state().grid
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;

@@ -23,7 +23,7 @@ struct CameraSettings {
 };
 
 enum class LiquidStyle { Points, Spheres, Surface };
-enum class ColorBy { Speed, Flat };
+enum class ColorBy { Speed, Pressure, Flat };
 enum class ColorMap { Jet, Turbo, Viridis };
 enum class FabricColorBy { Material, Speed, Strain, Saturation };
 enum class ObstacleStyle { Auto, Wire, Translucent, Solid, Hidden };
@@ -48,7 +48,7 @@ struct RenderSettings {
     LiquidStyle liquidStyle = LiquidStyle::Spheres;
     ColorBy colorBy = ColorBy::Speed;
     ColorMap colorMap = ColorMap::Jet;
-    std::array<double, 2> range = {0.0, 200.0};  ///< of the colour bar [cm/s]
+    std::array<double, 2> range = {0.0, 200.0};  ///< of the colour bar [cm/s], or of pressure [dyn/cm^2]
     FabricLookSettings cloth;
     YarnLookSettings yarns;
     ObstacleStyle obstacleStyle = ObstacleStyle::Auto;

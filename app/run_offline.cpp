@@ -28,7 +28,8 @@ class FrameSink {
         if (!pipeline_) return;
         auto snapshot = pipeline_->borrow();
         snapshot->number = frame;
-        takeSnapshot(state, simulation.fabric(), setup_.scene.settings.liquid.density, setup_.pictures.render, *snapshot);
+        takeSnapshot(state, simulation.fabric(), simulation.contacts(), setup_.scene.settings.liquid.density,
+                     extrasOf(setup_.pictures.render), *snapshot);
         placeObstacles_(state.time, snapshot->obstacles);
         pipeline_->submit(std::move(snapshot));
     }

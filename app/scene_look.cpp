@@ -7,6 +7,7 @@ namespace app {
 namespace {
 
 const char* const kSpeedTitle = "speed [cm/s]";
+const char* const kPressureTitle = "pressure [dyn/cm²]";
 const char* const kStrainTitle = "strain";
 const char* const kSaturationTitle = "saturation";
 
@@ -50,12 +51,22 @@ void fillIn(const FabricLookSettings& settings, render::FabricLook& look)
     look.wetColor = settings.wetColor;
     look.colorMap = colorMapOf(settings.colorMap);
     look.range = toFloat(settings.range);
-    look.colorBarTitle = settings.colorBy == FabricColorBy::Strain       ? kStrainTitle
-                         : settings.colorBy == FabricColorBy::Saturation ? kSaturationTitle
-                                                                         : kSpeedTitle;
+    look.colorBarTitle = titleOf(settings.colorBy);
 }
 
 }  // namespace
+
+const char* titleOf(ColorBy colorBy)
+{
+    return colorBy == ColorBy::Pressure ? kPressureTitle : kSpeedTitle;
+}
+
+const char* titleOf(FabricColorBy colorBy)
+{
+    return colorBy == FabricColorBy::Strain       ? kStrainTitle
+           : colorBy == FabricColorBy::Saturation ? kSaturationTitle
+                                                  : kSpeedTitle;
+}
 
 render::Look lookOf(const PictureSettings& pictures, const std::string& label, bool asPanel)
 {
@@ -79,7 +90,7 @@ render::Look lookOf(const PictureSettings& pictures, const std::string& label, b
     look.overlay.timeStamp = settings.hud && !asPanel;
     look.overlay.colorBar = settings.colorBar && !asPanel;
     look.overlay.liquidBar = pictures.contents.liquid;
-    look.overlay.colorBarTitle = kSpeedTitle;
+    look.overlay.colorBarTitle = titleOf(settings.colorBy);
     return look;
 }
 
@@ -87,9 +98,10 @@ std::optional<render::ColorBar> sharedBar(const PictureSettings& pictures)
 {
     const RenderSettings& settings = pictures.render;
     if (!settings.colorBar) return std::nullopt;
-    if (pictures.contents.liquid && settings.colorBy == ColorBy::Speed)
-        return render::ColorBar{
-            .map = colorMapOf(settings.colorMap), .range = toFloat(settings.range), .title = kSpeedTitle};
+    if (pictures.contents.liquid && settings.colorBy != ColorBy::Flat)
+        return render::ColorBar{.map = colorMapOf(settings.colorMap),
+                                .range = toFloat(settings.range),
+                                .title = titleOf(settings.colorBy)};
     const auto barOf = [](const FabricLookSettings& fabric) {
         render::FabricLook look;
         fillIn(fabric, look);

@@ -12,6 +12,10 @@
 
 namespace app {
 
+/// Of colour bars: what the colours show, with its unit.
+const char* titleOf(ColorBy colorBy);
+const char* titleOf(FabricColorBy colorBy);
+
 /// @param asPanel  without the label, time and colour bar that putSideBySide() puts around all panels of a comparison
 render::Look lookOf(const PictureSettings& pictures, const std::string& label, bool asPanel);
 

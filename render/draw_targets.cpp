@@ -124,11 +124,11 @@ void DrawTargets::endOcclusion() const
     gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
 }
 
-void DrawTargets::show() const
+void DrawTargets::show(int x, int y) const
 {
     gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.id());
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl_.BlitFramebuffer(0, 0, width_, height_, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
     requireNoGlError(gl_, "showing a picture");
 }

@@ -23,7 +23,7 @@ class DrawTargets {
     void beginOcclusion();                         ///< draw into the openness texture from here on …
     void endOcclusion() const;                     ///< … and into `picture` again
     Image read() const { return readFramebuffer(gl_, picture_.id(), width_, height_); }  ///< what `picture` holds, rows from the top
-    void show() const;                             ///< the same into the context's own framebuffer, which is bound then
+    void show(int x, int y) const;                 ///< the same with its lower left at (x, y) of the context's own framebuffer, which is bound then
     Image readResolved() const { return readFramebuffer(gl_, resolved_.id(), width_, height_); }  ///< the same of the scene before shading
 
     GLuint colorTexture() const { return color_.id(); }

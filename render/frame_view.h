@@ -39,12 +39,21 @@ struct FrameView {
         std::span<const Eigen::Vector3i> triangles;
         bool inside = false;                       ///< a container, seen from within
     };
+    /// Segments that are drawn alike: notes over the scene, which the camera does not frame.
+    struct Lines {
+        std::span<const Eigen::Vector3f> points;   ///< two per segment
+        Eigen::Vector3f color = Eigen::Vector3f::Zero();
+        float width = 1.5f;                        ///< in a picture 720 pixels high [pixels], 1 at least in any
+        bool isTapered = false;                    ///< that wide at its first point, ends in a point at its second
+        float lift = 0.0f;                         ///< as if this much nearer to the eye: what is thinner does not hide them [cm]
+    };
 
     double time = 0.0;                             ///< [s]
     Liquid liquid;
     std::span<const Mesh> obstacles;
     Yarns yarns = {};
     Cloth cloth = {};
+    std::span<const Lines> lines = {};
 };
 
 }  // namespace render

@@ -5,8 +5,6 @@
 
 namespace render {
 
-namespace {
-
 const char* glErrorName(GLenum error)
 {
     switch (error) {
@@ -18,8 +16,6 @@ const char* glErrorName(GLenum error)
         default: return "unknown error";
     }
 }
-
-}  // namespace
 
 Gl loadGl(const std::function<void*(const char*)>& getProcAddress)
 {

@@ -88,6 +88,9 @@ struct Gl {
 /// Ask the context for every function of the table. Throws std::runtime_error naming the first one that is missing.
 Gl loadGl(const std::function<void*(const char*)>& getProcAddress);
 
+/// "invalid operation" and the like.
+const char* glErrorName(GLenum error);
+
 /// Throws std::runtime_error "OpenGL: <reason> while <doing>" if an error is pending.
 void requireNoGlError(const Gl& gl, const char* doing);
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace render {
 
@@ -20,9 +21,18 @@ class GlContext {
     const Gl& gl() const { return gl_; }
     /// What draws, say "llvmpipe (LLVM 15.0.6, 256 bits)". The context must be current.
     std::string rendererName() const { return reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)); }
+    /// The errors OpenGL has told of since the last call, for tests: its own messages where the context has them (those
+    /// of windows, with most drivers), else the error that is pending. The context must be current.
+    std::vector<std::string> takeComplaints();
 
  protected:
+    void complain(const std::string& message);
+
     Gl gl_;
+    bool hasMessages_ = false;  ///< errors come to complain() of themselves
+
+ private:
+    std::vector<std::string> complaints_;
 };
 
 /// A context that needs neither a display nor a graphics card (OSMesa). Current on return.

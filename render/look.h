@@ -14,6 +14,7 @@ enum class LiquidStyle { Spheres, Points };          ///< shaded balls, or plain
 enum class ObstacleStyle { Translucent, Wire, Hidden, Solid };  ///< of Solid ones containers are translucent
 
 struct LiquidLook {
+    bool isShown = true;
     LiquidStyle style = LiquidStyle::Spheres;
     bool flat = false;                             ///< one colour for all instead of the colour map
     Eigen::Vector3f flatColor = {0.20f, 0.45f, 0.80f};
@@ -30,6 +31,7 @@ inline const std::vector<Eigen::Vector3f> kFabricColors = {
     {0.55f, 0.42f, 0.62f}, {0.84f, 0.56f, 0.25f}, {0.35f, 0.60f, 0.62f}, {0.72f, 0.50f, 0.58f}};
 
 struct FabricLook {
+    bool isShown = true;
     bool byValue = false;                          ///< colour map instead of one colour per material
     std::vector<Eigen::Vector3f> colors = kFabricColors;  ///< by material, again from the first when they run out
     Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};     ///< of what is soaked; between, where it is less wet

@@ -127,6 +127,13 @@ void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bar
     }
 }
 
+void drawNotes(Image& image, const Font& font, const Notes& notes)
+{
+    drawLabel(image, font, notes.label, Corner::TopLeft, notes.ink);
+    drawLabel(image, font, notes.time, Corner::TopRight, notes.ink);
+    drawColorBars(image, font, notes.bars, notes.ink);
+}
+
 PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size,
                            Rgb ink)
 {

@@ -46,6 +46,18 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
 /// Several upright bars from the right edge on.
 void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink);
 
+/// All that is written over one picture.
+struct Notes {
+    std::string label, time;  ///< at the top left and right; empty: none
+    std::vector<ColorBar> bars;
+    Rgb ink;
+
+    bool operator==(const Notes&) const = default;
+    bool empty() const { return label.empty() && time.empty() && bars.empty(); }
+};
+
+void drawNotes(Image& image, const Font& font, const Notes& notes);
+
 /// Lying bar in the middle of `box`, title to its left, ticks below; letters of `size` pixels. Returns the box of the
 /// colours alone.
 PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& box, float size,

@@ -1,9 +1,12 @@
 #include "render/renderer.h"
 
+#include "render/consistent.h"
 #include "render/draw_cloth.h"
+#include "render/draw_lines.h"
 #include "render/draw_liquid.h"
 #include "render/draw_obstacles.h"
 #include "render/draw_occlusion.h"
+#include "render/draw_overlay.h"
 #include "render/draw_shading.h"
 #include "render/draw_targets.h"
 #include "render/draw_yarns.h"
@@ -12,7 +15,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 
 namespace render {
 
@@ -24,8 +26,10 @@ struct Renderer::Parts {
           yarns(gl, shaderDir),
           cloth(gl, shaderDir),
           obstacles(gl, shaderDir),
+          lines(gl, shaderDir),
           occlusion(gl, shaderDir),
-          shading(gl, shaderDir)
+          shading(gl, shaderDir),
+          overlay(gl, shaderDir)
     {
         gl.GetIntegerv(GL_MAX_SAMPLES, &maxSamples);
     }
@@ -36,63 +40,16 @@ struct Renderer::Parts {
     DrawYarns yarns;
     DrawCloth cloth;
     DrawObstacles obstacles;
+    DrawLines lines;
     DrawOcclusion occlusion;
     DrawShading shading;
+    DrawOverlay overlay;
     Font font;
     GLint maxSamples = 1;
     std::optional<DrawTargets> targets;  ///< of the last picture's size
 };
 
 namespace {
-
-void require(bool isMet, const char* what)
-{
-    if (!isMet) throw std::invalid_argument(what);
-}
-
-void requireConsistent(const FrameView::Yarns& yarns, const YarnLook& look)
-{
-    if (yarns.begin.empty()) return;
-    const std::size_t count = yarns.positions.size(), strands = yarns.begin.size() - 1;
-    require(yarns.begin.front() == 0 && yarns.begin.back() == static_cast<int>(count) &&
-                std::ranges::is_sorted(yarns.begin),
-            "picture: the strands must begin one behind the other and end with the last position");
-    require(yarns.directions.size() == count && yarns.along.size() == count,
-            "picture: the yarns need one direction and length per position");
-    require(yarns.halfAxes.size() == strands && yarns.materials.size() == strands,
-            "picture: the yarns need one section and material per strand");
-    require(yarns.values.size() == (look.byValue           ? count
-                                    : yarns.values.empty() ? 0
-                                                           : count),
-            "picture: the yarns need one value per position");
-    require(look.range[0] < look.range[1],
-            "picture: the colour range of yarns must grow from its first to its second number");
-}
-
-void requireConsistent(const FrameView::Cloth& cloth, const FabricLook& look)
-{
-    if (cloth.triangles.empty()) return;
-    const std::size_t count = cloth.positions.size();
-    require(cloth.thickness.size() == count && cloth.materials.size() == count,
-            "picture: the cloth needs one thickness and material per position");
-    require(cloth.values.size() == (look.byValue           ? count
-                                    : cloth.values.empty() ? 0
-                                                           : count),
-            "picture: the cloth needs one value per position");
-    require(look.range[0] < look.range[1],
-            "picture: the colour range of cloth must grow from its first to its second number");
-}
-
-void requireConsistent(const FrameView& view, const Look& look)
-{
-    requireConsistent(view.yarns, look.yarns);
-    requireConsistent(view.cloth, look.cloth);
-    if (look.width <= 0 || look.height <= 0) throw std::invalid_argument("picture: width and height must be positive");
-    if (!look.liquid.flat && view.liquid.values.size() != view.liquid.positions.size())
-        throw std::invalid_argument("picture: the liquid needs one value per position");
-    if (!(look.liquid.range[0] < look.liquid.range[1]))
-        throw std::invalid_argument("picture: the colour range must grow from its first to its second number");
-}
 
 /// Half the thickness of the thickest fabric [cm]; 0 without.
 float fabricRadius(const FrameView& view)
@@ -126,7 +83,10 @@ std::array<float, 2> occlusionReach(const FrameView& view)
 /// Nearest and farthest distance of anything drawn, along the view and with some air: depth is spent on what is there.
 ViewTransforms transformsFor(const FrameView& view, const Camera& camera, const Look& look)
 {
-    const Eigen::AlignedBox3d box = bounds(view);
+    Eigen::AlignedBox3d box = bounds(view);
+    for (const FrameView::Lines& lines : view.lines)
+        for (const Eigen::Vector3f& x : lines.points)
+            if (x.allFinite()) box.extend(x.cast<double>());
     const Eigen::Isometry3d toEye = viewTransform(camera);
     double zNear = 1.0, zFar = 1.0;
     if (!box.isEmpty()) {
@@ -146,24 +106,34 @@ ViewTransforms transformsFor(const FrameView& view, const Camera& camera, const 
             look.height};
 }
 
-void drawOverlay(const FrameView& view, const Look& look, const Font& font, Image& image)
+/// The view without what the look does not show.
+FrameView seenIn(FrameView view, const Look& look)
+{
+    if (!look.liquid.isShown) view.liquid.positions = {}, view.liquid.values = {};
+    if (!look.yarns.isShown) view.yarns = {};
+    if (!look.cloth.isShown) view.cloth = {};
+    return view;
+}
+
+Notes notesOn(const FrameView& view, const Look& look)
 {
     const OverlayLook& overlay = look.overlay;
-    const Rgb ink = inkOn(toRgb(look.background));
-    drawLabel(image, font, overlay.label, Corner::TopLeft, ink);
-    if (overlay.timeStamp) drawLabel(image, font, timeText(view.time), Corner::TopRight, ink);
-    if (!overlay.colorBar) return;
+    Notes notes;
+    notes.ink = inkOn(toRgb(look.background));
+    notes.label = overlay.label;
+    if (overlay.timeStamp) notes.time = timeText(view.time);
+    if (!overlay.colorBar) return notes;
     // From the right edge on; what is coloured alike shares one.
-    std::vector<ColorBar> bars;
     const auto add = [&](const ColorBar& bar) {
-        if (std::ranges::find(bars, bar) == bars.end()) bars.push_back(bar);
+        if (std::ranges::find(notes.bars, bar) == notes.bars.end()) notes.bars.push_back(bar);
     };
-    if (overlay.liquidBar && !look.liquid.flat) add({look.liquid.colorMap, look.liquid.range, overlay.colorBarTitle});
+    if (overlay.liquidBar && look.liquid.isShown && !look.liquid.flat)
+        add({look.liquid.colorMap, look.liquid.range, overlay.colorBarTitle});
     if (look.yarns.byValue && view.yarns.begin.size() > 1)
         add({look.yarns.colorMap, look.yarns.range, look.yarns.colorBarTitle});
     if (look.cloth.byValue && !view.cloth.triangles.empty())
         add({look.cloth.colorMap, look.cloth.range, look.cloth.colorBarTitle});
-    drawColorBars(image, font, bars, ink);
+    return notes;
 }
 
 }  // namespace
@@ -185,16 +155,22 @@ Renderer::~Renderer()
 
 Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& look)
 {
-    paint(view, camera, look);
+    const FrameView seen = seenIn(view, look);
+    paint(seen, camera, look);
     Image image = parts_->targets->read();
-    drawOverlay(view, look, parts_->font, image);
+    drawNotes(image, parts_->font, notesOn(seen, look));
     return image;
 }
 
-void Renderer::show(const FrameView& view, const Camera& camera, const Look& look)
+void Renderer::show(const FrameView& view, const Camera& camera, const Look& look, const Viewport& part)
 {
-    paint(view, camera, look);
-    parts_->targets->show();
+    Look fitted = look;
+    fitted.width = part.width;
+    fitted.height = part.height;
+    const FrameView seen = seenIn(view, look);
+    paint(seen, camera, fitted);
+    parts_->overlay.draw(notesOn(seen, look), parts_->font, part.width, part.height);
+    parts_->targets->show(part.x, part.y);
 }
 
 void Renderer::paint(const FrameView& view, const Camera& camera, const Look& look)
@@ -216,6 +192,7 @@ void Renderer::paint(const FrameView& view, const Camera& camera, const Look& lo
     p.obstacles.drawSolid(view.obstacles, transforms, look.obstacles);
     p.liquid.draw(view.liquid, transforms, look.liquid, samples);
     p.obstacles.draw(view.obstacles, transforms, look.obstacles);
+    p.lines.draw(view.lines, transforms);
     p.targets->resolve();
     DrawShading::Solids solids;
     solids.any = hasSolids(view, look);

@@ -11,6 +11,11 @@
 
 namespace render {
 
+/// Part of a framebuffer, from its lower left [pixels].
+struct Viewport {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// Draws pictures with the OpenGL of one context, which must outlive it. One code for every kind of context.
 /// Not to be used by two threads at once; several renderers on contexts of their own may draw at the same time.
 class Renderer {
@@ -27,8 +32,9 @@ class Renderer {
     /// OpenGL fails (its reason is in the message).
     Image draw(const FrameView& view, const Camera& camera, const Look& look);
 
-    /// The same, but for what is written over it, into the lower left of the context's own framebuffer. Throws like draw().
-    void show(const FrameView& view, const Camera& camera, const Look& look);
+    /// The same into a part of the context's own framebuffer, whose size stands in for the look's. The rest stays as it
+    /// is. Parts of one size may alternate; each change of size makes framebuffers anew. Throws like draw().
+    void show(const FrameView& view, const Camera& camera, const Look& look, const Viewport& part);
 
  private:
     void paint(const FrameView& view, const Camera& camera, const Look& look);

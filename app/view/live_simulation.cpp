@@ -29,7 +29,8 @@ std::size_t bytesOf(const sim::State& state)
 }  // namespace
 
 LiveSimulation::LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory)
-    : parts_(parts), memory_(memory), settings_(std::move(request), parts.loadScene)
+    : parts_(parts), memory_(memory), settings_(std::move(request), parts.loadScene),
+      extras_(extrasOf(settings_.setup().pictures.render))
 {
     startAnew();
     publish(true);
@@ -125,6 +126,11 @@ void LiveSimulation::frameByFrame(bool isOn)
         frameByFrame_ = isOn;
     }
     wake_.notify_one();
+}
+
+void LiveSimulation::show(const SnapshotExtras& extras)
+{
+    ask([this, extras] { extras_ = extras; });  // as after every command, a snapshot is published
 }
 
 LiveStatus LiveSimulation::status() const
@@ -324,8 +330,8 @@ void LiveSimulation::publish(bool always)
     }
     if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
     snapshot->number = frame_;
-    app::takeSnapshot(state, simulation_->fabric(), settings_.setup().scene.settings.liquid.density,
-                      settings_.setup().pictures.render, *snapshot);
+    app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(),
+                      settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
     placeObstacles_(state.time, snapshot->obstacles);
     const std::lock_guard lock(mutex_);
     ready_ = std::move(snapshot);

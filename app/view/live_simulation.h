@@ -61,6 +61,9 @@ class LiveSimulation {
     /// Hand out every frame and nothing between, and wait until it is taken; pauses and steps end at frames.
     void frameByFrame(bool isOn);
 
+    /// What snapshots show from now on, beginning with one of the state as it is. At first: what the scene's file says.
+    void show(const SnapshotExtras& extras);
+
     LiveStatus status() const;
     std::shared_ptr<const LiveScene> scene() const;
     std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
@@ -105,6 +108,7 @@ class LiveSimulation {
     std::int64_t frame_ = 0;        ///< the last one that was reached
     std::int64_t nextChange_ = 0;   ///< the step with which settings change next by themselves
     bool pausesAtFrame_ = false;
+    SnapshotExtras extras_;
 
     mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable_any wake_;

@@ -28,6 +28,8 @@ class VertexSolver {
     /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
     double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
     double leastDistance() const;
+    /// Pairs of fabric that acted at the last Newton iteration of the last step; null before the first, and where none were near.
+    const ActiveContacts* contacts() const { return contacts_; }
 
  private:
     /// The Newton iterations of one attempt so far.

@@ -38,13 +38,11 @@ struct YarnAndFace {
     FrameSnapshot snapshot(FabricColorBy colorBy)
     {
         FrameSnapshot taken;
-        look.yarns.colorBy = look.cloth.colorBy = colorBy;
-        takeSnapshot(state, fabric, 1.0, look, taken);
+        takeSnapshot(state, fabric, nullptr, 1.0, {.yarns = colorBy, .cloth = colorBy}, taken);
         return taken;
     }
     sim::Fabric fabric;
     sim::State state;
-    RenderSettings look;
 };
 
 TEST(FabricInFrame, GeometryArrives)
@@ -122,7 +120,7 @@ TEST(FabricInFrame, NothingIsLeftOfAnEarlierFrame)
 {
     YarnAndFace scene;
     FrameSnapshot taken = scene.snapshot(FabricColorBy::Speed);
-    takeSnapshot(sim::State(), sim::Fabric(), 1.0, scene.look, taken);
+    takeSnapshot(sim::State(), sim::Fabric(), nullptr, 1.0, {}, taken);
     const render::FrameView view = taken.view();
     EXPECT_TRUE(view.yarns.begin.empty());
     EXPECT_TRUE(view.yarns.positions.empty());

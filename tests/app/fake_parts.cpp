@@ -39,6 +39,7 @@ class ToySimulation : public Steppable {
     ToySimulation(const ToySettings& toy, const sim::State& state) : toy_(toy), state_(state) {}
     const sim::State& state() const override { return state_; }
     const sim::Fabric& fabric() const override { return fabric_; }
+    const sim::ActiveContacts* contacts() const override { return nullptr; }
     const sim::LiquidGrid& liquidGrid() const override { return grid_; }
     void bookEnergy() override { booksEnergy_ = true; }
     sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0], .fabric = {}}; }

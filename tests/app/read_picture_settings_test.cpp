@@ -93,6 +93,16 @@ TEST(PictureSettings, StrainHasARangeOfItsOwnWithoutUnit)
     EXPECT_FALSE(r.yarns.ownColor);
 }
 
+TEST(PictureSettings, PressureHasARangeOfItsOwnInItsUnit)
+{
+    const app::RenderSettings usual = read("render: {liquid: {color_by: pressure}}\n").render;
+    EXPECT_EQ(app::ColorBy::Pressure, usual.colorBy);
+    EXPECT_EQ((std::array{0.0, 1.0e4}), usual.range);
+    const app::RenderSettings si = read("units: si\nrender: {liquid: {range: [-10, 500], color_by: pressure}}\n").render;
+    EXPECT_EQ((std::array{-100.0, 5000.0}), si.range) << "pascals, wherever the key stands";
+    EXPECT_EQ((std::array{0.0, 200.0}), read("render: {liquid: {color_by: speed}}\n").render.range);
+}
+
 TEST(PictureSettings, OrbitIsACameraOfItsOwn)
 {
     const app::CameraSettings c =

@@ -174,6 +174,23 @@ TEST(LiveSimulation, TellsWhyItFailedAndCanGoBack)
     EXPECT_EQ(l.live.status().failure, "");
 }
 
+/// What is wanted anew comes at once, while it is paused too, and stays.
+TEST(LiveSimulation, ShowsWhatIsAskedFor)
+{
+    Live l;
+    ASSERT_TRUE(l.live.takeSnapshot()->lines.empty());
+    l.live.show({.arrows = true, .arrowTime = 2.0});
+    std::unique_ptr<FrameSnapshot> shown;
+    ASSERT_TRUE(comesTrue([&] { return (shown = l.live.takeSnapshot()) != nullptr; }));
+    EXPECT_EQ(l.live.status().step, 0);
+    ASSERT_EQ(shown->lines.size(), 2u);
+    EXPECT_FLOAT_EQ(shown->lines[1].points.at(1).x(), 2.0f) << "1 cm/s for 2 s";
+    EXPECT_TRUE(shown->extras.arrows);
+    l.live.stepOnce();
+    ASSERT_TRUE(l.comesToStep(1));
+    EXPECT_EQ(l.live.takeSnapshot()->lines.size(), 2u);
+}
+
 TEST(LiveSimulation, EndsAmidAStep)
 {
     ToySettings toy;

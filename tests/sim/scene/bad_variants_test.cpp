@@ -50,6 +50,16 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {yarns: {color_by: stain}}
 )",
      "bad.yaml:3: render.yarns.color_by: \"stain\" is unknown (did you mean \"strain\"?)"},
+    {"RenderLiquidSaturation", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {liquid: {color_by: saturation}}
+)",
+     "bad.yaml:3: render.liquid.color_by: \"saturation\" is unknown (there is speed, pressure, flat)"},
+    {"RenderPressureInSpeeds", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+render: {liquid: {color_by: pressure, range: [0, 2 cm/s]}}
+)",
+     "bad.yaml:3: render.liquid.range: \"2 cm/s\" is a velocity, needs a pressure (in dyn/cm^2)"},
     {"RenderClothColorAndStrain", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {cloth: {color_by: strain, color: [1, 0, 0]}}

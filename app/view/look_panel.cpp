@@ -1,0 +1,152 @@
+#include "app/view/look_panel.h"
+
+#include "app/describe_picture.h"
+#include "app/frame_view_from_state.h"
+#include "app/scene_look.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace app {
+
+namespace {
+
+std::array<float, 2> toFloat(const std::array<double, 2>& range)
+{
+    return {static_cast<float>(range[0]), static_cast<float>(range[1])};
+}
+
+ColorBy liquidColorBy(const SnapshotExtras& extras)
+{
+    return extras.pressure ? ColorBy::Pressure : ColorBy::Speed;
+}
+
+std::array<std::array<float, 2>, 2> liquidRanges(const RenderSettings& settings)
+{
+    std::array ranges = {toFloat(usualRange(ColorBy::Speed)), toFloat(usualRange(ColorBy::Pressure))};
+    ranges[settings.colorBy == ColorBy::Pressure ? 1 : 0] = toFloat(settings.range);
+    return ranges;
+}
+
+std::array<std::array<float, 2>, 4> fabricRanges(const FabricLookSettings& settings)
+{
+    std::array<std::array<float, 2>, 4> ranges;
+    for (const FabricColorBy by :
+         {FabricColorBy::Material, FabricColorBy::Speed, FabricColorBy::Strain, FabricColorBy::Saturation})
+        ranges[static_cast<std::size_t>(by)] = toFloat(usualRange(by));
+    if (settings.colorBy != FabricColorBy::Material)
+        ranges[static_cast<std::size_t>(settings.colorBy)] = toFloat(settings.range);
+    return ranges;
+}
+
+void fillIn(FabricColorBy colorBy, const std::array<std::array<float, 2>, 4>& ranges, render::FabricLook& look)
+{
+    look.byValue = colorBy != FabricColorBy::Material;
+    look.range = ranges[static_cast<std::size_t>(colorBy)];
+    look.colorBarTitle = titleOf(colorBy);
+}
+
+/// True when another one is chosen.
+template <class E>
+bool choose(const char* label, const char* words, E& choice)
+{
+    int index = static_cast<int>(choice);
+    if (!ImGui::Combo(label, &index, words)) return false;
+    choice = static_cast<E>(index);
+    return true;
+}
+
+void chooseColors(const char* rangeLabel, std::array<float, 2>& range, render::ColorMap& map)
+{
+    const float step = std::max(1.0e-4f, 0.005f * (range[1] - range[0]));
+    ImGui::DragFloatRange2(rangeLabel, &range[0], &range[1], step, 0.0f, 0.0f, "%.4g");
+    range[1] = std::max(range[1], range[0] + std::max(1.0e-6f, 1.0e-6f * std::abs(range[0])));
+    choose("colour map", "jet\0turbo\0viridis\0", map);
+}
+
+}  // namespace
+
+LookPanel::LookPanel(const PictureSettings& pictures)
+    : contents_(pictures.contents),
+      look_(lookOf(pictures, "", false)),
+      wanted_(extrasOf(pictures.render)),
+      liquidRanges_(liquidRanges(pictures.render)),
+      yarnRanges_(fabricRanges(pictures.render.yarns)),
+      clothRanges_(fabricRanges(pictures.render.cloth))
+{
+}
+
+render::Look LookPanel::lookFor(const FrameSnapshot& snapshot) const
+{
+    render::Look look = look_;
+    look.liquid.range = liquidRanges_[snapshot.extras.pressure ? 1 : 0];
+    look.overlay.colorBarTitle = titleOf(liquidColorBy(snapshot.extras));
+    fillIn(snapshot.extras.yarns, yarnRanges_, look.yarns);
+    fillIn(snapshot.extras.cloth, clothRanges_, look.cloth);
+    return look;
+}
+
+bool LookPanel::draw()
+{
+    const SnapshotExtras before = wanted_;
+    drawVisibility();
+    if (contents_.liquid && look_.liquid.isShown) drawLiquid();
+    if (contents_.yarns && look_.yarns.isShown) drawFabric("yarns by", wanted_.yarns, yarnRanges_, look_.yarns);
+    if (contents_.cloth && look_.cloth.isShown) drawFabric("cloth by", wanted_.cloth, clothRanges_, look_.cloth);
+    ImGui::ColorEdit3("background", look_.background.data(), ImGuiColorEditFlags_NoInputs);
+    return wanted_ != before;
+}
+
+void LookPanel::drawVisibility()
+{
+    if (contents_.liquid) ImGui::Checkbox("liquid", &look_.liquid.isShown);
+    if (contents_.liquid && contents_.fabric()) ImGui::SameLine();
+    bool isFabricShown = look_.yarns.isShown;
+    if (contents_.fabric() && ImGui::Checkbox("fabric", &isFabricShown))
+        look_.yarns.isShown = look_.cloth.isShown = isFabricShown;
+    ImGui::Checkbox("blocks", &wanted_.blocks);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("of 8 x 8 x 8 cells: where the grid is");
+    if (contents_.fabric()) {
+        ImGui::SameLine();
+        ImGui::Checkbox("contacts", &wanted_.contacts);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("pairs of fabric that push on each other");
+    }
+    if (contents_.liquid) {
+        ImGui::SameLine();
+        ImGui::Checkbox("arrows", &wanted_.arrows);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("where the liquid goes");
+    }
+    if (wanted_.arrows) {
+        auto milliseconds = static_cast<float>(1000.0 * wanted_.arrowTime);
+        if (ImGui::SliderFloat("arrows [ms]", &milliseconds, 0.1f, 1000.0f, "%.1f", ImGuiSliderFlags_Logarithmic))
+            wanted_.arrowTime = 0.001 * milliseconds;
+    }
+    choose("obstacles", "translucent\0wire\0hidden\0solid\0", look_.obstacles.style);
+}
+
+void LookPanel::drawLiquid()
+{
+    ImGui::PushID("liquid");
+    ColorBy colorBy = look_.liquid.flat ? ColorBy::Flat : liquidColorBy(wanted_);
+    if (choose("liquid by", "speed\0pressure\0one colour\0", colorBy)) {
+        look_.liquid.flat = colorBy == ColorBy::Flat;
+        wanted_.pressure = colorBy == ColorBy::Pressure;
+    }
+    if (!look_.liquid.flat)
+        chooseColors(colorBy == ColorBy::Pressure ? "dyn/cm^2" : "cm/s", liquidRanges_[wanted_.pressure ? 1 : 0],
+                     look_.liquid.colorMap);
+    ImGui::PopID();
+}
+
+void LookPanel::drawFabric(const char* name, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look)
+{
+    ImGui::PushID(name);
+    choose(name, "material and wetness\0speed\0strain\0saturation\0", colorBy);
+    if (colorBy != FabricColorBy::Material)
+        chooseColors(colorBy == FabricColorBy::Speed ? "cm/s" : "range", ranges[static_cast<std::size_t>(colorBy)],
+                     look.colorMap);
+    ImGui::PopID();
+}
+
+}  // namespace app

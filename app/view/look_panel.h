@@ -1,0 +1,39 @@
+#pragma once
+
+#include "app/frame_snapshot.h"
+#include "app/picture_settings.h"
+#include "render/look.h"
+
+#include <array>
+
+namespace app {
+
+/// How a scene is drawn in a window: begins as its file says, and is changed by the widgets of the part "Picture" of
+/// the panel.
+class LookPanel {
+ public:
+    explicit LookPanel(const PictureSettings& pictures);
+
+    /// The widgets. True if snapshots are to show something else from now on: wanted().
+    bool draw();
+    const SnapshotExtras& wanted() const { return wanted_; }
+    /// For this snapshot: colour bars tell what its values are, be they those that are wanted or, for a moment, those
+    /// that were wanted before.
+    render::Look lookFor(const FrameSnapshot& snapshot) const;
+
+ private:
+    using Range = std::array<float, 2>;
+    using FabricRanges = std::array<Range, 4>;  ///< by FabricColorBy
+
+    void drawVisibility();
+    void drawLiquid();
+    void drawFabric(const char* name, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look);
+
+    const SceneContents contents_;
+    render::Look look_;  ///< but for what depends on the values of a snapshot
+    SnapshotExtras wanted_;
+    std::array<Range, 2> liquidRanges_;  ///< of speeds and of pressures
+    FabricRanges yarnRanges_, clothRanges_;
+};
+
+}  // namespace app
