@@ -18,8 +18,12 @@ FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid);
 /// long as the number of particles stays alike.
 inline constexpr std::size_t kMostArrows = 3000;
 
-/// Shafts and heads of arrows from particles to where they come in `time` [s] at their velocity.
-std::array<FrameSnapshot::Lines, 2> velocityArrows(const sim::LiquidParticles& liquid, double time);
+struct Arrows {
+    FrameSnapshot::Lines shafts, heads;
+};
+
+/// From particles to where they come in `time` [s] at their velocity.
+Arrows velocityArrows(const sim::LiquidParticles& liquid, double time);
 
 /// From the one nearest point to the other of each pair, with the vertices at x; lifted out of the fabric, in whose
 /// middle they lie.

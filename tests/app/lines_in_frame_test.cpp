@@ -110,7 +110,7 @@ TEST(Snapshot, HasTheLinesThatAreWantedAndNoOthers)
     };
     EXPECT_EQ(groups({}), 0u);
     EXPECT_EQ(groups({.blocks = true}), 1u);
-    EXPECT_EQ(groups({.arrows = true}), 2u) << "shafts and heads";
+    EXPECT_EQ(groups({.arrows = true}), 4u) << "shafts and heads, and what is below them";
     EXPECT_EQ(groups({.contacts = true}), 1u);
 
     FrameSnapshot snapshot;
