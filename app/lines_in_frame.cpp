@@ -44,14 +44,6 @@ double largestRadius(const sim::Fabric& fabric)
     return radius;
 }
 
-/// Somewhat wider and light, to be drawn below: dark lines stand out from dark liquid so.
-FrameSnapshot::Lines rimOf(FrameSnapshot::Lines lines)
-{
-    lines.color.setOnes();
-    lines.width += 2.0f;
-    return lines;
-}
-
 }  // namespace
 
 FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid)
@@ -66,12 +58,12 @@ FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid)
     return lines;
 }
 
-Arrows velocityArrows(const sim::LiquidParticles& liquid, double time)
+Arrows velocityArrows(const sim::LiquidParticles& liquid, double time, float lift)
 {
     constexpr double kHead = 0.35;  // of the length
     Arrows arrows;
-    arrows.shafts = {.points = {}, .color = kArrowColor, .width = 1.5f};
-    arrows.heads = {.points = {}, .color = kArrowColor, .width = 7.0f, .isTapered = true};
+    arrows.shafts = {.points = {}, .color = kArrowColor, .width = 1.5f, .rim = 1.0f, .lift = lift};
+    arrows.heads = {.points = {}, .color = kArrowColor, .width = 7.0f, .isTapered = true, .rim = 1.0f, .lift = lift};
     const std::size_t every = std::max<std::size_t>(1, (liquid.count + kMostArrows - 1) / kMostArrows);
     for (std::size_t p = 0; p < liquid.count; ++p) {
         if (liquid.id[p] % every != 0) continue;
@@ -106,15 +98,14 @@ FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim
 }
 
 void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts,
-               const SnapshotExtras& extras, std::vector<FrameSnapshot::Lines>& out)
+               const SnapshotExtras& extras, float radius, std::vector<FrameSnapshot::Lines>& out)
 {
     out.clear();
     if (extras.blocks) out.push_back(blockEdges(state.grid));
     if (extras.arrows) {
-        const auto [shafts, heads] = velocityArrows(state.liquid, extras.arrowTime);
-        for (const FrameSnapshot::Lines* lines : {&shafts, &heads}) out.push_back(rimOf(*lines));
-        out.push_back(shafts);
-        out.push_back(heads);
+        const Arrows arrows = velocityArrows(state.liquid, extras.arrowTime, 2.0f * radius);
+        out.push_back(arrows.shafts);
+        out.push_back(arrows.heads);
     }
     if (extras.contacts && contacts != nullptr) out.push_back(contactLines(*contacts, fabric, state.fabric.x));
 }

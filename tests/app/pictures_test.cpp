@@ -101,7 +101,7 @@ TEST(Pictures, BlocksAndArrowsAreOverTheScene)
     const SceneSetup setup = load("drop", {"render.size=[960, 720]"});
     const auto simulation = runTo(0.06, setup);
     FrameSnapshot snapshot = shotOf(*simulation, setup, {.blocks = true, .arrows = true});
-    EXPECT_EQ(snapshot.lines.size(), 5u);
+    EXPECT_EQ(snapshot.lines.size(), 3u);
     const render::Image with = pictureOf(snapshot, setup, "blocks_and_arrows");
     FrameSnapshot plain = shotOf(*simulation, setup, {});
     EXPECT_TRUE(plain.lines.empty());
