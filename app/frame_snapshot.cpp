@@ -8,7 +8,7 @@ render::FrameView FrameSnapshot::view()
     for (const Mesh& mesh : obstacles)
         borrowedObstacles.push_back({.positions = mesh.positions, .triangles = mesh.triangles, .inside = mesh.inside});
     borrowedLines.clear();
-    for (const Lines& l : lines) borrowedLines.push_back({l.points, l.color, l.width, l.isTapered, l.lift});
+    for (const Lines& l : lines) borrowedLines.push_back({l.points, l.color, l.width, l.isTapered, l.rim, l.lift});
     return {.time = time,
             .liquid = {.positions = positions, .values = values, .radius = radius},
             .obstacles = borrowedObstacles,

@@ -50,7 +50,7 @@ struct FrameSnapshot {
         Eigen::Vector3f color = Eigen::Vector3f::Zero();
         float width = 1.5f;                       ///< and the rest as in render::FrameView::Lines
         bool isTapered = false;
-        float lift = 0.0f;
+        float rim = 0.0f, lift = 0.0f;
     };
 
     std::int64_t number = 0;                      ///< 0 is the initial state

@@ -46,7 +46,7 @@ void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim:
     });
     takeYarns(fabric, state.fabric, density, extras.yarns, snapshot.yarns);
     takeCloth(fabric, state.fabric, density, extras.cloth, snapshot.cloth);
-    takeLines(state, fabric, contacts, extras, snapshot.lines);
+    takeLines(state, fabric, contacts, extras, snapshot.radius, snapshot.lines);
     snapshot.extras = extras;
 }
 

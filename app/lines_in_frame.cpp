@@ -58,22 +58,23 @@ FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid)
     return lines;
 }
 
-std::array<FrameSnapshot::Lines, 2> velocityArrows(const sim::LiquidParticles& liquid, double time)
+Arrows velocityArrows(const sim::LiquidParticles& liquid, double time, float lift)
 {
     constexpr double kHead = 0.35;  // of the length
-    FrameSnapshot::Lines shafts{.points = {}, .color = kArrowColor, .width = 1.5f};
-    FrameSnapshot::Lines heads{.points = {}, .color = kArrowColor, .width = 7.0f, .isTapered = true};
+    Arrows arrows;
+    arrows.shafts = {.points = {}, .color = kArrowColor, .width = 1.5f, .rim = 1.0f, .lift = lift};
+    arrows.heads = {.points = {}, .color = kArrowColor, .width = 7.0f, .isTapered = true, .rim = 1.0f, .lift = lift};
     const std::size_t every = std::max<std::size_t>(1, (liquid.count + kMostArrows - 1) / kMostArrows);
     for (std::size_t p = 0; p < liquid.count; ++p) {
         if (liquid.id[p] % every != 0) continue;
         const sim::Vec3 begin = liquid.position(p), way = time * liquid.velocity(p);
         const Eigen::Vector3f neck = (begin + (1.0 - kHead) * way).cast<float>();
-        shafts.points.push_back(begin.cast<float>());
-        shafts.points.push_back(neck);
-        heads.points.push_back(neck);
-        heads.points.push_back((begin + way).cast<float>());
+        arrows.shafts.points.push_back(begin.cast<float>());
+        arrows.shafts.points.push_back(neck);
+        arrows.heads.points.push_back(neck);
+        arrows.heads.points.push_back((begin + way).cast<float>());
     }
-    return {shafts, heads};
+    return arrows;
 }
 
 FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim::Fabric& fabric,
@@ -97,11 +98,15 @@ FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim
 }
 
 void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts,
-               const SnapshotExtras& extras, std::vector<FrameSnapshot::Lines>& out)
+               const SnapshotExtras& extras, float radius, std::vector<FrameSnapshot::Lines>& out)
 {
     out.clear();
     if (extras.blocks) out.push_back(blockEdges(state.grid));
-    if (extras.arrows) std::ranges::move(velocityArrows(state.liquid, extras.arrowTime), std::back_inserter(out));
+    if (extras.arrows) {
+        const Arrows arrows = velocityArrows(state.liquid, extras.arrowTime, 2.0f * radius);
+        out.push_back(arrows.shafts);
+        out.push_back(arrows.heads);
+    }
     if (extras.contacts && contacts != nullptr) out.push_back(contactLines(*contacts, fabric, state.fabric.x));
 }
 

@@ -8,8 +8,9 @@ namespace app {
 
 /// The lines that `extras` asks for; none where it asks for none.
 /// @param contacts  between pieces of `fabric`, of the last step; null where there are none
+/// @param radius    of a particle [cm]
 void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts,
-               const SnapshotExtras& extras, std::vector<FrameSnapshot::Lines>& out);
+               const SnapshotExtras& extras, float radius, std::vector<FrameSnapshot::Lines>& out);
 
 /// Edges of the blocks that exist, each once.
 FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid);
@@ -18,8 +19,13 @@ FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid);
 /// long as the number of particles stays alike.
 inline constexpr std::size_t kMostArrows = 3000;
 
-/// Shafts and heads of arrows from particles to where they come in `time` [s] at their velocity.
-std::array<FrameSnapshot::Lines, 2> velocityArrows(const sim::LiquidParticles& liquid, double time);
+struct Arrows {
+    FrameSnapshot::Lines shafts, heads;
+};
+
+/// From particles to where they come in `time` [s] at their velocity; lifted, so that those of the outermost particles
+/// are seen whole.
+Arrows velocityArrows(const sim::LiquidParticles& liquid, double time, float lift);
 
 /// From the one nearest point to the other of each pair, with the vertices at x; lifted out of the fabric, in whose
 /// middle they lie.

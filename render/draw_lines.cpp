@@ -35,14 +35,17 @@ void DrawLines::draw(std::span<const FrameView::Lines> groups, const ViewTransfo
     gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl_.BindVertexArray(vertices_.id());
     for (const FrameView::Lines& lines : groups)
-        if (!isEmpty(lines)) drawGroup(lines, transforms);
+        if (!isEmpty(lines) && lines.rim > 0.0f) drawGroup(lines, Eigen::Vector3f::Ones(), lines.rim, transforms);
+    for (const FrameView::Lines& lines : groups)
+        if (!isEmpty(lines)) drawGroup(lines, lines.color, 0.0f, transforms);
     gl_.DepthMask(GL_TRUE);
     gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl_.Disable(GL_BLEND);
     requireNoGlError(gl_, "drawing lines");
 }
 
-void DrawLines::drawGroup(const FrameView::Lines& lines, const ViewTransforms& transforms)
+void DrawLines::drawGroup(const FrameView::Lines& lines, const Eigen::Vector3f& color, float rim,
+                          const ViewTransforms& transforms)
 {
     gl_.BindBuffer(GL_ARRAY_BUFFER, segments_.id());
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.points.size_bytes()), lines.points.data(),
@@ -52,10 +55,12 @@ void DrawLines::drawGroup(const FrameView::Lines& lines, const ViewTransforms& t
     gl_.UniformMatrix4fv(program_["projection"], 1, GL_FALSE, transforms.projection.data());
     gl_.Uniform2f(program_["halfPicture"], 0.5f * static_cast<float>(transforms.width),
                   0.5f * static_cast<float>(transforms.height));
-    gl_.Uniform1f(program_["linePixels"], std::max(1.0f, lines.width * static_cast<float>(transforms.height) / 720.0f));
+    const float perUnit = static_cast<float>(transforms.height) / 720.0f;
+    gl_.Uniform1f(program_["linePixels"], std::max(1.0f, lines.width * perUnit));
+    gl_.Uniform1f(program_["rimPixels"], rim * perUnit);
     gl_.Uniform1i(program_["isTapered"], lines.isTapered ? 1 : 0);
     gl_.Uniform1f(program_["lift"], lines.lift);
-    gl_.Uniform3f(program_["color"], lines.color.x(), lines.color.y(), lines.color.z());
+    gl_.Uniform3f(program_["color"], color.x(), color.y(), color.z());
     gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(lines.points.size() / 2));
 }
 

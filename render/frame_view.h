@@ -45,6 +45,7 @@ struct FrameView {
         Eigen::Vector3f color = Eigen::Vector3f::Zero();
         float width = 1.5f;                        ///< in a picture 720 pixels high [pixels], 1 at least in any
         bool isTapered = false;                    ///< that wide at its first point, ends in a point at its second
+        float rim = 0.0f;                          ///< of white below its edges, so that it stands out from the dark [pixels as above]
         float lift = 0.0f;                         ///< as if this much nearer to the eye: what is thinner does not hide them [cm]
     };
 

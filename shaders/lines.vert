@@ -9,6 +9,7 @@ uniform mat4 view;
 uniform mat4 projection;
 uniform vec2 halfPicture;   // [pixels]
 uniform float linePixels;   // width
+uniform float rimPixels;    // more on either side, and at the ends
 uniform bool isTapered;     // full width at a, none at b
 uniform float lift;         // towards the eye [cm]
 
@@ -36,10 +37,11 @@ void main()
     vec4 end = isFirst ? clipA : clipB;
     // A short head is a narrow one.
     float width = isTapered ? (isFirst ? min(linePixels, len) : 0.0) : linePixels;
-    halfWidth = 0.5 * width;
+    halfWidth = 0.5 * width + rimPixels;
     float reach = halfWidth + 1.0;
     fromMiddle = side * reach;
-    end.xy += vec2(-along.y, along.x) * side * reach / halfPicture * end.w;
+    vec2 beyond = along * (isFirst ? -rimPixels : rimPixels);
+    end.xy += (vec2(-along.y, along.x) * side * reach + beyond) / halfPicture * end.w;
     // At the same place of the picture, with the depth of a point that is nearer, but not before the near plane.
     float depth = end.z / end.w;
     float nearer = max(end.w - lift, 1e-6);

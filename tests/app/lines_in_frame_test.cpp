@@ -40,7 +40,7 @@ TEST(VelocityArrows, LeadToWhereParticlesCome)
 {
     sim::LiquidParticles liquid;
     liquid.add({1.0, 2.0, 3.0}, 1.0, 7, {10.0, 0.0, -20.0});
-    const auto [shafts, heads] = velocityArrows(liquid, 0.1);
+    const auto [shafts, heads] = velocityArrows(liquid, 0.1, 0.0f);
     ASSERT_EQ(shafts.points.size(), 2u);
     ASSERT_EQ(heads.points.size(), 2u);
     EXPECT_TRUE(shafts.points[0].isApprox(Eigen::Vector3f(1.0f, 2.0f, 3.0f)));
@@ -61,7 +61,7 @@ TEST(VelocityArrows, AreOfAFewParticlesEvenlyById)
         reversed.add({static_cast<double>(q), 0.0, 0.0}, 1.0, static_cast<std::uint32_t>(q), Vec3::UnitY());
     }
     const auto placesOf = [](const sim::LiquidParticles& of) {
-        const auto [shafts, heads] = velocityArrows(of, 1.0);
+        const auto [shafts, heads] = velocityArrows(of, 1.0, 0.0f);
         std::set<float> places;
         for (std::size_t i = 0; i < shafts.points.size(); i += 2) places.insert(shafts.points[i].x());
         return places;
@@ -105,7 +105,7 @@ TEST(Snapshot, HasTheLinesThatAreWantedAndNoOthers)
     contacts.weights = {{0.75, 0.25, -0.5, -0.5}};
     const auto groups = [&](const SnapshotExtras& extras) {
         std::vector<FrameSnapshot::Lines> lines;
-        takeLines(state, {}, &contacts, extras, lines);
+        takeLines(state, {}, &contacts, extras, 0.1f, lines);
         return lines.size();
     };
     EXPECT_EQ(groups({}), 0u);

@@ -13,8 +13,12 @@ constexpr Rgb kWhite = {255, 255, 255};
 struct LineDrawing : Drawing {
     Image draw()
     {
-        const FrameView::Lines lines = {
-            .points = points, .color = {1.0f, 0.0f, 0.0f}, .width = width, .isTapered = isTapered, .lift = lift};
+        const FrameView::Lines lines = {.points = points,
+                                        .color = {1.0f, 0.0f, 0.0f},
+                                        .width = width,
+                                        .isTapered = isTapered,
+                                        .rim = rim,
+                                        .lift = lift};
         FrameView all = view();
         all.lines = {&lines, 1};
         return renderer.draw(all, camera, look);
@@ -28,7 +32,7 @@ struct LineDrawing : Drawing {
     std::vector<Vector3f> points = {{-1.5f, 1.0f, 0.0f}, {1.5f, 1.0f, 0.0f}};
     float width = 16.0f;  ///< 4 pixels in a picture of 180
     bool isTapered = false;
-    float lift = 0.0f;
+    float rim = 0.0f, lift = 0.0f;
 };
 
 /// What the pixels have of the red of the lines, and where.
@@ -130,6 +134,25 @@ TEST(Lines, AreHiddenBehindLiquid)
     EXPECT_LT(image.color(160, middleY).r, 100) << "the ball is in front";
     EXPECT_GT(image.color(160 - 30, middleY).r, 200);
     EXPECT_LT(image.color(160 - 30, middleY).g, 60);
+}
+
+/// White on dark, on all sides; on white it is not seen.
+TEST(Lines, HaveARim)
+{
+    LineDrawing drawing;
+    const Image onWhite = drawing.draw();
+    drawing.look.background.setZero();
+    const Image bare = drawing.draw();
+    drawing.rim = 8.0f;  // 2 pixels
+    const Image rimmed = drawing.draw();
+    int rim = 0;
+    for (int y = 0; y < bare.height; ++y)
+        for (int x = 0; x < bare.width; ++x) rim += (rimmed.color(x, y).b - bare.color(x, y).b) / 128;
+    const double length = 3.0 * drawing.pixelsPerCm();
+    EXPECT_NEAR(rim, 2.0 * (2.0 * length + 2.0 * 8.0), 0.1 * rim) << "2 pixels above and below, and at both ends";
+    EXPECT_EQ(Ink(rimmed).area, Ink(bare).area);
+    drawing.look.background.setOnes();
+    EXPECT_NEAR(Ink(drawing.draw()).area, Ink(onWhite).area, 1.0);
 }
 
 /// Not even each other: what is drawn later is on top.
