@@ -240,8 +240,8 @@ void LiveSimulation::advance()
         if (steps_.size() < kMostSteps) steps_.push_back(std::move(step));
     }
     if (state.step + 1 >= nextChange_) publishScene();
+    if (state.time == until) ++frame_;
     if (state.time == until && until < end) {
-        ++frame_;
         if (frame_ % momentEvery_ == 0) keepMoment();
         if (std::exchange(pausesAtFrame_, false)) setMode(LiveMode::Paused);
     }

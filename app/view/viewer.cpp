@@ -23,9 +23,16 @@ namespace app {
 
 namespace {
 
+constexpr float kPanelWidth = 24.0f;  ///< of the column with the panels [font sizes]
+
 std::string titleOf(const sim::Scene& scene)
 {
     return fmt::format("{} - Drench", scene.title.empty() ? scene.name : scene.title);
+}
+
+std::string labelOf(const SceneSetup& setup)
+{
+    return setup.label.empty() ? "as written" : setup.label;
 }
 
 SceneRequest withVariant(SceneRequest request, const std::string& variant)
@@ -67,7 +74,8 @@ struct Viewer::Inner {
 
     const sim::Scene& scene() const { return pair->first().scene()->setup.scene; }
     LivePair::Side& tunedSide() { return *pair->sides()[std::min(tuned, pair->sides().size() - 1)]; }
-    int widthOfSide() const { return window.width() / static_cast<int>(pair->sides().size()); }
+    int widthOfPanels() const;
+    int widthOfSide() const { return (window.width() - widthOfPanels()) / static_cast<int>(pair->sides().size()); }
     double aspect() const { return static_cast<double>(widthOfSide()) / window.height(); }
     bool isShowing() const { return camera && widthOfSide() > 0 && window.height() > 0; }
 
@@ -78,6 +86,8 @@ struct Viewer::Inner {
     void takeNewest();
     void moveCamera();
     void followKeys();
+    void followKey(int key);
+    void followControl(int key);
     void frameAll();
     void drawScenes();
     void drawPanels();
@@ -165,30 +175,47 @@ void Viewer::Inner::moveCamera()
 void Viewer::Inner::followKeys()
 {
     if (ImGui::GetIO().WantCaptureKeyboard) return;
-    for (const int key : window.keys()) {
-        if (ImGui::GetIO().KeyCtrl) {
-            if (key == 'S') follow({.save = true});
-            if (key == 'C') follow({.copyCommand = true});
-            if (key == 'Q') window.close();
-            continue;
-        }
-        if (key == ' ') pair->playOrPause();
-        if (key == 'S') pair->all([](LiveSimulation& live) { live.stepOnce(); });
-        if (key == 'R') pair->all([](LiveSimulation& live) { live.restart(); });
-        if (key == 'F' && camera) frameAll();
-        if (key == 'P') follow({.picture = true});
+    for (const Window::Key& key : window.keys()) {
+        if (key.isControl)
+            followControl(key.code);
+        else
+            followKey(key.code);
     }
+}
+
+void Viewer::Inner::followKey(int key)
+{
+    if (key == ' ') pair->playOrPause();
+    if (key == 'S') pair->all([](LiveSimulation& live) { live.stepOnce(); });
+    if (key == 'R') pair->all([](LiveSimulation& live) { live.restart(); });
+    if (key == 'F' && camera) frameAll();
+    if (key == 'P') follow({.picture = true});
+}
+
+void Viewer::Inner::followControl(int key)
+{
+    if (key == 'S') follow({.save = true});
+    if (key == 'C') follow({.copyCommand = true});
+    if (key == 'Q') window.close();
+}
+
+/// That two scenes leave to the panels [pixels]; one is drawn behind them.
+int Viewer::Inner::widthOfPanels() const
+{
+    const int width = static_cast<int>(kPanelWidth * ImGui::GetFontSize());
+    return pair->sides().size() > 1 && window.width() > 2 * width ? width : 0;
 }
 
 /// Side by side, by one camera and with one range of colours.
 void Viewer::Inner::drawScenes()
 {
     if (!isShowing()) return;
-    render::Viewport part = {.x = 0, .y = 0, .width = widthOfSide(), .height = window.height()};
+    render::Viewport part = {.x = widthOfPanels(), .y = 0, .width = widthOfSide(), .height = window.height()};
     for (const auto& side : pair->sides()) {
         if (!side->shown) continue;
         render::Look look = lookPanel->lookFor(*side->shown);
-        look.overlay.label = pair->sides().size() > 1 ? side->live.scene()->setup.label : "";
+        if (pair->sides().size() > 1) look.overlay.label = labelOf(side->live.scene()->setup);
+        look.overlay.colorBar = look.overlay.colorBar && side == pair->sides().back();  // one for both
         renderer.show(side->shown->view(), camera->camera(), look, part);
         part.x += part.width;
     }
@@ -197,7 +224,7 @@ void Viewer::Inner::drawScenes()
 void Viewer::Inner::drawPanels()
 {
     const float unit = ImGui::GetFontSize(), height = ImGui::GetIO().DisplaySize.y;
-    const float width = std::min(23.0f * unit, 0.9f * ImGui::GetIO().DisplaySize.x);
+    const float width = std::min((kPanelWidth - 0.8f) * unit, 0.9f * ImGui::GetIO().DisplaySize.x);
     ImGui::SetNextWindowPos(ImVec2(0.4f * unit, 0.4f * unit), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize(ImVec2(width, 0.48f * height), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Simulation")) {

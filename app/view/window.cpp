@@ -49,8 +49,9 @@ Window::Window(const std::string& title, int width, int height)
     context_ = render::contextOf(window_);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window_, &events_);
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-        if (action == GLFW_PRESS) static_cast<Events*>(glfwGetWindowUserPointer(window))->keys.push_back(key);
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+        if (action != GLFW_PRESS) return;
+        static_cast<Events*>(glfwGetWindowUserPointer(window))->keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
         std::vector<std::string>& all = static_cast<Events*>(glfwGetWindowUserPointer(window))->files;
@@ -61,6 +62,12 @@ Window::Window(const std::string& title, int width, int height)
     scalePanels();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);  // it hands keys on to the callback above
     ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+/// Dear ImGui sees what is down when a frame begins: a key that came and went since the last frame stays down for this one.
+void Window::showKey(int key, bool isDown)
+{
+    if (key >= 0 && key < IM_ARRAYSIZE(ImGui::GetIO().KeysDown)) ImGui::GetIO().KeysDown[key] = isDown;
 }
 
 /// As large as the monitor's owner wants everything to be.
@@ -97,8 +104,10 @@ Window::~Window()
 
 bool Window::begin()
 {
+    for (const Key& key : events_.keys) showKey(key.code, glfwGetKey(window_, key.code) == GLFW_PRESS);
     events_ = {};
     glfwPollEvents();
+    for (const Key& key : events_.keys) showKey(key.code, true);
     glfwGetFramebufferSize(window_, &width_, &height_);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();

@@ -25,9 +25,12 @@ class Window {
     bool begin();
     void drawPanels();  ///< over what is in the window
     void present();     ///< show what was drawn
-    /// Pressed since the frame before, as GLFW numbers them: letters are their capitals. None is lost, however short or
-    /// slow the frame.
-    const std::vector<int>& keys() const { return events_.keys; }
+    struct Key {
+        int code = 0;            ///< as GLFW numbers them: letters are their capitals
+        bool isControl = false;  ///< the control key was down, too
+    };
+    /// Pressed since the frame before. None is lost, however short or slow the frame.
+    const std::vector<Key>& keys() const { return events_.keys; }
     /// Files that were dropped on the window since then.
     const std::vector<std::string>& dropped() const { return events_.files; }
     void setTitle(const std::string& title);
@@ -37,12 +40,13 @@ class Window {
 
  private:
     void scalePanels();
+    static void showKey(int key, bool isDown);
 
     GLFWwindow* window_ = nullptr;
     ImGuiContext* panels_ = nullptr;
     std::unique_ptr<render::GlContext> context_;
     struct Events {
-        std::vector<int> keys;
+        std::vector<Key> keys;
         std::vector<std::string> files;
     };
     Events events_;  ///< since the last frame

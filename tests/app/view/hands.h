@@ -96,7 +96,7 @@ class Desktop {
     template <class F>
     bool comesTrue(F&& isTrue)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
         while (!isTrue()) {
             if (std::chrono::steady_clock::now() > end) return false;
             viewer.frame();
@@ -135,7 +135,7 @@ class Desktop {
         viewer.frame();
         doWithHands("mouseup 1");
         for (int frame = 0; frame < 3; ++frame) viewer.frame();
-        doWithHands("type '" + value + "'");
+        doWithHands("type -- '" + value + "'");
         for (int frame = 0; frame < 3; ++frame) viewer.frame();
         keys("Return");
         viewer.frame();
