@@ -1,0 +1,71 @@
+// usage: xvfb-run -s "-screen 0 1280x1024x24" view_bench [SCENE [SECONDS]]
+// Frames per second of the window, and how long it takes from an input to the picture with its effect, while the scene is simulated.
+#include "app/view/viewer.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin)
+{
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// From when the simulation is asked for something to the end of the frame that shows it [s].
+template <class IsThere>
+double timeToShow(app::Viewer& viewer, IsThere&& isThere)
+{
+    const auto begin = Clock::now();
+    do viewer.frame();
+    while (!isThere() && since(begin) < 60.0);
+    return since(begin);
+}
+
+double medianOf(std::vector<double> values)
+{
+    std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+    return values[values.size() / 2];
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    const std::string scene = argc > 1 ? argv[1] : "scenes/bench/dam_300k.yaml";
+    const double seconds = argc > 2 ? std::atof(argv[2]) : 20.0;
+    app::Viewer viewer({.file = scene, .variant = "", .sets = {}}, app::drenchParts(), {.width = 1280, .height = 800});
+    app::LivePair& pair = viewer.pair();
+    while (!pair.sides().front()->shown || pair.first().status().step < 2) viewer.frame();
+
+    std::vector<double> frames;
+    for (const auto begin = Clock::now(); since(begin) < seconds;) {
+        const auto start = Clock::now();
+        viewer.frame();
+        frames.push_back(since(start));
+    }
+    std::vector<double> pauses, changes;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+        pair.first().pause();
+        pauses.push_back(timeToShow(viewer, [&] { return pair.first().status().mode == app::LiveMode::Paused; }));
+        const std::string dt = fmt::format("{}", 1.0e-4 * (repeat + 1));
+        pair.first().change({"solver.pressure_tolerance=" + dt});
+        changes.push_back(timeToShow(viewer, [&] { return pair.first().scene()->setup.scene.changes.size() == static_cast<std::size_t>(repeat + 1); }));
+        pair.first().play();
+        const auto step = pair.first().status().step;
+        timeToShow(viewer, [&] { return pair.first().status().step > step + 1; });
+    }
+    fmt::print("{}: {} particles\n", scene, pair.sides().front()->shown->positions.size());
+    fmt::print("{:.1f} frames per second while it is simulated (median {:.1f} ms, longest {:.1f} ms of {})\n", 1.0 / medianOf(frames),
+               1.0e3 * medianOf(frames), 1.0e3 * *std::ranges::max_element(frames), frames.size());
+    fmt::print("from a turn of the view to its picture: one frame\n");
+    fmt::print("from pause to the picture (with the step in hand): median {:.3f} s\n", medianOf(pauses));
+    fmt::print("from a changed setting to the panel, paused: median {:.3f} s\n", medianOf(changes));
+}
