@@ -6,6 +6,7 @@ namespace app {
 
 int runVerbView(const Options& options, const Parts& parts)
 {
+    parts.loadScene(options.request());  // mistakes in it are told with or without a display
     if (!parts.view)
         throw sim::RunError(
             "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");

@@ -1,5 +1,6 @@
 #include "app/view/live_scene.h"
 
+#include "sim/core/check.h"
 #include "sim/scene/read_changes.h"
 
 #include <algorithm>
@@ -38,11 +39,16 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 
 }  // namespace
 
-LiveSettings::LiveSettings(SceneRequest request, Load load)
-    : load_(std::move(load)), start_(std::move(request)), setup_(load_(start_))
+LiveSettings::LiveSettings(SceneRequest request, Load load) : load_(std::move(load)), start_(std::move(request))
 {
-    for (std::size_t i = 0; i < setup_.scene.changes.size(); ++i)
-        changes_.push_back({setup_.scene.changes[i].step, sim::changedSettings(setup_.scene, i), true});
+    begin(load_(start_));
+}
+
+/// States of one scene are none of another.
+void LiveSettings::requireSameFile() const
+{
+    if (load_(start_).identity != identity_)
+        throw sim::InputError(start_.file + ": was changed since the start; restart to take it as it is now");
 }
 
 /// In the order of their steps, one for each.
@@ -90,6 +96,7 @@ bool LiveSettings::change(const std::vector<std::string>& sets, std::int64_t ste
     std::vector<Change> changes = changes_;
     if (!now.empty()) changes.push_back({step + 1, now, false});
     tidy(changes);
+    requireSameFile();
     if (!now.empty()) load_(requestOf(sets, {}));  // complains about values, not about a list of changes
     SceneSetup all = load_(requestOf(later, changes));
     setup_ = later.empty() || step == 0 ? std::move(all) : load_(requestOf({}, changes));
@@ -105,6 +112,7 @@ void LiveSettings::goBackTo(std::int64_t step)
     for (Change& change : changes)
         if (!change.isOfScene) change.step = std::min(change.step, step + 1);
     tidy(changes);
+    requireSameFile();
     setup_ = load_(requestOf({}, changes));
     changes_ = std::move(changes);
 }
@@ -112,20 +120,25 @@ void LiveSettings::goBackTo(std::int64_t step)
 bool LiveSettings::restart()
 {
     std::vector<std::string> sets;
-    std::vector<Change> changes;
-    for (const Change& change : changes_) {
-        if (change.isOfScene)
-            changes.push_back(change);
-        else
-            append(sets, change.sets);
-    }
+    for (const Change& change : changes_)
+        if (!change.isOfScene) append(sets, change.sets);
     append(sets, waiting_);
-    if (sets.empty()) return false;
-    setup_ = load_(requestOf(sets, changes));
+    SceneSetup setup = load_(requestOf(sets, {}));
+    const bool isOther = !sets.empty() || setup.identity != identity_;
     append(start_.sets, sets);
-    changes_ = std::move(changes);
     waiting_.clear();
-    return true;
+    begin(std::move(setup));
+    return isOther;
+}
+
+/// With what the scene itself changes on the way.
+void LiveSettings::begin(SceneSetup setup)
+{
+    setup_ = std::move(setup);
+    identity_ = setup_.identity;
+    changes_.clear();
+    for (std::size_t i = 0; i < setup_.scene.changes.size(); ++i)
+        changes_.push_back({setup_.scene.changes[i].step, sim::changedSettings(setup_.scene, i), true});
 }
 
 }  // namespace app

@@ -36,7 +36,7 @@ class LiveSettings {
     bool change(const std::vector<std::string>& sets, std::int64_t step);
     /// What was changed after this step holds from the step after it on.
     void goBackTo(std::int64_t step);
-    /// What was changed, and what waits, holds from the start. True if that makes another initial state.
+    /// What was changed, and what waits, holds from the start, of the file as it is now. True if that is another scene.
     bool restart();
 
  private:
@@ -46,6 +46,8 @@ class LiveSettings {
         bool isOfScene = false;  ///< it stands in the file
     };
 
+    void begin(SceneSetup setup);
+    void requireSameFile() const;
     static void tidy(std::vector<Change>& changes);
     SceneRequest requestOf(const std::vector<std::string>& sets, const std::vector<Change>& changes) const;
 
@@ -54,6 +56,7 @@ class LiveSettings {
     std::vector<Change> changes_;       ///< in order of their steps
     std::vector<std::string> waiting_;  ///< for a restart
     SceneSetup setup_;                  ///< of all but those that wait
+    std::string identity_;              ///< of the scene at the start
 };
 
 }  // namespace app

@@ -8,8 +8,8 @@
 
 namespace app {
 
-/// A scene file whose run repeats what was done live, seen as by the camera. Variants of the scene and what it is checked
-/// against are left out.
+/// A scene file whose run repeats what was done live, seen as by the camera. Variants of the scene and what it is
+/// checked against are left out.
 std::string savedScene(const LiveScene& live, const render::Camera& camera);
 
 /// The command that runs it, for a shell.

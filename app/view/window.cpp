@@ -51,7 +51,8 @@ Window::Window(const std::string& title, int width, int height)
     glfwSetWindowUserPointer(window_, &events_);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action != GLFW_PRESS) return;
-        static_cast<Events*>(glfwGetWindowUserPointer(window))->keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
+        static_cast<Events*>(glfwGetWindowUserPointer(window))
+            ->keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
         std::vector<std::string>& all = static_cast<Events*>(glfwGetWindowUserPointer(window))->files;
@@ -64,7 +65,8 @@ Window::Window(const std::string& title, int width, int height)
     ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
-/// Dear ImGui sees what is down when a frame begins: a key that came and went since the last frame stays down for this one.
+/// Dear ImGui sees what is down when a frame begins: a key that came and went since the last frame stays down for this
+/// one.
 void Window::showKey(int key, bool isDown)
 {
     if (key >= 0 && key < IM_ARRAYSIZE(ImGui::GetIO().KeysDown)) ImGui::GetIO().KeysDown[key] = isDown;

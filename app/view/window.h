@@ -34,7 +34,7 @@ class Window {
     /// Files that were dropped on the window since then.
     const std::vector<std::string>& dropped() const { return events_.files; }
     void setTitle(const std::string& title);
-    void close();  ///< begin() says so from now on
+    void close();                         ///< begin() says so from now on
     int width() const { return width_; }  ///< [pixels], 0 while it is iconified
     int height() const { return height_; }
 

@@ -1,5 +1,6 @@
 // usage: xvfb-run -s "-screen 0 1280x1024x24" view_bench [SCENE [SECONDS]]
-// Frames per second of the window, and how long it takes from an input to the picture with its effect, while the scene is simulated.
+// Frames per second of the window, and how long it takes from an input to the picture with its effect, while the scene
+// is simulated.
 #include "app/view/viewer.h"
 
 #include <fmt/core.h>
@@ -57,14 +58,17 @@ int main(int argc, char** argv)
         pauses.push_back(timeToShow(viewer, [&] { return pair.first().status().mode == app::LiveMode::Paused; }));
         const std::string dt = fmt::format("{}", 1.0e-4 * (repeat + 1));
         pair.first().change({"solver.pressure_tolerance=" + dt});
-        changes.push_back(timeToShow(viewer, [&] { return pair.first().scene()->setup.scene.changes.size() == static_cast<std::size_t>(repeat + 1); }));
+        changes.push_back(timeToShow(viewer, [&] {
+            return pair.first().scene()->setup.scene.changes.size() == static_cast<std::size_t>(repeat + 1);
+        }));
         pair.first().play();
         const auto step = pair.first().status().step;
         timeToShow(viewer, [&] { return pair.first().status().step > step + 1; });
     }
     fmt::print("{}: {} particles\n", scene, pair.sides().front()->shown->positions.size());
-    fmt::print("{:.1f} frames per second while it is simulated (median {:.1f} ms, longest {:.1f} ms of {})\n", 1.0 / medianOf(frames),
-               1.0e3 * medianOf(frames), 1.0e3 * *std::ranges::max_element(frames), frames.size());
+    fmt::print("{:.1f} frames per second while it is simulated (median {:.1f} ms, longest {:.1f} ms of {})\n",
+               1.0 / medianOf(frames), 1.0e3 * medianOf(frames), 1.0e3 * *std::ranges::max_element(frames),
+               frames.size());
     fmt::print("from a turn of the view to its picture: one frame\n");
     fmt::print("from pause to the picture (with the step in hand): median {:.3f} s\n", medianOf(pauses));
     fmt::print("from a changed setting to the panel, paused: median {:.3f} s\n", medianOf(changes));

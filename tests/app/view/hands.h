@@ -129,7 +129,8 @@ class Desktop {
         for (int frame = 0; frame < 3; ++frame) viewer.frame();
         const auto place = viewer.placeOf(setting);
         ASSERT_TRUE(place) << setting << " is not to be seen";
-        doWithHands("mousemove " + std::to_string(static_cast<int>((*place)[0])) + " " + std::to_string(static_cast<int>((*place)[1])));
+        doWithHands("mousemove " + std::to_string(static_cast<int>((*place)[0])) + " " +
+                    std::to_string(static_cast<int>((*place)[1])));
         viewer.frame();
         doWithHands("mousedown 1");
         viewer.frame();
@@ -144,7 +145,8 @@ class Desktop {
     void expectGolden(const std::string& name)
     {
         const render::Image seen = shot();
-        const std::filesystem::path golden = std::filesystem::path(DRENCH_SOURCE_DIR) / "tests/app/view/golden" / (name + ".png");
+        const std::filesystem::path golden =
+            std::filesystem::path(DRENCH_SOURCE_DIR) / "tests/app/view/golden" / (name + ".png");
         if (std::getenv("DRENCH_ACCEPT_GOLDENS")) return render::writePng(seen, golden);
         const render::Image known = render::readPng(golden);
         ASSERT_EQ(seen.width, known.width);

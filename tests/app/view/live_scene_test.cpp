@@ -60,6 +60,13 @@ struct LiveDrop {
         EXPECT_TRUE(comesTrue([&] { return live.status().mode == LiveMode::Ended; }));
         return live.stateHash();
     }
+    /// The next one: none waits while another is being made.
+    std::unique_ptr<FrameSnapshot> snapshot()
+    {
+        std::unique_ptr<FrameSnapshot> taken;
+        EXPECT_TRUE(comesTrue([&] { return (taken = live.takeSnapshot()) != nullptr; }));
+        return taken;
+    }
     std::string valueOf(const std::string& path) const
     {
         const auto scene = live.scene();
@@ -122,12 +129,36 @@ TEST(LiveScene, SettingsOfAWholeRunWaitForARestart)
     EXPECT_EQ(drop.end(), hashOfRun(same));
 }
 
+TEST(LiveScene, ARestartTakesTheFileAsItIsNow)
+{
+    const TemporaryFolder folder;
+    SceneRequest request = shortDrop();
+    const std::string text = readWhole(request.file), file = (folder / "mine.yaml").string();
+    request.file = file;
+    writeWhole(file, text);
+    LiveDrop drop(request);
+    drop.steps(3);
+    const auto before = drop.snapshot();
+    std::string other = text;
+    other.replace(other.find("radius: 0.6"), 11, "radius: 0.3");
+    writeWhole(file, other + "changes: [{step: 4, set: {gravity: [0, 0, 0]}}]\n");
+    drop.change({"time.dt=1.0e-4"});
+    EXPECT_EQ(drop.live.status().refused, file + ": was changed since the start; restart to take it as it is now");
+    drop.live.restart();
+    drop.live.stateHash();
+    const auto after = drop.snapshot();
+    ASSERT_TRUE(before && after);
+    EXPECT_LT(after->positions.size(), before->positions.size());
+    EXPECT_EQ(drop.end(), hashOfRun(request));
+    EXPECT_EQ(drop.valueOf("gravity"), "[0, 0, 0]") << "its own changes come with it";
+}
+
 TEST(LiveScene, BeforeTheFirstStepEverythingChangesAtOnce)
 {
     LiveDrop drop;
-    const auto before = drop.live.takeSnapshot();
+    const auto before = drop.snapshot();
     drop.change({"grid.cell=0.3"});
-    const auto after = drop.live.takeSnapshot();
+    const auto after = drop.snapshot();
     ASSERT_TRUE(before && after);
     EXPECT_NE(before->positions.size(), after->positions.size());
     EXPECT_EQ(drop.live.status().mode, LiveMode::Paused);
