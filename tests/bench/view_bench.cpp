@@ -40,7 +40,7 @@ double medianOf(std::vector<double> values)
 
 int main(int argc, char** argv)
 {
-    const std::string scene = argc > 1 ? argv[1] : "scenes/bench/dam_300k.yaml";
+    const std::string scene = argc > 1 ? argv[1] : "scenes/dam_break_small.yaml";
     const double seconds = argc > 2 ? std::atof(argv[2]) : 20.0;
     app::Viewer viewer({.file = scene, .variant = "", .sets = {}}, app::drenchParts(), {.width = 1280, .height = 800});
     app::LivePair& pair = viewer.pair();
