@@ -1,5 +1,6 @@
 #include "app/import/imported_bodies.h"
 #include "app/import/imported_fabric.h"
+#include "app/import/lattice_fit.h"
 #include "app/import/recognise.h"
 #include "sim/scene/node.h"
 #include "sim/scene/units.h"
@@ -57,11 +58,11 @@ class Shapes {
     static std::string capsule(const Field& f)
     {
         const sim::Vec3 half = turned(f, f.halfLength * sim::Vec3::UnitX());
-        return fmt::format("{{capsule: {{a: {}, b: {}, radius: {}}}}}", yamlList(f.center - half), yamlList(f.center + half), formatPlain(f.radius));
+        return fmt::format("{{capsule: {{a: {}, b: {}, radius: {}}}}}", yamlList(shortest(sim::Vec3(f.center - half))), yamlList(shortest(sim::Vec3(f.center + half))), formatPlain(f.radius));
     }
     static std::string cylinder(const Field& f)
     {
-        return fmt::format("{{cylinder: {{center: {}, axis: {}, radius: {}, half: {}, round: {}}}}}", yamlList(f.center), yamlList(turned(f, sim::Vec3::UnitY())),
+        return fmt::format("{{cylinder: {{center: {}, axis: {}, radius: {}, half: {}, round: {}}}}}", yamlList(f.center), yamlList(shortest(turned(f, sim::Vec3::UnitY()))),
                            formatPlain(f.radius), formatPlain(f.halfLength), formatPlain(f.corner));
     }
     std::string mesh(const Field& f)

@@ -72,10 +72,12 @@ void tellFabric(const ImportedScene& scene, const ImportOptions& options, Import
 void tellRun(const ImportedScene& scene, ImportReport& report)
 {
     const reference::Scene& r = scene.reference;
+    report.decisions.emplace_back("steps and transfers are as published: time.integrator plain, transfer.xi translation, and keep for each step of the file");
     if (r.run.maxIterations < 200) report.decisions.push_back(fmt::format("solver.max_iterations is 200, not maxiters={}: a solve stops when it is done", r.run.maxIterations));
     if (!scene.bodies.sources.empty()) report.decisions.emplace_back("sources are filled as published (fill: reference, a little over half of their volume); lattice would fill them");
-    report.decisions.push_back(fmt::format("particles are pushed apart as published (liquid.relax, from correctionStep {} and strength {}), and this program's liquid.volume acts too",
-                                           r.liquid.correctionStep, r.liquid.correctionStrength));
+    if (!scene.bodies.sources.empty())
+        report.decisions.push_back(fmt::format("particles are pushed apart as published (liquid.relax, from correctionStep {} and strength {}), and this program's liquid.volume acts too",
+                                               r.liquid.correctionStep, r.liquid.correctionStrength));
     if (!r.springLines.empty()) report.warnings.push_back(fmt::format("{} springs along edges (springforce, the first in line {}): scene files have none", r.springLines.size(), r.springLines[0]));
     if (r.poseLine) report.warnings.push_back(fmt::format("the pose of line {}: the fabric starts as the particles say", *r.poseLine));
 }

@@ -1,4 +1,5 @@
 #include "app/import/imported_bodies.h"
+#include "app/import/lattice_fit.h"
 #include "app/import/recognise.h"
 #include "sim/scene/units.h"
 
@@ -21,7 +22,7 @@ std::string spanText(const Script& s)
 
 std::string easedSpanText(const Script& s)
 {
-    return fmt::format("{}, ease: [{}, {}]", spanText(s), formatPlain(s.easeStart), formatPlain(s.easeEnd));
+    return fmt::format("{}, ease: [{}, {}]", spanText(s), formatPlain(shortest(s.easeStart)), formatPlain(shortest(s.easeEnd)));
 }
 
 /// What turns about a point of its own takes it along.

@@ -84,25 +84,28 @@ std::string pinSelection(const sim::FabricGeometry& geometry, const std::vector<
 
 namespace {
 
-/// A twist that is held alone: libWetCloth holds that of the edge behind the vertex, and so does a pin at the edge's other end.
-bool isTwistHeldByNeighbour(const ImportedPiece& piece, const reference::Scene& scene, int vertex)
+/// Vertices in front of one that is held with its twist: libWetCloth's twist of a vertex is that of the edge behind it, which a pin at the
+/// edge's other end holds too.
+std::vector<char> twistHeldByNext(const ImportedPiece& piece, const reference::Scene& scene)
 {
+    std::vector<char> isHeld(piece.particles.size(), 0);
     for (const std::vector<int>& strand : piece.shape.geometry.strands) {
-        const auto at = std::ranges::find(strand, vertex);
-        if (at == strand.end() || at + 1 == strand.end()) continue;
-        const reference::Particle& next = scene.particles[piece.particles[*(at + 1)]];
-        return next.isHeld && next.isTwistHeld;
+        for (std::size_t i = 1; i < strand.size(); ++i) {
+            const reference::Particle& next = scene.particles[piece.particles[strand[i]]];
+            if (next.isHeld && next.isTwistHeld) isHeld[strand[i - 1]] = 1;
+        }
     }
-    return false;
+    return isHeld;
 }
 
 void tellTwistsHeldAlone(const ImportedPiece& piece, const reference::Scene& scene, ImportReport& report)
 {
+    const std::vector<char> isHeldByNext = twistHeldByNext(piece, scene);
     int byNeighbour = 0, lost = 0;
     for (std::size_t v = 0; v < piece.particles.size(); ++v) {
         const reference::Particle& particle = scene.particles[piece.particles[v]];
         if (!particle.isTwistHeld || particle.isHeld) continue;
-        (isTwistHeldByNeighbour(piece, scene, static_cast<int>(v)) ? byNeighbour : lost) += 1;
+        (isHeldByNext[v] ? byNeighbour : lost) += 1;
     }
     if (byNeighbour > 0)
         report.decisions.push_back(fmt::format("{}: the twist of {} free vertices (fixed=2) is that of an edge whose other end is held with its twist, so the pin there holds it", piece.name, byNeighbour));

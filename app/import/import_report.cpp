@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <map>
 
 namespace app {
@@ -13,8 +12,11 @@ namespace {
 
 constexpr std::string_view kDead = "without effect in libWetCloth too";
 constexpr std::string_view kOwnWay = "of its solvers and windows, which are others here";
+constexpr std::string_view kMissing = "this version has nothing like it";
 constexpr std::string_view kOld = "of 2018, not read by the present libWetCloth";
 constexpr std::string_view kDefect = "where libWetCloth's choice is a defect and this program's stays";
+
+constexpr std::size_t kMostNames = 100;  // of a line
 
 struct KnownName {
     std::string_view name, why;
@@ -29,17 +31,19 @@ constexpr KnownName kKnown[] = {
     {"integrator@quasistaticcriterion", kOwnWay}, {"integrator@manifoldsubsteps", kOwnWay}, {"integrator@surftensionsubsteps", kOwnWay},
     {"liquidinfo/useBiCGSTAB", kOwnWay}, {"liquidinfo/useAMGPCGSolid", kOwnWay}, {"liquidinfo/usePCR", kOwnWay},
     {"liquidinfo/useCosolveAngular", kOwnWay}, {"liquidinfo/useGroupPrecondition", kOwnWay}, {"liquidinfo/checkDivergence", kOwnWay},
-    {"liquidinfo/iterationPrintStep", kOwnWay}, {"liquidinfo/implicitViscosity", kOwnWay}, {"liquidinfo/airDensity", kOwnWay},
-    {"liquidinfo/airViscosity", kOwnWay}, {"liquidinfo/softCohesion", kOwnWay}, {"liquidinfo/solidCohesion", kOwnWay},
+    {"liquidinfo/iterationPrintStep", kOwnWay}, {"liquidinfo/implicitViscosity", kOwnWay}, {"liquidinfo/airDensity", kMissing},
+    {"liquidinfo/airViscosity", kMissing}, {"liquidinfo/softCohesion", kMissing}, {"liquidinfo/solidCohesion", kMissing},
     {"scene/maxsimfreq", kOwnWay}, {"camera@radius", kOwnWay}, {"distancefield@cached", kOwnWay}, {"distancefield@cachename", kOwnWay},
     {"distancefield@params", kOwnWay},
     {"liquidinfo/propagateSolidVelocity", kDefect},
+    {"pose@path", kMissing}, {"springforce@edge", kMissing}, {"springforce@k", kMissing}, {"springforce@l0", kMissing}, {"springforce@b", kMissing},
     {"liquidinfo/halfThickness", kOld}, {"liquidinfo/fabricThreadCount", kOld}, {"liquidinfo/multiLevel", kOld},
     {"liquidinfo/applyViscositySolid", kOld}, {"ElasticParameters/variableRadiusHair", kOld},
 };
 
-std::string_view reasonOf(const std::string& name)
+std::string_view reasonOf(std::string name)
 {
+    if (name.starts_with("StrandParameters")) name.replace(0, std::string_view("StrandParameters").size(), "ElasticParameters");
     for (const KnownName& known : kKnown)
         if (known.name == name) return known.why;
     return "not in the vocabulary of libWetCloth: perhaps misspelt";
@@ -76,14 +80,13 @@ std::vector<std::string> ignoredNames(const XmlFile& file, const NamesRead& name
 {
     std::map<std::string, int> counts;
     countIgnored(file.root(), names, counts);
-    std::map<std::string_view, std::string> byReason;
+    std::map<std::string_view, std::vector<std::string>> byReason;
     for (const auto& [name, count] : counts) {
-        std::string& line = byReason[reasonOf(name)];
         const std::string shown = sim::inQuotes(name, 100);
-        line += fmt::format("{}{}{}", line.empty() ? "" : ", ", shown.substr(1, shown.size() - 2), count > 1 ? fmt::format(" ({} times)", count) : "");
+        byReason[reasonOf(name)].push_back(shown.substr(1, shown.size() - 2) + (count > 1 ? fmt::format(" ({} times)", count) : ""));
     }
     std::vector<std::string> lines;
-    for (const auto& [reason, all] : byReason) lines.push_back(fmt::format("{}: {}", reason, all));
+    for (const auto& [reason, all] : byReason) lines.push_back(fmt::format("{}: {}", reason, sim::listed(all, kMostNames)));
     return lines;
 }
 

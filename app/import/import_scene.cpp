@@ -51,6 +51,11 @@ fs::path fileOf(const ImportedPiece& piece, const fs::path& yaml)
     return yaml.parent_path() / fmt::format("{}_{}.obj", yaml.stem().string(), piece.name);
 }
 
+fs::path reportFile(fs::path yaml)
+{
+    return yaml.replace_extension(".import.txt");
+}
+
 /// Motions of the groups that hold vertices; what turns about itself turns about the middle of these.
 std::vector<std::pair<int, std::string>> pinMotions(const ImportedScene& scene, ImportReport& report)
 {
@@ -109,6 +114,7 @@ ImportedScene importAll(const XmlFile& file, const fs::path& yaml, const ImportO
     ImportedScene scene;
     scene.from = file.path().filename().string();
     scene.name = sim::asName(yaml.stem().string());
+    scene.report = reportFile(yaml).filename().string();
     scene.reference = readReferenceScene(file, options, names);
     scene.vertexSolver = options.vertexSolver;
     scene.method = chosenMethod(scene.reference.run, options).name;
@@ -140,7 +146,7 @@ std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportO
     report.readBack = readBack(scene, partFile(yaml), file, asParts, parts);
 
     const std::string text = reportText(report, xml.string(), yaml.string());
-    files.write(fs::path(yaml).replace_extension(".import.txt"), text);
+    files.write(reportFile(yaml), text);
     files.write(yaml, writeScene(scene, [&](const ImportedPiece& piece) { return fileOf(piece, yaml).filename().string(); }).text());
     files.keepAll();
     return text;

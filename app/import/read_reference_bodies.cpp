@@ -14,6 +14,12 @@ using namespace reference;
 
 namespace {
 
+void requireFew(const XmlElement& element, std::size_t before)
+{
+    constexpr std::size_t kMost = 10'000;
+    if (before >= kMost) element.fail(fmt::format("more than {} elements like this one; no scene has so many, remove some", kMost));
+}
+
 Field::Usage readUsage(const XmlElement& element)
 {
     static const std::map<std::string, Field::Usage> kAll = {
@@ -145,6 +151,7 @@ std::vector<Field> readReferenceFields(const XmlElement& scene)
 {
     std::vector<Field> all;
     for (const XmlElement& element : scene.children("distancefield")) {
+        requireFew(element, all.size());
         Field field;
         field.line = element.line();
         field.usage = readUsage(element);
@@ -164,7 +171,10 @@ std::vector<Field> readReferenceFields(const XmlElement& scene)
 std::vector<Script> readReferenceScripts(const XmlElement& scene)
 {
     std::vector<Script> all;
-    for (const XmlElement& element : scene.children("script")) all.push_back(readScript(element));
+    for (const XmlElement& element : scene.children("script")) {
+        requireFew(element, all.size());
+        all.push_back(readScript(element));
+    }
     return all;
 }
 

@@ -11,6 +11,7 @@ using namespace reference;
 namespace {
 
 constexpr int kSkipped = -1;  // as params of a cloth: it is left out
+constexpr std::size_t kMostYarnPoints = 20'000'000;
 
 Particle readParticle(const XmlElement& element)
 {
@@ -110,8 +111,11 @@ void readReferenceFabric(const XmlElement& scene, Scene& out)
         Cloth cloth = readCloth(element, out);
         if (cloth.material != kSkipped && !cloth.faces.empty()) out.cloths.push_back(std::move(cloth));
     }
+    std::size_t points = 0;
     for (const XmlElement& element : scene.children("hair")) {
         Yarn yarn = readYarn(element, out);
+        points += yarn.particles.size();
+        if (points > kMostYarnPoints) element.fail(fmt::format("the hairs up to this one have {} points together, at most {} are possible; remove some", points, kMostYarnPoints));
         if (yarn.material != kSkipped) out.yarns.push_back(std::move(yarn));
     }
 }

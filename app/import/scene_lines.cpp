@@ -1,16 +1,35 @@
 #include "app/import/scene_lines.h"
 
+#include <algorithm>
+
 namespace app {
 
 namespace {
 
 constexpr std::size_t kWidth = 150;
 
-/// May the text go on in the next line? A list or map in flow style may, if no comma of it stands in quotes.
-bool isBreakable(const std::string& text)
+/// Where a list or map in flow style may go on in the next line: behind the last of its outermost commas that fits; nowhere if a comma may
+/// stand in quotes.
+std::size_t breakOf(const std::string& text, int depth)
 {
-    const std::size_t bracket = text.find_first_of("[{");
-    return bracket < kWidth && text.find_first_of("\"#") == std::string::npos;
+    std::size_t best = std::string::npos;
+    int lowest = 0;
+    if (text.find_first_of("\"#") != std::string::npos) return best;
+    for (std::size_t i = 0; i < kWidth && i < text.size(); ++i) {
+        if (text[i] == '[' || text[i] == '{') ++depth;
+        if (text[i] == ']' || text[i] == '}') --depth;
+        if (text[i] != ',' || depth == 0 || (best != std::string::npos && depth > lowest)) continue;
+        lowest = depth;
+        best = i + 1;
+    }
+    return best;
+}
+
+/// Brackets that are open at the end of the text.
+int openBrackets(const std::string& text)
+{
+    const auto count = [&](char a, char b) { return std::ranges::count(text, a) + std::ranges::count(text, b); };
+    return static_cast<int>(count('[', '{') - count(']', '}'));
 }
 
 }  // namespace
@@ -25,11 +44,12 @@ void SceneLines::add(int depth, const std::string& text)
 {
     const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
     std::string lead = indent, rest = text;
-    while (rest.size() > kWidth && isBreakable(text)) {
-        const std::size_t comma = rest.rfind(", ", kWidth);
-        if (comma == std::string::npos || (lead == indent && comma < rest.find_first_of("[{"))) break;
-        put(lead + rest.substr(0, comma + 1));
-        rest.erase(0, comma + 2);
+    for (int open = 0; rest.size() > kWidth;) {
+        const std::size_t end = breakOf(rest, open);
+        if (end == std::string::npos) break;
+        put(lead + rest.substr(0, end));
+        open += openBrackets(rest.substr(0, end));
+        rest.erase(0, end + 1);
         lead = indent + "    ";
     }
     put(lead + rest);

@@ -1,3 +1,4 @@
+#include "app/import/lattice_fit.h"
 #include "app/import/write_scene.h"
 
 #include "sim/scene/node.h"
@@ -30,7 +31,7 @@ const char* yes(bool holds)
 void writeHead(const ImportedScene& scene, SceneLines& out)
 {
     const reference::Scene& r = scene.reference;
-    out.add(0, fmt::format("# Imported from {}, a scene of libWetCloth. What was decided on the way stands in {}.import.txt.", scene.from, scene.name));
+    out.add(0, fmt::format("# Imported from {}, a scene of libWetCloth. What was decided on the way stands in {}.", scene.from, scene.report));
     out.add(0, "drench: 1");
     out.add(0, "units: cgs");
     out.add(0, "scene:");
@@ -110,7 +111,7 @@ void writeCamera(const reference::Scene& r, SceneLines& out)
     const Eigen::Quaterniond given(w, x, y, z);
     const Eigen::Quaterniond turn = given.norm() > 0.0 ? given.normalized() : Eigen::Quaterniond::Identity();
     const sim::Vec3 eye = r.camera->center + turn * sim::Vec3(0.0, 0.0, r.camera->distance);
-    out.add(1, fmt::format("camera: {{look_at: {}, eye: {}, up: {}, fov: {}}}", yamlList(r.camera->center), yamlList(eye), yamlList(turn * sim::Vec3::UnitY()),
+    out.add(1, fmt::format("camera: {{look_at: {}, eye: {}, up: {}, fov: {}}}", yamlList(r.camera->center), yamlList(shortest(eye)), yamlList(shortest(sim::Vec3(turn * sim::Vec3::UnitY()))),
                            formatPlain(r.camera->fov)));
 }
 

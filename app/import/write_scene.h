@@ -13,6 +13,7 @@ namespace app {
 struct ImportedScene {
     std::string name;        ///< of the scene, and of the files of its fabric
     std::string from;        ///< the XML's name
+    std::string report;      ///< the name of the report beside the scene
     reference::Scene reference;
     std::vector<ImportedPiece> pieces;
     ImportedBodies bodies;
