@@ -31,45 +31,36 @@ void writeCoupling(const reference::LiquidInfo& l, SceneLines& out)
     out.blank();
     out.from(l.line);
     out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter), formatPlain(l.volumeFraction)));
-    out.add(0, "coupling:");
-    out.add(1, fmt::format("drag: {}", !l.drag ? "off" : l.nonlinearDrag ? "nonlinear" : "linear"));
-    out.add(1, fmt::format("drag_exponent: {}", formatPlain(l.yazdchiPower)));
-    out.add(1, fmt::format("pressure_on_fabric: {}", yes(l.pressureOnFabric)));
-    out.add(1, fmt::format("capture: {{rate: {}}}", formatPlain(l.captureRate)));
-    out.add(1, fmt::format("wicking: {{pressure: {}}}", yes(l.pressureInFabric)));
+    out.add(0, fmt::format("coupling: {{drag: {}, drag_exponent: {}, pressure_on_fabric: {}, capture: {{rate: {}}}, wicking: {{pressure: {}}}}}",
+                           !l.drag ? "off" : l.nonlinearDrag ? "nonlinear" : "linear", formatPlain(l.yazdchiPower), yes(l.pressureOnFabric), formatPlain(l.captureRate),
+                           yes(l.pressureInFabric)));
 }
 
 void writeSolver(const ImportedScene& scene, SceneLines& out)
 {
     const reference::LiquidInfo& l = scene.reference.liquid;
     out.blank();
-    out.add(0, "fabric:");
-    out.add(1, fmt::format("solver: {}", !l.solveSolid ? "off" : scene.vertexSolver ? "vertex" : "grid"));
-    out.add(1, fmt::format("twist: {}", yes(l.twist)));
-    if (scene.vertexSolver) return;
+    const char* solver = !l.solveSolid ? "off" : scene.vertexSolver ? "vertex" : "grid";
     const char* measure = l.bendingScheme == "tantheta" ? "tan" : l.bendingScheme == "sintheta" ? "sin" : "angle";
-    out.add(1, "bending: hinge");
-    out.add(1, fmt::format("hinge: {{constant: 3, measure: {}}}", measure));
-    out.add(1, "torsion: polar");
+    const std::string published = scene.vertexSolver ? "" : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
+    out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yes(l.twist), published));
+    if (scene.vertexSolver) return;
     out.add(0, fmt::format("contact: {{obstacle_young: {}, obstacle_thickness: {}}}", formatPlain(l.levelsetYoung), formatPlain(l.levelsetThickness)));
 }
 
 void writeMaterial(const reference::Material& m, int number, SceneLines& out)
 {
+    std::string fields = fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}", formatPlain(m.young),
+                                     formatPlain(m.poisson), formatPlain(m.density), formatPlain(m.viscosity), yes(m.damps), yes(m.damps && !m.dampsOnlyBending));
+    const auto add = [&](const char* key, const std::string& value) { fields += fmt::format(", {}: {}", key, value); };
+    if (m.stretchingMultiplier != 1.0) add("stretch_factor", formatPlain(m.stretchingMultiplier));
+    add("contact_stiffness", formatPlain(m.collisionMultiplier));
+    add("pin_stiffness", formatPlain(m.attachMultiplier));
+    add("friction_angle", formatPlain(std::min(m.frictionAngle, kSteepestFriction)));
+    if (m.volumeFraction) add("volume_fraction", formatPlain(*m.volumeFraction));
+    if (m.baseRotation != 0.0) add("section_rotation", sim::formatNumber(m.baseRotation, sim::Quantity::Angle));
     out.from(m.line);
-    out.add(1, fmt::format("m{}:", number));
-    out.add(2, fmt::format("young: {}", formatPlain(m.young)));
-    out.add(2, fmt::format("poisson: {}", formatPlain(m.poisson)));
-    out.add(2, fmt::format("density: {}", formatPlain(m.density)));
-    out.add(2, fmt::format("damping_viscosity: {}", formatPlain(m.viscosity)));
-    out.add(2, fmt::format("damp_bending: {}", yes(m.damps)));
-    out.add(2, fmt::format("damp_stretching: {}", yes(m.damps && !m.dampsOnlyBending)));
-    if (m.stretchingMultiplier != 1.0) out.add(2, fmt::format("stretch_factor: {}", formatPlain(m.stretchingMultiplier)));
-    out.add(2, fmt::format("contact_stiffness: {}", formatPlain(m.collisionMultiplier)));
-    out.add(2, fmt::format("pin_stiffness: {}", formatPlain(m.attachMultiplier)));
-    out.add(2, fmt::format("friction_angle: {}", formatPlain(std::min(m.frictionAngle, kSteepestFriction))));
-    if (m.volumeFraction) out.add(2, fmt::format("volume_fraction: {}", formatPlain(*m.volumeFraction)));
-    if (m.baseRotation != 0.0) out.add(2, fmt::format("section_rotation: {}", sim::formatNumber(m.baseRotation, sim::Quantity::Angle)));
+    out.add(1, fmt::format("m{}: {{{}}}", number, fields));
 }
 
 std::string pinText(const ImportedPin& pin)

@@ -122,11 +122,7 @@ void writeOutput(const reference::Scene& r, SceneLines& out)
     if (r.background || r.camera) out.add(0, "render:");
     writeCamera(r, out);
     const double steps = std::max(1.0, std::round(kFrameTime / r.run.dt));
-    out.add(0, "output:");
-    out.add(1, fmt::format("every: {}", formatPlain(std::min(steps * r.run.dt, r.run.duration))));
-    out.add(1, "frames: png");
-    out.add(1, "data: [energy, stats]");
-    out.add(1, "video: {fps: 50}");
+    out.add(0, fmt::format("output: {{every: {}, frames: png, data: [energy, stats], video: {{fps: 50}}}}", formatPlain(std::min(steps * r.run.dt, r.run.duration))));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(BadImport, NotXml)
     expectRefused("<html><body/></html>\n", 1, "its root is \"html\"");
     expectRefused(std::string("\x7f" "ELF\0\0\0", 7), 1, "zero bytes");
     expectRefused(inScene("<particle x=\"0 0 0\">"), 6, "well-formed");
-    expectRefused(inScene("") + "<scene/>", 6, "something follows");
+    expectRefused(inScene("") + "<scene/>", 7, "something follows");
 }
 
 TEST(BadImport, Truncated)
