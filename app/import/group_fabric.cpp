@@ -56,9 +56,11 @@ void tellTornJoints(const std::vector<FabricGroup>& groups, ImportReport& report
         for (const int p : group.particles) ++uses[p];
     const auto torn = std::ranges::count_if(uses, [](const auto& use) { return use.second > 1; });
     if (torn > 0)
-        report.warnings.push_back(fmt::format("{} vertices join cloth and yarns, or two materials: scene files have no piece of fabric that is both, so these "
-                                              "pieces come apart there; each has a vertex of its own",
-                                              torn));
+        report.warnings.push_back(
+            fmt::format("{} vertices join cloth and yarns, or two materials: scene files have no piece of fabric that "
+                        "is both, so these "
+                        "pieces come apart there; each has a vertex of its own",
+                        torn));
 }
 
 }  // namespace
@@ -75,7 +77,8 @@ std::vector<FabricGroup> groupFabric(const reference::Scene& scene, ImportReport
     };
     for (const reference::Cloth& cloth : scene.cloths)
         for (const sim::Vec3i& f : cloth.faces) groupAt(f[0], cloth.material, true, cloth.line).faces.push_back(f);
-    for (const reference::Yarn& yarn : scene.yarns) groupAt(yarn.particles[0], yarn.material, false, yarn.line).strands.push_back(yarn.particles);
+    for (const reference::Yarn& yarn : scene.yarns)
+        groupAt(yarn.particles[0], yarn.material, false, yarn.line).strands.push_back(yarn.particles);
     std::vector<FabricGroup> groups;
     for (auto& [key, group] : byPart) {
         collectParticles(group);
@@ -89,7 +92,8 @@ std::vector<FabricGroup> groupFabric(const reference::Scene& scene, ImportReport
 FabricGroup merged(const std::vector<FabricGroup>& groups)
 {
     FabricGroup all = groups.front();
-    for (std::size_t i = 1; i < groups.size(); ++i) all.strands.insert(all.strands.end(), groups[i].strands.begin(), groups[i].strands.end());
+    for (std::size_t i = 1; i < groups.size(); ++i)
+        all.strands.insert(all.strands.end(), groups[i].strands.begin(), groups[i].strands.end());
     all.particles.clear();
     collectParticles(all);
     return all;

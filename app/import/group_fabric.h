@@ -10,10 +10,10 @@ namespace app {
 /// Cloth or yarns of one material that belong together; numbers are particles of the file.
 struct FabricGroup {
     int material = 0;
-    std::vector<int> particles;             ///< ascending
+    std::vector<int> particles;  ///< ascending
     std::vector<std::vector<int>> strands;
     std::vector<sim::Vec3i> faces;
-    int line = 1;                           ///< of the first element
+    int line = 1;  ///< of the first element
 
     bool isLooseYarn() const { return faces.empty() && strands.size() == 1; }
 };

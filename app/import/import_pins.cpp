@@ -48,7 +48,9 @@ std::string cornersOf(const sim::FabricGeometry& geometry, const std::vector<int
     std::string list;
     for (const std::string& word : endWords(false)) {
         const std::vector<int> corner = heldBy(fmt::format("corners: [{}]{}", word, patch), geometry);
-        if (corner.empty() || !std::ranges::includes(vertices, corner) || std::ranges::find(taken, corner) != taken.end()) continue;
+        if (corner.empty() || !std::ranges::includes(vertices, corner) ||
+            std::ranges::find(taken, corner) != taken.end())
+            continue;
         taken.push_back(corner);
         std::vector<int> more;
         std::ranges::set_union(together, corner, std::back_inserter(more));
@@ -71,11 +73,13 @@ std::string pinSelection(const sim::FabricGeometry& geometry, const std::vector<
     if (geometry.lattice.empty()) return numbersOf(vertices);
     for (const bool borderOnly : {false, true}) {
         for (int size = 1; size <= kLargestPatch; ++size) {
-            const std::string patch = fmt::format("{}{}", size > 1 ? fmt::format(", patch: {}", size) : "", borderOnly ? ", border_only: true" : "");
+            const std::string patch = fmt::format("{}{}", size > 1 ? fmt::format(", patch: {}", size) : "",
+                                                  borderOnly ? ", border_only: true" : "");
             const std::string all = "corners: all" + patch;
             if (heldBy(all, geometry) == vertices) return all;
             for (const std::string& word : borderOnly ? std::vector<std::string>{} : endWords(true))
-                if (const std::string edge = fmt::format("edge: {}{}", word, patch); heldBy(edge, geometry) == vertices) return edge;
+                if (const std::string edge = fmt::format("edge: {}{}", word, patch); heldBy(edge, geometry) == vertices)
+                    return edge;
             if (const std::string some = cornersOf(geometry, vertices, patch); !some.empty()) return some;
         }
     }
@@ -84,8 +88,8 @@ std::string pinSelection(const sim::FabricGeometry& geometry, const std::vector<
 
 namespace {
 
-/// Vertices in front of one that is held with its twist: libWetCloth's twist of a vertex is that of the edge behind it, which a pin at the
-/// edge's other end holds too.
+/// Vertices in front of one that is held with its twist: libWetCloth's twist of a vertex is that of the edge behind it,
+/// which a pin at the edge's other end holds too.
 std::vector<char> twistHeldByNext(const ImportedPiece& piece, const reference::Scene& scene)
 {
     std::vector<char> isHeld(piece.particles.size(), 0);
@@ -108,8 +112,14 @@ void tellTwistsHeldAlone(const ImportedPiece& piece, const reference::Scene& sce
         (isHeldByNext[v] ? byNeighbour : lost) += 1;
     }
     if (byNeighbour > 0)
-        report.decisions.push_back(fmt::format("{}: the twist of {} free vertices (fixed=2) is that of an edge whose other end is held with its twist, so the pin there holds it", piece.name, byNeighbour));
-    if (lost > 0) report.warnings.push_back(fmt::format("{}: {} vertices whose twist is held while they are free (fixed=2); pins of scene files hold the place too", piece.name, lost));
+        report.decisions.push_back(
+            fmt::format("{}: the twist of {} free vertices (fixed=2) is that of an edge whose other end is held with "
+                        "its twist, so the pin there holds it",
+                        piece.name, byNeighbour));
+    if (lost > 0)
+        report.warnings.push_back(fmt::format(
+            "{}: {} vertices whose twist is held while they are free (fixed=2); pins of scene files hold the place too",
+            piece.name, lost));
 }
 
 }  // namespace

@@ -23,33 +23,64 @@ struct KnownName {
 };
 
 constexpr KnownName kKnown[] = {
-    {"scene/simtype", kDead}, {"scene/viewport", kDead}, {"scene/collision", kDead}, {"bucketinfo@kernelorder", kDead},
-    {"integrator@useImplicitDensityProjection", kDead}, {"liquidinfo/useLagrangianMPM", kDead},
-    {"ElasticParameters/haircolor", kDead}, {"ElasticParameters/straightHairs", kDead}, {"ElasticParameters/postProjectFixed", kDead},
-    {"ElasticParameters/useApproxJacobian", kDead}, {"ElasticParameters/useTournierJacobian", kDead},
-    {"integrator@criterion", kOwnWay}, {"integrator@pressurecriterion", kOwnWay}, {"integrator@viscouscriterion", kOwnWay},
-    {"integrator@quasistaticcriterion", kOwnWay}, {"integrator@manifoldsubsteps", kOwnWay}, {"integrator@surftensionsubsteps", kOwnWay},
-    {"liquidinfo/useBiCGSTAB", kOwnWay}, {"liquidinfo/useAMGPCGSolid", kOwnWay}, {"liquidinfo/usePCR", kOwnWay},
-    {"liquidinfo/useCosolveAngular", kOwnWay}, {"liquidinfo/useGroupPrecondition", kOwnWay}, {"liquidinfo/checkDivergence", kOwnWay},
-    {"liquidinfo/iterationPrintStep", kOwnWay}, {"liquidinfo/implicitViscosity", kOwnWay}, {"liquidinfo/airDensity", kMissing},
-    {"liquidinfo/airViscosity", kMissing}, {"liquidinfo/softCohesion", kMissing}, {"liquidinfo/solidCohesion", kMissing},
-    {"scene/maxsimfreq", kOwnWay}, {"camera@radius", kOwnWay}, {"distancefield@cached", kOwnWay}, {"distancefield@cachename", kOwnWay},
+    {"scene/simtype", kDead},
+    {"scene/viewport", kDead},
+    {"scene/collision", kDead},
+    {"bucketinfo@kernelorder", kDead},
+    {"integrator@useImplicitDensityProjection", kDead},
+    {"liquidinfo/useLagrangianMPM", kDead},
+    {"ElasticParameters/haircolor", kDead},
+    {"ElasticParameters/straightHairs", kDead},
+    {"ElasticParameters/postProjectFixed", kDead},
+    {"ElasticParameters/useApproxJacobian", kDead},
+    {"ElasticParameters/useTournierJacobian", kDead},
+    {"integrator@criterion", kOwnWay},
+    {"integrator@pressurecriterion", kOwnWay},
+    {"integrator@viscouscriterion", kOwnWay},
+    {"integrator@quasistaticcriterion", kOwnWay},
+    {"integrator@manifoldsubsteps", kOwnWay},
+    {"integrator@surftensionsubsteps", kOwnWay},
+    {"liquidinfo/useBiCGSTAB", kOwnWay},
+    {"liquidinfo/useAMGPCGSolid", kOwnWay},
+    {"liquidinfo/usePCR", kOwnWay},
+    {"liquidinfo/useCosolveAngular", kOwnWay},
+    {"liquidinfo/useGroupPrecondition", kOwnWay},
+    {"liquidinfo/checkDivergence", kOwnWay},
+    {"liquidinfo/iterationPrintStep", kOwnWay},
+    {"liquidinfo/implicitViscosity", kOwnWay},
+    {"liquidinfo/airDensity", kMissing},
+    {"liquidinfo/airViscosity", kMissing},
+    {"liquidinfo/softCohesion", kMissing},
+    {"liquidinfo/solidCohesion", kMissing},
+    {"scene/maxsimfreq", kOwnWay},
+    {"camera@radius", kOwnWay},
+    {"distancefield@cached", kOwnWay},
+    {"distancefield@cachename", kOwnWay},
     {"distancefield@params", kOwnWay},
     {"liquidinfo/propagateSolidVelocity", kDefect},
-    {"pose@path", kMissing}, {"springforce@edge", kMissing}, {"springforce@k", kMissing}, {"springforce@l0", kMissing}, {"springforce@b", kMissing},
-    {"liquidinfo/halfThickness", kOld}, {"liquidinfo/fabricThreadCount", kOld}, {"liquidinfo/multiLevel", kOld},
-    {"liquidinfo/applyViscositySolid", kOld}, {"ElasticParameters/variableRadiusHair", kOld},
+    {"pose@path", kMissing},
+    {"springforce@edge", kMissing},
+    {"springforce@k", kMissing},
+    {"springforce@l0", kMissing},
+    {"springforce@b", kMissing},
+    {"liquidinfo/halfThickness", kOld},
+    {"liquidinfo/fabricThreadCount", kOld},
+    {"liquidinfo/multiLevel", kOld},
+    {"liquidinfo/applyViscositySolid", kOld},
+    {"ElasticParameters/variableRadiusHair", kOld},
 };
 
 std::string_view reasonOf(std::string name)
 {
-    if (name.starts_with("StrandParameters")) name.replace(0, std::string_view("StrandParameters").size(), "ElasticParameters");
+    if (name.starts_with("StrandParameters"))
+        name.replace(0, std::string_view("StrandParameters").size(), "ElasticParameters");
     for (const KnownName& known : kKnown)
         if (known.name == name) return known.why;
     return "not in the vocabulary of libWetCloth: perhaps misspelt";
 }
 
-/// Counts the names of an element and of all in it that were not asked for; what stands in an unknown element is left out with it.
+/// Counts the names of an element and of all in it that were not asked for; what stands in an unknown element is left
+/// out with it.
 void countIgnored(const pugi::xml_node& node, const NamesRead& names, std::map<std::string, int>& counts)
 {
     const std::string here = node.name();
@@ -83,10 +114,12 @@ std::vector<std::string> ignoredNames(const XmlFile& file, const NamesRead& name
     std::map<std::string_view, std::vector<std::string>> byReason;
     for (const auto& [name, count] : counts) {
         const std::string shown = sim::inQuotes(name, 100);
-        byReason[reasonOf(name)].push_back(shown.substr(1, shown.size() - 2) + (count > 1 ? fmt::format(" ({} times)", count) : ""));
+        byReason[reasonOf(name)].push_back(shown.substr(1, shown.size() - 2) +
+                                           (count > 1 ? fmt::format(" ({} times)", count) : ""));
     }
     std::vector<std::string> lines;
-    for (const auto& [reason, all] : byReason) lines.push_back(fmt::format("{}: {}", reason, sim::listed(all, kMostNames)));
+    for (const auto& [reason, all] : byReason)
+        lines.push_back(fmt::format("{}: {}", reason, sim::listed(all, kMostNames)));
     return lines;
 }
 

@@ -84,11 +84,15 @@ void tellIdleScripts(const ImportedScene& scene, ImportReport& report)
     for (const reference::Field& f : scene.reference.fields)
         if (!f.isPart) moved.insert(f.group);
     for (const reference::Script& s : scene.reference.scripts)
-        if (!moved.contains(s.group)) report.decisions.push_back(fmt::format("the script of line {} moves group {}, in which nothing is held and no body stands: left out", s.line, s.group));
+        if (!moved.contains(s.group))
+            report.decisions.push_back(fmt::format(
+                "the script of line {} moves group {}, in which nothing is held and no body stands: left out", s.line,
+                s.group));
 }
 
 /// "scene.yaml.part:14: what" as a complaint about the line of the XML that line 14 comes from.
-[[noreturn]] void failAtXml(const std::string& message, const fs::path& part, const XmlFile& xml, const SceneLines& lines)
+[[noreturn]] void failAtXml(const std::string& message, const fs::path& part, const XmlFile& xml,
+                            const SceneLines& lines)
 {
     const std::string head = part.string() + ":";
     if (!message.starts_with(head)) throw sim::InputError(fmt::format("{}: {}", xml.path().string(), message));
@@ -98,9 +102,11 @@ void tellIdleScripts(const ImportedScene& scene, ImportReport& report)
     xml.fail(problem == std::errc() ? lines.xmlLine(line) : 1, fmt::format("makes no scene{}", std::string(rest, end)));
 }
 
-std::string readBack(const ImportedScene& scene, const fs::path& part, const XmlFile& xml, const SceneLines& lines, const Parts& parts)
+std::string readBack(const ImportedScene& scene, const fs::path& part, const XmlFile& xml, const SceneLines& lines,
+                     const Parts& parts)
 {
-    if (!scene.bodies.missingFiles.empty()) return "not done, as a mesh is missing; drench check does it when it is there";
+    if (!scene.bodies.missingFiles.empty())
+        return "not done, as a mesh is missing; drench check does it when it is there";
     try {
         return compareWithReference(parts.loadScene({part.string(), "", {}}).scene, scene);
     } catch (const sim::InputError& error) {
@@ -133,7 +139,11 @@ ImportedScene importAll(const XmlFile& file, const fs::path& yaml, const ImportO
 std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportOptions& options, const Parts& parts)
 {
     if (!yaml.parent_path().empty() && !fs::is_directory(yaml.parent_path()))
-        throw sim::InputError(fmt::format("-o: there is no folder {}; make it, or write elsewhere", yaml.parent_path().string()));
+        throw sim::InputError(
+            fmt::format("-o: there is no folder {}; make it, or write elsewhere", yaml.parent_path().string()));
+    std::error_code ignored;
+    if (fs::equivalent(xml, yaml, ignored))
+        throw sim::InputError(fmt::format("-o: {} is the file to be read; write to another one", yaml.string()));
     const XmlFile file(xml);
     ImportReport report;
     const ImportedScene scene = importAll(file, yaml, options, report);
@@ -147,7 +157,9 @@ std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportO
 
     const std::string text = reportText(report, xml.string(), yaml.string());
     files.write(reportFile(yaml), text);
-    files.write(yaml, writeScene(scene, [&](const ImportedPiece& piece) { return fileOf(piece, yaml).filename().string(); }).text());
+    files.write(yaml, writeScene(scene, [&](const ImportedPiece& piece) {
+                          return fileOf(piece, yaml).filename().string();
+                      }).text());
     files.keepAll();
     return text;
 }

@@ -12,26 +12,27 @@ namespace app {
 /// Sources, obstacles and the domain in the words of scenes.
 struct ImportedBodies {
     struct Source {
-        std::string name, shape;            ///< the shape as YAML on one line
+        std::string name, shape;  ///< the shape as YAML on one line
         std::vector<reference::Emission> emissions;
-        int line = 1;                       ///< of the file
+        int line = 1;  ///< of the file
     };
     struct Obstacle {
         std::string name, shape;
         bool inside = false, sampled = true;
-        std::string motion;                 ///< as YAML on one line; empty if it stands still
+        std::string motion;  ///< as YAML on one line; empty if it stands still
         int line = 1;
     };
     std::vector<Source> sources;
     std::vector<Obstacle> obstacles;
-    std::string domain;                     ///< empty if there is none
+    std::string domain;  ///< empty if there is none
     int domainLine = 1;
-    std::vector<std::filesystem::path> missingFiles;   ///< meshes that are not where the file says
+    std::vector<std::filesystem::path> missingFiles;  ///< meshes that are not where the file says
 };
 
 /// @param xml   the file, for meshes beside or above it
 /// @param yaml  the scene to be written, to which meshes are named relative
-ImportedBodies importBodies(const reference::Scene& scene, const std::filesystem::path& xml, const std::filesystem::path& yaml, ImportReport& report);
+ImportedBodies importBodies(const reference::Scene& scene, const std::filesystem::path& xml,
+                            const std::filesystem::path& yaml, ImportReport& report);
 
 /// The scripts of a group as a motion of scenes, on one line; empty if none moves anything.
 /// @param center  what turns without an origin of its own turns about this [cm]

@@ -1,7 +1,7 @@
 #include "app/import/lattice_fit.h"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>

@@ -9,11 +9,12 @@ namespace app {
 
 /// Points on a lattice: x = origin + column u + row v + height w.
 struct LatticeFit {
-    sim::Vec3 origin, u, v, w;   ///< w is 0 where all heights are [cm]
+    sim::Vec3 origin, u, v, w;  ///< w is 0 where all heights are [cm]
 };
 
 /// The lattice that is nearest to the points, in squares; heights may be empty.
-LatticeFit fitLattice(std::span<const sim::Vec3> x, std::span<const sim::Vec2i> places, std::span<const double> heights);
+LatticeFit fitLattice(std::span<const sim::Vec3> x, std::span<const sim::Vec2i> places,
+                      std::span<const double> heights);
 
 /// The shortest decimal number that is the same but for rounding.
 double shortest(double x);

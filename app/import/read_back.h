@@ -7,7 +7,8 @@
 
 namespace app {
 
-/// Compares a scene as it was read with what it was written from; says what agrees. Throws std::logic_error where it does not.
+/// Compares a scene as it was read with what it was written from; says what agrees. Throws std::logic_error where it
+/// does not.
 std::string compareWithReference(const sim::Scene& read, const ImportedScene& scene);
 
 }  // namespace app

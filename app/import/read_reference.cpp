@@ -19,13 +19,16 @@ Run readRun(const XmlElement& scene)
     Run run;
     const XmlElement duration = scene.child("duration"), integrator = scene.child("integrator");
     if (!duration) scene.fail("has no <duration time=\"…\"/>, the length of the run in seconds; add it");
-    if (!integrator) scene.fail("has no <integrator type=\"linearized-implicit-euler\" dt=\"…\"/>, which gives the time step; add it");
+    if (!integrator)
+        scene.fail(
+            "has no <integrator type=\"linearized-implicit-euler\" dt=\"…\"/>, which gives the time step; add it");
     run.duration = positive(duration, "duration@time", duration.number("time"));
     run.line = integrator.line();
     run.dt = positive(integrator, "integrator@dt", integrator.number("dt"));
     if (integrator.has("picMethod")) run.picMethod = integrator.integer("picMethod", 0);
     if (run.picMethod && (*run.picMethod < 0 || *run.picMethod > 2))
-        integrator.fail(fmt::format("integrator@picMethod: {} is unknown; 0 is PIC, 1 APIC, 2 PolyPIC", *run.picMethod));
+        integrator.fail(
+            fmt::format("integrator@picMethod: {} is unknown; 0 is PIC, 1 APIC, 2 PolyPIC", *run.picMethod));
     if (integrator.has("apic")) run.apic = integrator.flag("apic", false);
     run.maxIterations = integrator.integer("maxiters", run.maxIterations);
     run.viscositySubsteps = integrator.integer("viscositysubsteps", run.viscositySubsteps);

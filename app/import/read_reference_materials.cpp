@@ -12,7 +12,8 @@ using namespace reference;
 
 namespace {
 
-/// Of fibre diameter, volume fraction and pore radius two give the third; with fewer, libWetCloth keeps what is given beside its defaults.
+/// Of fibre diameter, volume fraction and pore radius two give the third; with fewer, libWetCloth keeps what is given
+/// beside its defaults.
 void readPores(const XmlElement& info, LiquidInfo& out)
 {
     const bool hasFraction = info.hasValue("restVolumeFraction"), hasDiameter = info.hasValue("yarnDiameter");
@@ -20,9 +21,13 @@ void readPores(const XmlElement& info, LiquidInfo& out)
     out.volumeFraction = info.value("restVolumeFraction", out.volumeFraction);
     const double poreRadius = info.value("poreRadius", 0.0);
     if (!(out.fibreDiameter > 0.0)) info.fail(fmt::format("yarnDiameter must be above 0, not {}", out.fibreDiameter));
-    if (!(out.volumeFraction > 0.0 && out.volumeFraction <= 1.0)) info.fail(fmt::format("restVolumeFraction must be above 0 and at most 1, not {}", out.volumeFraction));
+    if (!(out.volumeFraction > 0.0 && out.volumeFraction <= 1.0))
+        info.fail(fmt::format("restVolumeFraction must be above 0 and at most 1, not {}", out.volumeFraction));
     if (poreRadius <= 0.0 || hasFraction == hasDiameter) {
-        if (poreRadius > 0.0) out.porousNote = "poreRadius is not used: yarnDiameter and restVolumeFraction (given, or the defaults 0.01 cm and 0.4) say everything";
+        if (poreRadius > 0.0)
+            out.porousNote =
+                "poreRadius is not used: yarnDiameter and restVolumeFraction (given, or the defaults 0.01 cm and 0.4) "
+                "say everything";
         return;
     }
     if (hasDiameter) {
@@ -31,24 +36,29 @@ void readPores(const XmlElement& info, LiquidInfo& out)
     } else if (out.volumeFraction < 1.0) {
         out.fibreDiameter = 2.0 * poreRadius * std::sqrt(out.volumeFraction / (1.0 - out.volumeFraction));
     }
-    out.porousNote = fmt::format("poreRadius {} cm gives fibres of {:.4g} cm and the fraction {:.4g}", poreRadius, out.fibreDiameter, out.volumeFraction);
+    out.porousNote = fmt::format("poreRadius {} cm gives fibres of {:.4g} cm and the fraction {:.4g}", poreRadius,
+                                 out.fibreDiameter, out.volumeFraction);
 }
 
-/// Cloth of T threads per cm^2, each through half the thickness t and back, as the scenes of 2018 mean it (scenes-and-outputs 2.2).
+/// Cloth of T threads per cm^2, each through half the thickness t and back, as the scenes of 2018 mean it
+/// (scenes-and-outputs 2.2).
 void readThreads(const XmlElement& info, bool counts, LiquidInfo& out)
 {
     const double threads = info.value("fabricThreadCount", 0.0);
     if (threads <= 0.0) return;
     const double half = info.value("halfThickness", 0.018);
     if (!counts || !(half > 0.0)) {
-        out.porousNote = fmt::format("fabricThreadCount {} is not used, as the present libWetCloth does not read it", threads);
+        out.porousNote =
+            fmt::format("fabricThreadCount {} is not used, as the present libWetCloth does not read it", threads);
         return;
     }
     const double d = out.fibreDiameter;
     out.volumeFraction = std::min(1.0, sim::kPi * d * d * threads / (8.0 * half));
-    out.porousNote = fmt::format("fabricThreadCount {} and halfThickness {} cm give the volume fraction {:.4g}, by the formula of 2018 (--no-thread-count "
-                                 "leaves restVolumeFraction as it is)",
-                                 threads, half, out.volumeFraction);
+    out.porousNote = fmt::format(
+        "fabricThreadCount {} and halfThickness {} cm give the volume fraction {:.4g}, by the formula of 2018 "
+        "(--no-thread-count "
+        "leaves restVolumeFraction as it is)",
+        threads, half, out.volumeFraction);
 }
 
 void readCoupling(const XmlElement& info, LiquidInfo& out)
@@ -92,7 +102,8 @@ Material readMaterial(const XmlElement& element, const ImportOptions& options)
     m.collisionMultiplier = element.value("collisionMultiplier", m.collisionMultiplier);
     m.attachMultiplier = element.value("attachMultiplier", m.attachMultiplier);
     m.frictionAngle = std::clamp(element.value("frictionAngle", m.frictionAngle), 0.0, 90.0);
-    if (element.hasValue("friction_angle")) m.unreadFrictionAngle = std::clamp(element.value("friction_angle", 0.0), 0.0, 90.0);
+    if (element.hasValue("friction_angle"))
+        m.unreadFrictionAngle = std::clamp(element.value("friction_angle", 0.0), 0.0, 90.0);
     if (m.unreadFrictionAngle && options.trustFrictionAngle) m.frictionAngle = *m.unreadFrictionAngle;
     m.baseRotation = element.value("baseRotation", m.baseRotation);
     return m;

@@ -10,7 +10,7 @@
 
 namespace app {
 
-inline constexpr double kSameShape = 1.0e-9;   ///< how far a generator's vertices may be from the file's [cm]
+inline constexpr double kSameShape = 1.0e-9;  ///< how far a generator's vertices may be from the file's [cm]
 
 /// Cloth or yarns as a file lists them.
 struct ListedFabric {
@@ -21,12 +21,12 @@ struct ListedFabric {
 
 /// The same by a generator of scene files.
 struct GeneratedFabric {
-    std::string kind;                       ///< "cloth_grid"
-    std::vector<std::pair<std::string, std::string>> fields;   ///< its keys and values as YAML, but material and radius
-    std::string summary;                    ///< "99 × 99 vertices, 0.144 cm apart"
+    std::string kind;                                         ///< "cloth_grid"
+    std::vector<std::pair<std::string, std::string>> fields;  ///< its keys and values as YAML, but material and radius
+    std::string summary;                                      ///< "99 × 99 vertices, 0.144 cm apart"
     sim::FabricGeometry geometry;
-    std::vector<int> pointOf;               ///< of each generated vertex the listed one
-    double deviation = 0.0;                 ///< the largest distance of the two [cm]
+    std::vector<int> pointOf;  ///< of each generated vertex the listed one
+    double deviation = 0.0;    ///< the largest distance of the two [cm]
 };
 
 /// A sheet of triangles on a lattice, wherever the numbering starts and however it runs; nothing if it is none.

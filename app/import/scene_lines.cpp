@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t kWidth = 150;
 
-/// Where a list or map in flow style may go on in the next line: behind the last of its outermost commas that fits; nowhere if a comma may
-/// stand in quotes.
+/// Where a list or map in flow style may go on in the next line: behind the last of its outermost commas that fits;
+/// nowhere if a comma may stand in quotes.
 std::size_t breakOf(const std::string& text, int depth)
 {
     std::size_t best = std::string::npos;

@@ -23,16 +23,22 @@ const char* yes(bool holds)
 
 std::string radiusText(const std::array<double, 2>& radius)
 {
-    return radius[0] == radius[1] ? formatPlain(radius[0]) : fmt::format("[{}, {}]", formatPlain(radius[0]), formatPlain(radius[1]));
+    return radius[0] == radius[1] ? formatPlain(radius[0])
+                                  : fmt::format("[{}, {}]", formatPlain(radius[0]), formatPlain(radius[1]));
 }
 
 void writeCoupling(const reference::LiquidInfo& l, SceneLines& out)
 {
     out.blank();
     out.from(l.line);
-    out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter), formatPlain(l.volumeFraction)));
-    out.add(0, fmt::format("coupling: {{drag: {}, drag_exponent: {}, pressure_on_fabric: {}, capture: {{rate: {}}}, wicking: {{pressure: {}}}}}",
-                           !l.drag ? "off" : l.nonlinearDrag ? "nonlinear" : "linear", formatPlain(l.yazdchiPower), yes(l.pressureOnFabric), formatPlain(l.captureRate),
+    out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter),
+                           formatPlain(l.volumeFraction)));
+    out.add(0, fmt::format("coupling: {{drag: {}, drag_exponent: {}, pressure_on_fabric: {}, capture: {{rate: {}}}, "
+                           "wicking: {{pressure: {}}}}}",
+                           !l.drag           ? "off"
+                           : l.nonlinearDrag ? "nonlinear"
+                                             : "linear",
+                           formatPlain(l.yazdchiPower), yes(l.pressureOnFabric), formatPlain(l.captureRate),
                            yes(l.pressureInFabric)));
 }
 
@@ -42,16 +48,22 @@ void writeSolver(const ImportedScene& scene, SceneLines& out)
     out.blank();
     const char* solver = !l.solveSolid ? "off" : scene.vertexSolver ? "vertex" : "grid";
     const char* measure = l.bendingScheme == "tantheta" ? "tan" : l.bendingScheme == "sintheta" ? "sin" : "angle";
-    const std::string published = scene.vertexSolver ? "" : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
+    const std::string published =
+        scene.vertexSolver
+            ? ""
+            : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
     out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yes(l.twist), published));
     if (scene.vertexSolver) return;
-    out.add(0, fmt::format("contact: {{obstacle_young: {}, obstacle_thickness: {}}}", formatPlain(l.levelsetYoung), formatPlain(l.levelsetThickness)));
+    out.add(0, fmt::format("contact: {{obstacle_young: {}, obstacle_thickness: {}}}", formatPlain(l.levelsetYoung),
+                           formatPlain(l.levelsetThickness)));
 }
 
 void writeMaterial(const reference::Material& m, int number, SceneLines& out)
 {
-    std::string fields = fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}", formatPlain(m.young),
-                                     formatPlain(m.poisson), formatPlain(m.density), formatPlain(m.viscosity), yes(m.damps), yes(m.damps && !m.dampsOnlyBending));
+    std::string fields =
+        fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}",
+                    formatPlain(m.young), formatPlain(m.poisson), formatPlain(m.density), formatPlain(m.viscosity),
+                    yes(m.damps), yes(m.damps && !m.dampsOnlyBending));
     const auto add = [&](const char* key, const std::string& value) { fields += fmt::format(", {}: {}", key, value); };
     if (m.stretchingMultiplier != 1.0) add("stretch_factor", formatPlain(m.stretchingMultiplier));
     add("contact_stiffness", formatPlain(m.collisionMultiplier));
@@ -88,7 +100,8 @@ void writePiece(const ImportedPiece& piece, const std::string& file, SceneLines&
 
 }  // namespace
 
-void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf, SceneLines& out)
+void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf,
+                  SceneLines& out)
 {
     if (!scene.hasFabric()) return;
     writeCoupling(scene.reference.liquid, out);

@@ -11,14 +11,14 @@ namespace app {
 
 /// All that a written scene is made of.
 struct ImportedScene {
-    std::string name;        ///< of the scene, and of the files of its fabric
-    std::string from;        ///< the XML's name
-    std::string report;      ///< the name of the report beside the scene
+    std::string name;    ///< of the scene, and of the files of its fabric
+    std::string from;    ///< the XML's name
+    std::string report;  ///< the name of the report beside the scene
     reference::Scene reference;
     std::vector<ImportedPiece> pieces;
     ImportedBodies bodies;
-    std::vector<std::pair<int, std::string>> motions;   ///< of groups with pins, as YAML on one line
-    const char* method = "apic";   ///< of the transfer
+    std::vector<std::pair<int, std::string>> motions;  ///< of groups with pins, as YAML on one line
+    const char* method = "apic";                       ///< of the transfer
     bool vertexSolver = false;
 
     bool hasFabric() const { return !pieces.empty(); }
@@ -29,7 +29,8 @@ SceneLines writeScene(const ImportedScene& scene, const std::function<std::strin
 
 /// Its parts.
 void writeLiquid(const ImportedScene& scene, SceneLines& out);
-void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf, SceneLines& out);
+void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf,
+                  SceneLines& out);
 
 /// The transfer that a file means, and the words why where that needs saying.
 struct ChosenMethod {

@@ -9,8 +9,8 @@
 
 namespace app {
 
-/// A file of XML in memory, checked to be no more than a scene needs: UTF-8, well formed, one root <scene>, a few elements deep,
-/// without entities of its own.
+/// A file of XML in memory, checked to be no more than a scene needs: UTF-8, well formed, one root <scene>, a few
+/// elements deep, without entities of its own.
 class XmlFile {
  public:
     /// Throws InputError, one line "file:line: what, and what would do".

@@ -12,8 +12,9 @@ namespace {
 using test::ownScene;
 using ::testing::HasSubstr;
 
-const std::string kHead = "<scene>\n<duration time=\"1\"/>\n<integrator type=\"linearized-implicit-euler\" dt=\"1e-3\"/>\n"
-                          "<ElasticParameters><youngsModulus value=\"1e6\"/></ElasticParameters>\n";
+const std::string kHead =
+    "<scene>\n<duration time=\"1\"/>\n<integrator type=\"linearized-implicit-euler\" dt=\"1e-3\"/>\n"
+    "<ElasticParameters><youngsModulus value=\"1e6\"/></ElasticParameters>\n";
 
 /// A file that is refused: the message, which is one line, and whether anything was left behind.
 class Refused {
@@ -68,6 +69,9 @@ TEST(BadImport, NoFile)
     EXPECT_THROW(importScene(folder / "none.xml", folder / "none.yaml", {}, drenchParts()), sim::InputError);
     EXPECT_THROW(importScene(folder.path(), folder / "none.yaml", {}, drenchParts()), sim::InputError);
     EXPECT_THROW(importScene(ownScene("odd"), folder / "no" / "folder.yaml", {}, drenchParts()), sim::InputError);
+    test::writeFile(folder / "scene.xml", "<scene/>");
+    EXPECT_THROW(importScene(folder / "scene.xml", folder / "scene.xml", {}, drenchParts()), sim::InputError);
+    EXPECT_EQ(test::contentOf(folder / "scene.xml"), "<scene/>") << "it does not write over what it reads";
 }
 
 TEST(BadImport, NotXml)
@@ -76,7 +80,10 @@ TEST(BadImport, NotXml)
     expectRefused("", 1, "is empty");
     expectRefused(" \n\n", 1, "is empty");
     expectRefused("<html><body/></html>\n", 1, "its root is \"html\"");
-    expectRefused(std::string("\x7f" "ELF\0\0\0", 7), 1, "zero bytes");
+    expectRefused(std::string("\x7f"
+                              "ELF\0\0\0",
+                              7),
+                  1, "zero bytes");
     expectRefused(inScene("<particle x=\"0 0 0\">"), 6, "well-formed");
     expectRefused(inScene("") + "<scene/>", 7, "something follows");
 }
@@ -113,7 +120,9 @@ TEST(BadImport, DeepNesting)
 TEST(BadImport, EntityBomb)
 {
     std::string bomb = "<?xml version=\"1.0\"?>\n<!DOCTYPE scene [<!ENTITY a0 \"ha\">";
-    for (int i = 1; i < 10; ++i) bomb += fmt::format("<!ENTITY a{0} \"&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};\">", i, i - 1);
+    for (int i = 1; i < 10; ++i)
+        bomb +=
+            fmt::format("<!ENTITY a{0} \"&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};\">", i, i - 1);
     bomb += "]>\n<scene><description text=\"&a9;\"/></scene>";
     const auto start = std::chrono::steady_clock::now();
     expectRefused(bomb, 2, "DOCTYPE");
@@ -123,17 +132,21 @@ TEST(BadImport, EntityBomb)
 TEST(BadImport, AbsurdCounts)
 {
     const std::string particles = "<particle x=\"0 0 0\"/><particle x=\"1 0 0\"/>\n";
-    expectRefused(inScene(particles + "<hair params=\"0\" start=\"0\" count=\"1000000000000\"/>"), 6, "hair@count names particle 999999999999");
+    expectRefused(inScene(particles + "<hair params=\"0\" start=\"0\" count=\"1000000000000\"/>"), 6,
+                  "hair@count names particle 999999999999");
     expectRefused(inScene("<hair params=\"0\" start=\"0\" count=\"1000000000000\"/>"), 5, "the file has no particles");
     expectRefused(inScene("<bucketinfo size=\"1\" numcells=\"1000000000000\"/>"), 5, "bucketinfo@numcells");
-    expectRefused(inScene("<bucketinfo size=\"1e-9\"/>\n<distancefield usage=\"source\" type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>"), 6, "particles");
+    expectRefused(inScene("<bucketinfo size=\"1e-9\"/>\n<distancefield usage=\"source\" type=\"sphere\" cx=\"0\" "
+                          "cy=\"0\" cz=\"0\" radius=\"1\"/>"),
+                  6, "particles");
     expectRefused(inScene(particles + "<hair params=\"0\" start=\"0\" count=\"-3\"/>"), 6, "whole numbers");
     std::string hairs = "<particle x=\"0 0 0\"/>";
     for (int i = 1; i < 2000; ++i) hairs += fmt::format("<particle x=\"{} 0 0\"/>", i);
     for (int i = 0; i < 20'000; ++i) hairs += "<hair params=\"0\" start=\"0\" count=\"2000\"/>";
     expectRefused(inScene(hairs), 5, "points together");
     std::string fields;
-    for (int i = 0; i < 10'001; ++i) fields += "<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>";
+    for (int i = 0; i < 10'001; ++i)
+        fields += "<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>";
     expectRefused(inScene(fields), 5, "more than 10000");
 }
 
@@ -147,7 +160,8 @@ TEST(BadImport, NumbersThatAreNone)
     expectRefused(inScene("<particle v=\"0 0 0\"/>"), 5, "particle@x is missing");
     expectRefused(inScene("<liquidinfo>\n<viscosity/></liquidinfo>"), 6, "viscosity@value is missing");
     expectRefused(inScene("<liquidinfo><surfTension value=\"maybe\"/></liquidinfo>"), 5, "neither 0 nor 1");
-    expectRefused(inScene("<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" radius=\"1\"/>"), 5, "distancefield@cz is missing");
+    expectRefused(inScene("<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" radius=\"1\"/>"), 5,
+                  "distancefield@cz is missing");
     expectRefused(replaced(inScene(""), "dt=\"1e-3\"", "dt=\"0\""), 3, "integrator@dt must be above 0");
     expectRefused("<scene>\n<duration time=\"1\"/></scene>", 1, "has no <integrator");
     expectRefused("<scene>\n</scene>", 1, "has no <duration");
@@ -156,8 +170,10 @@ TEST(BadImport, NumbersThatAreNone)
 TEST(BadImport, ParticlesAndMaterialsThatAreNotThere)
 {
     const std::string particles = "<particle x=\"0 0 0\"/><particle x=\"1 0 0\"/><particle x=\"0 1 0\"/>\n";
-    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 3\"/></cloth>"), 7, "names particle 3, but the file has 0 to 2 only");
-    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 1\"/></cloth>"), 7, "names a particle twice");
+    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 3\"/></cloth>"), 7,
+                  "names particle 3, but the file has 0 to 2 only");
+    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 1\"/></cloth>"), 7,
+                  "names a particle twice");
     expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1\"/></cloth>"), 7, "needs three numbers");
     expectRefused(inScene(particles + "<cloth params=\"1\"><face i=\"0 1 2\"/></cloth>"), 6, "there is no material 1");
     expectRefused(inScene(particles + "<hair params=\"0\" start=\"2\" count=\"2\"/>"), 6, "names particle 3");
@@ -168,8 +184,9 @@ TEST(BadImport, ParticlesAndMaterialsThatAreNotThere)
 
 TEST(BadImport, WhatTheSceneReaderRefusesIsToldWithTheLineOfTheXml)
 {
-    expectRefused(inScene("\n<liquidinfo><liquidDensity value=\"-1\"/></liquidinfo>\n<distancefield usage=\"source\" type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>"), 6,
-                  "liquid.density");
+    expectRefused(inScene("\n<liquidinfo><liquidDensity value=\"-1\"/></liquidinfo>\n<distancefield usage=\"source\" "
+                          "type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>"),
+                  6, "liquid.density");
     expectRefused(inScene("<distancefield usage=\"source\" type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>\n"
                           "<distancefield usage=\"solid\" type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"2\"/>"),
                   5, "is empty");

@@ -56,7 +56,8 @@ inline FabricCounts countFabric(const sim::Scene& scene)
 
 inline void PrintTo(const FabricCounts& n, std::ostream* out)
 {
-    *out << n.vertices << " vertices, " << n.edges << " edges, " << n.faces << " faces, " << n.held << " held, " << n.pieces << " pieces";
+    *out << n.vertices << " vertices, " << n.edges << " edges, " << n.faces << " faces, " << n.held << " held, "
+         << n.pieces << " pieces";
 }
 
 }  // namespace app::test

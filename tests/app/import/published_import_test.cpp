@@ -13,7 +13,8 @@ using test::countFabric;
 using test::FabricCounts;
 using test::Imported;
 
-/// The scenes that libWetCloth and its PolyPIC fork publish, which are not ours to keep: DRENCH_LIBWETCLOTH_SCENES names their folder.
+/// The scenes that libWetCloth and its PolyPIC fork publish, which are not ours to keep: DRENCH_LIBWETCLOTH_SCENES
+/// names their folder.
 fs::path publishedScenes()
 {
     const char* named = std::getenv("DRENCH_LIBWETCLOTH_SCENES");
@@ -26,9 +27,9 @@ struct Published {
     FabricCounts fabric;
     std::size_t sources = 0, obstacles = 0;
     bool domain = false;
-    double particles = 0.0;   ///< of liquid at the start; 0: not known
+    double particles = 0.0;  ///< of liquid at the start; 0: not known
     std::size_t orphans = 0;
-    const char* words = "";   ///< that stand in the scene
+    const char* words = "";  ///< that stand in the scene
 };
 
 void PrintTo(const Published& scene, std::ostream* out)
@@ -47,7 +48,14 @@ const Published kAll[] = {
     {"dam_break_small_PolyPIC", kNone, 1, 1, false, kDamBreak, 1611, "method: polypic"},
     {"dam_mini_APIC", kNone, 1, 1, false, 0.0, 1611, "method: apic"},
     {"dam_mini_PolyPIC", kNone, 1, 1, false, 0.0, 1611, "method: polypic"},
-    {"impermeable_small", {.vertices = 10000, .faces = 19602, .held = 64, .pieces = 1}, 1, 0, true, kBall, 0, "pin: {corners: all, patch: 4}"},
+    {"impermeable_small",
+     {.vertices = 10000, .faces = 19602, .held = 64, .pieces = 1},
+     1,
+     0,
+     true,
+     kBall,
+     0,
+     "pin: {corners: all, patch: 4}"},
     {"simple_cloth", kStrips, 0, 0, false, 0.0, 0, "name: group3"},
     {"simple_fluid", kNone, 1, 1, false, 0.0, 0, "inside: true"},
     {"simple_plastic", kStrips, 0, 0, false, 0.0, 0, "cloth_grid:"},
@@ -57,7 +65,14 @@ const Published kAll[] = {
     {"splash_cloth_small_APIC", kSheet, 1, 1, true, kBall, 0, "nodes: [99, 99]"},
     {"splash_cloth_small_PolyPIC", kSheet, 1, 1, true, kBall, 0, "pin: {corners: [x- z-, x- z+], patch: 2}"},
     {"splash_cloth_small_near_APIC", kSheet, 1, 1, true, kBall, 0, "nodes: [99, 99]"},
-    {"splash_yarn_small_APIC", {.vertices = 19604, .edges = 19800, .held = 12, .pieces = 1}, 1, 0, true, kFineBall, 0, "weave: herringbone"},
+    {"splash_yarn_small_APIC",
+     {.vertices = 19604, .edges = 19800, .held = 12, .pieces = 1},
+     1,
+     0,
+     true,
+     kFineBall,
+     0,
+     "weave: herringbone"},
 };
 
 class PublishedScene : public testing::TestWithParam<Published> {
@@ -65,7 +80,9 @@ class PublishedScene : public testing::TestWithParam<Published> {
     void SetUp() override
     {
         xml = publishedScenes() / (std::string(GetParam().name) + ".xml");
-        if (!fs::exists(xml)) GTEST_SKIP() << "no " << xml.filename() << ": DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
+        if (!fs::exists(xml))
+            GTEST_SKIP() << "no " << xml.filename()
+                         << ": DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
     }
     fs::path xml;
 };
@@ -118,18 +135,23 @@ TEST(PublishedImport, MeshThatIsMissingIsNamed)
     const fs::path xml = publishedScenes() / "simple_fluid_mesh.xml";
     if (!fs::exists(xml)) GTEST_SKIP() << "DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
     const Imported imported(xml);
-    EXPECT_THAT(imported.yaml(), testing::HasSubstr("cylinder: {center: [0, 4, 0], axis: [0, 1, 0], radius: 1, half: 1.25, round: 0.25}"));
+    EXPECT_THAT(
+        imported.yaml(),
+        testing::HasSubstr("cylinder: {center: [0, 4, 0], axis: [0, 1, 0], radius: 1, half: 1.25, round: 0.25}"));
     try {
         imported.setup();
         FAIL() << "there is no mesh";
     } catch (const sim::InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("there is no file \"" + (imported.folder() / "assets/meshes/spot_triangulated.obj").string()));
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("there is no file \"" +
+                                       (imported.folder() / "assets/meshes/spot_triangulated.obj").string()));
     }
 }
 
 TEST(PublishedImport, EveryPublishedSceneIsInTheTable)
 {
-    if (!fs::is_directory(publishedScenes())) GTEST_SKIP() << "DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
+    if (!fs::is_directory(publishedScenes()))
+        GTEST_SKIP() << "DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
     for (const auto& entry : fs::directory_iterator(publishedScenes())) {
         const std::string name = entry.path().stem().string();
         if (entry.path().extension() != ".xml" || name == "simple_fluid_mesh") continue;
