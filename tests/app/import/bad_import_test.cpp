@@ -69,9 +69,10 @@ TEST(BadImport, NoFile)
     EXPECT_THROW(importScene(folder / "none.xml", folder / "none.yaml", {}, drenchParts()), sim::InputError);
     EXPECT_THROW(importScene(folder.path(), folder / "none.yaml", {}, drenchParts()), sim::InputError);
     EXPECT_THROW(importScene(ownScene("odd"), folder / "no" / "folder.yaml", {}, drenchParts()), sim::InputError);
-    test::writeFile(folder / "scene.xml", "<scene/>");
+    const std::string sheet = test::contentOf(ownScene("sheet"));
+    test::writeFile(folder / "scene.xml", sheet);
     EXPECT_THROW(importScene(folder / "scene.xml", folder / "scene.xml", {}, drenchParts()), sim::InputError);
-    EXPECT_EQ(test::contentOf(folder / "scene.xml"), "<scene/>") << "it does not write over what it reads";
+    EXPECT_EQ(test::contentOf(folder / "scene.xml"), sheet) << "it does not write over what it reads";
 }
 
 TEST(BadImport, NotXml)
