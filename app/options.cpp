@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <thread>
 
 namespace app {
@@ -79,6 +80,20 @@ void addStress(CLI::App& program, Options& options)
     stress->callback([&options] { options.verb = Verb::Stress; });
 }
 
+void addImport(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("import", "turn a scene of libWetCloth (XML) into a scene file, with a report of what was decided");
+    verb->add_option("file", options.scene, "scene of libWetCloth (XML)")->required();
+    verb->add_option("-o,--out", options.out, "scene file to write (default: the same name with .yaml, in this folder)");
+    const std::map<std::string, bool> solvers = {{"grid", false}, {"vertex", true}};
+    verb->add_option("--solver", options.import.vertexSolver, "of the fabric: grid, as published (default), or vertex")->transform(CLI::CheckedTransformer(solvers));
+    verb->add_flag("--strict-fork", options.import.strictFork, "without picMethod it is PIC, as the PolyPIC fork reads it");
+    verb->add_flag("--trust-friction-angle", options.import.trustFrictionAngle, "friction_angle counts, which libWetCloth does not read");
+    verb->add_flag("--round-sections", options.import.roundSections, "a missing biradius is the radius, not 0.018 cm");
+    verb->add_flag("!--no-thread-count", options.import.legacyThreadCount, "fabricThreadCount of 2018 does not count");
+    verb->callback([&options] { options.verb = Verb::Import; });
+}
+
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
@@ -115,6 +130,7 @@ void addVerbs(CLI::App& program, Options& options)
     validate->callback([&options] { options.verb = Verb::Validate; });
 
     addStress(program, options);
+    addImport(program, options);
 
     auto* check = program.add_subcommand("check", "validate a scene and print it resolved, with units");
     addScene(*check, options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/import/import_options.h"
 #include "app/scene_setup.h"
 
 #include <cstdint>
@@ -10,12 +11,12 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import };
 
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
-    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file
+    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
@@ -41,6 +42,8 @@ struct Options {
     int firstScene = 0;                  ///< … from this number on …
     std::uint64_t seed = 1;              ///< … of this seed
     double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
+
+    ImportOptions import;                ///< import: what may be decided this way or that; its result goes to `out`
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;

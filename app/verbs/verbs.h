@@ -16,5 +16,6 @@ int runVerbBenchPrecision(const Options& options, const Parts& parts);
 int runVerbPaper(const Options& options, const Parts& parts);
 int runVerbValidate(const Options& options, const Parts& parts);
 int runVerbStress(const Options& options, const Parts& parts);
+int runVerbImport(const Options& options, const Parts& parts);
 
 }  // namespace app

@@ -56,6 +56,9 @@ TEST_F(Program, MistakesOnTheCommandLineExitWithTwoAndOneLine)
     expectOneLine(run({"bench"}), 2, "--scene");
     expectOneLine(run({"bench", "precision", "nowhere"}), 2, "nowhere");
     expectOneLine(run({"bench", "precision", "--repeats", "0"}), 2, "--repeats");
+    expectOneLine(run({"import", "nowhere.xml"}), 2, "nowhere.xml");
+    expectOneLine(run({"import", "toy.yaml", "-o", "scene.yaml"}), 2, "toy.yaml:1: is no XML");
+    expectOneLine(run({"import", "toy.xml", "--solver", "fast"}), 2, "--solver");
 }
 
 TEST_F(Program, MistakesInASceneExitWithTwoAndOneLine)
