@@ -86,10 +86,8 @@ bool LivePair::takeNewest()
 void LivePair::bringTogether()
 {
     const LiveStatus a = sides_.front()->live.status(), b = sides_.back()->live.status();
-    if (a.mode != LiveMode::Paused || b.mode != LiveMode::Paused || a.time == b.time) return;
-    const double behind = std::min(a.time, b.time);
-    if (broughtFrom_ == behind) return;  // it is on its way
-    broughtFrom_ = behind;
+    const auto rests = [](const LiveStatus& status) { return status.mode == LiveMode::Paused && !status.isBusy; };
+    if (!rests(a) || !rests(b) || a.time == b.time) return;
     sides_[a.time < b.time ? 0 : 1]->live.stepOnce();
 }
 

@@ -45,7 +45,6 @@ class LivePair {
 
     std::vector<std::unique_ptr<Side>> sides_;  ///< one or two
     bool everyFrame_ = false;
-    double broughtFrom_ = -1.0;  ///< time from which one was made to follow the other last [s]
 };
 
 }  // namespace app

@@ -44,6 +44,7 @@ void LiveSimulation::ask(Command command)
     {
         const std::lock_guard lock(mutex_);
         commands_.push_back(std::move(command));
+        status_.isBusy = true;
     }
     wake_.notify_one();
 }
@@ -213,6 +214,7 @@ void LiveSimulation::runCommands(std::unique_lock<std::mutex>& lock)
         }
         publish(true);
         lock.lock();
+        status_.isBusy = !commands_.empty();
     }
 }
 
@@ -326,7 +328,7 @@ void LiveSimulation::publish(bool always)
         const bool isBetween =
             frameByFrame_ && status_.mode < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
         if (isBetween || (ready_ && !always)) return;
-        snapshot = ready_ ? std::move(ready_) : std::move(spare_);
+        snapshot = std::move(spare_);
     }
     if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
     snapshot->number = frame_;
@@ -334,7 +336,8 @@ void LiveSimulation::publish(bool always)
                       settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
     placeObstacles_(state.time, snapshot->obstacles);
     const std::lock_guard lock(mutex_);
-    ready_ = std::move(snapshot);
+    std::swap(ready_, snapshot);
+    if (snapshot) spare_ = std::move(snapshot);
 }
 
 }  // namespace app

@@ -21,6 +21,7 @@ enum class LiveMode { Paused, Playing, Ended, Failed };
 /// Where a live simulation is.
 struct LiveStatus {
     LiveMode mode = LiveMode::Paused;
+    bool isBusy = false;          ///< with what it was asked for: all else may change at once
     std::int64_t step = 0;
     double time = 0.0;            ///< [s]
     std::string failure;          ///< why it went no further: one line

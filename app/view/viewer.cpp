@@ -92,6 +92,7 @@ struct Viewer::Inner {
     void frameAll();
     void drawScenes();
     void drawPanels();
+    void drawPicturePanel();
     void drawSettings();
     void follow(const SceneWishes& wishes);
     void record(bool isOn);
@@ -159,7 +160,7 @@ void Viewer::Inner::takeNewest()
 void Viewer::Inner::frameAll()
 {
     const auto& shown = pair->sides().front()->shown;
-    if (shown) camera->frame(render::bounds(shown->view()), aspect());
+    if (shown && camera) camera->frame(render::bounds(shown->view()), aspect());
 }
 
 void Viewer::Inner::moveCamera()
@@ -189,7 +190,8 @@ void Viewer::Inner::followKey(int key)
     if (key == ' ') pair->playOrPause();
     if (key == 'S') pair->all([](LiveSimulation& live) { live.stepOnce(); });
     if (key == 'R') pair->all([](LiveSimulation& live) { live.restart(); });
-    if (key == 'F' && camera) frameAll();
+    if (key == 'F') frameAll();
+    if (key == 'C') camera.reset();
     if (key == 'P') follow({.picture = true});
 }
 
@@ -230,7 +232,7 @@ void Viewer::Inner::drawPanels()
     ImGui::SetNextWindowSize(ImVec2(width, 0.48f * height), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Simulation")) {
         livePanel.draw(*pair);
-        if (ImGui::CollapsingHeader("Picture") && lookPanel->draw()) showWhatIsWanted();
+        if (ImGui::CollapsingHeader("Picture")) drawPicturePanel();
         if (ImGui::CollapsingHeader("Scene")) follow(scenePanel.draw(*pair->first().scene(), recent));
     }
     ImGui::End();
@@ -238,6 +240,16 @@ void Viewer::Inner::drawPanels()
     ImGui::SetNextWindowSize(ImVec2(width, 0.48f * height), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Settings")) drawSettings();
     ImGui::End();
+}
+
+void Viewer::Inner::drawPicturePanel()
+{
+    if (ImGui::Button("Show all")) frameAll();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("F");
+    ImGui::SameLine();
+    if (ImGui::Button("Camera of the file")) camera.reset();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("C");
+    if (lookPanel->draw()) showWhatIsWanted();
 }
 
 void Viewer::Inner::drawSettings()

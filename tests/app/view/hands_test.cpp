@@ -39,6 +39,9 @@ TEST(Hands, TheMouseTurnsTheView)
     desktop.viewer.frame();
     doWithHands("mouseup 1");
     EXPECT_GT(render::meanColorDifference(rightHalf(before), rightHalf(desktop.shot())), 1.0 / 255.0);
+    desktop.focus();
+    desktop.keys("c");
+    EXPECT_LT(render::meanColorDifference(rightHalf(before), rightHalf(desktop.shot())), 0.1 / 255.0) << "as the scene's file has it";
 }
 
 TEST(Hands, ASettingIsChangedInItsField)

@@ -77,6 +77,20 @@ TEST(LivePair, PausesBothAtOneTime)
     }
 }
 
+TEST(LivePair, StepsAreThoseThatWereAskedFor)
+{
+    for (int repeat = 0; repeat < 10; ++repeat) {
+        Pair p;
+        for (int step = 0; step < 3; ++step) p.pair.all([](LiveSimulation& live) { live.stepOnce(); });
+        ASSERT_TRUE(p.comesTrue([&] { return p.time(0) >= 0.03 && p.time(1) >= 0.03; }));
+        p.pair.playOrPause();
+        ASSERT_TRUE(p.comesTrue([&] {
+            EXPECT_EQ(p.time(0), p.time(1));
+            return p.time(0) >= 0.1;
+        }));
+    }
+}
+
 TEST(LivePair, GoesBackAndRestartsTogether)
 {
     Pair p;
