@@ -17,12 +17,15 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 
 namespace app {
 
 namespace {
 
+constexpr double kLongestWait = 0.1;   ///< for a picture of full quality while something changes [s]
 constexpr float kPanelWidth = 24.0f;  ///< of the column with the panels [font sizes]
 
 std::string titleOf(const sim::Scene& scene)
@@ -72,6 +75,7 @@ struct Viewer::Inner {
         pictureFile;                     ///< of the next frame, with and without panels; empty: none is wanted
     std::filesystem::path recordFolder;  ///< of recorded frames
     std::int64_t recorded = -1;          ///< number of the last one
+    double fullSeconds = 0.0;            ///< that the last picture of full quality took
 
     const sim::Scene& scene() const { return pair->first().scene()->setup.scene; }
     LivePair::Side& tunedSide() { return *pair->sides()[std::min(tuned, pair->sides().size() - 1)]; }
@@ -91,6 +95,7 @@ struct Viewer::Inner {
     void followControl(int key);
     void frameAll();
     void drawScenes();
+    bool isChanging() const;
     void drawPanels();
     void drawPicturePanel();
     void drawSettings();
@@ -213,15 +218,27 @@ int Viewer::Inner::widthOfPanels() const
 void Viewer::Inner::drawScenes()
 {
     if (!isShowing()) return;
+    const auto begin = std::chrono::steady_clock::now();
+    const bool isKept = scenePanel.isRecording || !pictureFile.empty();
+    const bool isFast = !isKept && isChanging() && fullSeconds > kLongestWait;  // with edges that are not smooth
     render::Viewport part = {.x = widthOfPanels(), .y = 0, .width = widthOfSide(), .height = window.height()};
     for (const auto& side : pair->sides()) {
         if (!side->shown) continue;
         render::Look look = lookPanel->lookFor(*side->shown);
         if (pair->sides().size() > 1) look.overlay.label = labelOf(side->live.scene()->setup);
         look.overlay.colorBar = look.overlay.colorBar && side == pair->sides().back();  // one for both
+        if (isFast) look.samples = 1;
         renderer.show(side->shown->view(), camera->camera(), look, part);
         part.x += part.width;
     }
+    if (!isFast) fullSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Is the next picture likely to be another one?
+bool Viewer::Inner::isChanging() const
+{
+    const auto isPlaying = [](const auto& side) { return side->live.status().mode == LiveMode::Playing; };
+    return ImGui::IsAnyMouseDown() || std::ranges::any_of(pair->sides(), isPlaying);
 }
 
 void Viewer::Inner::drawPanels()
