@@ -14,6 +14,8 @@ namespace sim {
 
 namespace {
 
+constexpr std::size_t kMostChanges = 10'000;  // each is read as a whole scene's settings are
+
 bool isBelow(const std::string& path, const std::string& section)
 {
     return path == section || (path.starts_with(section) && path[section.size()] == '.');
@@ -63,6 +65,8 @@ std::vector<SettingsChange> readChanges(const Node& root, const Scene& scene)
     std::vector<SettingsChange> changes;
     const Node* list = listAt(&root, "changes", "changes", "- {step: 100, set: {time.dt: 1.0e-3}}");
     if (!list) return changes;
+    if (list->items.size() > kMostChanges)
+        fail(list->place, fmt::format("changes: {} are too many; at most {} are possible", list->items.size(), kMostChanges));
     Node changed = root;
     const std::vector<Parameter> atStart = parametersOf(scene.settings, scene.materials);
     for (std::size_t i = 0; i < list->items.size(); ++i) {

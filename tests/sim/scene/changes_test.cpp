@@ -56,6 +56,18 @@ TEST(SceneChanges, ArePrintedInUnitsThatReadBackAlike)
               "{step: 3, set: {transfer.method.fabric: apic, transfer.keep_dt: step}}");
 }
 
+TEST(SceneChanges, AreNotTooMany)
+{
+    std::string list = "changes:\n";
+    for (int i = 1; i <= 10'001; ++i) list += "  - {step: 1, set: {}}\n";
+    try {
+        sceneWith(list);
+        FAIL() << "loaded";
+    } catch (const sim::InputError& error) {
+        EXPECT_STREQ(error.what(), "scene.yaml:5: changes: 10001 are too many; at most 10000 are possible");
+    }
+}
+
 TEST(Parameters, EveryValueIsTakenBackAsAnOverride)
 {
     const sim::Scene scene = sceneWith("time: {dt: 1.3e-4, mode: adaptive}\ncoupling: {capture: {rate: 0.3}}\n");
