@@ -6,7 +6,12 @@ namespace app {
 
 int runVerbView(const Options& options, const Parts& parts)
 {
-    parts.loadScene(options.request());  // mistakes in it are told with or without a display
+    SceneRequest request = options.request();
+    parts.loadScene(request);  // mistakes in it are told with or without a display
+    if (!options.beside.empty()) {
+        request.variant = options.beside;
+        parts.loadScene(request);
+    }
     if (!parts.view)
         throw sim::RunError(
             "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");

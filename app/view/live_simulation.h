@@ -54,8 +54,8 @@ class LiveSimulation {
     void pause();
     void stepOnce();  ///< and pause
     void restart();   ///< go back to the initial state, and pause; all settings are as they were changed
-    void goBackTo(
-        double time);  ///< the latest moment that is not after it [s], and pause; settings stay as they are now
+    /// Go back to the latest moment that is not after it [s], and pause; settings stay as they are now.
+    void goBackTo(double time);
     /// Give settings other values, each as `--set` takes it: from the next step on, or, those that hold for a whole
     /// run, when it is restarted. What is refused is told by the status.
     void change(std::vector<std::string> sets);

@@ -71,8 +71,7 @@ struct Viewer::Inner {
     RecentFiles recent;
     std::size_t tuned = 0;             ///< the side whose settings are shown
     std::optional<ViewCamera> camera;  ///< once there is something to look at
-    std::filesystem::path screenshotFile,
-        pictureFile;                     ///< of the next frame, with and without panels; empty: none is wanted
+    std::filesystem::path screenshotFile, pictureFile;  ///< of the next frame, with and without panels; or empty
     std::filesystem::path recordFolder;  ///< of recorded frames
     std::int64_t recorded = -1;          ///< number of the last one
     double fullSeconds = 0.0;            ///< that the last picture of full quality took
