@@ -96,7 +96,7 @@ class Desktop {
     template <class F>
     bool comesTrue(F&& isTrue)
     {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(300);
         while (!isTrue()) {
             if (std::chrono::steady_clock::now() > end) return false;
             viewer.frame();

@@ -145,7 +145,7 @@ TEST(LookPanel, WhatIsChosenComesWithTheNextSnapshot)
     LiveSimulation live(SceneRequest(), toyParts({}));
     std::mt19937 random(7);
     bool hasArrows = false, hasPressure = false;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(300);
     while (!(hasArrows && hasPressure) && std::chrono::steady_clock::now() < end) {
         for (int click = 0; click < 20; ++click)
             screen.clickAt(static_cast<float>(random() % 300), static_cast<float>(random() % 400), [&] {
