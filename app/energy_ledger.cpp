@@ -17,11 +17,13 @@ EnergyLedger::EnergyLedger(const std::filesystem::path& file) : file_(file)
     file_.add(header + ",unbooked_erg");
 }
 
+EnergyLedger::EnergyLedger(const std::filesystem::path& file, std::uintmax_t bytes, const Summary& summary) : file_(file, bytes), summary_(summary) {}
+
 void EnergyLedger::add(double time, const sim::Energies& energies)
 {
     const auto& changes = summary_.changes.of;
     const double kinetic = energies.kinetic + energies.modal + energies.fabric.kinetic;
-    const double unbooked = energies.total() - first_ - std::accumulate(changes.begin(), changes.end(), 0.0);
+    const double unbooked = energies.total() - summary_.first - std::accumulate(changes.begin(), changes.end(), 0.0);
     summary_.largestKinetic = std::max(summary_.largestKinetic, kinetic);
     summary_.largestUnbooked = std::max(summary_.largestUnbooked, std::abs(unbooked));
     std::string line = fmt::format("{:.9g},{:.12g},{:.9g}", time, energies.total(), kinetic);
@@ -31,7 +33,7 @@ void EnergyLedger::add(double time, const sim::Energies& energies)
 
 void EnergyLedger::initial(double time, const sim::Energies& energies)
 {
-    first_ = energies.total();
+    summary_.first = energies.total();
     add(time, energies);
 }
 

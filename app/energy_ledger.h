@@ -10,24 +10,28 @@ namespace app {
 /// energy_ledger.csv: where the energy of a run has gone up to each step (model-fluid 9.5).
 class EnergyLedger {
  public:
+    /// How far it has come.
     struct Summary {
+        double first = 0.0;               ///< energy at the start [erg]
         sim::EnergyChanges changes;       ///< since the start [erg]
         double largestKinetic = 0.0;      ///< of liquid and fabric [erg]
         double largestUnbooked = 0.0;     ///< change of the energy that no part of the steps has booked [erg]
     };
 
     explicit EnergyLedger(const std::filesystem::path& file);
+    /// Goes on behind the first `bytes` of the file.
+    EnergyLedger(const std::filesystem::path& file, std::uintmax_t bytes, const Summary& summary);
     /// The state before the first step.
     void initial(double time, const sim::Energies& energies);
     /// The report must have its energies booked.
     void step(double time, const sim::StepReport& report);
     const Summary& summary() const { return summary_; }
+    std::uintmax_t size() const { return file_.size(); }  ///< of the file [bytes]
 
  private:
     void add(double time, const sim::Energies& energies);
 
     LineFile file_;
-    double first_ = 0.0;  ///< energy at the start [erg]
     Summary summary_;
 };
 

@@ -24,7 +24,19 @@ std::unique_ptr<FrameSnapshot> FramePipeline::borrow()
     return snapshot;
 }
 
-void FramePipeline::submit(std::unique_ptr<FrameSnapshot> snapshot) { toDraw_.push(std::move(snapshot)); }
+void FramePipeline::submit(std::unique_ptr<FrameSnapshot> snapshot)
+{
+    toDraw_.push(std::move(snapshot));
+    std::lock_guard lock(mutex_);
+    ++submitted_;
+}
+
+void FramePipeline::drain()
+{
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failure_ || written_ == submitted_; });
+    if (failure_) std::rethrow_exception(failure_);
+}
 
 void FramePipeline::finish()
 {
@@ -50,7 +62,12 @@ try {
 
 void FramePipeline::writeAll()
 try {
-    while (auto drawn = toWrite_.pop()) drawn->picture(folder_ / frameFileName(drawn->number));
+    while (auto drawn = toWrite_.pop()) {
+        drawn->picture(folder_ / frameFileName(drawn->number));
+        std::lock_guard lock(mutex_);
+        ++written_;
+        changed_.notify_all();
+    }
 } catch (...) {
     stop(std::current_exception());
     toWrite_.fail(std::current_exception());
@@ -61,6 +78,7 @@ void FramePipeline::stop(std::exception_ptr reason)
     {
         std::lock_guard lock(mutex_);
         if (!failure_) failure_ = reason;
+        changed_.notify_all();
     }
     toDraw_.fail(std::move(reason));
 }

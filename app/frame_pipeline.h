@@ -3,6 +3,8 @@
 #include "app/frame_queue.h"
 #include "app/frame_snapshot.h"
 
+#include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -33,7 +35,9 @@ class FramePipeline {
     std::unique_ptr<FrameSnapshot> borrow();
     void submit(std::unique_ptr<FrameSnapshot> snapshot);
 
-    /// Wait until every submitted frame is a file, or throw why not.
+    /// Wait until every submitted frame is a file, or throw why not. More may be submitted afterwards.
+    void drain();
+    /// The same, and no more will come.
     void finish();
 
  private:
@@ -48,7 +52,9 @@ class FramePipeline {
     const std::filesystem::path folder_;
     FrameQueue<std::unique_ptr<FrameSnapshot>> toDraw_;
     FrameQueue<Drawn> toWrite_;
-    std::mutex mutex_;                                        ///< guards the next two
+    std::mutex mutex_;                                        ///< guards what follows
+    std::condition_variable changed_;
+    std::int64_t submitted_ = 0, written_ = 0;                ///< frames
     std::vector<std::unique_ptr<FrameSnapshot>> spare_;
     std::exception_ptr failure_;
     std::jthread drawer_, writer_;

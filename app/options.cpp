@@ -16,12 +16,13 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 
-void addScene(CLI::App& verb, Options& options)
+CLI::Option* addScene(CLI::App& verb, Options& options)
 {
-    verb.add_option("scene", options.scene, "scene file (YAML)")->required();
+    auto* scene = verb.add_option("scene", options.scene, "scene file (YAML)")->required();
     verb.add_option("--set", options.sets, "override a key of the scene: dotted.key=value")
         ->take_all()
         ->allow_extra_args(false);
+    return scene;
 }
 
 void addVariant(CLI::App& verb, Options& options)
@@ -100,11 +101,17 @@ void addVerbs(CLI::App& program, Options& options)
     program.set_version_flag("--version", DRENCH_VERSION);
 
     auto* run = program.add_subcommand("run", "run a scene, or one of its variants, to its end");
-    addScene(*run, options);
+    addScene(*run, options)->required(false);
     addVariant(*run, options);
     addOutput(*run, options);
+    auto* resume = run->add_option("--resume", options.resume, "go on with the run in this folder; with --out go on elsewhere, where --set may change settings");
+    run->add_option("--from-frame", options.fromFrame, "go on from the checkpoint of this frame (default: the last one)")->check(CLI::NonNegativeNumber)->needs(resume);
     run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
-    run->callback([&options] { options.verb = Verb::Run; });
+    run->callback([&options] {
+        options.verb = Verb::Run;
+        if (options.scene.empty() == options.resume.empty()) throw CLI::RequiredError("either scene or --resume");
+        if (!options.resume.empty() && !options.variants.empty()) throw CLI::ExcludesError("--resume", "--variant");
+    });
 
     auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");
     addScene(*compare, options);

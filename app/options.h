@@ -23,6 +23,8 @@ struct Options {
     int threads = 1;                     ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
+    std::filesystem::path resume;        ///< run: go on with the run in this folder
+    std::optional<std::int64_t> fromFrame;  ///< run: from this frame's checkpoint; nothing: the last one
     bool force = false;                  ///< compare, paper: redo variants that are done
     bool quick = false;                  ///< paper, validate, bench precision, stress: shortened
     bool paused = false;                 ///< view: wait with the first step until somebody asks for it

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -18,20 +17,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kRunFiles = {"report.json", "steps.jsonl", "energy.csv", "video.mp4", "resolved.yaml"};
+constexpr std::array<std::string_view, 6> kRunFiles = {"report.json", "steps.jsonl", "energy.csv", "energy_ledger.csv", "video.mp4", "resolved.yaml"};
 
-bool isFrame(std::string_view name)
-{
-    constexpr std::string_view kHead = "frame_", kTail = ".png";
-    if (!name.starts_with(kHead) || !name.ends_with(kTail) || name.size() <= kHead.size() + kTail.size()) return false;
-    const auto digits = name.substr(kHead.size(), name.size() - kHead.size() - kTail.size());
-    return std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
+/// Files with numbers that a run leaves in its folder, and in folders below.
+struct NumberedFiles {
+    std::string_view folder, before, after;
+};
+constexpr std::array<NumberedFiles, 3> kNumberedFiles = {{{"", "frame_", ".png"}, {"checkpoints", "state_", ".h5"}, {"states", "state_", ".h5"}}};
 
-bool isLeftByARun(std::string name)
+std::string withoutPart(std::string name)
 {
     if (name.ends_with(".part")) name.resize(name.size() - std::string_view(".part").size());
-    return isFrame(name) || std::ranges::find(kRunFiles, name) != kRunFiles.end();
+    return name;
+}
+
+bool isRunFile(const std::string& name) { return std::ranges::find(kRunFiles, name) != kRunFiles.end(); }
+
+/// Remove files that satisfy isOld(name), whole or not, of all that are in a folder.
+template <class F>
+void removeFrom(const fs::path& folder, F&& isOld)
+{
+    std::vector<fs::path> old;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+        if (entry.is_regular_file() && isOld(withoutPart(entry.path().filename().string()))) old.push_back(entry.path());
+    for (const auto& file : old) fs::remove(file);
 }
 
 void requireOwner(const fs::path& folder, const FolderOwner& owner)
@@ -65,10 +75,17 @@ void claimFolder(const fs::path& folder, const FolderOwner& owner)
 {
     makeFolder(folder);
     requireOwner(folder, owner);
-    std::vector<fs::path> old;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && isLeftByARun(entry.path().filename().string())) old.push_back(entry.path());
-    for (const auto& file : old) fs::remove(file);
+    removeFrom(folder, isRunFile);
+    forgetLaterThan(-1, folder);
+    std::error_code isNotEmpty;
+    for (const NumberedFiles& files : kNumberedFiles)
+        if (!files.folder.empty()) fs::remove(folder / files.folder, isNotEmpty);
+}
+
+void forgetLaterThan(std::int64_t frame, const fs::path& folder)
+{
+    for (const NumberedFiles& files : kNumberedFiles)
+        removeFrom(folder / files.folder, [&](const std::string& name) { return numberIn(name, files.before, files.after) > frame; });
 }
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +16,9 @@ struct FolderOwner {
 /// that a run leaves, never of others). Throws InputError if it is a file, holds another scene's results, or holds
 /// files but no results.
 void claimFolder(const std::filesystem::path& folder, const FolderOwner& owner);
+
+/// Remove what a run has left of frames after this one: pictures and states.
+void forgetLaterThan(std::int64_t frame, const std::filesystem::path& folder);
 
 /// Make the folder that holds the variants of a comparison; others' subfolders in it do not matter. Throws InputError if
 /// it is a file.

@@ -64,6 +64,10 @@ struct OutputSettings {
     bool frames = true;                     ///< write frame_00000.png, …
     bool energy = true, stats = true;       ///< energy.csv, steps.jsonl
     bool ledger = false;                    ///< energy_ledger.csv
+    bool states = false;                    ///< the state of every frame, to make pictures of it again
+    bool checkpoint = false;                ///< states to go on from …
+    double checkpointEvery = 0.1;           ///< … after so much simulated time [s] …
+    int checkpointKeep = 1;                 ///< … the last so many; 0: all
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

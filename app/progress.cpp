@@ -51,10 +51,11 @@ std::string progressLine(const ProgressState& state)
                        state.secondsLeft < 0.0 ? "?" : formatDuration(state.secondsLeft));
 }
 
-Progress::Progress(std::FILE* out, std::string label, double begin, double end, std::int64_t frames)
+Progress::Progress(std::FILE* out, std::string label, double begin, double end, std::int64_t frames, std::int64_t frame)
     : out_(out), label_(std::move(label)), begin_(begin), end_(end), terminal_(isatty(fileno(out)) == 1),
       start_(std::chrono::steady_clock::now()), shown_(start_)
 {
+    state_.frame = frame;
     state_.frames = frames;
     state_.time = begin;
 }

@@ -29,7 +29,8 @@ std::string progressLine(const ProgressState& state);
 class Progress {
  public:
     /// @param label  stands before every line, may be empty
-    Progress(std::FILE* out, std::string label, double begin, double end, std::int64_t frames);
+    /// @param frame  the last one that is done already
+    Progress(std::FILE* out, std::string label, double begin, double end, std::int64_t frames, std::int64_t frame = 0);
     ~Progress();  ///< ends the line on a terminal
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;

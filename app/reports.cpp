@@ -222,6 +222,23 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.stats) steps_.emplace(folder / "steps.jsonl");
     if (output.energy) energy_.emplace(folder / "energy.csv");
     if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv");
+    if (energy_) energy_->add(kEnergyHeader);
+    describe(setup, std::move(contentHash), threads);
+}
+
+Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads, const LogsSoFar& before)
+    : folder_(folder), summary_(before.summary), begin_(setup.scene.settings.time.start), before_(before.summary.wallSeconds),
+      gravity_(setup.scene.settings.gravity)
+{
+    const auto& output = setup.pictures.output;
+    if (output.stats) steps_.emplace(folder / "steps.jsonl", before.stepsBytes);
+    if (output.energy) energy_.emplace(folder / "energy.csv", before.energyBytes);
+    if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes, before.summary.energyLedger.value_or(EnergyLedger::Summary()));
+    describe(setup, std::move(contentHash), threads);
+}
+
+void Reports::describe(const SceneSetup& setup, std::string contentHash, int threads)
+{
     summary_.scene = setup.scene.name;
     summary_.title = setup.scene.title;
     summary_.variant = setup.variant;
@@ -229,8 +246,20 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     summary_.contentHash = std::move(contentHash);
     summary_.version = DRENCH_VERSION;
     summary_.threads = threads;
-    if (energy_) energy_->add(kEnergyHeader);
     writeReport();
+}
+
+double Reports::wallSeconds() const { return before_ + since(start_); }
+
+LogsSoFar Reports::soFar() const
+{
+    LogsSoFar soFar = {.summary = summary_};
+    soFar.summary.wallSeconds = wallSeconds();
+    if (energyLedger_) soFar.summary.energyLedger = energyLedger_->summary();
+    if (steps_) soFar.stepsBytes = steps_->size();
+    if (energy_) soFar.energyBytes = energy_->size();
+    if (energyLedger_) soFar.ledgerBytes = energyLedger_->size();
+    return soFar;
 }
 
 void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies)
@@ -281,7 +310,7 @@ void Reports::finish(RunStatus status, const std::string& reason, const std::str
 
 void Reports::writeReport()
 {
-    summary_.wallSeconds = since(start_);
+    summary_.wallSeconds = wallSeconds();
     summary_.peakMemoryMegabytes = peakMemoryMegabytes();
     if (energyLedger_) summary_.energyLedger = energyLedger_->summary();
     writeWhole(folder_ / "report.json", reportJson(summary_).dump(2) + '\n');

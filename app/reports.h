@@ -65,12 +65,21 @@ struct RunResult {
 /// Nothing where there is no report or none that can be read.
 std::optional<RunResult> readReport(const std::filesystem::path& folder);
 
+/// How far the logs of a run have come.
+struct LogsSoFar {
+    RunSummary summary;
+    std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0;  ///< of steps.jsonl, energy.csv, energy_ledger.csv
+};
+
 /// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is
 /// written is in the files at once, so that a run can be followed, and read after it was cut off.
 class Reports {
  public:
     /// Writes a report.json that says "running".
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads);
+
+    /// The same of a run that is gone on with in its folder: what its logs say of later steps is forgotten.
+    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads, const LogsSoFar& before);
 
     /// The state before the first step: the first row of energy.csv.
     void initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies);
@@ -81,14 +90,18 @@ class Reports {
     void finish(RunStatus status, const std::string& reason, const std::string& stateHash);
 
     const RunSummary& summary() const { return summary_; }
+    LogsSoFar soFar() const;
 
  private:
+    void describe(const SceneSetup& setup, std::string contentHash, int threads);
+    double wallSeconds() const;
     void writeReport();
     const std::filesystem::path folder_;
     std::optional<LineFile> steps_, energy_;       ///< those the scene's output.data asks for
     std::optional<EnergyLedger> energyLedger_;     ///< likewise
     RunSummary summary_;
     double begin_ = 0.0;                           ///< [s]
+    double before_ = 0.0;                          ///< wall seconds of the run until it was gone on with
     sim::Vec3 gravity_;                            ///< [cm/s^2]
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -1,11 +1,13 @@
 #include "app/run_offline.h"
 
+#include "app/checkpoint/state_files.h"
 #include "app/frame_view_from_state.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace app {
@@ -19,19 +21,28 @@ class FrameSink {
     {
         if (!options.frames) return;
         placeObstacles_ = parts.meshObstacles(setup);
-        pipeline_.emplace([&setup, start = parts.startRenderer, panel = options.asPanel] { return start(setup, panel); },
-                          options.out);
+        std::shared_ptr<FrameSnapshot> start;
+        if (options.from && setup.pictures.render.camera.autoFrame) start = snapshotOfStart(parts);
+        pipeline_.emplace(
+            [&setup, startRenderer = parts.startRenderer, panel = options.asPanel, start] {
+                const DrawFrame draw = startRenderer(setup, panel);
+                if (start) draw(*start);
+                return draw;
+            },
+            options.out);
     }
     void take(const Steppable& simulation, std::int64_t frame)
     {
-        const sim::State& state = simulation.state();
         if (!pipeline_) return;
         auto snapshot = pipeline_->borrow();
         snapshot->number = frame;
-        takeSnapshot(state, simulation.fabric(), simulation.contacts(), setup_.scene.settings.liquid.density,
-                     extrasOf(setup_.pictures.render), *snapshot);
-        placeObstacles_(state.time, snapshot->obstacles);
+        fillIn(simulation, *snapshot);
         pipeline_->submit(std::move(snapshot));
+    }
+    /// Wait until all pictures are files.
+    void drain()
+    {
+        if (pipeline_) pipeline_->drain();
     }
     void finish()
     {
@@ -39,6 +50,21 @@ class FrameSink {
     }
 
  private:
+    void fillIn(const Steppable& simulation, FrameSnapshot& snapshot) const
+    {
+        const sim::State& state = simulation.state();
+        takeSnapshot(state, simulation.fabric(), simulation.contacts(), setup_.scene.settings.liquid.density,
+                     extrasOf(setup_.pictures.render), snapshot);
+        placeObstacles_(state.time, snapshot.obstacles);
+    }
+    /// What places a camera that frames everything.
+    std::shared_ptr<FrameSnapshot> snapshotOfStart(const Parts& parts) const
+    {
+        auto snapshot = std::make_shared<FrameSnapshot>();
+        fillIn(*parts.startSimulation(setup_), *snapshot);
+        return snapshot;
+    }
+
     const SceneSetup& setup_;
     PlaceObstacles placeObstacles_;
     std::optional<FramePipeline> pipeline_;
@@ -59,25 +85,52 @@ void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& 
     }
 }
 
-/// All frames, then what is left of the duration after the last one. True if it came to the end.
-bool runFrames(const SceneSetup& setup, const RunOptions& options, Steppable& simulation, FrameSink& sink, Reports& reports)
+/// All frames behind `first`, then what is left of the duration after the last one. True if it came to the end.
+bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, FrameSink& sink, StateKeeper& keeper,
+               Reports& reports)
 {
     const auto& time = setup.scene.settings.time;
     const std::int64_t frames = frameCount(setup);
     const double end = time.start + time.duration;
-    Progress progress(stderr, setup.label, time.start, end, frames);
+    Progress progress(stderr, setup.label, simulation.state().time, end, frames, first);
 
-    sink.take(simulation, 0);
-    for (std::int64_t frame = 1; frame <= frames; ++frame) {
+    for (std::int64_t frame = first + 1; frame <= frames; ++frame) {
         stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress);
         sink.take(simulation, frame);
+        keeper.picture(simulation.state(), frame);
         reports.frameDone();
         progress.frameDone();
-        if (frame < frames && options.stopWanted()) return false;
+        const bool isStopped = frame < frames && options.stopWanted();
+        if (isStopped || keeper.isDue(frame)) {
+            sink.drain();  // what a checkpoint follows on is there
+            keeper.checkpoint(simulation.state(), frame, reports.soFar());
+        }
+        if (isStopped) return false;
     }
     stepUntil(end, simulation, reports, progress);
     progress.show();
     return true;
+}
+
+bool goesOnInItsFolder(const RunOptions& options) { return options.from && !options.isBranch; }
+
+/// The logs of a run that begins, or of one that is gone on with, in a folder without anything later.
+Reports openReports(const SceneSetup& setup, const RunOptions& options)
+{
+    if (goesOnInItsFolder(options)) {
+        Reports reports(options.out, setup, options.contentHash, options.threads, options.from->origin.logs);
+        forgetLaterThan(options.from->origin.frame, options.out);
+        return reports;
+    }
+    claimFolder(options.out, {setup.scene.name, setup.variant});
+    return Reports(options.out, setup, options.contentHash, options.threads);
+}
+
+std::unique_ptr<Steppable> startOrResume(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
+{
+    auto simulation = options.from ? parts.resumeSimulation(setup, options.from->state) : parts.startSimulation(setup);
+    if (setup.pictures.output.ledger) simulation->bookEnergy();
+    return simulation;
 }
 
 /// The report may fail for the same reason as the run, say a full disk; the run's reason is the one to tell.
@@ -92,15 +145,19 @@ try {
 RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
 {
     // First what the user may have got wrong: earlier results stay until this run can begin.
-    const auto simulation = parts.startSimulation(setup);
-    if (setup.pictures.output.ledger) simulation->bookEnergy();
-    claimFolder(options.out, {setup.scene.name, setup.variant});
-    Reports reports(options.out, setup, options.contentHash, options.threads);
+    const auto simulation = startOrResume(setup, parts, options);
+    const std::int64_t first = options.from ? options.from->origin.frame : 0;
+    Reports reports = openReports(setup, options);
     try {
         writeWhole(options.out / "resolved.yaml", setup.resolved);
-        reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
         FrameSink sink(setup, parts, options);
-        const bool ended = runFrames(setup, options, *simulation, sink, reports);
+        StateKeeper keeper(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()});
+        if (!goesOnInItsFolder(options)) {
+            reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
+            sink.take(*simulation, first);
+            keeper.picture(simulation->state(), first);
+        }
+        const bool ended = runFrames(setup, options, first, *simulation, sink, keeper, reports);
         sink.finish();
         reports.finish(ended ? RunStatus::Done : RunStatus::Interrupted, ended ? "" : "stopped by the user",
                        hexDigits(simulation->stateHash()));

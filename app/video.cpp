@@ -86,9 +86,11 @@ void VideoWriter::fail()
 void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps,
                    const std::string& codec)
 {
+    const std::vector<std::int64_t> frames = numbersIn(folder, "frame_", ".png");
+    if (frames.empty()) throw std::runtime_error(fmt::format("cannot write {}: there are no pictures", target.string()));
     // The pattern stands alone and ffmpeg runs in the folder, whose own name may hold a '%'.
     const auto part = std::filesystem::absolute(partFile(target));
-    const auto arguments = ffmpegArguments({"-framerate", fmt::format("{}", fps), "-i", "frame_%05d.png"},
+    const auto arguments = ffmpegArguments({"-framerate", fmt::format("{}", fps), "-start_number", fmt::format("{}", frames.front()), "-i", "frame_%05d.png"},
                                            outputArguments(codec, part));
     const ChildExit end = runChild(ffmpegProgram(), arguments, {.folder = folder});
     if (!end.ok()) throwNoVideo(target, end);

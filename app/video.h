@@ -40,7 +40,7 @@ class VideoWriter {
     std::unique_ptr<ChildProcess> ffmpeg_;
 };
 
-/// An MP4 of folder/frame_00000.png, frame_00001.png, …
+/// An MP4 of the pictures frame_00000.png, frame_00001.png, … in a folder, from the first one there is.
 void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps,
                    const std::string& codec);
 

@@ -8,7 +8,6 @@
 #include "sim/transfer/modes.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <chrono>
@@ -256,43 +255,6 @@ StepReport Simulation::step(double until)
         if (takenBack == kMostTakenBack || state_.memory.longest < scene_.settings.time.dtMin) throw failure(*fault, takenBack, dt);
         lost += seconds(Clock::now() - kept);
     }
-}
-
-std::uint64_t stateHash(const State& state)
-{
-    std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> hash(XXH3_createState(), XXH3_freeState);
-    XXH3_64bits_reset(hash.get());
-    const auto add = [&](const void* data, std::size_t bytes) { XXH3_64bits_update(hash.get(), data, bytes); };
-    const LiquidParticles& liquid = state.liquid;
-    add(&state.time, sizeof state.time);
-    add(&state.step, sizeof state.step);
-    add(&state.lastDt, sizeof state.lastDt);
-    add(&state.reflected, sizeof state.reflected);
-    add(&liquid.count, sizeof liquid.count);
-    add(liquid.mass.data(), liquid.count * sizeof(double));
-    add(liquid.id.data(), liquid.count * sizeof(std::uint32_t));
-    for (int a = 0; a < kAxes; ++a) {
-        add(liquid.x[a].data(), liquid.count * sizeof(double));
-        for (int r = 0; r < liquid.modeCount; ++r) add(liquid.mode(a, r), liquid.count * sizeof(double));
-    }
-    for (int b = 0; b < state.grid.count(); ++b) {
-        add(state.grid.coords(b).data(), 3 * sizeof(int));
-        add(state.pressure.block(b), kBlockCells * sizeof(double));
-    }
-    const FabricState& fabric = state.fabric;
-    for (const std::vector<Vec3>* v : {&fabric.x, &fabric.v, &fabric.tangent, &fabric.reference, &fabric.across, &fabric.acceleration})
-        add(v->data(), v->size() * sizeof(Vec3));
-    for (const std::vector<double>* v : {&fabric.theta, &fabric.omega, &fabric.referenceTwist, &fabric.modes, &fabric.absorbed})
-        add(v->data(), v->size() * sizeof(double));
-    add(&fabric.sinceGather, sizeof fabric.sinceGather);
-    add(&fabric.lastFraction, sizeof fabric.lastFraction);
-    add(state.emittedVolume.data(), state.emittedVolume.size() * sizeof(double));
-    add(&state.unrelaxed, sizeof state.unrelaxed);
-    add(&state.uncorrected, sizeof state.uncorrected);
-    add(&state.ledger.emittedMass, sizeof(double));
-    add(&state.ledger.leftMass, sizeof(double));
-    add(state.ledger.leftMomentum.data(), 3 * sizeof(double));
-    return XXH3_64bits_digest(hash.get());
 }
 
 }  // namespace sim

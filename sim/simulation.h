@@ -4,6 +4,7 @@
 #include "sim/fabric/vertex_solver.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
+#include "sim/state_hash.h"
 #include "sim/step.h"
 #include "sim/step_check.h"
 
@@ -60,8 +61,5 @@ class Simulation {
     std::optional<StepCheck> check_;
     std::int64_t changedUpTo_ = 0;  ///< changes for steps up to this were applied
 };
-
-/// Hash of everything that evolves; equal for any number of threads.
-std::uint64_t stateHash(const State& state);
 
 }  // namespace sim

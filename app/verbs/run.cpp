@@ -1,5 +1,6 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/resume.h"
 #include "app/run_offline.h"
 #include "app/statistics.h"
 #include "app/thread_limit.h"
@@ -28,24 +29,46 @@ void makeVideo(const std::filesystem::path& folder, const OutputSettings& output
         spdlog::warn("no ffmpeg along PATH, so no video: the pictures are in {}", folder.string());
 }
 
-}  // namespace
-
-int runVerbRun(const Options& options, const Parts& parts)
+RunOptions runOptions(const Options& options, const SceneSetup& setup)
 {
-    const SceneSetup setup = parts.loadScene(options.request());
-    const RunOptions run = {.out = options.out.empty() ? defaultFolder(setup) : options.out,
-                            .contentHash = contentHash(setup, options.asPanel, programHash()),
-                            .threads = options.threads,
-                            .frames = options.frames && setup.pictures.output.frames,
-                            .asPanel = options.asPanel,
-                            .stopWanted = [] { return interruptsSeen() > 0; }};
+    return {.out = options.out.empty() ? defaultFolder(setup) : options.out,
+            .contentHash = contentHash(setup, options.asPanel, programHash()),
+            .threads = options.threads,
+            .frames = options.frames && setup.pictures.output.frames,
+            .asPanel = options.asPanel,
+            .stopWanted = [] { return interruptsSeen() > 0; }};
+}
+
+int runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Parts& parts)
+{
     const RunSummary summary = withThreads(options.threads, [&] { return runOffline(setup, parts, run); });
     if (run.frames && options.video && summary.status == RunStatus::Done) makeVideo(run.out, setup.pictures.output);
     printOutcome(summary, run.out);
     if (!options.asPanel) fmt::print("{}", stageTable(summary.times));
     if (summary.status == RunStatus::Done) return 0;
-    spdlog::error("stopped by the user after frame {}", summary.frames);
+    spdlog::error("stopped by the user after frame {}; go on with drench run --resume {}", summary.frames, run.out.string());
     return 1;
+}
+
+int goOn(const Options& options, const Parts& parts)
+{
+    const ResumedRun resumed = resumeRun({options.resume, options.fromFrame, options.sets, options.out}, parts.loadScene);
+    RunOptions run = runOptions(options, resumed.setup);
+    run.out = resumed.out;
+    run.from = &resumed.checkpoint;
+    run.isBranch = resumed.isBranch;
+    if (resumed.checkpoint.origin.program != programHash())
+        spdlog::warn("{} was begun by another build of this program: what follows may differ in its last digits", options.resume.string());
+    return runToItsEnd(resumed.setup, run, options, parts);
+}
+
+}  // namespace
+
+int runVerbRun(const Options& options, const Parts& parts)
+{
+    if (!options.resume.empty()) return goOn(options, parts);
+    const SceneSetup setup = parts.loadScene(options.request());
+    return runToItsEnd(setup, runOptions(options, setup), options, parts);
 }
 
 }  // namespace app
