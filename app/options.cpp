@@ -95,6 +95,18 @@ void addImport(CLI::App& program, Options& options)
     verb->callback([&options] { options.verb = Verb::Import; });
 }
 
+void addRender(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("render", "make pictures of a run anew, from the states it has stored (output.data: [states])");
+    verb->add_option("folder", options.scene, "folder of the run")->required();
+    verb->add_option("--set", options.sets, "override a key of render or output: dotted.key=value")->take_all()->allow_extra_args(false);
+    verb->add_option("--out", options.out, "folder of the pictures (default: pictures, in the run's)");
+    verb->add_option("--threads", options.threads, "threads to draw with (default: all)")->check(CLI::Range(1, kMaxThreads));
+    verb->add_flag("!--no-video", options.video, "no video");
+    verb->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
+    verb->callback([&options] { options.verb = Verb::Render; });
+}
+
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
@@ -136,6 +148,7 @@ void addVerbs(CLI::App& program, Options& options)
     validate->add_flag("--full", options.full, "as the scenes are written (default)")->excludes(quick);
     validate->callback([&options] { options.verb = Verb::Validate; });
 
+    addRender(program, options);
     addStress(program, options);
     addImport(program, options);
 

@@ -11,12 +11,12 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render };
 
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
-    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth
+    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; for render a folder
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>

@@ -1,7 +1,7 @@
 #include "app/run_offline.h"
 
 #include "app/checkpoint/state_files.h"
-#include "app/frame_view_from_state.h"
+#include "app/frame_sink.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
 
@@ -14,60 +14,34 @@ namespace app {
 
 namespace {
 
-/// Hands the frames of one run to its pipeline, or does nothing where no pictures are wanted.
-class FrameSink {
+/// What a run leaves of its frames: pictures, if wanted, and states.
+class Frames {
  public:
-    FrameSink(const SceneSetup& setup, const Parts& parts, const RunOptions& options) : setup_(setup)
+    Frames(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
+        : states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()})
     {
-        if (!options.frames) return;
-        placeObstacles_ = parts.meshObstacles(setup);
-        std::shared_ptr<FrameSnapshot> start;
-        if (options.from && setup.pictures.render.camera.autoFrame) start = snapshotOfStart(parts);
-        pipeline_.emplace(
-            [&setup, startRenderer = parts.startRenderer, panel = options.asPanel, start] {
-                const DrawFrame draw = startRenderer(setup, panel);
-                if (start) draw(*start);
-                return draw;
-            },
-            options.out);
+        if (options.frames) pictures_.emplace(setup, parts, options.out, options.asPanel, options.from == nullptr);
     }
     void take(const Steppable& simulation, std::int64_t frame)
     {
-        if (!pipeline_) return;
-        auto snapshot = pipeline_->borrow();
-        snapshot->number = frame;
-        fillIn(simulation, *snapshot);
-        pipeline_->submit(std::move(snapshot));
+        if (pictures_) pictures_->take(simulation.state(), simulation.fabric(), simulation.contacts(), frame);
+        states_.picture(simulation.state(), frame);
     }
-    /// Wait until all pictures are files.
-    void drain()
+    /// If it is time for one, or the run will not go on.
+    void checkpoint(const Steppable& simulation, std::int64_t frame, bool isStopped, const Reports& reports)
     {
-        if (pipeline_) pipeline_->drain();
+        if (!isStopped && !states_.isDue(frame)) return;
+        if (pictures_) pictures_->drain();  // what a checkpoint follows on is there
+        states_.checkpoint(simulation.state(), frame, reports.soFar());
     }
     void finish()
     {
-        if (pipeline_) pipeline_->finish();
+        if (pictures_) pictures_->finish();
     }
 
  private:
-    void fillIn(const Steppable& simulation, FrameSnapshot& snapshot) const
-    {
-        const sim::State& state = simulation.state();
-        takeSnapshot(state, simulation.fabric(), simulation.contacts(), setup_.scene.settings.liquid.density,
-                     extrasOf(setup_.pictures.render), snapshot);
-        placeObstacles_(state.time, snapshot.obstacles);
-    }
-    /// What places a camera that frames everything.
-    std::shared_ptr<FrameSnapshot> snapshotOfStart(const Parts& parts) const
-    {
-        auto snapshot = std::make_shared<FrameSnapshot>();
-        fillIn(*parts.startSimulation(setup_), *snapshot);
-        return snapshot;
-    }
-
-    const SceneSetup& setup_;
-    PlaceObstacles placeObstacles_;
-    std::optional<FramePipeline> pipeline_;
+    std::optional<FrameSink> pictures_;
+    StateKeeper states_;
 };
 
 /// Step up to `until`, logging every step. Throws RunError for a state that cannot be trusted.
@@ -86,8 +60,7 @@ void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& 
 }
 
 /// All frames behind `first`, then what is left of the duration after the last one. True if it came to the end.
-bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, FrameSink& sink, StateKeeper& keeper,
-               Reports& reports)
+bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, Frames& kept, Reports& reports)
 {
     const auto& time = setup.scene.settings.time;
     const std::int64_t frames = frameCount(setup);
@@ -96,15 +69,11 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
 
     for (std::int64_t frame = first + 1; frame <= frames; ++frame) {
         stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress);
-        sink.take(simulation, frame);
-        keeper.picture(simulation.state(), frame);
+        kept.take(simulation, frame);
         reports.frameDone();
         progress.frameDone();
         const bool isStopped = frame < frames && options.stopWanted();
-        if (isStopped || keeper.isDue(frame)) {
-            sink.drain();  // what a checkpoint follows on is there
-            keeper.checkpoint(simulation.state(), frame, reports.soFar());
-        }
+        kept.checkpoint(simulation, frame, isStopped, reports);
         if (isStopped) return false;
     }
     stepUntil(end, simulation, reports, progress);
@@ -150,15 +119,13 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
     Reports reports = openReports(setup, options);
     try {
         writeWhole(options.out / "resolved.yaml", setup.resolved);
-        FrameSink sink(setup, parts, options);
-        StateKeeper keeper(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()});
+        Frames kept(setup, parts, options);
         if (!goesOnInItsFolder(options)) {
             reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
-            sink.take(*simulation, first);
-            keeper.picture(simulation->state(), first);
+            kept.take(*simulation, first);
         }
-        const bool ended = runFrames(setup, options, first, *simulation, sink, keeper, reports);
-        sink.finish();
+        const bool ended = runFrames(setup, options, first, *simulation, kept, reports);
+        kept.finish();
         reports.finish(ended ? RunStatus::Done : RunStatus::Interrupted, ended ? "" : "stopped by the user",
                        hexDigits(simulation->stateHash()));
     } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 #include "app/output_files.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <stdexcept>
 #include <vector>
@@ -95,6 +96,14 @@ void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::p
     const ChildExit end = runChild(ffmpegProgram(), arguments, {.folder = folder});
     if (!end.ok()) throwNoVideo(target, end);
     putInPlace(part, target);
+}
+
+void makeVideo(const std::filesystem::path& folder, const OutputSettings& output)
+{
+    if (canMakeVideos())
+        videoOfFrames(folder, folder / "video.mp4", output.videoFps, output.videoCodec);
+    else
+        spdlog::warn("no ffmpeg along PATH, so no video: the pictures are in {}", folder.string());
 }
 
 }  // namespace app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/child_process.h"
+#include "app/picture_settings.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -43,5 +44,8 @@ class VideoWriter {
 /// An MP4 of the pictures frame_00000.png, frame_00001.png, … in a folder, from the first one there is.
 void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps,
                    const std::string& codec);
+
+/// The same into video.mp4 in the folder; without ffmpeg a warning says where the pictures are.
+void makeVideo(const std::filesystem::path& folder, const OutputSettings& output);
 
 }  // namespace app

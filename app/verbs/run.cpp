@@ -21,14 +21,6 @@ void printOutcome(const RunSummary& summary, const std::filesystem::path& folder
                formatDuration(summary.wallSeconds), summary.peakMemoryMegabytes, folder.string());
 }
 
-void makeVideo(const std::filesystem::path& folder, const OutputSettings& output)
-{
-    if (canMakeVideos())
-        videoOfFrames(folder, folder / "video.mp4", output.videoFps, output.videoCodec);
-    else
-        spdlog::warn("no ffmpeg along PATH, so no video: the pictures are in {}", folder.string());
-}
-
 RunOptions runOptions(const Options& options, const SceneSetup& setup)
 {
     return {.out = options.out.empty() ? defaultFolder(setup) : options.out,
