@@ -46,7 +46,9 @@ std::vector<Variant> wantedVariants(const Options& options, const CompareSetting
 void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::path& folder)
 {
     std::vector<EnergyCurve> curves;
-    for (const auto& run : runs) curves.push_back({run.setup.variant, run.setup.label, run.folder / "energy.csv"});
+    for (const auto& run : runs)
+        if (std::filesystem::exists(run.folder / "energy.csv")) curves.push_back({run.setup.variant, run.setup.label, run.folder / "energy.csv"});
+    if (curves.empty()) return;  // pictures alone
     joinEnergies(curves, folder / "energy.csv");
     const auto& scene = runs.front().setup.scene;
     if (canPlot())
@@ -67,6 +69,23 @@ std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts
         run.setup = parts.loadScene({options.scene, variant.name, options.sets});
         run.folder = folder / variant.name;
         run.contentHash = contentHash(run.setup, true, program);
+        runs.push_back(std::move(run));
+    }
+    return runs;
+}
+
+std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets, const Parts& parts)
+{
+    std::vector<ComparedRun> runs;
+    for (const auto& folder : folders) {
+        const auto report = readReport(folder);
+        if (!report || !std::filesystem::exists(folder / "resolved.yaml"))
+            throw sim::InputError(fmt::format("--from {}: this is no folder of a run", folder.string()));
+        if (numbersIn(folder, "frame_", ".png").empty())
+            throw sim::InputError(fmt::format("--from {}: there are no pictures in it; drench render makes some of stored states", folder.string()));
+        ComparedRun run = {.setup = parts.loadScene({(folder / "resolved.yaml").string(), "", sets}), .folder = folder, .contentHash = report->contentHash};
+        run.setup.variant = report->variant;
+        run.setup.label = report->label.empty() ? folder.lexically_normal().filename().string() : report->label;
         runs.push_back(std::move(run));
     }
     return runs;
@@ -97,11 +116,13 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
 
 FrameSequence sequenceOf(const ComparedRun& run)
 {
+    const std::vector<std::int64_t> frames = numbersIn(run.folder, "frame_", ".png");
     return {.folder = run.folder,
             .label = run.setup.label,
             .start = run.setup.scene.settings.time.start,
             .every = run.setup.pictures.output.every,
-            .last = frameCount(run.setup)};
+            .first = frames.empty() ? 0 : frames.front(),
+            .last = frames.empty() ? frameCount(run.setup) : frames.back()};
 }
 
 std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
@@ -128,7 +149,10 @@ void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& p
     if (pictures.compare.table) {
         std::vector<RunResult> results;
         for (const auto& run : runs)
-            if (auto result = readReport(run.folder)) results.push_back(std::move(*result));
+            if (auto result = readReport(run.folder)) {
+                result->label = run.setup.label;
+                results.push_back(std::move(*result));
+            }
         const auto& scene = runs.front().setup.scene;
         const std::string table = compareTable(scene.title.empty() ? scene.name : scene.title, results, pictures.compare.reference);
         writeWhole(folder / "table.md", table);

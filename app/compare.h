@@ -22,6 +22,11 @@ struct ComparedRun {
 /// Throws InputError when the scene has none, or none of a name asked for.
 std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder);
 
+/// Runs that are there, each in its folder, to be put side by side; pictures made anew by `render` are as good.
+/// @param sets  "dotted.key=value", of render, output and compare
+/// Throws InputError for folders without a run or without pictures.
+std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets, const Parts& parts);
+
 /// Is this very run, by this very program, already there to its end (with its pictures, if wanted)?
 bool isDone(const ComparedRun& run, bool withFrames);
 
@@ -33,7 +38,7 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
 std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
                                 const std::function<bool()>& stopWanted);
 
-/// Its pictures.
+/// Its pictures, as they are there.
 FrameSequence sequenceOf(const ComparedRun& run);
 
 /// Table, energy plot with its CSV, contact sheet and side-by-side video of runs that are done, as the scene wishes.

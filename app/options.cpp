@@ -126,12 +126,17 @@ void addVerbs(CLI::App& program, Options& options)
     });
 
     auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");
-    addScene(*compare, options);
+    addScene(*compare, options)->required(false);
+    compare->add_option("--from", options.from, "put runs side by side that are there, each in its folder, in place of a scene's; needs --out")->take_all()->allow_extra_args(false);
     addOutput(*compare, options);
     compare->add_option("--variant", options.variants, "only this variant; may be repeated")->take_all()->allow_extra_args(false);
     compare->add_flag("--force", options.force, "redo variants that are done");
     compare->add_flag("--or-run", options.orRun, "where there is nothing to compare, just run");
-    compare->callback([&options] { options.verb = Verb::Compare; });
+    compare->callback([&options] {
+        options.verb = Verb::Compare;
+        if (options.scene.empty() == options.from.empty()) throw CLI::RequiredError("either scene or --from");
+        if (!options.from.empty() && options.out.empty()) throw CLI::RequiredError("--out, where runs --from folders are put side by side,");
+    });
 
     auto* paper = program.add_subcommand("paper", "the scenes of the PolyPIC paper, each with APIC and PolyPIC, in one report");
     addOutput(*paper, options);

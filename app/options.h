@@ -31,6 +31,7 @@ struct Options {
     std::string beside;                  ///< view: a variant to be shown beside; empty: none
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
+    std::vector<std::filesystem::path> from;  ///< compare: folders of runs that are there, in place of a scene
     bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
 
     std::vector<std::string> scenes;     ///< stress: files, or names in scenes/; none: the paper's

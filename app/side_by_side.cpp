@@ -42,7 +42,7 @@ void removeFrames(const std::filesystem::path& folder)
 
 std::int64_t FrameSequence::frameAt(double time) const
 {
-    return std::clamp<std::int64_t>(std::llround((time - start) / every), 0, last);
+    return std::clamp<std::int64_t>(std::llround((time - start) / every), first, last);
 }
 
 std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequences, double every, const PictureSettings& pictures,

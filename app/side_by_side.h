@@ -15,9 +15,9 @@ struct FrameSequence {
     std::filesystem::path folder;
     std::string label;
     double start = 0.0, every = 0.0;   ///< simulated time of frame 0 and between frames [s]
-    std::int64_t last = 0;             ///< number of the last frame
+    std::int64_t first = 0, last = 0;  ///< numbers of the frames that are there
 
-    /// The frame nearest in time; the last one when the variant is over.
+    /// The frame nearest in time; the last one when the variant is over, the first one before it began.
     std::int64_t frameAt(double time) const;
 };
 

@@ -8,8 +8,24 @@
 
 namespace app {
 
+namespace {
+
+bool isStopped() { return interruptsSeen() > 0; }
+
+/// Runs that are there already.
+int compareFolders(const Options& options, const Parts& parts)
+{
+    const std::vector<ComparedRun> runs = storedRuns(options.from, options.sets, parts);
+    makeFolder(options.out);
+    makeProducts(runs, runs.front().setup.pictures, parts, true, options.video, options.out, isStopped);
+    return isStopped() ? 1 : 0;
+}
+
+}  // namespace
+
 int runVerbCompare(const Options& options, const Parts& parts)
 {
+    if (!options.from.empty()) return compareFolders(options, parts);
     const SceneSetup asWritten = parts.loadScene({options.scene, "", options.sets});
     if (options.orRun && (asWritten.pictures.compare.variants.empty() || options.variants.size() == 1))
         return runVerbRun(options, parts);
@@ -18,11 +34,10 @@ int runVerbCompare(const Options& options, const Parts& parts)
     const bool withFrames = options.frames && asWritten.pictures.output.frames;
     makeFolder(folder);
 
-    const auto stopWanted = [] { return interruptsSeen() > 0; };
-    const auto done = runAll(runs, options, withFrames, stopWanted);
-    if (stopWanted()) return 1;
-    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, stopWanted);
-    if (stopWanted()) return 1;
+    const auto done = runAll(runs, options, withFrames, isStopped);
+    if (isStopped()) return 1;
+    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, isStopped);
+    if (isStopped()) return 1;
     if (done.size() == runs.size()) return 0;
     spdlog::error("{} of {} variants did not get to their end", runs.size() - done.size(), runs.size());
     return 1;

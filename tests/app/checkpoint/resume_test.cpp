@@ -58,7 +58,7 @@ TEST_F(Resume, GoesOnFromAnyFrameOfWhichThereIsACheckpoint)
         std::filesystem::remove(folder / "whole" / "frame_00020.png");
         ASSERT_EQ(resume("whole", {"--from-frame", frame}).code, 0);
         EXPECT_EQ(hash("whole"), whole);
-        EXPECT_EQ(contentOf(folder / "whole" / "frame_00020.png"), last);
+        EXPECT_TRUE(contentOf(folder / "whole" / "frame_00020.png") == last);
         EXPECT_EQ(linesOf(folder / "whole" / "steps.jsonl").size(), report("whole").at("steps").get<std::size_t>());
     }
     expectRefused(resume("whole", {"--from-frame", "3"}), "there are those of 2, 4, 6");
@@ -138,7 +138,7 @@ TEST_F(Resume, AStoppedRunCanBeGoneOnWith)
     EXPECT_EQ(hash("stopped"), hash("whole"));
     for (int frame : {0, 2, 10, 20}) {
         const std::string name = "frame_000" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".png";
-        EXPECT_EQ(contentOf(folder / "stopped" / name), contentOf(folder / "whole" / name)) << name;
+        EXPECT_TRUE(contentOf(folder / "stopped" / name) == contentOf(folder / "whole" / name)) << name;
     }
     EXPECT_EQ(contentOf(folder / "stopped" / "energy.csv"), contentOf(folder / "whole" / "energy.csv"));
 }
@@ -187,7 +187,7 @@ TEST_F(Resume, KilledFiftyTimesItComesToTheSameEnd)
         for (int n = 0; !now.empty() && n <= now.back(); ++n) {
             char name[32];
             std::snprintf(name, sizeof name, "frame_%05d.png", n);
-            EXPECT_EQ(contentOf(folder / "run" / name), contentOf(folder / "whole" / name)) << name;
+            EXPECT_TRUE(contentOf(folder / "run" / name) == contentOf(folder / "whole" / name)) << name;
         }
         if (std::filesystem::exists(folder / "run" / "report.json")) {
             EXPECT_NO_THROW(report("run"));

@@ -64,7 +64,7 @@ class SmallRuns {
         for (int n = firstFrame; n <= frames; ++n) {
             char name[32];
             std::snprintf(name, sizeof name, "frame_%05d.png", n);
-            EXPECT_EQ(contentOf(folder / a / name), contentOf(folder / b / name)) << name;
+            EXPECT_TRUE(contentOf(folder / a / name) == contentOf(folder / b / name)) << name;
             EXPECT_GT(contentOf(folder / a / name).size(), 100u) << name;
         }
         if (firstFrame > 0) return;
