@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -64,6 +65,17 @@ void closeOnce(int& file)
 }
 
 }  // namespace
+
+std::string shellQuoted(const std::string& text)
+{
+    const bool isPlain = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+        return std::isalnum(c) || std::string_view("_-./=,:+").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    if (isPlain) return text;
+    std::string all = "'";
+    for (const char c : text) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return all + "'";
+}
 
 std::optional<std::filesystem::path> findProgram(const std::string& name)
 {

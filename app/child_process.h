@@ -15,6 +15,9 @@ namespace app {
 /// The file that a program's name stands for: itself with a slash in it, else the first of that name along PATH.
 std::optional<std::filesystem::path> findProgram(const std::string& name);
 
+/// A word as a shell reads it back.
+std::string shellQuoted(const std::string& text);
+
 /// How a child ended.
 struct ChildExit {
     int code = 0;             ///< its exit code; 128 + n if signal n ended it

@@ -107,6 +107,26 @@ void addRender(CLI::App& program, Options& options)
     verb->callback([&options] { options.verb = Verb::Render; });
 }
 
+void addSweep(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("sweep", "do the runs of a study: one scene with different settings, in one table; what is done already is not done again");
+    verb->add_option("study", options.scene, "study file (YAML): scene, runs, and what holds for all of them")->required();
+    verb->add_option("--out", options.out, "folder of the study (default: out/<study>)");
+    verb->add_option("--jobs", options.jobs, "runs side by side (default: 1)")->check(CLI::Range(1, 10'000));
+    auto* threads = verb->add_option("--threads", options.threads, "threads of each run (default: all, shared among them)")->check(CLI::Range(1, kMaxThreads));
+    auto* onSlurm = verb->add_option("--on", "where: here (default), or slurm")->check(CLI::IsMember({"here", "slurm"}));
+    verb->add_flag("!--no-wait", options.wait, "with slurm: hand over the jobs, and that is all");
+    verb->add_option("--task", options.task, "do this run alone, as a job of slurm does: a number from 0")->check(CLI::NonNegativeNumber);
+    verb->add_flag("--force", options.force, "redo runs that are done");
+    verb->add_flag("!--no-frames", options.frames, "no pictures");
+    verb->add_flag("!--no-video", options.video, "no video");
+    verb->callback([&options, threads, onSlurm] {
+        options.verb = Verb::Sweep;
+        options.onSlurm = onSlurm->count() > 0 && onSlurm->as<std::string>() == "slurm";
+        if (threads->count() == 0) options.threads = options.onSlurm ? 1 : std::max(1, options.threads / options.jobs);
+    });
+}
+
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
@@ -154,6 +174,7 @@ void addVerbs(CLI::App& program, Options& options)
     validate->callback([&options] { options.verb = Verb::Validate; });
 
     addRender(program, options);
+    addSweep(program, options);
     addStress(program, options);
     addImport(program, options);
 

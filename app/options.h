@@ -11,12 +11,12 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Sweep };
 
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
-    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; for render a folder
+    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; for render a folder; for sweep a study
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
@@ -45,6 +45,11 @@ struct Options {
     int firstScene = 0;                  ///< … from this number on …
     std::uint64_t seed = 1;              ///< … of this seed
     double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
+
+    int jobs = 1;                        ///< sweep: runs side by side
+    bool onSlurm = false;                ///< sweep: hand them to Slurm …
+    bool wait = true;                    ///< … and wait until it has done them
+    std::optional<std::size_t> task;     ///< sweep: do this run alone, as a job of Slurm's does
 
     ImportOptions import;                ///< import: what may be decided this way or that; its result goes to `out`
 

@@ -191,7 +191,10 @@ try {
     r.variant = json.at("variant");
     r.label = json.at("label");
     r.status = json.at("status");
+    r.reason = json.value("reason", "");
     r.contentHash = json.at("content_hash");
+    r.largestCfl = json.at("largest_cfl");
+    r.massError = json.at("mass_error");
     r.stateHash = json.at("state_hash");
     r.steps = json.at("steps");
     r.frames = json.at("frames");

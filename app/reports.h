@@ -54,9 +54,10 @@ struct RunSummary {
 
 /// The numbers of report.json, as a comparison reads them back.
 struct RunResult {
-    std::string variant, label, status, contentHash, stateHash;
+    std::string variant, label, status, reason, contentHash, stateHash;
     std::int64_t steps = 0, frames = 0, particles = 0, maxIterations = 0, fabricVertices = 0, fabricElements = 0;
     double simulatedTime = 0.0, wallSeconds = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
+    double largestCfl = 0.0, massError = 0.0;                       ///< as in RunSummary
     double secondsPerStep = 0.0, meanSecondsPerStep = 0.0;          ///< the first is the median
     double meanParticles = 0.0;                                     ///< of liquid, over the steps
     std::array<std::optional<double>, sim::kStages> stageSeconds;   ///< medians; nothing for a stage that never ran

@@ -1,5 +1,6 @@
 #include "app/view/saved_scene.h"
 
+#include "app/child_process.h"
 #include "app/read_picture_settings.h"
 #include "sim/scene/load_scene.h"
 #include "sim/scene/section_writer.h"
@@ -12,18 +13,6 @@
 namespace app {
 
 namespace {
-
-/// As a shell reads it back.
-std::string quoted(const std::string& text)
-{
-    const bool isPlain = !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
-        return std::isalnum(c) || std::string_view("_-./=,:+").find(static_cast<char>(c)) != std::string_view::npos;
-    });
-    if (isPlain) return text;
-    std::string all = "'";
-    for (const char c : text) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return all + "'";
-}
 
 }  // namespace
 
@@ -43,9 +32,9 @@ std::string savedScene(const LiveScene& live, const render::Camera& camera)
 
 std::string commandLine(const SceneRequest& request)
 {
-    std::string line = "drench run " + quoted(request.file);
-    if (!request.variant.empty()) line += " --variant " + quoted(request.variant);
-    for (const std::string& set : request.sets) line += " --set " + quoted(set);
+    std::string line = "drench run " + shellQuoted(request.file);
+    if (!request.variant.empty()) line += " --variant " + shellQuoted(request.variant);
+    for (const std::string& set : request.sets) line += " --set " + shellQuoted(set);
     return line;
 }
 

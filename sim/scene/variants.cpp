@@ -52,7 +52,7 @@ std::string label(const Node& value)
     return value.isScalar() ? value.text : value.flow();
 }
 
-std::vector<SceneVariant> product(const Node& map)
+std::vector<SceneVariant> product(const Node& map, const std::string& path)
 {
     std::vector<SceneVariant> all(1);
     for (std::size_t k = 0; k < map.keys.size(); ++k) {
@@ -70,7 +70,7 @@ std::vector<SceneVariant> product(const Node& map)
         for (const SceneVariant& base : all) {
             for (const Node& value : values.items) {
                 if (value.isNull() || label(value).empty())
-                    fail(value.place, fmt::format("compare.variants.{} has an empty value", map.keys[k]));
+                    fail(value.place, fmt::format("{}.{} has an empty value", path, map.keys[k]));
                 SceneVariant& variant = next.emplace_back(base);
                 variant.name += (base.name.empty() ? "" : "_") + asName(label(value));
                 variant.label += (base.label.empty() ? "" : ", ") + label(value);
@@ -101,20 +101,21 @@ std::vector<SceneVariant> readVariants(const Node& root)
 {
     const Node* compare = root.find("compare");
     const Node* variants = compare ? compare->find("variants") : nullptr;
-    if (!variants) return {};
-    if (variants->isScalar() || variants->isNull() || variants->items.empty()) {
-        fail(variants->place, fmt::format("compare.variants must list variants, or map keys to lists of values, not {}",
-                                          variants->called()));
-    }
-    if (variants->items.size() > kMaxVariants)
-        fail(variants->place, fmt::format("more than {} variants", kMaxVariants));
+    return variants ? listedVariants(*variants, "compare.variants") : std::vector<SceneVariant>();
+}
+
+std::vector<SceneVariant> listedVariants(const Node& variants, const std::string& path)
+{
+    if (variants.isScalar() || variants.isNull() || variants.items.empty())
+        fail(variants.place, fmt::format("{} must list variants, or map keys to lists of values, not {}", path, variants.called()));
+    if (variants.items.size() > kMaxVariants) fail(variants.place, fmt::format("more than {} variants", kMaxVariants));
     std::vector<SceneVariant> all;
-    if (variants->isMap()) {
-        all = product(*variants);
+    if (variants.isMap()) {
+        all = product(variants, path);
     } else {
-        for (const Node& element : variants->items) all.push_back(listedVariant(element));
+        for (const Node& element : variants.items) all.push_back(listedVariant(element));
     }
-    checkNames(all, *variants);
+    checkNames(all, variants);
     return all;
 }
 

@@ -18,6 +18,9 @@ struct SceneVariant {
 /// lists of values, whose product they are. Empty if the scene has none. Throws InputError.
 std::vector<SceneVariant> readVariants(const Node& root);
 
+/// The same of such a list or map itself; `path` names it in messages.
+std::vector<SceneVariant> listedVariants(const Node& variants, const std::string& path);
+
 /// The variant of that name; throws InputError naming those there are.
 const SceneVariant& findVariant(const std::vector<SceneVariant>& variants, const std::string& name,
                                 const std::string& file);
