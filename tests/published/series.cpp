@@ -1,5 +1,5 @@
 // Runs a scene and prints what the series of the published code hold, one line per step:
-//   published_series SCENE.yaml VARIANT seconds [key=value ...]
+//   published_series SCENE.yaml VARIANT seconds [key=value ...]      (VARIANT - is none)
 
 #include "sim/core/parallel.h"
 #include "sim/scene/load_scene.h"
@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
 
 namespace {
 
@@ -46,7 +47,8 @@ int main(int argc, char** argv)
         return 2;
     }
     try {
-        const Scene scene = loadScene(argv[1], {.variant = argv[2], .set = {argv + 4, argv + argc}});
+        const std::string variant = argv[2];
+        const Scene scene = loadScene(argv[1], {.variant = variant == "-" ? "" : variant, .set = {argv + 4, argv + argc}});
         Simulation simulation(scene);
         std::puts("time_s,n_fluid,vol_fluid_cm3,vol_absorbed_cm3,fcom_x,fcom_y,fcom_z,scom_x,scom_y,scom_z");
         const double end = std::atof(argv[3]);
