@@ -4,6 +4,7 @@
 #include "app/frame_sink.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
+#include "sim/core/check.h"
 
 #include <chrono>
 #include <cmath>
@@ -33,6 +34,13 @@ class Frames {
         if (!isStopped && !states_.isDue(frame)) return;
         if (pictures_) pictures_->drain();  // what a checkpoint follows on is there
         states_.checkpoint(simulation.state(), frame, reports.soFar());
+    }
+    /// The run has failed after this state, which is a good one. Whatever prevents to keep it, the failure is what counts.
+    void keepLastGood(const Steppable& simulation, std::int64_t frame, const Reports& reports)
+    try {
+        if (pictures_) pictures_->drain();
+        states_.checkpoint(simulation.state(), frame, reports.soFar());
+    } catch (const std::exception&) {
     }
     void finish()
     {
@@ -81,6 +89,15 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
     return true;
 }
 
+/// The same; of a run that fails in a mode that takes bad steps back, the last good state is kept.
+bool runFramesOrKeepState(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, Frames& kept, Reports& reports)
+try {
+    return runFrames(setup, options, first, simulation, kept, reports);
+} catch (const sim::RunError&) {
+    if (setup.scene.settings.time.mode == sim::TimeMode::Adaptive) kept.keepLastGood(simulation, lastFrameUpTo(setup, simulation.state().time), reports);
+    throw;
+}
+
 bool goesOnInItsFolder(const RunOptions& options) { return options.from && !options.isBranch; }
 
 /// The logs of a run that begins, or of one that is gone on with, in a folder without anything later.
@@ -124,7 +141,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
             reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
             kept.take(*simulation, first);
         }
-        const bool ended = runFrames(setup, options, first, *simulation, kept, reports);
+        const bool ended = runFramesOrKeepState(setup, options, first, *simulation, kept, reports);
         kept.finish();
         reports.finish(ended ? RunStatus::Done : RunStatus::Interrupted, ended ? "" : "stopped by the user",
                        hexDigits(simulation->stateHash()));

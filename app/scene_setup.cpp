@@ -55,11 +55,17 @@ std::filesystem::path defaultComparisonFolder(const SceneSetup& setup)
     return folder.has_filename() ? folder : folder.parent_path();
 }
 
+std::int64_t lastFrameUpTo(const SceneSetup& setup, double time)
+{
+    // A time that is a whole number of frames but for rounding has its frame.
+    constexpr double kRounding = 1.0e-9;
+    return std::llround(std::floor((time - setup.scene.settings.time.start) / setup.pictures.output.every + kRounding));
+}
+
 std::int64_t frameCount(const SceneSetup& setup)
 {
-    // A duration that is a whole number of frames but for rounding has its last frame.
-    constexpr double kRounding = 1.0e-9;
-    return std::llround(std::floor(setup.scene.settings.time.duration / setup.pictures.output.every + kRounding));
+    const auto& time = setup.scene.settings.time;
+    return lastFrameUpTo(setup, time.start + time.duration);
 }
 
 double frameTime(const SceneSetup& setup, std::int64_t frame)

@@ -52,6 +52,9 @@ std::filesystem::path defaultComparisonFolder(const SceneSetup& setup);
 /// Frames after the initial one that the scene asks for.
 std::int64_t frameCount(const SceneSetup& setup);
 
+/// Number of the last frame at or before a simulated time [s].
+std::int64_t lastFrameUpTo(const SceneSetup& setup, double time);
+
 /// Simulated time of a frame [s]; frame 0 is the initial state.
 double frameTime(const SceneSetup& setup, std::int64_t frame);
 

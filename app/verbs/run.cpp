@@ -1,3 +1,4 @@
+#include "app/checkpoint/state_files.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/resume.h"
@@ -6,6 +7,7 @@
 #include "app/thread_limit.h"
 #include "app/verbs/verbs.h"
 #include "app/video.h"
+#include "sim/core/check.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -31,9 +33,19 @@ RunOptions runOptions(const Options& options, const SceneSetup& setup)
             .stopWanted = [] { return interruptsSeen() > 0; }};
 }
 
+/// A run that fails says where its last good state is, if it has kept one.
+RunSummary runTellingWhatIsKept(const SceneSetup& setup, const RunOptions& run, const Parts& parts)
+try {
+    return runOffline(setup, parts, run);
+} catch (const sim::RunError&) {
+    if (!storedFrames(run.out, StateKind::ForGoingOn).empty())
+        spdlog::warn("go on from the last good state with other settings: drench run --resume {} --out FOLDER --set key=value", run.out.string());
+    throw;
+}
+
 int runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Parts& parts)
 {
-    const RunSummary summary = withThreads(options.threads, [&] { return runOffline(setup, parts, run); });
+    const RunSummary summary = withThreads(options.threads, [&] { return runTellingWhatIsKept(setup, run, parts); });
     if (run.frames && options.video && summary.status == RunStatus::Done) makeVideo(run.out, setup.pictures.output);
     printOutcome(summary, run.out);
     if (!options.asPanel) fmt::print("{}", stageTable(summary.times));

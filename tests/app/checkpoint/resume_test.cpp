@@ -143,6 +143,19 @@ TEST_F(Resume, AStoppedRunCanBeGoneOnWith)
     EXPECT_EQ(contentOf(folder / "stopped" / "energy.csv"), contentOf(folder / "whole" / "energy.csv"));
 }
 
+/// A run that fails has kept its last good state, from which it can be tried with other settings.
+TEST_F(Resume, AFailedRunCanBeGoneOnWithOtherwise)
+{
+    // From the tenth step on it falls so fast that its steps would have to be shorter than they may.
+    const ChildExit failed = run("failed", {"--set", "output.data=[energy]", "--set", "time.dt_min=1.0e-3", "--set", "changes=[{step: 10, set: {gravity: [0, -5.0e+7, 0]}}]"});
+    ASSERT_EQ(failed.code, 1) << failed.errorText;
+    EXPECT_NE(failed.errorText.find("go on from the last good state with other settings: drench run --resume failed"), std::string::npos) << failed.errorText;
+    ASSERT_EQ(report("failed").at("status"), "failed");
+    ASSERT_EQ(resume("failed", {"--out", "otherwise", "--set", "gravity=[0, -981, 0]"}).code, 0);
+    EXPECT_EQ(report("otherwise").at("status"), "done");
+    EXPECT_GE(linesOf(folder / "otherwise" / "energy.csv").size(), 20u);
+}
+
 /// Killed at any moment, a run has lost no more than what came after its last checkpoint, and no file under its own
 /// name is broken.
 TEST_F(Resume, KilledFiftyTimesItComesToTheSameEnd)
