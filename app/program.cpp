@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <new>
 
@@ -55,6 +56,7 @@ void startLog()
 int runProgram(int argc, const char* const* argv, const Parts& parts)
 {
     startLog();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
     try {
         const auto options = readOptions(argc, argv);
         if (!options) return 0;

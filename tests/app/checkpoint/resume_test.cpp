@@ -143,6 +143,23 @@ TEST_F(Resume, AStoppedRunCanBeGoneOnWith)
     EXPECT_EQ(contentOf(folder / "stopped" / "energy.csv"), contentOf(folder / "whole" / "energy.csv"));
 }
 
+/// Where no more than so many bytes of a file can be written the run stops and says so. What was there before stays, and when there is
+/// room again the run goes on as if nothing had been.
+TEST_F(Resume, AFullDiskIsSurvived)
+{
+    ASSERT_EQ(run("whole").code, 0);
+    ASSERT_EQ(run("run", {"--set", "time.duration=0.04"}).code, 0);
+    const std::string script = R"(ulimit -f 100; "$0" run --resume run --no-video --threads 1 --set time.duration=0.08)";
+    const ChildExit end = runChild(*findProgram("sh"), {"-c", script, DRENCH_PROGRAM}, {.folder = folder.path()});
+    EXPECT_EQ(end.code, 1);
+    EXPECT_NE(end.lastWords().find("File too large"), std::string::npos) << end.errorText;
+    EXPECT_EQ(storedFrames(folder / "run", StateKind::ForGoingOn).back(), 10);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run")) EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    ASSERT_EQ(resume("run", {"--set", "time.duration=0.08"}).code, 0);
+    EXPECT_EQ(hash("run"), hash("whole"));
+    expectSameFiles("run", "whole");
+}
+
 /// A run that fails has kept its last good state, from which it can be tried with other settings.
 TEST_F(Resume, AFailedRunCanBeGoneOnWithOtherwise)
 {
