@@ -3,6 +3,7 @@
 
 #include "app/output_files.h"
 #include "render/image_compare.h"
+#include "tests/app/view/dragged_file.h"
 #include "tests/app/view/hands.h"
 
 #include <gtest/gtest.h>
@@ -88,6 +89,17 @@ TEST(Hands, WhatIsSavedRunsToTheSameState)
     desktop.keys("ctrl+s");
     ASSERT_TRUE(desktop.comesTrue([&] { return std::filesystem::exists("drop_live_2.yaml"); }))
         << "nothing is overwritten";
+}
+
+TEST(Hands, AFileThatIsDroppedOntoTheWindowIsOpened)
+{
+    Desktop desktop(drop(), kPaused);
+    desktop.shot();
+    writeWhole("a scene.yaml", readWhole(DRENCH_SOURCE_DIR "/scenes/drop.yaml"));
+    DraggedFile file("a scene.yaml", "A drop falls into a pool - Drench");
+    ASSERT_TRUE(desktop.comesTrue([&] { return file.isTaken(); }));
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.timeShown(0) == 0.0; }));
+    EXPECT_EQ(desktop.viewer.pair().first().scene()->request.file, std::filesystem::absolute("a scene.yaml"));
 }
 
 TEST(Hands, AnotherSceneIsOpenedAndABadOneIsNot)
