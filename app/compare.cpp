@@ -6,6 +6,7 @@
 #include "app/gnuplot.h"
 #include "app/output_files.h"
 #include "app/reports.h"
+#include "app/resume.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
@@ -103,14 +104,14 @@ bool isDone(const ComparedRun& run, bool withFrames)
 
 std::vector<std::string> runArguments(const ComparedRun& run, const Options& options)
 {
-    std::vector<std::string> arguments = {"run",       options.scene,       "--variant", run.setup.variant,
-                                          "--out",     run.folder.string(), "--threads", fmt::format("{}", options.threads),
-                                          "--panel",   "--no-video"};
+    std::vector<std::string> arguments = {"run", "--threads", fmt::format("{}", options.threads), "--panel", "--no-video"};
     if (!options.frames) arguments.push_back("--no-frames");
-    for (const auto& set : options.sets) {
-        arguments.push_back("--set");
-        arguments.push_back(set);
+    if (!options.force && canGoOn(run.folder, run.contentHash)) {
+        arguments.insert(arguments.end(), {"--resume", run.folder.string()});
+        return arguments;
     }
+    arguments.insert(arguments.end(), {options.scene, "--variant", run.setup.variant, "--out", run.folder.string()});
+    for (const auto& set : options.sets) arguments.insert(arguments.end(), {"--set", set});
     return arguments;
 }
 

@@ -30,7 +30,7 @@ std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& fo
 /// Is this very run, by this very program, already there to its end (with its pictures, if wanted)?
 bool isDone(const ComparedRun& run, bool withFrames);
 
-/// The command line of one variant's own process.
+/// The command line of one variant's own process: from the start, or from its last checkpoint if it was stopped.
 std::vector<std::string> runArguments(const ComparedRun& run, const Options& options);
 
 /// Run what is not done yet, each in a process of its own, so that its peak memory and its crash are its own. Returns those that got to

@@ -54,6 +54,13 @@ void requireSameScene(const SceneSetup& setup, const Checkpoint& checkpoint, con
 
 }  // namespace
 
+bool canGoOn(const fs::path& folder, const std::string& contentHash)
+{
+    const auto report = readReport(folder);
+    return report && report->contentHash == contentHash && report->status != "done" && report->status != "failed" &&
+           !storedFrames(folder, StateKind::ForGoingOn).empty();
+}
+
 ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetup(const SceneRequest&)>& loadScene)
 {
     const fs::path scene = request.folder / "resolved.yaml";

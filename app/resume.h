@@ -27,6 +27,9 @@ struct ResumedRun {
     bool isBranch = false;                  ///< it goes on in another folder than it began
 };
 
+/// Has this very run, by this very program, been stopped or killed with a checkpoint to go on from?
+bool canGoOn(const std::filesystem::path& folder, const std::string& contentHash);
+
 /// Reads a run's scene and the checkpoint to go on from. In its own folder a run may be given another end and other
 /// pictures. In another folder, a branch, all may change that can change during a run: from the next step on, as
 /// `changes` of the branch's scene say, so that the branch can be run from the start as well.

@@ -1,9 +1,9 @@
 #include "app/study/run_study.h"
 
-#include "app/checkpoint/state_files.h"
 #include "app/lab/child_crew.h"
 #include "app/progress.h"
 #include "app/reports.h"
+#include "app/resume.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ std::vector<std::string> runArguments(const StudyRun& run, const StudyPlaces& pl
 {
     const std::filesystem::path folder = places.of(run);
     std::vector<std::string> arguments = {"run"};
-    if (outcomeOf(run, places).status == StudyStatus::Interrupted && !storedFrames(folder, StateKind::ForGoingOn).empty()) {
+    if (canGoOn(folder, contentHash(run.setup, false, programHash()))) {
         arguments.insert(arguments.end(), {"--resume", folder.string()});
     } else {
         arguments.insert(arguments.end(), {run.request.file, "--out", folder.string()});

@@ -129,7 +129,7 @@ TEST_F(Resume, AStoppedRunCanBeGoneOnWith)
     const std::vector<std::string> bare = {"--set", "output.data=[energy]"};
     ASSERT_EQ(run("whole", bare).code, 0);
     const std::string script = R"("$0" run small.yaml --no-video --threads 1 --set 'output.data=[energy]' --out stopped &
-        while [ ! -e stopped/frame_00002.png ]; do sleep 0.005; done; kill -INT $!; wait $!)";
+        while [ ! -e stopped/frame_00002.png ] && kill -0 $!; do sleep 0.005; done; kill -INT $!; wait $!)";
     const ChildExit end = runChild(*findProgram("sh"), {"-c", script, DRENCH_PROGRAM}, {.folder = folder.path()});
     ASSERT_EQ(end.code, 1) << end.errorText;
     EXPECT_NE(end.lastWords().find("go on with drench run --resume stopped"), std::string::npos) << end.errorText;
@@ -141,6 +141,24 @@ TEST_F(Resume, AStoppedRunCanBeGoneOnWith)
         EXPECT_TRUE(contentOf(folder / "stopped" / name) == contentOf(folder / "whole" / name)) << name;
     }
     EXPECT_EQ(contentOf(folder / "stopped" / "energy.csv"), contentOf(folder / "whole" / "energy.csv"));
+}
+
+/// A comparison that is stopped goes on with the variant that was under way.
+TEST_F(Resume, AStoppedComparisonGoesOn)
+{
+    const std::string script = R"("$0" compare small.yaml --no-video --threads 1 --out both &
+        while [ ! -e both/4/frame_00002.png ] && kill -0 $!; do sleep 0.005; done; kill -INT $!; wait $!)";
+    const auto compare = [&](const std::string& command) { return runChild(*findProgram("sh"), {"-c", command, DRENCH_PROGRAM}, {.folder = folder.path()}); };
+    EXPECT_EQ(compare(script).code, 1);
+    ASSERT_EQ(report("both/4").at("status"), "interrupted");
+    const auto first = folder / "both" / "4" / "frame_00001.png";
+    const auto drawn = std::filesystem::last_write_time(first);
+    const ChildExit end = compare(R"("$0" compare small.yaml --no-video --threads 1 --out both)");
+    ASSERT_EQ(end.code, 0) << end.errorText;
+    EXPECT_EQ(std::filesystem::last_write_time(first), drawn);
+    ASSERT_EQ(run("alone", {"--panel", "--set", "transfer.modes=4"}).code, 0);
+    EXPECT_EQ(hash("both/4"), hash("alone"));
+    EXPECT_EQ(report("both/8").at("status"), "done");
 }
 
 /// Where no more than so many bytes of a file can be written the run stops and says so. What was there before stays, and when there is

@@ -30,6 +30,7 @@ output:
   every: 4.0e-3
   data: [energy, stats, ledger, states, checkpoint]
   checkpoint: {every: 8.0e-3, keep: 0}
+compare: {variants: {transfer.modes: [4, 8]}}
 )";
 
 /// A folder with that scene, where the program runs.

@@ -107,7 +107,7 @@ TEST_F(StudyRuns, AStoppedStudyGoesOn)
 {
     write("study: stopped\nscene: small.yaml\nset: {output.data: [energy, stats]}\nruns: {transfer.modes: [4, 8]}\n");
     const std::string script = R"("$0" sweep study.yaml --threads 1 &
-        while [ ! -e out/stopped/runs/4/frame_00002.png ]; do sleep 0.005; done; kill -INT $!; wait $!)";
+        while [ ! -e out/stopped/runs/4/frame_00002.png ] && kill -0 $!; do sleep 0.005; done; kill -INT $!; wait $!)";
     const ChildExit end = runChild(*findProgram("sh"), {"-c", script, DRENCH_PROGRAM}, {.folder = folder.path()});
     EXPECT_EQ(end.code, 1) << end.errorText;
     auto rows = table("stopped");
