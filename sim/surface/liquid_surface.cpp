@@ -1,6 +1,8 @@
 #include "sim/surface/liquid_surface.h"
 
+#include "sim/core/check.h"
 #include "sim/surface/surface_field.h"
+#include "sim/surface/surface_velocity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +11,11 @@ namespace sim {
 
 namespace {
 
-/// Farthest that the surface is moved either way for the sake of the volume [spacing].
-constexpr double kLargestOffset = 0.5;
+/// Beyond which particles do not count [spacing]. More is smoother, but pulls the surface in where it is curved: of 2,
+/// 2.5 and 3, the normals on a box of particles shaken by a quarter of a pitch are off by 6.6, 5.0 and 3.6 degrees.
+constexpr double kReach = 3.0;
+
+constexpr double kLargestOffset = 0.5;  ///< by which the surface may be moved for the sake of the volume [spacing]
 constexpr double kVolumeTolerance = 1.0e-3;
 constexpr int kMostExtractions = 8;
 
@@ -18,26 +23,39 @@ constexpr int kMostExtractions = 8;
 
 const SurfaceMesh& LiquidSurface::find(const LiquidParticles& liquid, double density, const SurfaceSettings& settings)
 {
-    const double spacing = surfaceSpacing(liquid, density);
+    const double spacing = surfaceSpacing(liquid, density), reach = kReach / settings.cell;
+    SIM_CHECK(reach <= kBlockEdge - 1);
     offset_ = 0.0;
-    mesh_ = {};
     grid_.dx = spacing > 0.0 ? settings.cell * spacing : 1.0;
-    const auto reach = static_cast<float>(settings.reach / settings.cell);
-    sortForSurface(liquid, density, reach + 1.0, grid_, particles_);
-    surfaceField(grid_, particles_, reach, depth_);
-    keepVolume(reach, settings);
+    sortForSurface(liquid, density, reach + 1.0, grid_,
+                   particles_);  // one more, so that all nodes inside have neighbours
+    surfaceField(grid_, particles_, static_cast<float>(reach), static_cast<float>(1.0 / settings.cell), depth_);
+    extract(settings);
+    if (settings.keepsVolume) keepVolume(settings);
     findNormals(grid_, depth_, contour_.crossings(), mesh_.normals);
+    if (settings.hasVelocities)
+        surfaceVelocities(grid_, particles_, static_cast<float>(reach), contour_.crossings(), mesh_.velocities);
     return mesh_;
 }
 
-void LiquidSurface::keepVolume(float reach, const SurfaceSettings& settings)
+void LiquidSurface::extract(const SurfaceSettings& settings)
+{
+    contour_.extract(grid_, depth_, static_cast<float>((kReach - offset_) / settings.cell), mesh_);
+}
+
+/// Newton's method in the offset, whose derivative of the volume is the area; where that leads out of the bracket,
+/// halves of it.
+void LiquidSurface::keepVolume(const SurfaceSettings& settings)
 {
     const double spacing = grid_.dx / settings.cell;
-    for (int n = 0; n < kMostExtractions; ++n) {
-        contour_.extract(grid_, depth_, reach - static_cast<float>(offset_ / settings.cell), mesh_);
-        const double lack = particles_.volume - enclosedVolume(mesh_), area = surfaceArea(mesh_);
-        if (!settings.keepsVolume || std::abs(lack) <= kVolumeTolerance * particles_.volume || !(area > 0.0)) return;
-        offset_ = std::clamp(offset_ + lack / (area * spacing), -kLargestOffset, kLargestOffset);
+    double tooSmall = -kLargestOffset, tooLarge = kLargestOffset;
+    for (int n = 1; n < kMostExtractions; ++n) {
+        const double lack = particles_.volume - enclosedVolume(mesh_);
+        if (std::abs(lack) <= kVolumeTolerance * particles_.volume) return;
+        (lack > 0.0 ? tooSmall : tooLarge) = offset_;
+        const double moved = offset_ + lack / (spacing * surfaceArea(mesh_));  // not finite where there is no surface
+        offset_ = moved > tooSmall && moved < tooLarge ? moved : 0.5 * (tooSmall + tooLarge);
+        extract(settings);
     }
 }
 

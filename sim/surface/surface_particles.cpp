@@ -13,49 +13,101 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-bool isBefore(const Vec3i& a, const Vec3i& b)
+Vec3i stepTo(int neighbour)
 {
-    return std::lexicographical_compare(a.data(), a.data() + kAxes, b.data(), b.data() + kAxes);
+    return {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
 }
 
 void sortAndUnite(std::vector<Vec3i>& coords)
 {
+    const auto isBefore = [](const Vec3i& a, const Vec3i& b) {
+        return a.z() != b.z() ? a.z() < b.z() : a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
+    };
     std::sort(coords.begin(), coords.end(), isBefore);
     coords.erase(std::unique(coords.begin(), coords.end()), coords.end());
 }
 
-/// Place of a particle: coordinates of its block, and the position in it [cells].
-struct Place {
-    Vec3i block;
-    Eigen::Vector3f inside;
-
-    Place(const BlockGrid& grid, const Vec3& x)
-    {
-        const Vec3 inCells = (x - grid.origin) / grid.dx, inBlocks = (inCells / kBlockEdge).array().floor();
+void findPlaces(const LiquidParticles& liquid, const BlockGrid& grid, SurfaceParticles& out)
+{
+    out.blockOf.resize(liquid.count);
+    out.inside.resize(liquid.count);
+    parallelFor(liquid.count, kGrain, [&](std::size_t p) {
+        const Vec3 inCells = (liquid.position(p) - grid.origin) / grid.dx,
+                   inBlocks = (inCells / kBlockEdge).array().floor();
         if (!(inBlocks.cwiseAbs().maxCoeff() < BlockGrid::kMaxCoordinate - 2))
             throw RunError("surface: a particle is too far away from the origin for its grid");
-        block = inBlocks.cast<int>();
-        inside = (inCells - kBlockEdge * inBlocks).cast<float>();
+        out.blockOf[p] = inBlocks.cast<int>();
+        out.inside[p] = (inCells - kBlockEdge * inBlocks).cast<float>();
+    });
+}
+
+/// body(particle, block number) for all that have mass, one after the other. The simulation keeps particles of one
+/// place together: most are in the block of the one before.
+template <class Body>
+void forEachInItsBlock(const LiquidParticles& liquid, const BlockGrid& grid, const SurfaceParticles& particles,
+                       Body&& body)
+{
+    int block = BlockGrid::kNone;
+    for (std::size_t p = 0; p < liquid.count; ++p) {
+        if (!(liquid.mass[p] > 0.0)) continue;
+        if (block == BlockGrid::kNone || grid.coords(block) != particles.blockOf[p])
+            block = grid.find(particles.blockOf[p]);
+        body(p, block);
     }
-    int bin() const
-    {
-        const Eigen::Vector3i b = (inside / SurfaceParticles::kBinEdge).cast<int>().cwiseMin(1);
-        return b.x() + 2 * b.y() + 4 * b.z();
-    }
-};
+}
 
 /// The blocks around one that lie within `reach` of a place in it, as bits of neighbourIndex.
 std::uint32_t blocksInReach(const Eigen::Vector3f& x, float reach)
 {
     std::uint32_t bits = 0;
     for (int n = 0; n < 27; ++n) {
-        const Vec3i step(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+        const Vec3i step = stepTo(n);
         bool isNear = true;
         for (int a = 0; a < kAxes; ++a)
             isNear = isNear && (step[a] == 0 || (step[a] < 0 ? x[a] < reach : x[a] > kBlockEdge - reach));
         bits |= isNear ? 1u << n : 0u;
     }
     return bits;
+}
+
+/// First the blocks that hold particles, then those around them as well.
+void fitBlocks(const LiquidParticles& liquid, float reach, BlockGrid& grid, SurfaceParticles& work)
+{
+    work.coords.clear();
+    for (std::size_t p = 0; p < liquid.count; ++p)
+        if (liquid.mass[p] > 0.0 && (work.coords.empty() || work.coords.back() != work.blockOf[p]))
+            work.coords.push_back(work.blockOf[p]);
+    sortAndUnite(work.coords);
+    grid.setBlocks(work.coords);
+
+    work.reached.assign(grid.count(), 0);
+    forEachInItsBlock(liquid, grid, work,
+                      [&](std::size_t p, int block) { work.reached[block] |= blocksInReach(work.inside[p], reach); });
+    work.missing.clear();
+    for (int b = 0; b < grid.count(); ++b)
+        for (int n = 0; n < 27; ++n)
+            if ((work.reached[b] >> n & 1) != 0 && grid.neighbours(b)[n] == grid.count())
+                work.missing.push_back(grid.coords(b) + stepTo(n));
+    sortAndUnite(work.missing);
+    work.coords.insert(work.coords.end(), work.missing.begin(), work.missing.end());
+    grid.setBlocks(work.coords);
+}
+
+/// Counting sort: particles of one bin stay in their order.
+void findSlots(const LiquidParticles& liquid, const BlockGrid& grid, SurfaceParticles& work)
+{
+    work.binOf.resize(liquid.count);
+    work.slot.assign(liquid.count, -1);
+    work.binStart.assign(SurfaceParticles::kBins * grid.count() + 1, 0);
+    forEachInItsBlock(liquid, grid, work, [&](std::size_t p, int block) {
+        const Vec3i b = (work.inside[p] / SurfaceParticles::kBinEdge).cast<int>().cwiseMin(1);
+        work.binOf[p] = SurfaceParticles::kBins * block + 4 * b.z() + 2 * b.y() + b.x();
+        ++work.binStart[work.binOf[p] + 1];
+    });
+    for (std::size_t b = 1; b < work.binStart.size(); ++b) work.binStart[b] += work.binStart[b - 1];
+    work.next.assign(work.binStart.begin(), work.binStart.end() - 1);
+    for (std::size_t p = 0; p < liquid.count; ++p)
+        if (liquid.mass[p] > 0.0) work.slot[p] = work.next[work.binOf[p]]++;
 }
 
 }  // namespace
@@ -67,66 +119,29 @@ double surfaceSpacing(const LiquidParticles& liquid, double density)
     return sum > 0.0 ? std::cbrt(squares / sum / density) : 0.0;
 }
 
-void sortForSurface(const LiquidParticles& liquid, double density, double reach, BlockGrid& grid, SurfaceParticles& out)
+void sortForSurface(const LiquidParticles& liquid, double density, double reach, BlockGrid& grid,
+                    SurfaceParticles& particles)
 {
-    // Blocks with particles, from runs of particles of one block: the simulation keeps neighbours together.
-    out.coords.clear();
-    for (std::size_t p = 0; p < liquid.count; ++p) {
-        if (!(liquid.mass[p] > 0.0)) continue;
-        const Vec3i block = Place(grid, liquid.position(p)).block;
-        if (out.coords.empty() || out.coords.back() != block) out.coords.push_back(block);
-    }
-    sortAndUnite(out.coords);
-    grid.setBlocks(out.coords);
+    SIM_CHECK(reach <= kBlockEdge);
+    findPlaces(liquid, grid, particles);
+    fitBlocks(liquid, static_cast<float>(reach), grid, particles);
+    findSlots(liquid, grid, particles);
 
-    // And those around them that something reaches.
-    out.touched.assign(grid.count(), 0);
-    Vec3i last = Vec3i::Zero();
-    int block = BlockGrid::kNone;
-    for (std::size_t p = 0; p < liquid.count; ++p) {
-        if (!(liquid.mass[p] > 0.0)) continue;
-        const Place place(grid, liquid.position(p));
-        if (block == BlockGrid::kNone || place.block != last) block = grid.find(place.block), last = place.block;
-        out.touched[block] |= blocksInReach(place.inside, static_cast<float>(reach));
-    }
-    out.missing.clear();
-    for (int b = 0; b < grid.count(); ++b)
-        for (int n = 0; n < 27; ++n)
-            if ((out.touched[b] >> n & 1) != 0 && grid.neighbours(b)[n] == grid.count())
-                out.missing.push_back(grid.coords(b) + Vec3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
-    sortAndUnite(out.missing);
-    out.coords.insert(out.coords.end(), out.missing.begin(), out.missing.end());
-    grid.setBlocks(out.coords);
-
-    // Counting sort by bin; particles of one bin stay in their order.
-    out.binOf.resize(liquid.count);
-    out.binStart.assign(SurfaceParticles::kBins * grid.count() + 1, 0);
-    block = BlockGrid::kNone;
-    for (std::size_t p = 0; p < liquid.count; ++p) {
-        out.binOf[p] = BlockGrid::kNone;
-        if (!(liquid.mass[p] > 0.0)) continue;
-        const Place place(grid, liquid.position(p));
-        if (block == BlockGrid::kNone || place.block != last) block = grid.find(place.block), last = place.block;
-        out.binOf[p] = SurfaceParticles::kBins * block + place.bin();
-        ++out.binStart[out.binOf[p] + 1];
-    }
-    for (std::size_t b = 1; b < out.binStart.size(); ++b) out.binStart[b] += out.binStart[b - 1];
-    const std::size_t padded = liquid.count + kFloatLanes;
-    for (int a = 0; a < kAxes; ++a) out.x[a].resize(padded), out.velocity[a].resize(padded);
-    out.radius.resize(padded);
-    std::vector<int> next(out.binStart.begin(), out.binStart.end() - 1);
-    for (std::size_t p = 0; p < liquid.count; ++p) {
-        if (out.binOf[p] == BlockGrid::kNone) continue;
-        const int s = next[out.binOf[p]]++;
-        const Place place(grid, liquid.position(p));
+    const std::size_t padded = liquid.count + kFloatLanes;  // packs are loaded whole
+    for (int a = 0; a < kAxes; ++a) particles.x[a].resize(padded), particles.velocity[a].resize(padded);
+    particles.radius.resize(padded);
+    parallelFor(liquid.count, kGrain, [&](std::size_t p) {
+        const int s = particles.slot[p];
+        if (s < 0) return;
         const Vec3 v = liquid.velocity(p);
         for (int a = 0; a < kAxes; ++a) {
-            out.x[a][s] = place.inside[a];
-            out.velocity[a][s] = static_cast<float>(v[a]);
+            particles.x[a][s] = particles.inside[p][a];
+            particles.velocity[a][s] = static_cast<float>(v[a]);
         }
-        out.radius[s] = static_cast<float>(std::cbrt(0.75 / kPi * liquid.mass[p] / density) / grid.dx);
-    }
-    out.volume = parallelSum(liquid.count, [&](std::size_t p) { return std::max(liquid.mass[p], 0.0); }) / density;
+        particles.radius[s] = static_cast<float>(std::cbrt(0.75 / kPi * liquid.mass[p] / density) / grid.dx);
+    });
+    particles.volume =
+        parallelSum(liquid.count, [&](std::size_t p) { return std::max(liquid.mass[p], 0.0); }) / density;
 }
 
 }  // namespace sim
