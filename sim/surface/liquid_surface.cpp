@@ -43,19 +43,19 @@ void LiquidSurface::extract(const SurfaceSettings& settings)
     contour_.extract(grid_, depth_, static_cast<float>((kReach - offset_) / settings.cell), mesh_);
 }
 
-/// Newton's method in the offset, whose derivative of the volume is the area; where that leads out of the bracket,
-/// halves of it.
+/// The secant method, which begins with the area for the derivative; where it leads out of the bracket, halves of that.
 void LiquidSurface::keepVolume(const SurfaceSettings& settings)
 {
-    const double spacing = grid_.dx / settings.cell;
     double tooSmall = -kLargestOffset, tooLarge = kLargestOffset;
-    for (int n = 1; n < kMostExtractions; ++n) {
-        const double lack = particles_.volume - enclosedVolume(mesh_);
-        if (std::abs(lack) <= kVolumeTolerance * particles_.volume) return;
+    double slope = grid_.dx / settings.cell * surfaceArea(mesh_), lack = particles_.volume - enclosedVolume(mesh_);
+    for (int n = 1; n < kMostExtractions && std::abs(lack) > kVolumeTolerance * particles_.volume; ++n) {
         (lack > 0.0 ? tooSmall : tooLarge) = offset_;
-        const double moved = offset_ + lack / (spacing * surfaceArea(mesh_));  // not finite where there is no surface
+        const double lackBefore = lack, before = offset_,
+                     moved = offset_ + lack / slope;  // not finite without a surface
         offset_ = moved > tooSmall && moved < tooLarge ? moved : 0.5 * (tooSmall + tooLarge);
         extract(settings);
+        lack = particles_.volume - enclosedVolume(mesh_);
+        slope = (lackBefore - lack) / (offset_ - before);
     }
 }
 
