@@ -15,9 +15,15 @@ namespace {
 /// 2.5 and 3, the normals on a box of particles shaken by a quarter of a pitch are off by 6.6, 5.0 and 3.6 degrees.
 constexpr double kReach = 3.0;
 
+/// For velocities that is less, but with particles for every vertex: the surface is no farther than 2 from all of them.
+constexpr double kVelocityReach = 2.25;
+
 constexpr double kLargestOffset = 0.5;  ///< by which the surface may be moved for the sake of the volume [spacing]
-constexpr double kVolumeTolerance = 1.0e-3;
+constexpr double kVolumeTolerance = 2.0e-3;
 constexpr int kMostExtractions = 8;
+
+/// How the search begins: usual offsets are 0.1 to 0.3, and a spacing of offset moves the surface by 1.5 to 1.8.
+constexpr double kUsualOffset = 0.15, kUsualRise = 1.6;
 
 }  // namespace
 
@@ -25,7 +31,7 @@ const SurfaceMesh& LiquidSurface::find(const LiquidParticles& liquid, double den
 {
     const double spacing = surfaceSpacing(liquid, density), reach = kReach / settings.cell;
     SIM_CHECK(reach <= kBlockEdge - 1);
-    offset_ = 0.0;
+    offset_ = settings.keepsVolume ? kUsualOffset : 0.0;
     grid_.dx = spacing > 0.0 ? settings.cell * spacing : 1.0;
     sortForSurface(liquid, density, reach + 1.0, grid_,
                    particles_);  // one more, so that all nodes inside have neighbours
@@ -34,7 +40,8 @@ const SurfaceMesh& LiquidSurface::find(const LiquidParticles& liquid, double den
     if (settings.keepsVolume) keepVolume(settings);
     findNormals(grid_, depth_, contour_.crossings(), mesh_.normals);
     if (settings.hasVelocities)
-        surfaceVelocities(grid_, particles_, static_cast<float>(reach), contour_.crossings(), mesh_.velocities);
+        surfaceVelocities(grid_, particles_, static_cast<float>(kVelocityReach / kReach * reach), contour_.crossings(),
+                          mesh_.velocities);
     return mesh_;
 }
 
@@ -47,7 +54,7 @@ void LiquidSurface::extract(const SurfaceSettings& settings)
 void LiquidSurface::keepVolume(const SurfaceSettings& settings)
 {
     double tooSmall = -kLargestOffset, tooLarge = kLargestOffset;
-    double slope = grid_.dx / settings.cell * surfaceArea(mesh_), lack = particles_.volume - enclosedVolume(mesh_);
+    double slope = kUsualRise * grid_.dx / settings.cell * surfaceArea(mesh_), lack = particles_.volume - enclosedVolume(mesh_);
     for (int n = 1; n < kMostExtractions && std::abs(lack) > kVolumeTolerance * particles_.volume; ++n) {
         (lack > 0.0 ? tooSmall : tooLarge) = offset_;
         const double lackBefore = lack, before = offset_,

@@ -13,6 +13,8 @@ namespace sim {
 /// mean place is amid nothing; there, where particles are much fewer than in bulk liquid, the distance is at least that
 /// from the nearest particle, as a sum of sharp weights tells it smoothly.
 ///
+/// Amid bulk liquid, two bins and more below the surface, it is not computed, but taken for as deep as it gets.
+///
 /// Each block adds up the particles around it in their order: the same bits for any number of threads.
 /// @param reach    beyond which particles have no weight [cells], ≤ 7
 /// @param spacing  of the particles of bulk liquid [cells]

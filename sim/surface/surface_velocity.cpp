@@ -32,8 +32,7 @@ struct Moments {
             }
             FloatPack rest = 1.0f - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (1.0f / (reach * reach));
             rest = (rest > 0.0f) & firstFloatLanes(last - s) ? rest : FloatPack{};
-            FloatPack w = rest * rest * rest;
-            w *= w;
+            const FloatPack w = rest * rest * rest;
             weight += w;
             int n = 0;
             for (int a = 0; a < kAxes; ++a) {
@@ -51,7 +50,7 @@ struct Moments {
     {
         // Variance [cells²] below which particles count as lying in a plane: where they fill a half space it is
         // about 1.
-        constexpr double kFlat = 0.01;
+        constexpr double kFlat = 0.005;
         const double total = sumFloatLanes(weight);
         if (!(total > 0.0)) return Vec3::Zero();
         Vec3 meanY, meanV;

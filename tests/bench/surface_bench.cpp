@@ -5,6 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <memory>
+
 using namespace sim;
 using namespace sim::test;
 
@@ -15,14 +17,14 @@ namespace {
 /// A dam break that has run up the far wall.
 Simulation& splash()
 {
-    static Simulation simulation = [] {
+    static const std::unique_ptr<Simulation> simulation = [] {
         Scene scene = tankScene(kPoly8, 0.3, {80.0, 80.0, 12.0}, {0.0, 0.0, 0.0}, {30.0, 40.0, 12.0});
         scene.sources[0].fill.spacing = 0.5;
-        Simulation s(scene);
-        while (s.state().time < 0.3) s.step(0.3);
-        return s;
+        auto made = std::make_unique<Simulation>(scene);
+        while (made->state().time < 0.3) made->step(0.3);
+        return made;
     }();
-    return simulation;
+    return *simulation;
 }
 
 void count(benchmark::State& state)
@@ -59,14 +61,14 @@ void sortAndField(benchmark::State& state)
 
 void simulationStep(benchmark::State& state)
 {
-    Simulation simulation = splash();
-    for (auto _ : state) onThreads(1, [&] { benchmark::DoNotOptimize(simulation.step(10.0)); });
+    for (auto _ : state) onThreads(1, [&] { benchmark::DoNotOptimize(splash().step(10.0)); });
     count(state);
 }
 
 BENCHMARK(sortAndField)->ArgName("field")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(surface)->ArgName("parts")->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
-BENCHMARK(simulationStep)->Unit(benchmark::kMillisecond)->Iterations(5);
+BENCHMARK(simulationStep)  // last: it leads the splash on
+    ->Unit(benchmark::kMillisecond)->Iterations(5);
 
 }  // namespace
 
