@@ -19,7 +19,7 @@ using sim::Range;
 inline std::span<const Choice<LiquidStyle>> choicesOf(LiquidStyle)
 {
     static constexpr Choice<LiquidStyle> kAll[] = {
-        {"points", LiquidStyle::Points}, {"spheres", LiquidStyle::Spheres}, {"surface", LiquidStyle::Surface, false}};
+        {"points", LiquidStyle::Points}, {"spheres", LiquidStyle::Spheres}, {"surface", LiquidStyle::Surface}};
     return kAll;
 }
 
@@ -111,7 +111,7 @@ inline std::array<double, 2> usualRange(ColorBy colorBy)
 template <class V>
 void describeLiquidLook(V& v, RenderSettings& r)
 {
-    v.choice("style", r.liquidStyle, "How particles are drawn");
+    v.choice("style", r.liquidStyle, "How liquid is drawn: particles as points or spheres, or the surface around them");
     v.choice("color_by", r.colorBy, "What the colour shows");
     v.choice("colormap", r.colorMap, "Colours from low to high");
     v.whenReading([&](auto&) { r.range = usualRange(r.colorBy); });

@@ -26,7 +26,11 @@ render::FrameView FrameSnapshot::view()
                       .materials = cloth.materials,
                       .values = cloth.values,
                       .wetness = cloth.wetness},
-            .lines = borrowedLines};
+            .lines = borrowedLines,
+            .surface = {.positions = surface.positions,
+                        .normals = surface.normals,
+                        .values = surface.values,
+                        .triangles = surface.triangles}};
 }
 
 }  // namespace app

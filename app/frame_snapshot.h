@@ -15,6 +15,7 @@ namespace app {
 struct SnapshotExtras {
     bool pressure = false;                        ///< the liquid's values are pressures [dyn/cm^2], not speeds [cm/s]
     FabricColorBy yarns = FabricColorBy::Material, cloth = FabricColorBy::Material;  ///< what their values are
+    bool surface = false;                         ///< the surface of the liquid as well, for looks that show it
     bool blocks = false;                          ///< edges of the grid's blocks
     bool arrows = false;                          ///< where some of the particles go
     bool contacts = false;                        ///< lines between fabric and the fabric it touches
@@ -32,6 +33,11 @@ struct FrameSnapshot {
         bool inside = false;                      ///< a container, seen from within
     };
 
+    struct Surface {
+        std::vector<Eigen::Vector3f> positions, normals;  ///< [cm], [-]
+        std::vector<float> values;                ///< as those of the particles
+        std::vector<Eigen::Vector3i> triangles;
+    };
     struct Yarns {
         std::vector<Eigen::Vector3f> positions, directions;  ///< [cm], [-]
         std::vector<float> along, values, wetness;  ///< [cm]; values empty where the colour is that of the material, wetness [0..1] where all is dry
@@ -58,6 +64,7 @@ struct FrameSnapshot {
     std::vector<Eigen::Vector3f> positions;       ///< of the particles [cm]
     std::vector<float> values;                    ///< one per position: its speed [cm/s] or pressure [dyn/cm^2]
     float radius = 0.0f;                          ///< of a particle [cm]
+    Surface surface;                              ///< of the liquid; empty unless `extras` ask for it
     Yarns yarns;
     Cloth cloth;
     std::vector<Mesh> obstacles;

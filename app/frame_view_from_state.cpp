@@ -3,6 +3,7 @@
 #include "app/fabric_in_frame.h"
 #include "app/lines_in_frame.h"
 #include "app/pressure_in_frame.h"
+#include "app/surface_in_frame.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
@@ -27,7 +28,8 @@ SnapshotExtras extrasOf(const RenderSettings& settings)
 {
     return {.pressure = settings.colorBy == ColorBy::Pressure,
             .yarns = settings.yarns.colorBy,
-            .cloth = settings.cloth.colorBy};
+            .cloth = settings.cloth.colorBy,
+            .surface = settings.liquidStyle == LiquidStyle::Surface};
 }
 
 void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, double density,
@@ -44,6 +46,7 @@ void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim:
         snapshot.positions[p] = x.cast<float>();
         snapshot.values[p] = static_cast<float>(extras.pressure ? smoothPressure(state, x) : liquid.velocity(p).norm());
     });
+    takeSurface(state, density, extras, snapshot.surface);
     takeYarns(fabric, state.fabric, density, extras.yarns, snapshot.yarns);
     takeCloth(fabric, state.fabric, density, extras.cloth, snapshot.cloth);
     takeLines(state, fabric, contacts, extras, snapshot.radius, snapshot.lines);

@@ -68,6 +68,13 @@ const char* titleOf(FabricColorBy colorBy)
                                                   : kSpeedTitle;
 }
 
+render::LiquidStyle liquidStyleOf(LiquidStyle style)
+{
+    return style == LiquidStyle::Points    ? render::LiquidStyle::Points
+           : style == LiquidStyle::Surface ? render::LiquidStyle::Surface
+                                           : render::LiquidStyle::Spheres;
+}
+
 render::Look lookOf(const PictureSettings& pictures, const std::string& label, bool asPanel)
 {
     const RenderSettings& settings = pictures.render;
@@ -76,8 +83,7 @@ render::Look lookOf(const PictureSettings& pictures, const std::string& label, b
     look.height = settings.height;
     look.background = settings.background;
     look.samples = settings.samples;
-    look.liquid.style =
-        settings.liquidStyle == LiquidStyle::Points ? render::LiquidStyle::Points : render::LiquidStyle::Spheres;
+    look.liquid.style = liquidStyleOf(settings.liquidStyle);
     look.liquid.flat = settings.colorBy == ColorBy::Flat;
     look.liquid.colorMap = colorMapOf(settings.colorMap);
     look.liquid.range = toFloat(settings.range);

@@ -16,6 +16,8 @@ namespace app {
 const char* titleOf(ColorBy colorBy);
 const char* titleOf(FabricColorBy colorBy);
 
+render::LiquidStyle liquidStyleOf(LiquidStyle style);
+
 /// @param asPanel  without the label, time and colour bar that putSideBySide() puts around all panels of a comparison
 render::Look lookOf(const PictureSettings& pictures, const std::string& label, bool asPanel);
 

@@ -45,12 +45,24 @@ void requireConsistent(const FrameView::Cloth& cloth, const FabricLook& look)
             "picture: the colour range of cloth must grow from its first to its second number");
 }
 
+void requireConsistent(const FrameView::LiquidSurface& surface, const LiquidLook& look)
+{
+    if (surface.triangles.empty()) return;
+    const std::size_t count = surface.positions.size();
+    require(surface.normals.size() == count, "picture: the surface of the liquid needs one normal per position");
+    require(look.flat || surface.values.size() == count, "picture: the surface of the liquid needs one value per position");
+    for (const Eigen::Vector3i& t : surface.triangles)
+        require(t.minCoeff() >= 0 && t.maxCoeff() < static_cast<int>(count),
+                "picture: a triangle of the liquid's surface names a position that is not there");
+}
+
 }  // namespace
 
 void requireConsistent(const FrameView& view, const Look& look)
 {
     requireConsistent(view.yarns, look.yarns);
     requireConsistent(view.cloth, look.cloth);
+    requireConsistent(view.surface, look.liquid);
     for (const FrameView::Lines& lines : view.lines)
         require(lines.points.size() % 2 == 0, "picture: lines need two points per segment");
     if (look.width <= 0 || look.height <= 0) throw std::invalid_argument("picture: width and height must be positive");

@@ -15,6 +15,13 @@ struct FrameView {
         std::span<const float> values;             ///< one per position: what colours it, say the speed [cm/s]
         float radius = 0.0f;                       ///< of every sphere [cm]
     };
+    /// The surface of the liquid, for looks that show it instead of particles.
+    struct LiquidSurface {
+        std::span<const Eigen::Vector3f> positions;
+        std::span<const Eigen::Vector3f> normals;  ///< one per position, outwards, of length 1
+        std::span<const float> values;             ///< one per position what colours it; not needed by a flat look
+        std::span<const Eigen::Vector3i> triangles;
+    };
     /// Strands of all yarns, their vertices one behind the other.
     struct Yarns {
         std::span<const Eigen::Vector3f> positions;
@@ -55,6 +62,7 @@ struct FrameView {
     Yarns yarns = {};
     Cloth cloth = {};
     std::span<const Lines> lines = {};
+    LiquidSurface surface = {};
 };
 
 }  // namespace render

@@ -10,7 +10,7 @@
 
 namespace render {
 
-enum class LiquidStyle { Spheres, Points };          ///< shaded balls, or plain dots of `pointPixels`
+enum class LiquidStyle { Spheres, Points, Surface }; ///< shaded balls, plain dots of `pointPixels`, or the view's surface
 enum class ObstacleStyle { Translucent, Wire, Hidden, Solid };  ///< of Solid ones containers are translucent
 
 struct LiquidLook {

@@ -4,6 +4,7 @@
 #include "render/draw_cloth.h"
 #include "render/draw_lines.h"
 #include "render/draw_liquid.h"
+#include "render/draw_liquid_surface.h"
 #include "render/draw_obstacles.h"
 #include "render/draw_occlusion.h"
 #include "render/draw_overlay.h"
@@ -23,6 +24,7 @@ struct Renderer::Parts {
         : context(c),
           gl(c.gl()),
           liquid(gl, shaderDir),
+          surface(gl, shaderDir),
           yarns(gl, shaderDir),
           cloth(gl, shaderDir),
           obstacles(gl, shaderDir),
@@ -37,6 +39,7 @@ struct Renderer::Parts {
     GlContext& context;
     const Gl& gl;
     DrawLiquid liquid;
+    DrawLiquidSurface surface;
     DrawYarns yarns;
     DrawCloth cloth;
     DrawObstacles obstacles;
@@ -66,7 +69,7 @@ bool hasSolids(const FrameView& view, const Look& look)
 {
     const bool solidObstacle = look.obstacles.style == ObstacleStyle::Solid &&
                                std::ranges::any_of(view.obstacles, [](const FrameView::Mesh& m) { return !m.inside; });
-    return solidObstacle || view.yarns.begin.size() > 1 || !view.cloth.triangles.empty();
+    return solidObstacle || !view.surface.triangles.empty() || view.yarns.begin.size() > 1 || !view.cloth.triangles.empty();
 }
 
 /// From which distances solids darken each other [cm]: from what is next to the thickness of the fabric, or else small
@@ -109,7 +112,9 @@ ViewTransforms transformsFor(const FrameView& view, const Camera& camera, const 
 /// The view without what the look does not show.
 FrameView seenIn(FrameView view, const Look& look)
 {
-    if (!look.liquid.isShown) view.liquid.positions = {}, view.liquid.values = {};
+    const bool isSurface = look.liquid.style == LiquidStyle::Surface;
+    if (!look.liquid.isShown || isSurface) view.liquid.positions = {}, view.liquid.values = {};
+    if (!look.liquid.isShown || !isSurface) view.surface = {};
     if (!look.yarns.isShown) view.yarns = {};
     if (!look.cloth.isShown) view.cloth = {};
     return view;
@@ -190,6 +195,7 @@ void Renderer::paint(const FrameView& view, const Camera& camera, const Look& lo
     p.yarns.draw(view.yarns, transforms, look.yarns);
     p.cloth.draw(view.cloth, transforms, look.cloth);
     p.obstacles.drawSolid(view.obstacles, transforms, look.obstacles);
+    p.surface.draw(view.surface, transforms, look.liquid);
     p.liquid.draw(view.liquid, transforms, look.liquid, samples);
     p.obstacles.draw(view.obstacles, transforms, look.obstacles);
     p.lines.draw(view.lines, transforms);
@@ -213,6 +219,8 @@ Eigen::AlignedBox3d bounds(const FrameView& view)
 {
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& x : view.liquid.positions)
+        if (x.allFinite()) box.extend(x);
+    for (const Eigen::Vector3f& x : view.surface.positions)
         if (x.allFinite()) box.extend(x);
     for (const FrameView::Mesh& mesh : view.obstacles)
         for (const Eigen::Vector3f& x : mesh.positions)

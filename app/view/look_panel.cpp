@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string>
 
 namespace app {
 
@@ -47,6 +48,15 @@ void fillIn(FabricColorBy colorBy, const std::array<std::array<float, 2>, 4>& ra
     look.colorBarTitle = titleOf(colorBy);
 }
 
+/// The words of a scene's file for a choice whose values count from 0, as a combo wants them.
+template <class E>
+std::string wordsOf()
+{
+    std::string words;
+    for (const sim::Choice<E>& choice : choicesOf(E{})) (words += choice.word) += '\0';
+    return words;
+}
+
 /// True when another one is chosen.
 template <class E>
 bool choose(const char* label, const char* words, E& choice)
@@ -69,6 +79,7 @@ void chooseColors(const char* rangeLabel, std::array<float, 2>& range, render::C
 
 LookPanel::LookPanel(const PictureSettings& pictures)
     : contents_(pictures.contents),
+      liquidStyle_(pictures.render.liquidStyle),
       look_(lookOf(pictures, "", false)),
       wanted_(extrasOf(pictures.render)),
       liquidRanges_(liquidRanges(pictures.render)),
@@ -81,6 +92,8 @@ render::Look LookPanel::lookFor(const FrameSnapshot& snapshot) const
 {
     render::Look look = look_;
     look.liquid.range = liquidRanges_[snapshot.extras.pressure ? 1 : 0];
+    if (look.liquid.style == render::LiquidStyle::Surface && !snapshot.extras.surface)
+        look.liquid.style = render::LiquidStyle::Spheres;
     look.overlay.colorBarTitle = titleOf(liquidColorBy(snapshot.extras));
     fillIn(snapshot.extras.yarns, yarnRanges_, look.yarns);
     fillIn(snapshot.extras.cloth, clothRanges_, look.cloth);
@@ -128,6 +141,10 @@ void LookPanel::drawVisibility()
 void LookPanel::drawLiquid()
 {
     ImGui::PushID("liquid");
+    if (choose("liquid as", wordsOf<LiquidStyle>().c_str(), liquidStyle_)) {
+        look_.liquid.style = liquidStyleOf(liquidStyle_);
+        wanted_.surface = liquidStyle_ == LiquidStyle::Surface;
+    }
     ColorBy colorBy = look_.liquid.flat ? ColorBy::Flat : liquidColorBy(wanted_);
     if (choose("liquid by", "speed\0pressure\0one colour\0", colorBy)) {
         look_.liquid.flat = colorBy == ColorBy::Flat;

@@ -18,7 +18,7 @@ class LookPanel {
     bool draw();
     const SnapshotExtras& wanted() const { return wanted_; }
     /// For this snapshot: colour bars tell what its values are, be they those that are wanted or, for a moment, those
-    /// that were wanted before.
+    /// that were wanted before, and liquid whose surface is not there yet is drawn as spheres.
     render::Look lookFor(const FrameSnapshot& snapshot) const;
 
  private:
@@ -30,6 +30,7 @@ class LookPanel {
     void drawFabric(const char* name, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look);
 
     const SceneContents contents_;
+    LiquidStyle liquidStyle_;
     render::Look look_;  ///< but for what depends on the values of a snapshot
     SnapshotExtras wanted_;
     std::array<Range, 2> liquidRanges_;  ///< of speeds and of pressures

@@ -110,6 +110,16 @@ template <class V>
 #endif
 }
 
+[[gnu::always_inline]] inline FloatPack sqrtFloats(FloatPack v)
+{
+#ifdef __AVX512F__
+    return (FloatPack)_mm512_maskz_sqrt_ps(0xffff, (__m512)v);
+#else
+    for (int l = 0; l < kFloatLanes; ++l) v[l] = std::sqrt(v[l]);
+    return v;
+#endif
+}
+
 [[gnu::always_inline]] inline Pack absPack(Pack v) { return v < 0.0 ? -v : v; }
 [[gnu::always_inline]] inline Pack maxPack(Pack a, Pack b) { return b > a ? b : a; }
 

@@ -58,6 +58,19 @@ TEST(LookPanel, BarsTellWhatTheSnapshotShows)
     EXPECT_EQ(look.cloth.range, (std::array{0.0f, 1.0f}));
 }
 
+/// The surface comes with the next snapshot; until then there is something to see.
+TEST(LookPanel, SurfaceIsDrawnWhereThereIsOne)
+{
+    PictureSettings pictures = settings();
+    pictures.render.liquidStyle = LiquidStyle::Surface;
+    const LookPanel panel(pictures);
+    EXPECT_TRUE(panel.wanted().surface);
+    FrameSnapshot snapshot;
+    EXPECT_EQ(panel.lookFor(snapshot).liquid.style, render::LiquidStyle::Spheres);
+    snapshot.extras.surface = true;
+    EXPECT_EQ(panel.lookFor(snapshot).liquid.style, render::LiquidStyle::Surface);
+}
+
 /// A screen that is drawn nowhere, and a mouse.
 class Screen {
  public:
@@ -110,6 +123,7 @@ TEST(LookPanel, AllCanBeChosenAndEveryChangeIsTold)
     LookPanel panel(settings());
     std::array<bool, 7> seen{};
     std::array<bool, 4> yarns{}, styles{};
+    std::array<bool, 3> liquids{};
     const auto draw = [&] {
         const SnapshotExtras before = panel.wanted();
         ImGui::Begin("Picture", nullptr, ImGuiWindowFlags_NoDecoration);
@@ -131,10 +145,13 @@ TEST(LookPanel, AllCanBeChosenAndEveryChangeIsTold)
         for (std::size_t i = 0; i < now.size(); ++i) seen[i] = seen[i] || now[i];
         yarns[static_cast<std::size_t>(wanted.yarns)] = true;
         styles[static_cast<std::size_t>(look.obstacles.style)] = true;
+        liquids[static_cast<std::size_t>(look.liquid.style)] = true;
+        ASSERT_EQ(look.liquid.style == render::LiquidStyle::Surface, wanted.surface);
     }
     EXPECT_EQ(std::ranges::count(seen, true), 7) << "blocks, arrows, contacts, speed, one colour, no liquid, no fabric";
     EXPECT_EQ(std::ranges::count(yarns, true), 4);
     EXPECT_EQ(std::ranges::count(styles, true), 4);
+    EXPECT_EQ(std::ranges::count(liquids, true), 3);
 }
 
 /// From a click to a snapshot that has what was clicked, while the simulation rests.

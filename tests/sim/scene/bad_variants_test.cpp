@@ -37,9 +37,9 @@ render: {colour: 1}
      "bad.yaml:3: unknown key \"colour\" in render (there is size, background, camera, liquid, cloth, yarns, obstacles, hud, colorbar, samples)"},
     {"RenderSurface", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-render: {liquid: {style: surface}}
+render: {liquid: {style: surfaces}}
 )",
-     "bad.yaml:3: render.liquid.style: surface does not run in this version; write points or spheres"},
+     "bad.yaml:3: render.liquid.style: \"surfaces\" is unknown (did you mean \"surface\"?)"},
     {"RenderYarns", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {yarns: {tube_sides: 2}}
