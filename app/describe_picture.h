@@ -193,10 +193,15 @@ void describe(V& v, OutputSettings& o)
             {{"energy", &o.energy},
              {"stats", &o.stats},
              {"ledger", &o.ledger},
-             {"geometry", nullptr},
+             {"geometry", &o.geometry},
              {"checkpoint", nullptr}},
-            "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow)");
-    v.withoutEffect([](auto& w) { w.other("geometry_format", ""); });
+            "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow), "
+            "geometry/ (liquid, fabric and obstacles of every frame)");
+    GeometryFormats& formats = o.geometryFormats;
+    v.flags("geometry_format",
+            {{"vtp", &formats.vtp}, {"ply", &formats.ply}, {"obj", &formats.obj}, {"usda", &formats.usda}},
+            "Files of data: geometry: vtp (ParaView), ply, obj, usda");
+    v.require(formats.any(), "geometry_format", "names no format; there is vtp, ply, obj, usda");
     v.group("video", "", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");
         w.text("codec", o.videoCodec, "Video codec, as ffmpeg names it");

@@ -1,5 +1,6 @@
 #include "app/output_folder.h"
 
+#include "app/export/geometry_files.h"
 #include "app/output_files.h"
 #include "sim/core/check.h"
 
@@ -69,6 +70,7 @@ void claimFolder(const fs::path& folder, const FolderOwner& owner)
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.is_regular_file() && isLeftByARun(entry.path().filename().string())) old.push_back(entry.path());
     for (const auto& file : old) fs::remove(file);
+    removeGeometry(folder);
 }
 
 }  // namespace app

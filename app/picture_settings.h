@@ -58,12 +58,22 @@ struct RenderSettings {
     int samples = 4;                        ///< multisampling, 1 = off
 };
 
+/// Files that geometry is written as.
+struct GeometryFormats {
+    bool vtp = true;                        ///< ParaView, with .pvd
+    bool ply = false, obj = false, usda = false;
+
+    bool any() const { return vtp || ply || obj || usda; }
+};
+
 struct OutputSettings {
     std::string dir;                        ///< default out/<name>/<variant>
     double every = 4.0e-3;                  ///< simulated time per frame [s]
     bool frames = true;                     ///< write frame_00000.png, …
     bool energy = true, stats = true;       ///< energy.csv, steps.jsonl
     bool ledger = false;                    ///< energy_ledger.csv
+    bool geometry = false;                  ///< geometry/ with every frame's liquid, fabric and obstacles, as …
+    GeometryFormats geometryFormats;        ///< … these
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

@@ -1,5 +1,6 @@
 #include "app/run_offline.h"
 
+#include "app/export/geometry_sink.h"
 #include "app/frame_view_from_state.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
@@ -12,10 +13,11 @@ namespace app {
 
 namespace {
 
-/// Hands the frames of one run to its pipeline, or does nothing where no pictures are wanted.
+/// Hands the frames of one run to its pictures and its geometry, where these are wanted.
 class FrameSink {
  public:
-    FrameSink(const SceneSetup& setup, const Parts& parts, const RunOptions& options) : setup_(setup)
+    FrameSink(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
+        : setup_(setup), geometry_(setup, parts, options.out)
     {
         if (!options.frames) return;
         placeObstacles_ = parts.meshObstacles(setup);
@@ -25,6 +27,7 @@ class FrameSink {
     void take(const Steppable& simulation, std::int64_t frame)
     {
         const sim::State& state = simulation.state();
+        geometry_.take(state, simulation.fabric(), frame);
         if (!pipeline_) return;
         auto snapshot = pipeline_->borrow();
         snapshot->number = frame;
@@ -40,6 +43,7 @@ class FrameSink {
 
  private:
     const SceneSetup& setup_;
+    GeometrySink geometry_;
     PlaceObstacles placeObstacles_;
     std::optional<FramePipeline> pipeline_;
 };
