@@ -193,16 +193,20 @@ void describe(V& v, OutputSettings& o)
             {{"energy", &o.energy},
              {"stats", &o.stats},
              {"ledger", &o.ledger},
-             {"geometry", nullptr},
+             {"geometry", &o.geometry},
              {"states", &o.states},
              {"checkpoint", &o.checkpoint}},
             "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow), "
-            "the state of every frame for drench render, checkpoints to go on from");
+            "geometry/ (liquid, fabric and obstacles of every frame), the state of every frame for drench render, checkpoints to go on from");
     v.group("checkpoint", "", [&](auto& w) {
         w.number("every", o.checkpointEvery, Quantity::Time, Range::above(0.0), "Simulated time from checkpoint to checkpoint, in whole frames");
         w.integer("keep", o.checkpointKeep, 0, 1'000'000, "The last so many are kept, 0: all");
     });
-    v.withoutEffect([](auto& w) { w.other("geometry_format", ""); });
+    GeometryFormats& formats = o.geometryFormats;
+    v.flags("geometry_format",
+            {{"vtp", &formats.vtp}, {"ply", &formats.ply}, {"obj", &formats.obj}, {"usda", &formats.usda}},
+            "Files of data: geometry: vtp (ParaView), ply, obj, usda");
+    v.require(formats.any(), "geometry_format", "names no format; there is vtp, ply, obj, usda");
     v.group("video", "", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");
         w.text("codec", o.videoCodec, "Video codec, as ffmpeg names it");

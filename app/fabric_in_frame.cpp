@@ -53,18 +53,6 @@ double largestStretch(const std::vector<Vec3>& rest, const std::vector<Vec3>& no
     return std::sqrt(0.5 * (xx + yy) + std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy));
 }
 
-/// How full the pores of each vertex are, 0 … 1; empty where all are dry.
-std::vector<float> wetnessOf(const Fabric& fabric, const FabricState& state, double liquidDensity)
-{
-    if (std::ranges::all_of(state.absorbed, [](double mass) { return mass == 0.0; })) return {};
-    std::vector<float> wetness(fabric.vertexCount(), 0.0f);
-    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) {
-        const double capacity = poreVolume(fabric, v) * liquidDensity;
-        if (capacity > 0.0) wetness[v] = static_cast<float>(std::min(1.0, state.absorbed[v] / capacity));
-    }
-    return wetness;
-}
-
 /// What colours each vertex; empty where it is the material.
 std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, const FabricState& state,
                                  const std::vector<float>& wetness,
@@ -82,6 +70,17 @@ std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, co
 }
 
 }  // namespace
+
+std::vector<float> wetnessOf(const Fabric& fabric, const FabricState& state, double liquidDensity)
+{
+    if (std::ranges::all_of(state.absorbed, [](double mass) { return mass == 0.0; })) return {};
+    std::vector<float> wetness(fabric.vertexCount(), 0.0f);
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) {
+        const double capacity = poreVolume(fabric, v) * liquidDensity;
+        if (capacity > 0.0) wetness[v] = static_cast<float>(std::clamp(state.absorbed[v] / capacity, 0.0, 1.0));
+    }
+    return wetness;
+}
 
 std::vector<double> yarnStrain(const Fabric& fabric, const FabricState& state)
 {

@@ -14,6 +14,9 @@ void takeYarns(const sim::Fabric& fabric, const sim::FabricState& state, double 
 void takeCloth(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy,
                FrameSnapshot::Cloth& out);
 
+/// How full the pores of each vertex are, 0 … 1; empty where all are dry.
+std::vector<float> wetnessOf(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity);
+
 /// Of each vertex: the largest relative lengthening of the yarn edges that meet there; 0 where there are none [-].
 std::vector<double> yarnStrain(const sim::Fabric& fabric, const sim::FabricState& state);
 

@@ -1,5 +1,7 @@
 #include "app/output_folder.h"
 
+#include "app/export/geometry_files.h"
+#include "app/export/geometry_files.h"
 #include "app/output_files.h"
 #include "sim/core/check.h"
 
@@ -86,6 +88,7 @@ void forgetLaterThan(std::int64_t frame, const fs::path& folder)
 {
     for (const NumberedFiles& files : kNumberedFiles)
         removeFrom(folder / files.folder, [&](const std::string& name) { return numberIn(name, files.before, files.after) > frame; });
+    forgetGeometryLaterThan(frame, folder);
 }
 
 }  // namespace app

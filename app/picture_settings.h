@@ -58,6 +58,14 @@ struct RenderSettings {
     int samples = 4;                        ///< multisampling, 1 = off
 };
 
+/// Files that geometry is written as.
+struct GeometryFormats {
+    bool vtp = true;                        ///< ParaView, with .pvd
+    bool ply = false, obj = false, usda = false;
+
+    bool any() const { return vtp || ply || obj || usda; }
+};
+
 struct OutputSettings {
     std::string dir;                        ///< default out/<name>/<variant>
     double every = 4.0e-3;                  ///< simulated time per frame [s]
@@ -68,6 +76,8 @@ struct OutputSettings {
     bool checkpoint = false;                ///< states to go on from …
     double checkpointEvery = 0.1;           ///< … after so much simulated time [s] …
     int checkpointKeep = 1;                 ///< … the last so many; 0: all
+    bool geometry = false;                  ///< geometry/ with every frame's liquid, fabric and obstacles, as …
+    GeometryFormats geometryFormats;        ///< … these
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

@@ -1,6 +1,7 @@
 #include "app/run_offline.h"
 
 #include "app/checkpoint/state_files.h"
+#include "app/export/geometry_sink.h"
 #include "app/frame_sink.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
@@ -15,17 +16,18 @@ namespace app {
 
 namespace {
 
-/// What a run leaves of its frames: pictures, if wanted, and states.
+/// What a run leaves of its frames, as far as it is wanted: pictures, geometry and states.
 class Frames {
  public:
     Frames(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
-        : states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()})
+        : geometry_(setup, parts, options.out), states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()})
     {
         if (options.frames) pictures_.emplace(setup, parts, options.out, options.asPanel, options.from == nullptr);
     }
     void take(const Steppable& simulation, std::int64_t frame)
     {
         if (pictures_) pictures_->take(simulation.state(), simulation.fabric(), simulation.contacts(), frame);
+        geometry_.take(simulation.state(), simulation.fabric(), frame);
         states_.picture(simulation.state(), frame);
     }
     /// If it is time for one, or the run will not go on.
@@ -49,6 +51,7 @@ class Frames {
 
  private:
     std::optional<FrameSink> pictures_;
+    GeometrySink geometry_;
     StateKeeper states_;
 };
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace app {
+
+/// Append bytes compressed by zlib as VTK's XML files have them: number of blocks, their length, length of the last
+/// where it is shorter, else 0, the compressed length of each (all as 64 bits), and the blocks. The same bytes for any
+/// number of threads.
+void appendCompressed(std::span<const std::byte> bytes, std::string& out);
+
+}  // namespace app

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "app/frame_snapshot.h"
+#include "sim/state.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace app {
+
+/// One quantity at every point of a part, in single precision or as whole numbers.
+struct ExportArray {
+    std::string name;    ///< "velocity"
+    std::string unit;    ///< "cm/s"; empty: [-]
+    int components = 1;  ///< per point, which follow one another in `values`
+    std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
+};
+
+/// One thing that files show: points, what joins them, and what is known at them. Nothing in it knows of a file format.
+struct ExportPart {
+    enum class Kind { Points, Lines, Triangles };
+    std::string name;  ///< of its files, groups and prims: a letter, then letters, digits and _
+    Kind kind = Kind::Points;
+    std::vector<Eigen::Vector3f> positions;  ///< [cm]
+    std::vector<int> begin;                  ///< lines only: of each in `positions`, and the end of the last
+    std::vector<Eigen::Vector3i> triangles;  ///< triangles only; counter-clockwise as seen from outside of a body
+    std::vector<ExportArray> arrays;         ///< the same in every frame, also in one where there are no points
+
+    /// The array of that name; null where there is none.
+    const ExportArray* find(std::string_view array) const;
+};
+
+/// One moment of a run as geometry files show it, copied out of the state.
+struct ExportFrame {
+    std::int64_t number = 0;        ///< 0 is the initial state
+    double time = 0.0;              ///< [s]
+    std::vector<ExportPart> parts;  ///< the same names in the same order in all frames of a run
+};
+
+/// What there is to be seen of a state: `liquid` (points in the order of their ids: velocity, speed, volume, id),
+/// `yarns` (lines: velocity, radius, saturation, absorbed, material), `cloth` (triangles: velocity, normal, saturation,
+/// absorbed, material) and every obstacle (triangles: velocity). Without yarns there is no part `yarns`, and likewise
+/// for cloth and for liquid that can never come. The same bits for any number of threads. A mesh of the liquid's
+/// surface would be one more part here.
+/// @param fabric     what state.fabric is the state of
+/// @param density    of the liquid [g/cm^3]
+/// @param obstacles  where they are at state.time
+ExportFrame exportFrame(std::int64_t number, const sim::State& state, const sim::Fabric& fabric, double density,
+                        std::span<const FrameSnapshot::Mesh> obstacles);
+
+}  // namespace app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace app {
+
+/// Where the geometry of a run is: geometry/ below its folder.
+std::filesystem::path geometryFolder(const std::filesystem::path& runFolder);
+
+/// "liquid_00012.vtp"
+std::string geometryFileName(std::string_view part, std::int64_t frame, std::string_view extension);
+
+/// Take away the geometry that a run has left of frames after this one, and with frame −1 all: files that an Exporter writes, never
+/// others.
+void forgetGeometryLaterThan(std::int64_t frame, const std::filesystem::path& runFolder);
+
+}  // namespace app

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/export/exporter.h"
+#include "app/parts.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace app {
+
+/// Writes the frames of one scene as geometry, below a run's folder, or does nothing where the scene wants none.
+class GeometrySink {
+ public:
+    GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder);
+
+    /// @param fabric  what state.fabric is the state of
+    void take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame);
+
+ private:
+    const double density_;  ///< of the liquid [g/cm^3]
+    PlaceObstacles placeObstacles_;
+    std::vector<FrameSnapshot::Mesh> obstacles_;
+    std::optional<Exporter> exporter_;
+};
+
+}  // namespace app
