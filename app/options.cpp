@@ -107,6 +107,17 @@ void addRender(CLI::App& program, Options& options)
     verb->callback([&options] { options.verb = Verb::Render; });
 }
 
+void addExport(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("export", "write geometry files of a run, from the states it has stored (output.data: [states])");
+    verb->add_option("folder", options.scene, "folder of the run")->required();
+    verb->add_option("--to", options.formats, "vtp, ply, obj, usda (default: as the scene says)")->delimiter(',');
+    verb->add_option("--set", options.sets, "override a key of output: dotted.key=value")->take_all()->allow_extra_args(false);
+    verb->add_option("--out", options.out, "the folder geometry/ comes below it (default: the run's)");
+    verb->add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, kMaxThreads));
+    verb->callback([&options] { options.verb = Verb::Export; });
+}
+
 void addSweep(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand("sweep", "do the runs of a study: one scene with different settings, in one table; what is done already is not done again");
@@ -174,6 +185,7 @@ void addVerbs(CLI::App& program, Options& options)
     validate->callback([&options] { options.verb = Verb::Validate; });
 
     addRender(program, options);
+    addExport(program, options);
     addSweep(program, options);
     addStress(program, options);
     addImport(program, options);

@@ -11,12 +11,12 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Sweep };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep };
 
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
-    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; for render a folder; for sweep a study
+    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; for render and export a folder; for sweep a study
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>
@@ -46,6 +46,7 @@ struct Options {
     std::uint64_t seed = 1;              ///< … of this seed
     double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
 
+    std::vector<std::string> formats;    ///< export: of geometry files; none: as the scene says
     int jobs = 1;                        ///< sweep: runs side by side
     bool onSlurm = false;                ///< sweep: hand them to Slurm …
     bool wait = true;                    ///< … and wait until it has done them

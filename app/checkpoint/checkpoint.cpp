@@ -181,6 +181,7 @@ void copyForPictures(const sim::State& state, sim::State& lean)
     lean.grid = state.grid;
     lean.pressure = state.pressure;
     lean.fabric = state.fabric;
+    lean.emittedVolume = state.emittedVolume;
     lean.liquid = std::move(few);
 }
 

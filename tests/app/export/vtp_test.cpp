@@ -34,7 +34,7 @@ double number(const json& part, const char* array, std::size_t point)
 json written(const WetScene& scene, std::initializer_list<const char*> parts)
 {
     const test::TemporaryFolder folder;
-    Exporter(folder.path(), {}).write(scene.frame());
+    Exporter(folder.path(), {}, [](std::int64_t) { return 0.0; }).write(scene.frame());
     std::vector<std::filesystem::path> files;
     for (const std::string part : parts) files.push_back(folder / (part + "_00000.vtp"));
     return test::readGeometry(files);
