@@ -18,6 +18,10 @@ constexpr double kReach = 3.0;
 /// For velocities that is less, but with particles for every vertex: the surface is no farther than 2 from all of them.
 constexpr double kVelocityReach = 2.25;
 
+/// The field of which the normals are the gradient is smoothed by these passes: what is left of single particles in the
+/// surface, a tenth of a spacing, would catch the eye by its shading alone.
+constexpr int kNormalPasses = 8;
+
 constexpr double kLargestOffset = 0.5;  ///< by which the surface may be moved for the sake of the volume [spacing]
 constexpr double kVolumeTolerance = 2.0e-3;
 constexpr int kMostExtractions = 8;
@@ -38,6 +42,7 @@ const SurfaceMesh& LiquidSurface::find(const LiquidParticles& liquid, double den
     surfaceField(grid_, particles_, static_cast<float>(reach), static_cast<float>(1.0 / settings.cell), depth_);
     extract(settings);
     if (settings.keepsVolume) keepVolume(settings);
+    smoothField(grid_, kNormalPasses, depth_, scratch_);  // after the surface itself is there
     findNormals(grid_, depth_, contour_.crossings(), mesh_.normals);
     if (settings.hasVelocities)
         surfaceVelocities(grid_, particles_, static_cast<float>(kVelocityReach / kReach * reach), contour_.crossings(),
@@ -54,7 +59,8 @@ void LiquidSurface::extract(const SurfaceSettings& settings)
 void LiquidSurface::keepVolume(const SurfaceSettings& settings)
 {
     double tooSmall = -kLargestOffset, tooLarge = kLargestOffset;
-    double slope = kUsualRise * grid_.dx / settings.cell * surfaceArea(mesh_), lack = particles_.volume - enclosedVolume(mesh_);
+    double slope = kUsualRise * grid_.dx / settings.cell * surfaceArea(mesh_),
+           lack = particles_.volume - enclosedVolume(mesh_);
     for (int n = 1; n < kMostExtractions && std::abs(lack) > kVolumeTolerance * particles_.volume; ++n) {
         (lack > 0.0 ? tooSmall : tooLarge) = offset_;
         const double lackBefore = lack, before = offset_,

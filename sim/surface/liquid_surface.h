@@ -39,7 +39,7 @@ class LiquidSurface {
 
     BlockGrid grid_;
     SurfaceParticles particles_;
-    BlockArray<float> depth_;
+    BlockArray<float> depth_, scratch_;
     Contour contour_;
     SurfaceMesh mesh_;
     double offset_ = 0.0;

@@ -5,6 +5,7 @@
 #include "sim/core/units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -94,8 +95,8 @@ struct NodeSums {
     }
 };
 
-/// The packs of a block but those amid bulk liquid: in bins that like all 26 around them hold at least half the particles of
-/// bulk liquid. No node of those is nearer to the surface than the edge of a bin.
+/// The packs of a block but those amid bulk liquid: in bins that like all 26 around them hold at least half the
+/// particles of bulk liquid. No node of those is nearer to the surface than the edge of a bin.
 std::uint32_t packsNearSurface(const BlockGrid& grid, const SurfaceParticles& particles, int block, float spacing)
 {
     const double fullBin = std::pow(SurfaceParticles::kBinEdge / static_cast<double>(spacing), 3);
@@ -121,8 +122,8 @@ std::uint32_t packsNearSurface(const BlockGrid& grid, const SurfaceParticles& pa
 }
 
 /// All particles in reach of a block's nodes, in the order of the blocks around it.
-void addAround(const BlockGrid& grid, const SurfaceParticles& particles, float reach, int block,
-               std::uint32_t wanted, NodeSums& sums)
+void addAround(const BlockGrid& grid, const SurfaceParticles& particles, float reach, int block, std::uint32_t wanted,
+               NodeSums& sums)
 {
     for (int n = 0; n < 27; ++n) {
         const int from = grid.neighbours(block)[n];
@@ -132,6 +133,38 @@ void addAround(const BlockGrid& grid, const SurfaceParticles& particles, float r
             const Eigen::Vector3f at = corner + particles.place(s);
             if (at.minCoeff() > -reach && at.maxCoeff() < kBlockEdge - 1 + reach)
                 sums.add(at, particles.radius[s], reach, wanted);
+        }
+    }
+}
+
+/// The nodes of a block and one more on every side.
+constexpr int kHalo = kBlockEdge + 2;
+using HaloBlock = std::array<std::array<std::array<float, kHalo>, kHalo>, kHalo>;
+
+void loadWithHalo(const BlockGrid& grid, const BlockArray<float>& values, int block, HaloBlock& out)
+{
+    const auto& around = grid.neighbours(block);
+    for (int k = 0; k < kHalo; ++k)
+        for (int j = 0; j < kHalo; ++j) {
+            const int row = cellInBlock(0, (j - 1) & 7, (k - 1) & 7),
+                      here = neighbourIndex(0, (j - 1) >> 3, (k - 1) >> 3);
+            out[k][j][0] = values.block(around[here - 1])[row + kBlockEdge - 1];
+            std::copy_n(values.block(around[here]) + row, kBlockEdge, out[k][j].begin() + 1);
+            out[k][j][kHalo - 1] = values.block(around[here + 1])[row];
+        }
+}
+
+/// One pass over a block, axis by axis.
+void smoothBlock(const HaloBlock& v, float* out)
+{
+    const auto mean = [](float below, float here, float above) { return 0.25f * (below + above) + 0.5f * here; };
+    float alongZ[kHalo][kHalo], alongY[kHalo];
+    for (int k = 0; k < kBlockEdge; ++k) {
+        for (int j = 0; j < kHalo; ++j)
+            for (int i = 0; i < kHalo; ++i) alongZ[j][i] = mean(v[k][j][i], v[k + 1][j][i], v[k + 2][j][i]);
+        for (int j = 0; j < kBlockEdge; ++j) {
+            for (int i = 0; i < kHalo; ++i) alongY[i] = mean(alongZ[j][i], alongZ[j + 1][i], alongZ[j + 2][i]);
+            for (int i = 0; i < kBlockEdge; ++i) *out++ = mean(alongY[i], alongY[i + 1], alongY[i + 2]);
         }
     }
 }
@@ -156,6 +189,19 @@ void surfaceField(const BlockGrid& grid, const SurfaceParticles& particles, floa
             std::memcpy(depth.block(block) + kFloatLanes * n, &pack, sizeof pack);
         }
     });
+}
+
+void smoothField(const BlockGrid& grid, int passes, BlockArray<float>& values, BlockArray<float>& scratch)
+{
+    scratch.resize(grid.count());
+    for (int pass = 0; pass < passes; ++pass) {
+        parallelFor(grid.count(), [&](std::size_t b) {
+            HaloBlock block;
+            loadWithHalo(grid, values, static_cast<int>(b), block);
+            smoothBlock(block, scratch.block(static_cast<int>(b)));
+        });
+        values.swap(scratch);
+    }
 }
 
 }  // namespace sim

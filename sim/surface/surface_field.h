@@ -21,4 +21,8 @@ namespace sim {
 void surfaceField(const BlockGrid& grid, const SurfaceParticles& particles, float reach, float spacing,
                   BlockArray<float>& depth);
 
+/// Passes of (1 2 1)/4 along each axis over a field that is 0 outside of the blocks; each adds half a cell² to the
+/// variance.
+void smoothField(const BlockGrid& grid, int passes, BlockArray<float>& values, BlockArray<float>& scratch);
+
 }  // namespace sim

@@ -71,6 +71,31 @@ TEST(Pictures, PressureAtRestIsTheWeightAbove)
     EXPECT_GT(top.b, top.r + 60) << +top.r << ' ' << +top.g << ' ' << +top.b;
 }
 
+/// A drop over a pool, as spheres and by its surface: the same outline, seen whole against the background.
+TEST(Pictures, SurfaceCoversWhatItsParticlesDo)
+{
+    const std::vector<std::string> common = {"render.hud=false", "render.colorbar=false", "render.obstacles.style=hidden"};
+    std::vector<render::Image> images;
+    for (const std::string style : {"spheres", "surface"}) {
+        std::vector<std::string> sets = common;
+        sets.push_back("render.liquid.style=" + style);
+        const SceneSetup setup = load("drop", sets);
+        const auto simulation = runTo(0.05, setup);
+        FrameSnapshot snapshot = shotOf(*simulation, setup, extrasOf(setup.pictures.render));
+        EXPECT_EQ(style == "surface", !snapshot.surface.triangles.empty());
+        images.push_back(pictureOf(snapshot, setup, "drop_" + style));
+    }
+    const auto isLiquid = [](const render::Rgb& color) { return color.r < 250 || color.g < 250 || color.b < 250; };
+    int both = 0, either = 0;
+    for (int y = 0; y < images[0].height; ++y)
+        for (int x = 0; x < images[0].width; ++x) {
+            const bool a = isLiquid(images[0].color(x, y)), b = isLiquid(images[1].color(x, y));
+            both += a && b, either += a || b;
+        }
+    EXPECT_GT(either, 5000);
+    EXPECT_GT(both, 0.95 * either) << "of the pixels that one has";
+}
+
 /// A small sheet of yarns under a ball that comes down on it: what pushes is nearer than it reaches, 2 r + r / 4, but
 /// for the last move of the step.
 TEST(Pictures, ContactsAreWhereYarnsTouch)

@@ -4,6 +4,7 @@
 #include "tests/render/drawing.h"
 #include "tests/render/fake_dam_break.h"
 #include "tests/render/fake_fabric.h"
+#include "tests/render/fake_liquid_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,27 @@ TEST(Golden, ObstaclesOnDarkGround)
     drawing.look.overlay = {};
     drawing.camera = orbitCamera({0.0, 0.0, 0.0}, 9.0, 12.0, 20.0);
     expectLikeGolden(drawing.draw(), "obstacles");
+}
+
+/// Three bodies that pass into each other, behind glass: shaded smoothly, darker where they meet, with a bar of colours.
+TEST(Golden, SurfaceOfALiquidInItsTank)
+{
+    FakeLiquidSurface surface;
+    surface.addBall({-1.0f, -0.3f, 0.0f}, 1.5f, 64);
+    surface.addBall({1.2f, 0.0f, 0.3f}, 1.0f, 64);
+    surface.addBall({2.6f, 1.0f, 0.0f}, 0.4f, 48);
+    for (const Eigen::Vector3f& x : surface.positions) surface.values.push_back(100.0f + 40.0f * x.x());
+    const CubeMesh cube(3.1f);
+    Drawing drawing;
+    drawing.meshes = {cube.mesh(true)};
+    drawing.look.samples = 4;
+    drawing.look.overlay.colorBar = true;
+    drawing.look.overlay.colorBarTitle = "speed [cm/s]";
+    drawing.look.liquid.style = LiquidStyle::Surface;
+    drawing.camera = orbitCamera({0.0, 0.0, 0.0}, 12.0, 18.0, 15.0);
+    FrameView view = drawing.view();
+    view.surface = surface.view();
+    expectLikeGolden(drawing.renderer.draw(view, drawing.camera, drawing.look), "liquid_surface");
 }
 
 TEST(Golden, ComparisonOfThree)
