@@ -35,12 +35,18 @@ void putInPlace(const std::filesystem::path& part, const std::filesystem::path& 
 void writeWhole(const std::filesystem::path& target, std::string_view content)
 {
     const auto part = partFile(target);
-    errno = 0;
-    std::ofstream out(part, std::ios::binary);
-    out << content << std::flush;
-    out.close();
-    if (!out) throwSystemReason("write", part);
-    putInPlace(part, target);
+    try {
+        errno = 0;
+        std::ofstream out(part, std::ios::binary);
+        out << content << std::flush;
+        out.close();
+        if (!out) throwSystemReason("write", part);
+        putInPlace(part, target);
+    } catch (...) {
+        std::error_code ignored;
+        std::filesystem::remove(part, ignored);
+        throw;
+    }
 }
 
 std::string readWhole(const std::filesystem::path& file)
