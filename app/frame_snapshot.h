@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace app {
@@ -29,8 +30,10 @@ struct SnapshotExtras {
 struct FrameSnapshot {
     struct Mesh {
         std::vector<Eigen::Vector3f> positions;   ///< [cm]
+        std::vector<Eigen::Vector3f> velocities;  ///< one per position; empty: it never moves [cm/s]
         std::vector<Eigen::Vector3i> triangles;
         bool inside = false;                      ///< a container, seen from within
+        std::string name;                         ///< as in the scene
     };
 
     struct Surface {

@@ -41,19 +41,19 @@ void writeWhole(const std::filesystem::path& target, std::string_view content) {
 void writeWhole(const std::filesystem::path& target, std::initializer_list<std::string_view> parts)
 {
     const auto part = partFile(target);
-    errno = 0;
-    std::ofstream out(part, std::ios::binary);
-    for (const std::string_view content : parts) out << content;
-    out << std::flush;
-    out.close();
-    if (!out) {
-        const int reason = errno;
+    try {
+        errno = 0;
+        std::ofstream out(part, std::ios::binary);
+        for (const std::string_view content : parts) out << content;
+        out << std::flush;
+        out.close();
+        if (!out) throwSystemReason("write", part);
+        putInPlace(part, target);
+    } catch (...) {
         std::error_code ignored;
         std::filesystem::remove(part, ignored);  // a full disk gets its room back
-        errno = reason;
-        throwSystemReason("write", part);
+        throw;
     }
-    putInPlace(part, target);
 }
 
 std::string readWhole(const std::filesystem::path& file)

@@ -62,7 +62,7 @@ std::vector<std::uint32_t> inOrderOfId(const sim::LiquidParticles& liquid)
 /// Is there liquid, or may some come from a source or out of the fabric?
 bool mayHaveLiquid(const sim::State& state)
 {
-    return state.nextId > 0 || !state.emittedVolume.empty() ||
+    return state.liquid.count > 0 || state.nextId > 0 || !state.emittedVolume.empty() ||
            std::ranges::any_of(state.fabric.absorbed, [](double mass) { return mass > 0.0; });
 }
 
@@ -169,12 +169,48 @@ ExportPart clothPart(const sim::Fabric& fabric, const sim::FabricState& state, s
     return part;
 }
 
+/// "obstacle_" and the obstacle's name in letters that every format takes, or a number where that is taken.
+std::string freeName(const std::string& obstacle, const std::vector<ExportPart>& parts)
+{
+    std::string name = "obstacle_";
+    for (const char c : obstacle) {
+        const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        name += isPlain ? c : '_';
+    }
+    const auto isTaken = [&](const std::string& wanted) {
+        return std::ranges::count(parts, wanted, &ExportPart::name) > 0;
+    };
+    std::string result = name;
+    for (int n = 2; isTaken(result); ++n) result = fmt::format("{}_{}", name, n);
+    return result;
+}
+
+ExportPart obstaclePart(const FrameSnapshot::Mesh& obstacle, std::string name)
+{
+    ExportPart part = emptyPart(std::move(name), ExportPart::Kind::Triangles);
+    part.positions = obstacle.positions;
+    part.triangles = obstacle.triangles;
+    ExportArray velocity = floats("velocity", "cm/s", part.positions.size(), 3);
+    for (std::size_t i = 0; i < obstacle.velocities.size(); ++i)
+        put(obstacle.velocities[i].cast<double>(), i, floatsOf(velocity));
+    part.arrays.push_back(std::move(velocity));
+    return part;
+}
+
 }  // namespace
 
 const ExportArray* ExportPart::find(std::string_view array) const
 {
     const auto found = std::ranges::find(arrays, array, &ExportArray::name);
     return found == arrays.end() ? nullptr : &*found;
+}
+
+std::string unitsOf(const ExportPart& part)
+{
+    std::string units = "lengths in cm";
+    for (const ExportArray& array : part.arrays)
+        if (!array.unit.empty()) units += fmt::format(", {} in {}", array.name, array.unit);
+    return units;
 }
 
 ExportFrame exportFrame(std::int64_t number, const sim::State& state, const sim::Fabric& fabric, double density,
@@ -185,12 +221,8 @@ ExportFrame exportFrame(std::int64_t number, const sim::State& state, const sim:
     const std::vector<float> saturation = wetnessOf(fabric, state.fabric, density);
     if (fabric.strands.count() > 0) frame.parts.push_back(yarnPart(fabric, state.fabric, saturation));
     if (fabric.faces.size() > 0) frame.parts.push_back(clothPart(fabric, state.fabric, saturation));
-    for (std::size_t o = 0; o < obstacles.size(); ++o) {
-        ExportPart& part =
-            frame.parts.emplace_back(emptyPart(fmt::format("obstacle_{}", o + 1), ExportPart::Kind::Triangles));
-        part.positions = obstacles[o].positions;
-        part.triangles = obstacles[o].triangles;
-    }
+    for (const FrameSnapshot::Mesh& obstacle : obstacles)
+        frame.parts.push_back(obstaclePart(obstacle, freeName(obstacle.name, frame.parts)));
     return frame;
 }
 

@@ -35,6 +35,9 @@ struct ExportPart {
     const ExportArray* find(std::string_view array) const;
 };
 
+/// The units of a part in words: "lengths in cm, velocity in cm/s".
+std::string unitsOf(const ExportPart& part);
+
 /// One moment of a run as geometry files show it, copied out of the state.
 struct ExportFrame {
     std::int64_t number = 0;        ///< 0 is the initial state

@@ -10,7 +10,7 @@ GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const st
     const OutputSettings& output = setup.pictures.output;
     if (!output.geometry) return;
     placeObstacles_ = parts.meshObstacles(setup);
-    exporter_.emplace(geometryFolder(runFolder), output.geometryFormats, [&setup](std::int64_t frame) { return frameTime(setup, frame); });
+    exporter_.emplace(geometryFolder(runFolder), output.geometryFormats, output.every);
 }
 
 void GeometrySink::take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame)

@@ -68,14 +68,6 @@ void writeCells(const ExportPart& part, VtpText& out)
     }
 }
 
-std::string unitsOf(const ExportPart& part)
-{
-    std::string units = "lengths in cm";
-    for (const ExportArray& array : part.arrays)
-        if (!array.unit.empty()) units += fmt::format(", {} in {}", array.name, array.unit);
-    return units;
-}
-
 std::size_t cellCount(const ExportPart& part, ExportPart::Kind kind)
 {
     if (kind != part.kind) return 0;

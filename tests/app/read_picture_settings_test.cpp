@@ -17,6 +17,24 @@ TEST(PictureSettings, AreDefaultsWhereTheSceneSaysNothing)
     EXPECT_TRUE(settings.render.camera.autoFrame);
     EXPECT_EQ(defaults.output.every, settings.output.every);
     EXPECT_TRUE(settings.compare.variants.empty());
+    EXPECT_FALSE(settings.output.geometry);
+    EXPECT_TRUE(settings.output.geometryFormats.vtp);
+    EXPECT_FALSE(settings.output.geometryFormats.usda);
+}
+
+TEST(PictureSettings, GeometryIsPrintedAsItIsRead)
+{
+    const app::PictureSettings s = read("output: {data: [geometry], geometry_format: [ply, usda]}\n");
+    const std::string printed = app::printPictureSettings(s);
+    for (const app::OutputSettings& output : {s.output, read(printed).output}) {
+        EXPECT_TRUE(output.geometry);
+        EXPECT_FALSE(output.energy);
+        EXPECT_FALSE(output.geometryFormats.vtp);
+        EXPECT_TRUE(output.geometryFormats.ply);
+        EXPECT_FALSE(output.geometryFormats.obj);
+        EXPECT_TRUE(output.geometryFormats.usda);
+    }
+    EXPECT_NE(printed.find("geometry_format: [ply, usda]"), std::string::npos) << printed;
 }
 
 TEST(PictureSettings, AllArrive)

@@ -4,7 +4,10 @@
 #include "tests/app/temporary_folder.h"
 #include "tests/sim/fabric/pieces.h"
 
-#include <numeric>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace app::test {
 
@@ -37,6 +40,7 @@ sim::FabricPiece sheet()
 FrameSnapshot::Mesh tetrahedron()
 {
     FrameSnapshot::Mesh mesh;
+    mesh.name = "big tank";
     mesh.positions = {{-5, -5, -5}, {9, -5, -5}, {-5, 9, -5}, {-5, -5, 9}};
     mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     return mesh;
@@ -58,7 +62,7 @@ WetScene::WetScene(std::size_t particles) : obstacles{tetrahedron()}
     state.fabric.absorbed[1] = 1.5 * capacity[1];  // more than its pores hold
     state.emittedVolume = {1.0};
     for (std::size_t p = 0; p < particles; ++p) {
-        const auto id = static_cast<std::uint32_t>((5 * p + 3) % particles + 100);
+        const auto id = static_cast<std::uint32_t>((7919 * p + 3) % particles + 100);
         state.liquid.add(4.0 * noise.vector(), 1e-3 * (1.5 + noise()), id, 100.0 * noise.vector());
     }
     state.nextId = 1000;
@@ -75,6 +79,12 @@ void WetScene::move(double dt)
         for (int a = 0; a < 3; ++a) state.liquid.x[a][p] += dt * state.liquid.velocity(p)[a];
     for (std::size_t v = 0; v < fabric.vertexCount(); ++v) state.fabric.x[v] += dt * state.fabric.v[v];
     state.time += dt;
+}
+
+void expectClose(const nlohmann::json& read, const sim::Vec3& written)
+{
+    ASSERT_EQ(read.size(), 3u);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(read[a].get<double>(), written[a], kSingle * std::abs(written[a]));
 }
 
 nlohmann::json readGeometry(const std::vector<std::filesystem::path>& files)

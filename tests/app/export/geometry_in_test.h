@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 // What the tests of geometry files share: something of every kind to write, and VTK to read it back.
@@ -28,7 +29,14 @@ struct WetScene {
     std::vector<FrameSnapshot::Mesh> obstacles;
 };
 
-/// What the reader that is not ours finds in files: see read_geometry.py. Throws std::runtime_error with what it says is wrong.
+/// What the reader that is not ours finds in files: see read_geometry.py. Throws std::runtime_error with what it says
+/// is wrong.
 nlohmann::json readGeometry(const std::vector<std::filesystem::path>& files);
+
+/// Of one number against another in single precision [-].
+inline constexpr double kSingle = std::numeric_limits<float>::epsilon();
+
+/// Is a vector that was read the one that was written, but for rounding to single precision?
+void expectClose(const nlohmann::json& read, const sim::Vec3& written);
 
 }  // namespace app::test

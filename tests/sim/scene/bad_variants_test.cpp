@@ -95,11 +95,26 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {camera: {eye: [0, 0, 1], look_at: [0, 0, 0], orbit: {target: [0, 0, 0], distance: 5}}}
 )",
      "bad.yaml:3: render.camera.orbit: goes without look_at and eye; keep one of them"},
-    {"OutputGeometry", R"(grid: {cell: 0.1}
+    {"OutputCheckpoint", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-output: {data: [energy, geometry]}
+output: {data: [energy, checkpoint]}
 )",
-     "bad.yaml:3: output.data: geometry does not run in this version; there is energy, stats, ledger"},
+     "bad.yaml:3: output.data: checkpoint does not run in this version; there is energy, stats, ledger, geometry"},
+    {"GeometryFormatUnknown", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {data: [geometry], geometry_format: [vtp, ply2]}
+)",
+     "bad.yaml:3: output.geometry_format: \"ply2\" is unknown (did you mean \"ply\"?)"},
+    {"GeometryFormatNone", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {data: [geometry], geometry_format: []}
+)",
+     "bad.yaml:3: output.geometry_format: names no format; there is vtp, ply, obj, usda"},
+    {"GeometryFormatNoList", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {geometry_format: vtp}
+)",
+     "bad.yaml:3: output.geometry_format: needs a list of words, not \"vtp\""},
     {"OutputDataUnknown", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [enrgy]}
