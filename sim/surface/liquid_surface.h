@@ -22,7 +22,7 @@ class LiquidSurface {
     /// most half a spacing either way, that changes as smoothly with time as the particles do. Where that is not enough
     /// - `reference` seeds leave 42 % of their region empty - the volume stays as near as it gets; offset() tells. Bulk
     /// liquid and drops share that distance, so that drops of one particle beside a large body come out up to twice
-    /// too large, and clumps of a few dozen by up to a third too small.
+    /// too large, and clumps of a few dozen by up to a quarter too small.
     ///
     /// Of drops much smaller than the average particle, those between the nodes of the grid are missed.
     /// Throws RunError if a particle is out of the range of the grid.
