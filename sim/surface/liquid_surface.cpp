@@ -25,7 +25,7 @@ constexpr double kVelocityReach = 2.25;
 constexpr int kNormalPasses = 8;
 
 constexpr double kLargestOffset = 0.5;  ///< by which the surface may be moved for the sake of the volume [spacing]
-constexpr double kVolumeTolerance = 2.0e-3;
+constexpr double kVolumeTolerance = 4.0e-3;
 constexpr int kMostExtractions = 8;
 
 /// How the search begins: usual offsets are 0.1 to 0.3, and a spacing of offset moves the surface by 1.5 to 1.8.

@@ -18,7 +18,7 @@ class LiquidSurface {
  public:
     /// The surface of particles of this density [g/cm^3], valid until the next call.
     ///
-    /// It encloses their volume, Σ mass / density, to 0.2 %: the whole surface is moved outwards by one distance, at
+    /// It encloses their volume, Σ mass / density, to 0.4 %: the whole surface is moved outwards by one distance, at
     /// most half a spacing either way, that changes as smoothly with time as the particles do. Where that is not enough
     /// - `reference` seeds leave 42 % of their region empty - the volume stays as near as it gets; offset() tells. Bulk
     /// liquid and drops share that distance, so that drops of one particle beside a large body come out up to twice

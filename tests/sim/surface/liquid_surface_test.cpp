@@ -139,7 +139,8 @@ TEST(LiquidSurface, OfABallIsItsSphere)
     const auto count = static_cast<double>(mesh.positions.size());
     std::printf("off the sphere by %.3f pitches (at most %.3f), normals by %.2f degrees\n", std::sqrt(squares / count),
                 largest, 180.0 / kPi * std::sqrt(2.0 * turned / count));
-    EXPECT_LT(std::sqrt(squares / count), 0.01);
+    // The volume is kept to 0.4 %, which is 0.013 pitches of the radius.
+    EXPECT_LT(std::sqrt(squares / count), 0.02);
     EXPECT_LT(largest, 0.04);
     EXPECT_LT(180.0 / kPi * std::sqrt(2.0 * turned / count), 0.5);
 }
