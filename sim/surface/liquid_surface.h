@@ -18,11 +18,11 @@ class LiquidSurface {
  public:
     /// The surface of particles of this density [g/cm^3], valid until the next call.
     ///
-    /// It encloses their volume, Σ mass / density, to 0.2 %: the whole surface is moved outwards by one distance, at
+    /// It encloses their volume, Σ mass / density, to 0.4 %: the whole surface is moved outwards by one distance, at
     /// most half a spacing either way, that changes as smoothly with time as the particles do. Where that is not enough
     /// - `reference` seeds leave 42 % of their region empty - the volume stays as near as it gets; offset() tells. Bulk
     /// liquid and drops share that distance, so that drops of one particle beside a large body come out up to twice
-    /// too large, and clumps of a few dozen by up to a third too small.
+    /// too large, and clumps of a few dozen by up to a quarter too small.
     ///
     /// Of drops much smaller than the average particle, those between the nodes of the grid are missed.
     /// Throws RunError if a particle is out of the range of the grid.

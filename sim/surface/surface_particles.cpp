@@ -56,6 +56,8 @@ void forEachInItsBlock(const LiquidParticles& liquid, const BlockGrid& grid, con
     }
 }
 
+constexpr std::uint32_t kAllAround = (1u << 27) - 1;
+
 /// The blocks around one that lie within `reach` of a place in it, as bits of neighbourIndex.
 std::uint32_t blocksInReach(const Eigen::Vector3f& x, float reach)
 {
@@ -81,8 +83,9 @@ void fitBlocks(const LiquidParticles& liquid, float reach, BlockGrid& grid, Surf
     grid.setBlocks(work.coords);
 
     work.reached.assign(grid.count(), 0);
-    forEachInItsBlock(liquid, grid, work,
-                      [&](std::size_t p, int block) { work.reached[block] |= blocksInReach(work.inside[p], reach); });
+    forEachInItsBlock(liquid, grid, work, [&](std::size_t p, int block) {
+        if (work.reached[block] != kAllAround) work.reached[block] |= blocksInReach(work.inside[p], reach);
+    });
     work.missing.clear();
     for (int b = 0; b < grid.count(); ++b)
         for (int n = 0; n < 27; ++n)

@@ -16,19 +16,25 @@ constexpr std::size_t kGrain = 256;
 /// Sums over particles around one place, y from there to the particle [cells], v its velocity.
 struct Moments {
     FloatPack weight = {};
-    FloatPack y[kAxes] = {}, v[kAxes] = {};  ///< Σ w y, Σ w v
-    FloatPack yy[2 * kAxes] = {};            ///< Σ w y yᵀ: xx, xy, xz, yy, yz, zz
-    FloatPack vy[kAxes][kAxes] = {};         ///< Σ w v yᵀ
+    Eigen::Vector3f base = Eigen::Vector3f::Zero();  ///< v is relative to this: that of the first particle, so that
+    bool hasBase = false;                            ///< sums of floats lose little
+    FloatPack y[kAxes] = {}, v[kAxes] = {};          ///< Σ w y, Σ w v
+    FloatPack yy[2 * kAxes] = {};                    ///< Σ w y yᵀ: xx, xy, xz, yy, yz, zz
+    FloatPack vy[kAxes][kAxes] = {};                 ///< Σ w v yᵀ
 
     /// Add the particles first … last − 1, which are relative to a corner that lies at −`at` from the place.
     [[gnu::always_inline]] void addRun(const SurfaceParticles& particles, const Eigen::Vector3f& at, float reach,
                                        int first, int last)
     {
+        if (!hasBase && first < last) {
+            base = {particles.velocity[0][first], particles.velocity[1][first], particles.velocity[2][first]};
+            hasBase = true;
+        }
         for (int s = first; s < last; s += kFloatLanes) {
             FloatPack d[kAxes], u[kAxes];
             for (int a = 0; a < kAxes; ++a) {
                 d[a] = loadFloats(particles.x[a].data() + s) - at[a];
-                u[a] = loadFloats(particles.velocity[a].data() + s);
+                u[a] = loadFloats(particles.velocity[a].data() + s) - base[a];
             }
             FloatPack rest = 1.0f - (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * (1.0f / (reach * reach));
             rest = (rest > 0.0f) & firstFloatLanes(last - s) ? rest : FloatPack{};
@@ -50,7 +56,7 @@ struct Moments {
     {
         // Variance [cells²] below which particles count as lying in a plane: where they fill a half space it is
         // about 1.
-        constexpr double kFlat = 0.005;
+        constexpr double kFlat = 0.002;
         const double total = sumFloatLanes(weight);
         if (!(total > 0.0)) return Vec3::Zero();
         Vec3 meanY, meanV;
@@ -64,7 +70,7 @@ struct Moments {
         }
         spread += kFlat * Mat3::Identity() - meanY * meanY.transpose();
         change -= meanV * meanY.transpose();
-        return meanV - change * (spread.inverse() * meanY);
+        return base.cast<double>() + meanV - change * (spread.inverse() * meanY);
     }
 };
 

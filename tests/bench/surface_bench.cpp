@@ -50,11 +50,11 @@ void sortAndField(benchmark::State& state)
     BlockGrid grid;
     SurfaceParticles particles;
     BlockArray<float> depth;
-    grid.dx = 0.5 * surfaceSpacing(liquid, 1.0);
+    grid.dx = 0.6 * surfaceSpacing(liquid, 1.0);
     for (auto _ : state)
         onThreads(1, [&] {
-            sortForSurface(liquid, 1.0, 7.0, grid, particles);
-            if (state.range(0) == 1) surfaceField(grid, particles, 6.0f, 2.0f, depth);
+            sortForSurface(liquid, 1.0, 2.5 / 0.6 + 1.0, grid, particles);
+            if (state.range(0) == 1) surfaceField(grid, particles, 2.5f / 0.6f, 1.0f / 0.6f, depth);
         });
     count(state);
 }

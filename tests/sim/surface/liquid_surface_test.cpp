@@ -139,17 +139,18 @@ TEST(LiquidSurface, OfABallIsItsSphere)
     const auto count = static_cast<double>(mesh.positions.size());
     std::printf("off the sphere by %.3f pitches (at most %.3f), normals by %.2f degrees\n", std::sqrt(squares / count),
                 largest, 180.0 / kPi * std::sqrt(2.0 * turned / count));
-    EXPECT_LT(std::sqrt(squares / count), 0.05);
-    EXPECT_LT(largest, 0.15);
-    EXPECT_LT(180.0 / kPi * std::sqrt(2.0 * turned / count), 4.0);
+    // The volume is kept to 0.4 %, which is 0.013 pitches of the radius.
+    EXPECT_LT(std::sqrt(squares / count), 0.02);
+    EXPECT_LT(largest, 0.04);
+    EXPECT_LT(180.0 / kPi * std::sqrt(2.0 * turned / count), 0.5);
 }
 
 /// Amid a face of a box, where its edges are out of reach.
 TEST(LiquidSurface, OfABoxIsFlat)
 {
     LiquidSurface surface;
-    // A lattice is seen whole. Shaken by a quarter of a pitch: 0.06 pitches and 3.6 degrees.
-    for (const auto& [jitter, mostOff, mostTurned] : {std::array{0.0, 0.01, 0.5}, std::array{0.25, 0.08, 4.5}}) {
+    // Seen are 0.001 pitches and 0.6 degrees for a lattice, 0.08 and 1.7 for one shaken by a quarter of a pitch.
+    for (const auto& [jitter, mostOff, mostTurned] : {std::array{0.0, 0.01, 1.5}, std::array{0.25, 0.10, 2.5}}) {
         const SurfaceMesh& mesh = surface.find(box({1.6, 1.6, 1.0}, jitter), kDensity);
         double count = 0.0, sum = 0.0, squares = 0.0, turned = 0.0;
         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -172,7 +173,9 @@ void expectSameVertices(const SurfaceMesh& a, const SurfaceMesh& b)
     for (const Vec3& x : a.positions) {
         double nearest = 1.0;
         for (const Vec3& y : b.positions) nearest = std::min(nearest, (x - y).norm());
-        ASSERT_LT(nearest, 1.0e-4 * kPitch) << x.transpose();
+        // Sums of floats are off by 1e-6, and where the field hardly changes along an edge its crossing by hundreds of
+        // that.
+        ASSERT_LT(nearest, 5.0e-4 * kPitch) << x.transpose();
     }
 }
 
@@ -227,8 +230,7 @@ TEST(SurfaceVelocity, IsThatOfABodyInTranslation)
     LiquidSurface surface;
     for (Body& body : bodies()) {
         setVelocities(body.liquid, v0, Mat3::Zero());
-        // Sums of floats, of which a layer divides by the least variance of 0.005 that is taken.
-        EXPECT_LT(worstVelocity(surface.find(body.liquid, kDensity), v0, Mat3::Zero()), 1.0e-4 * v0.norm())
+        EXPECT_LT(worstVelocity(surface.find(body.liquid, kDensity), v0, Mat3::Zero()), 1.0e-6 * v0.norm())
             << body.name;
     }
 }
