@@ -24,7 +24,7 @@ class VtpText {
         const char* type = std::is_same_v<T, float> ? "Float32" : std::is_signed_v<T> ? "Int32" : "UInt32";
         line(fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)",
                          type, name, components, appended_.size()));
-        appendCompressed(std::as_bytes(values), appended_);
+        appendCompressed(std::as_bytes(values), std::is_integral_v<T>, appended_);
     }
 
     std::string take() &&
