@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// The one list of what evolves: a state's hash goes over it, and checkpoints are written and read by it.
+// The one list of what evolves: a state's hash goes over it, but for the memory of steps, and checkpoints are written and read by it.
 //
 // A visitor of fields has
 //   static constexpr bool kFills         does it give fields their values, or look at them?
@@ -85,9 +85,9 @@ void visitMemory(V& v, Memory& memory)
     v.number("memory/deepest", "cm", memory.deepest);
 }
 
-/// All fields of a state, always in this order.
+/// Liquid, fabric and what belongs to them, always in this order.
 template <class V, class S>
-void visitState(V& v, S& state)
+void visitMatter(V& v, S& state)
 {
     v.number("time", "s", state.time);
     v.number("step", "-", state.step);
@@ -104,6 +104,13 @@ void visitState(V& v, S& state)
     v.number("ledger/emitted_mass", "g", state.ledger.emittedMass);
     v.number("ledger/left_mass", "g", state.ledger.leftMass);
     v.rows("ledger/left_momentum", "g cm/s", 1, kAxes, [&](std::size_t) { return state.ledger.leftMomentum.data(); });
+}
+
+/// All fields of a state.
+template <class V, class S>
+void visitState(V& v, S& state)
+{
+    visitMatter(v, state);
     visitMemory(v, state.memory);
 }
 

@@ -46,7 +46,7 @@ class StateHasher {
 std::uint64_t stateHash(const State& state)
 {
     StateHasher hasher;
-    visitState(hasher, state);
+    visitMatter(hasher, state);
     return hasher.hash();
 }
 

@@ -6,7 +6,8 @@
 
 namespace sim {
 
-/// Hash of everything that evolves; equal for any number of threads.
+/// Hash of everything that evolves but the memory of steps, by which two states that are the same may yet differ: one that a bad step was
+/// taken back to, say. Equal for any number of threads.
 std::uint64_t stateHash(const State& state);
 
 }  // namespace sim

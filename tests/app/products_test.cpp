@@ -226,7 +226,7 @@ TEST(SideBySide, WithoutFfmpegThereArePictures)
             snapshot.number = n;
             draw(snapshot)(folder.path() / name / frameFileName(n));
         }
-        sequences.push_back({folder / name, name, 0.0, 0.01, 2});
+        sequences.push_back({.folder = folder / name, .label = name, .start = 0.0, .every = 0.01, .last = 2});
     }
     const EnvironmentVariable path("PATH", "");
     const auto made = composeSideBySide(sequences, 0.01, setup.pictures, parts, folder.path(), [] { return false; });

@@ -95,11 +95,16 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {camera: {eye: [0, 0, 1], look_at: [0, 0, 0], orbit: {target: [0, 0, 0], distance: 5}}}
 )",
      "bad.yaml:3: render.camera.orbit: goes without look_at and eye; keep one of them"},
-    {"OutputCheckpoint", R"(grid: {cell: 0.1}
+    {"OutputDataUnknown", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
-output: {data: [energy, checkpoint]}
+output: {data: [energy, checkpoints]}
 )",
-     "bad.yaml:3: output.data: checkpoint does not run in this version; there is energy, stats, ledger, geometry"},
+     "bad.yaml:3: output.data: \"checkpoints\" is unknown (did you mean \"checkpoint\"?)"},
+    {"OutputCheckpointOften", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+output: {checkpoint: {every: 0}}
+)",
+     "bad.yaml:3: output.checkpoint.every: must be above 0 s, not 0"},
     {"GeometryFormatUnknown", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [geometry], geometry_format: [vtp, ply2]}
