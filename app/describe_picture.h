@@ -195,8 +195,7 @@ void describe(V& v, OutputSettings& o)
              {"ledger", &o.ledger},
              {"geometry", &o.geometry},
              {"checkpoint", nullptr}},
-            "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow), "
-            "geometry/ (liquid, fabric and obstacles of every frame)");
+            "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow), geometry/");
     GeometryFormats& formats = o.geometryFormats;
     v.flags("geometry_format",
             {{"vtp", &formats.vtp}, {"ply", &formats.ply}, {"obj", &formats.obj}, {"usda", &formats.usda}},
