@@ -197,7 +197,7 @@ void describe(V& v, OutputSettings& o)
              {"states", &o.states},
              {"checkpoint", &o.checkpoint}},
             "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow), "
-            "geometry/ (liquid, fabric and obstacles of every frame), the state of every frame for drench render, checkpoints to go on from");
+            "geometry/, the state of every frame for drench render and export, checkpoints to go on from");
     v.group("checkpoint", "", [&](auto& w) {
         w.number("every", o.checkpointEvery, Quantity::Time, Range::above(0.0), "Simulated time from checkpoint to checkpoint, in whole frames");
         w.integer("keep", o.checkpointKeep, 0, 1'000'000, "The last so many are kept, 0: all");

@@ -14,7 +14,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 18;
+constexpr std::size_t kBlock = std::size_t{1} << 16;
 
 std::string compressed(std::span<const std::byte> block, int strategy)
 {

@@ -35,6 +35,14 @@ struct ExportPart {
     const ExportArray* find(std::string_view array) const;
 };
 
+/// The numbers of vectors, one behind the other.
+template <class T>
+std::span<const T> flat(const std::vector<Eigen::Matrix<T, 3, 1>>& vectors)
+{
+    static_assert(sizeof(Eigen::Matrix<T, 3, 1>) == 3 * sizeof(T));
+    return {reinterpret_cast<const T*>(vectors.data()), 3 * vectors.size()};
+}
+
 /// The units of a part in words: "lengths in cm, velocity in cm/s".
 std::string unitsOf(const ExportPart& part);
 
@@ -43,6 +51,12 @@ struct ExportFrame {
     std::int64_t number = 0;        ///< 0 is the initial state
     double time = 0.0;              ///< [s]
     std::vector<ExportPart> parts;  ///< the same names in the same order in all frames of a run
+};
+
+/// Which frame was written, for collections.
+struct FrameTime {
+    std::int64_t number = 0;
+    double time = 0.0;  ///< [s]
 };
 
 /// What there is to be seen of a state: `liquid` (points in the order of their ids: velocity, speed, volume, id),

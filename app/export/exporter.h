@@ -1,13 +1,9 @@
 #pragma once
 
 #include "app/export/export_frame.h"
-#include "app/export/usda.h"
-#include "app/export/vtp.h"
 #include "app/picture_settings.h"
 
 #include <filesystem>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace app {
@@ -17,25 +13,25 @@ namespace app {
 /// goes on.
 class Exporter {
  public:
-    /// Makes the folder. What is in it of frames before the first that comes stays part of the collections. Throws InputError if it cannot
-    /// be made.
+    /// Makes the folder. Throws InputError if it cannot be made.
     /// @param secondsPerFrame  simulated time from one number of a frame to the next [s]
-    Exporter(std::filesystem::path folder, const GeometryFormats& formats, double secondsPerFrame);
+    /// @param earlier          frames that an earlier Exporter has left there, for a run that goes on: collections name
+    /// them too
+    Exporter(std::filesystem::path folder, const GeometryFormats& formats, double secondsPerFrame,
+             std::vector<FrameTime> earlier = {});
 
     /// Frames come in order, with the same parts in each. Throws std::runtime_error when the disk takes no more.
     void write(const ExportFrame& frame);
 
  private:
-    std::vector<std::int64_t> framesBefore(std::int64_t frame, const std::string& part, const std::string& extension) const;
-    void writeVtp(const ExportFrame& frame);
+    void writeVtp(const ExportFrame& frame) const;
     void writePly(const ExportFrame& frame) const;
-    void writeUsda(const ExportFrame& frame);
+    void writeUsda(const ExportFrame& frame) const;
 
     const std::filesystem::path folder_;
     const GeometryFormats formats_;
     const double secondsPerFrame_;
-    std::map<std::string, std::vector<TimedFile>> collections_;  ///< of .vtp files: of each part, by its name
-    std::vector<UsdaClip> clips_;
+    std::vector<FrameTime> frames_;  ///< so far
 };
 
 }  // namespace app

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,17 @@ fs::path geometryFolder(const fs::path& runFolder)
 std::string geometryFileName(std::string_view part, std::int64_t frame, std::string_view extension)
 {
     return fmt::format("{}_{:05}.{}", part, frame, extension);
+}
+
+std::vector<std::int64_t> geometryFrames(const fs::path& runFolder)
+{
+    std::set<std::int64_t> frames;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(geometryFolder(runFolder), none)) {
+        const std::string name = entry.path().filename().string();
+        if (const auto frame = frameOfGeometry(name); frame.value_or(-1) >= 0 && !name.ends_with(".part")) frames.insert(*frame);
+    }
+    return {frames.begin(), frames.end()};
 }
 
 void forgetGeometryLaterThan(std::int64_t frame, const fs::path& runFolder)

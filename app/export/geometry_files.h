@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace app {
 
@@ -12,6 +13,9 @@ std::filesystem::path geometryFolder(const std::filesystem::path& runFolder);
 
 /// "liquid_00012.vtp"
 std::string geometryFileName(std::string_view part, std::int64_t frame, std::string_view extension);
+
+/// Frames of which a run has left geometry in its folder, ascending.
+std::vector<std::int64_t> geometryFrames(const std::filesystem::path& runFolder);
 
 /// Take away the geometry that a run has left of frames after this one, and with frame −1 all: files that an Exporter writes, never
 /// others.

@@ -2,6 +2,8 @@
 
 #include "app/export/geometry_files.h"
 
+#include <utility>
+
 namespace app {
 
 GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder)
@@ -10,7 +12,9 @@ GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const st
     const OutputSettings& output = setup.pictures.output;
     if (!output.geometry) return;
     placeObstacles_ = parts.meshObstacles(setup);
-    exporter_.emplace(geometryFolder(runFolder), output.geometryFormats, output.every);
+    std::vector<FrameTime> earlier;  // of a run that is gone on with
+    for (const std::int64_t frame : geometryFrames(runFolder)) earlier.push_back({frame, frameTime(setup, frame)});
+    exporter_.emplace(geometryFolder(runFolder), output.geometryFormats, output.every, std::move(earlier));
 }
 
 void GeometrySink::take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame)

@@ -1,5 +1,6 @@
 #include "app/export/usda.h"
 
+#include "app/export/geometry_files.h"
 #include "sim/core/units.h"
 
 #include <fmt/format.h>
@@ -129,7 +130,7 @@ void writePrims(std::span<const ExportPart> parts, Layer& layer)
         const auto width = widthsOf(part);
         writeCells(part, layer);
         writeExtent(part, width, layer);
-        layer.vectors("point3f", "points", false, {part.positions.data()->data(), 3 * part.positions.size()});
+        layer.vectors("point3f", "points", false, flat(part.positions));
         if (width)
             layer.varying("float", "widths", true, part.positions.size(),
                           [&](std::size_t i) { layer.add("{}", width(i)); });
@@ -162,18 +163,19 @@ std::string usdaTopology(std::span<const ExportPart> parts, double secondsPerFra
     return layer.take();
 }
 
-std::string usdaAnimation(std::span<const UsdaClip> clips, double secondsPerFrame)
+std::string usdaAnimation(std::span<const FrameTime> frames, double secondsPerFrame)
 {
     std::string active, times, files;
-    for (std::size_t c = 0; c < clips.size(); ++c) {
-        const char* comma = c > 0 ? ", " : "";
-        active += fmt::format("{}({}, {})", comma, clips[c].frame, c);
-        times += fmt::format("{}({}, {})", comma, clips[c].frame, clips[c].frame);
-        files += fmt::format("{}@./{}@", comma, clips[c].file);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        const char* comma = f > 0 ? ", " : "";
+        const std::int64_t code = frames[f].number;
+        active += fmt::format("{}({}, {})", comma, code, f);
+        times += fmt::format("{}({}, {})", comma, code, code);
+        files += fmt::format("{}@./{}@", comma, geometryFileName("frame", code, "usda"));
     }
     Layer layer(std::nullopt);
     writeHead(
-        spanOf(clips.front().frame, clips.back().frame) + fmt::format("    subLayers = [@./{}@]\n", kUsdaTopology),
+        spanOf(frames.front().number, frames.back().number) + fmt::format("    subLayers = [@./{}@]\n", kUsdaTopology),
         secondsPerFrame, layer);
     layer.add(
         "over \"{}\" (\n    clips = {{\n        dictionary default = {{\n            double2[] active = [{}]\n"

@@ -2,7 +2,6 @@
 
 #include "app/export/export_frame.h"
 
-#include <cstdint>
 #include <span>
 #include <string>
 
@@ -26,11 +25,7 @@ std::string usdaFrame(const ExportFrame& frame, double secondsPerFrame);
 /// The prims of these parts and their attributes, without values.
 std::string usdaTopology(std::span<const ExportPart> parts, double secondsPerFrame);
 
-/// All frames by their numbers, in order, in files of these names.
-struct UsdaClip {
-    std::int64_t frame = 0;
-    std::string file;
-};
-std::string usdaAnimation(std::span<const UsdaClip> clips, double secondsPerFrame);
+/// All frames, at least one, in the order of their numbers, each in its file.
+std::string usdaAnimation(std::span<const FrameTime> frames, double secondsPerFrame);
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include "app/export/binary.h"
 #include "app/export/compress.h"
+#include "app/export/geometry_files.h"
 
 #include <fmt/format.h>
 
@@ -63,8 +64,7 @@ void writeCells(const ExportPart& part, VtpText& out)
         case ExportPart::Kind::Lines:
             return writeCells("Lines", series(points, 0, 1), std::span(part.begin).subspan(1), out);
         case ExportPart::Kind::Triangles:
-            return writeCells("Polys", {part.triangles.data()->data(), 3 * part.triangles.size()},
-                              series(part.triangles.size(), 3, 3), out);
+            return writeCells("Polys", flat(part.triangles), series(part.triangles.size(), 3, 3), out);
     }
 }
 
@@ -101,7 +101,7 @@ std::string vtpFile(const ExportPart& part, double time)
             array.values);
     out.line("</PointData>");
     out.line("<Points>");
-    out.array("Points", 3, std::span<const float>(part.positions.data()->data(), 3 * part.positions.size()));
+    out.array("Points", 3, flat(part.positions));
     out.line("</Points>");
     writeCells(part, out);
     out.line("</Piece>");
@@ -109,13 +109,14 @@ std::string vtpFile(const ExportPart& part, double time)
     return std::move(out).take();
 }
 
-std::string pvdFile(std::span<const TimedFile> files)
+std::string pvdFile(std::string_view part, std::span<const FrameTime> frames)
 {
     std::string out =
         "<?xml version=\"1.0\"?>\n<!-- Drench: timestep in s -->\n"
         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
-    for (const TimedFile& f : files)
-        out += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", f.time, f.file.string());
+    for (const FrameTime& frame : frames)
+        out += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time,
+                           geometryFileName(part, frame.number, kVtpExtension));
     return out + "</Collection>\n</VTKFile>\n";
 }
 

@@ -48,6 +48,27 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"transfer.method=flip", "liquid.surface_tension_force=true"},
                     std::vector<std::string>{"changes=[{step: 8, set: {gravity: [100, -981, 0]}}, {step: 25, set: {transfer.modes: 27}}]"}));
 
+TEST_F(Resume, GeometryIsThatOfAWholeRun)
+{
+    const std::vector<std::string> formats = {"--no-frames", "--set", "output.data=[energy, geometry, checkpoint]", "--set", "output.geometry_format=[vtp, ply, obj, usda]"};
+    ASSERT_EQ(run("whole", formats).code, 0);
+    std::vector<std::string> half = formats;
+    half.insert(half.end(), {"--set", "time.duration=0.041"});
+    ASSERT_EQ(run("half", half).code, 0);
+    ASSERT_EQ(resume("half", {"--no-frames", "--set", "time.duration=0.08"}).code, 0);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "whole" / "geometry")) {
+        const std::string name = entry.path().filename().string();
+        EXPECT_TRUE(contentOf(entry.path()) == contentOf(folder / "half" / "geometry" / name)) << name;
+        ++files;
+    }
+    EXPECT_EQ(files, 21u * (2 * 3 + 2) + 3 + 2) << "liquid, yarns and cloth as .vtp and .ply, all as .obj and .usda; collections";
+    ASSERT_EQ(run("stored", {"--no-frames"}).code, 0);
+    ASSERT_EQ(drench({"export", "stored", "--to", "vtp,usda"}).code, 0);
+    for (const char* name : {"liquid.pvd", "liquid_00020.vtp", "cloth_00007.vtp", "yarns_00000.vtp", "frame_00013.usda", "animation.usda"})
+        EXPECT_TRUE(contentOf(folder / "stored" / "geometry" / name) == contentOf(folder / "whole" / "geometry" / name)) << name << " afterwards, from stored states";
+}
+
 TEST_F(Resume, GoesOnFromAnyFrameOfWhichThereIsACheckpoint)
 {
     ASSERT_EQ(run("whole").code, 0);

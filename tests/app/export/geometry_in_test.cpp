@@ -90,7 +90,7 @@ void expectClose(const nlohmann::json& read, const sim::Vec3& written)
 nlohmann::json readGeometry(const std::vector<std::filesystem::path>& files)
 {
     const TemporaryFolder folder;
-    std::vector<std::string> arguments = {GEOMETRY_READER, folder / "out.json"};
+    std::vector<std::string> arguments = {"-B", GEOMETRY_READER, folder / "out.json"};
     arguments.insert(arguments.end(), files.begin(), files.end());
     const ChildExit end = runChild(PYTHON_WITH_VTK, arguments);
     // VTK tells some faults by words alone.

@@ -156,7 +156,7 @@ TEST(Vtp, LiquidThatHasNotComeYetIsAFileWithTheSameArrays)
 /// Numbers enough for many blocks of the compression, and arrays that end within one and at the end of one.
 TEST(Vtp, EveryParticleOfManyArrives)
 {
-    for (const std::size_t count : {std::size_t{65536}, std::size_t{66001}}) {
+    for (const std::size_t count : {std::size_t{16384}, std::size_t{20001}}) {
         const WetScene scene(count);
         const json part = written(scene.frame(), "liquid");
         ASSERT_EQ(part.at("points").size(), count);

@@ -95,7 +95,7 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {camera: {eye: [0, 0, 1], look_at: [0, 0, 0], orbit: {target: [0, 0, 0], distance: 5}}}
 )",
      "bad.yaml:3: render.camera.orbit: goes without look_at and eye; keep one of them"},
-    {"OutputDataUnknown", R"(grid: {cell: 0.1}
+    {"OutputCheckpoints", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [energy, checkpoints]}
 )",
