@@ -104,7 +104,7 @@ output: {data: [energy, checkpoints]}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {checkpoint: {every: 0}}
 )",
-     "bad.yaml:3: output.checkpoint.every: must be above 0 s, not 0"},
+     "bad.yaml:3: output.checkpoint.every: \"0\" is out of range; must be above 0 s"},
     {"GeometryFormatUnknown", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [geometry], geometry_format: [vtp, ply2]}
