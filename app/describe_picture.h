@@ -206,6 +206,7 @@ void describe(V& v, OutputSettings& o)
     v.flags("geometry_format",
             {{"vtp", &formats.vtp}, {"ply", &formats.ply}, {"obj", &formats.obj}, {"usda", &formats.usda}},
             "Files of data: geometry: vtp (ParaView), ply, obj, usda");
+    v.flag("geometry_surface", o.geometrySurface, "A mesh of the liquid's surface in them, too");
     v.require(formats.any(), "geometry_format", "names no format; there is vtp, ply, obj, usda");
     v.group("video", "", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");

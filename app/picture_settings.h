@@ -78,6 +78,7 @@ struct OutputSettings {
     int checkpointKeep = 1;                 ///< … the last so many; 0: all
     bool geometry = false;                  ///< geometry/ with every frame's liquid, fabric and obstacles, as …
     GeometryFormats geometryFormats;        ///< … these
+    bool geometrySurface = false;           ///< with a mesh of the liquid's surface
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

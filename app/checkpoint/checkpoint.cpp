@@ -182,6 +182,7 @@ void copyForPictures(const sim::State& state, sim::State& lean)
     lean.pressure = state.pressure;
     lean.fabric = state.fabric;
     lean.emittedVolume = state.emittedVolume;
+    lean.nextId = state.nextId;
     lean.liquid = std::move(few);
 }
 

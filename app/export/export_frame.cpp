@@ -88,6 +88,21 @@ ExportPart liquidPart(const sim::LiquidParticles& liquid, double density)
     return part;
 }
 
+ExportPart surfacePart(const sim::SurfaceMesh& surface)
+{
+    const std::size_t n = surface.positions.size();
+    ExportPart part = emptyPart("surface", ExportPart::Kind::Triangles);
+    part.positions.resize(n);
+    part.arrays = {floats("velocity", "cm/s", n, 3), floats("normal", "", n, 3)};
+    for (std::size_t i = 0; i < n; ++i) {
+        part.positions[i] = surface.positions[i].cast<float>();
+        put(surface.velocities[i], i, floatsOf(part.arrays[0]));
+        put(surface.normals[i], i, floatsOf(part.arrays[1]));
+    }
+    for (const sim::Vec3i& triangle : surface.triangles) part.triangles.emplace_back(triangle[0], triangle[1], triangle[2]);
+    return part;
+}
+
 /// Where the vertices of a part of the fabric are, how fast and how wet.
 /// @param vertices    of the fabric, one for each point of the part
 /// @param saturation  of each vertex of the fabric; empty: all is dry
@@ -214,10 +229,11 @@ std::string unitsOf(const ExportPart& part)
 }
 
 ExportFrame exportFrame(std::int64_t number, const sim::State& state, const sim::Fabric& fabric, double density,
-                        std::span<const FrameSnapshot::Mesh> obstacles)
+                        std::span<const FrameSnapshot::Mesh> obstacles, const sim::SurfaceMesh* surface)
 {
     ExportFrame frame{.number = number, .time = state.time, .parts = {}};
     if (mayHaveLiquid(state)) frame.parts.push_back(liquidPart(state.liquid, density));
+    if (surface) frame.parts.push_back(surfacePart(*surface));
     const std::vector<float> saturation = wetnessOf(fabric, state.fabric, density);
     if (fabric.strands.count() > 0) frame.parts.push_back(yarnPart(fabric, state.fabric, saturation));
     if (fabric.faces.size() > 0) frame.parts.push_back(clothPart(fabric, state.fabric, saturation));

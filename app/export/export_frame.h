@@ -2,6 +2,7 @@
 
 #include "app/frame_snapshot.h"
 #include "sim/state.h"
+#include "sim/surface/surface_mesh.h"
 
 #include <Eigen/Core>
 
@@ -62,12 +63,12 @@ struct FrameTime {
 /// What there is to be seen of a state: `liquid` (points in the order of their ids: velocity, speed, volume, id),
 /// `yarns` (lines: velocity, radius, saturation, absorbed, material), `cloth` (triangles: velocity, normal, saturation,
 /// absorbed, material) and every obstacle (triangles: velocity). Without yarns there is no part `yarns`, and likewise
-/// for cloth and for liquid that can never come. The same bits for any number of threads. A mesh of the liquid's
-/// surface would be one more part here.
+/// for cloth and for liquid that can never come. The same bits for any number of threads.
 /// @param fabric     what state.fabric is the state of
 /// @param density    of the liquid [g/cm^3]
 /// @param obstacles  where they are at state.time
+/// @param surface    of the liquid: one more part then, `surface` (triangles: velocity, normal)
 ExportFrame exportFrame(std::int64_t number, const sim::State& state, const sim::Fabric& fabric, double density,
-                        std::span<const FrameSnapshot::Mesh> obstacles);
+                        std::span<const FrameSnapshot::Mesh> obstacles, const sim::SurfaceMesh* surface = nullptr);
 
 }  // namespace app

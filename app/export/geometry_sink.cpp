@@ -11,6 +11,7 @@ GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const st
 {
     const OutputSettings& output = setup.pictures.output;
     if (!output.geometry) return;
+    if (output.geometrySurface) surface_.emplace();
     placeObstacles_ = parts.meshObstacles(setup);
     std::vector<FrameTime> earlier;  // of a run that is gone on with
     for (const std::int64_t frame : geometryFrames(runFolder)) earlier.push_back({frame, frameTime(setup, frame)});
@@ -21,7 +22,8 @@ void GeometrySink::take(const sim::State& state, const sim::Fabric& fabric, std:
 {
     if (!exporter_) return;
     placeObstacles_(state.time, obstacles_);
-    exporter_->write(exportFrame(frame, state, fabric, density_, obstacles_));
+    const sim::SurfaceMesh* surface = surface_ ? &surface_->find(state.liquid, density_) : nullptr;
+    exporter_->write(exportFrame(frame, state, fabric, density_, obstacles_, surface));
 }
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include "app/export/exporter.h"
 #include "app/parts.h"
+#include "sim/surface/liquid_surface.h"
 
 #include <filesystem>
 #include <optional>
@@ -22,6 +23,7 @@ class GeometrySink {
     PlaceObstacles placeObstacles_;
     std::vector<FrameSnapshot::Mesh> obstacles_;
     std::optional<Exporter> exporter_;
+    std::optional<sim::LiquidSurface> surface_;  ///< where the scene wants its mesh
 };
 
 }  // namespace app

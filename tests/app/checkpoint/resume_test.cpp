@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(Resume, GeometryIsThatOfAWholeRun)
 {
-    const std::vector<std::string> formats = {"--no-frames", "--set", "output.data=[energy, geometry, checkpoint]", "--set", "output.geometry_format=[vtp, ply, obj, usda]"};
+    const std::vector<std::string> formats = {"--no-frames", "--set", "output.data=[energy, geometry, checkpoint]", "--set", "output.geometry_format=[vtp, ply, obj, usda]", "--set", "output.geometry_surface=true"};
     ASSERT_EQ(run("whole", formats).code, 0);
     std::vector<std::string> half = formats;
     half.insert(half.end(), {"--set", "time.duration=0.041"});
@@ -62,10 +62,10 @@ TEST_F(Resume, GeometryIsThatOfAWholeRun)
         EXPECT_TRUE(contentOf(entry.path()) == contentOf(folder / "half" / "geometry" / name)) << name;
         ++files;
     }
-    EXPECT_EQ(files, 21u * (2 * 3 + 2) + 3 + 2) << "liquid, yarns and cloth as .vtp and .ply, all as .obj and .usda; collections";
+    EXPECT_EQ(files, 21u * (2 * 4 + 2) + 4 + 2) << "liquid, its surface, yarns and cloth as .vtp and .ply, all as .obj and .usda; collections";
     ASSERT_EQ(run("stored", {"--no-frames"}).code, 0);
-    ASSERT_EQ(drench({"export", "stored", "--to", "vtp,usda"}).code, 0);
-    for (const char* name : {"liquid.pvd", "liquid_00020.vtp", "cloth_00007.vtp", "yarns_00000.vtp", "frame_00013.usda", "animation.usda"})
+    ASSERT_EQ(drench({"export", "stored", "--to", "vtp,usda", "--set", "output.geometry_surface=true"}).code, 0);
+    for (const char* name : {"liquid.pvd", "liquid_00020.vtp", "surface_00011.vtp", "cloth_00007.vtp", "yarns_00000.vtp", "frame_00013.usda", "animation.usda"})
         EXPECT_TRUE(contentOf(folder / "stored" / "geometry" / name) == contentOf(folder / "whole" / "geometry" / name)) << name << " afterwards, from stored states";
 }
 

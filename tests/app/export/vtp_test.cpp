@@ -3,6 +3,7 @@
 #include "app/export/vtp.h"
 
 #include "app/export/exporter.h"
+#include "sim/surface/liquid_surface.h"
 #include "tests/app/export/geometry_in_test.h"
 #include "tests/app/temporary_folder.h"
 
@@ -28,6 +29,18 @@ const json& values(const json& part, const char* array)
 double number(const json& part, const char* array, std::size_t point)
 {
     return values(part, array).at(point).at(0).get<double>();
+}
+
+/// Places of a lattice in a ball around the origin [cm].
+std::vector<Vec3> latticeBall(double radius, double spacing)
+{
+    std::vector<Vec3> places;
+    const int n = static_cast<int>(radius / spacing);
+    for (int k = -n; k <= n; ++k)
+        for (int j = -n; j <= n; ++j)
+            for (int i = -n; i <= n; ++i)
+                if (const Vec3 x = spacing * Vec3(i, j, k); x.norm() <= radius) places.push_back(x);
+    return places;
 }
 
 /// One part of a frame, through a file and VTK.
@@ -140,6 +153,33 @@ TEST(Vtp, ObstaclesAreReadBackByName)
     expectClose(still.at("points")[2], Vec3(-5, 9, -5));
     expectClose(values(still, "velocity")[2], Vec3::Zero());
     expectClose(values(moving, "velocity")[3], Vec3(1, -2, 3));
+}
+
+/// A ball of particles that moves as a whole.
+TEST(Vtp, TheSurfaceEnclosesTheLiquidAndMovesWithIt)
+{
+    constexpr double kSpacing = 0.1, kRadius = 0.5;
+    const Vec3 velocity(10.0, -20.0, 5.0);
+    WetScene scene;
+    scene.state.liquid = {};
+    for (const Vec3& x : latticeBall(kRadius, kSpacing))
+        scene.state.liquid.add(x, test::kDensity * kSpacing * kSpacing * kSpacing, static_cast<std::uint32_t>(scene.state.liquid.count), velocity);
+    sim::LiquidSurface surface;
+    const auto& mesh = surface.find(scene.state.liquid, test::kDensity);
+    const json part = written(exportFrame(0, scene.state, scene.fabric, test::kDensity, {}, &mesh), "surface");
+    ASSERT_EQ(part.at("points").size(), mesh.positions.size());
+    const auto at = [&](std::size_t i) { return Vec3(part.at("points")[i][0], part.at("points")[i][1], part.at("points")[i][2]); };
+    double volume = 0.0;
+    for (const json& t : part.at("polys")) volume += at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6.0;
+    const double there = static_cast<double>(scene.state.liquid.count) * kSpacing * kSpacing * kSpacing;
+    EXPECT_NEAR(volume, there, 0.02 * there);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const json& v = values(part, "velocity")[i];
+        EXPECT_NEAR((Vec3(v[0], v[1], v[2]) - velocity).norm(), 0.0, 1e-3);
+        const json& n = values(part, "normal")[i];
+        EXPECT_NEAR(Vec3(n[0], n[1], n[2]).norm(), 1.0, 1e-5);
+        EXPECT_GT(Vec3(n[0], n[1], n[2]).dot(at(i)), 0.0) << "out of the ball";
+    }
 }
 
 TEST(Vtp, LiquidThatHasNotComeYetIsAFileWithTheSameArrays)
