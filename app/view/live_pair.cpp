@@ -69,13 +69,14 @@ bool LivePair::takeNewest()
         return isNew;
     }
     Side& b = *sides_.back();
-    const std::optional<double> timeOfA = a.live.waiting(), timeOfB = b.live.waiting();
     const auto stays = [](const Side& side) { return side.live.status().mode >= LiveMode::Ended; };
+    const bool staysA = stays(a), staysB = stays(b);  // asked first: what stays hands out nothing after its last picture
+    const std::optional<double> timeOfA = a.live.waiting(), timeOfB = b.live.waiting();
     const auto isAgain = [](const std::optional<double>& time, const Side& other) {
         return time && other.shown && *time == other.shown->time;
     };
-    const bool takesA = timeOfA && (timeOfB ? *timeOfA <= *timeOfB : stays(b) || isAgain(timeOfA, b));
-    const bool takesB = timeOfB && (timeOfA ? *timeOfB <= *timeOfA : stays(a) || isAgain(timeOfB, a));
+    const bool takesA = timeOfA && (timeOfB ? *timeOfA <= *timeOfB : staysB || isAgain(timeOfA, b));
+    const bool takesB = timeOfB && (timeOfA ? *timeOfB <= *timeOfA : staysA || isAgain(timeOfB, a));
     if (takesA) take(a);
     if (takesB) take(b);
     bringTogether();

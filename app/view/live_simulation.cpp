@@ -243,12 +243,13 @@ void LiveSimulation::advance()
     }
     if (state.step + 1 >= nextChange_) publishScene();
     if (state.time == until) ++frame_;
+    LiveMode mode = status().mode;
     if (state.time == until && until < end) {
         if (frame_ % momentEvery_ == 0) keepMoment();
-        if (std::exchange(pausesAtFrame_, false)) setMode(LiveMode::Paused);
+        if (std::exchange(pausesAtFrame_, false)) mode = LiveMode::Paused;
     }
-    if (state.time >= end) setMode(LiveMode::Ended);
-    publish(state.time >= end);
+    if (state.time >= end) mode = LiveMode::Ended;
+    publish(state.time >= end, mode);
 }
 
 /// May it pause here? Anywhere, but frame by frame.
@@ -314,30 +315,32 @@ void LiveSimulation::publishScene()
     scene_ = std::move(scene);
 }
 
-/// Hand out how it stands. Without `always` only if the last snapshot was taken: who looks seldom costs little.
-void LiveSimulation::publish(bool always)
+/// Hand out how it stands. Without `always` only if the last snapshot was taken: who looks seldom costs little. The
+/// status is told last, so that who knows it has ended or pauses finds the picture of that.
+void LiveSimulation::publish(bool always, std::optional<LiveMode> mode)
 {
     const sim::State& state = simulation_->state();
-    std::unique_ptr<FrameSnapshot> snapshot;
-    {
-        const std::lock_guard lock(mutex_);
-        status_.step = state.step;
-        status_.time = state.time;
-        status_.moments.clear();
-        for (const Moment& moment : moments_) status_.moments.push_back(moment.state.time);
-        const bool isBetween =
-            frameByFrame_ && status_.mode < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
-        if (isBetween || (ready_ && !always)) return;
-        snapshot = std::move(spare_);
+    std::unique_lock lock(mutex_);
+    const LiveMode then = mode.value_or(status_.mode);
+    const bool isBetween =
+        frameByFrame_ && then < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
+    if (!isBetween && (always || !ready_)) {
+        std::unique_ptr<FrameSnapshot> snapshot = std::move(spare_);
+        lock.unlock();
+        if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
+        snapshot->number = frame_;
+        app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(),
+                          settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
+        placeObstacles_(state.time, snapshot->obstacles);
+        lock.lock();
+        std::swap(ready_, snapshot);
+        if (snapshot) spare_ = std::move(snapshot);
     }
-    if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
-    snapshot->number = frame_;
-    app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(),
-                      settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
-    placeObstacles_(state.time, snapshot->obstacles);
-    const std::lock_guard lock(mutex_);
-    std::swap(ready_, snapshot);
-    if (snapshot) spare_ = std::move(snapshot);
+    status_.mode = then;
+    status_.step = state.step;
+    status_.time = state.time;
+    status_.moments.clear();
+    for (const Moment& moment : moments_) status_.moments.push_back(moment.state.time);
 }
 
 }  // namespace app

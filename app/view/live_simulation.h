@@ -93,7 +93,7 @@ class LiveSimulation {
     void goTo(const Moment& moment);
     void startAnew();
     void keepMoment();
-    void publish(bool always);
+    void publish(bool always, std::optional<LiveMode> mode = {});
     void publishScene();
     void tryToChange(const std::vector<std::string>& sets);
 
