@@ -27,8 +27,8 @@ Eigen::Vector2f inkCentroid(const Image& image)
 
 }  // namespace
 
-DrawLiquid::DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), program_(gl, shaderDir, "liquid"), vertices_(gl), positions_(gl), values_(gl), colorMap_(gl)
+DrawLiquid::DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir, bool isSoftware)
+    : gl_(gl), isSoftware_(isSoftware), program_(gl, shaderDir, "liquid"), vertices_(gl), positions_(gl), values_(gl), colorMap_(gl)
 {
     gl.BindVertexArray(vertices_.id());
     gl.BindBuffer(GL_ARRAY_BUFFER, positions_.id());
@@ -41,7 +41,7 @@ DrawLiquid::DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir)
 void DrawLiquid::draw(const FrameView::Liquid& all, const ViewTransforms& transforms, const LiquidLook& look,
                       int samples)
 {
-    const FrameView::Liquid liquid = visible_.of(all, transforms, look, samples);
+    const FrameView::Liquid liquid = isSoftware_ ? visible_.of(all, transforms, look, samples) : all;
     if (liquid.positions.empty()) return;
     const auto known = pointShift_.find(samples);
     const Eigen::Vector2f shift = known == pointShift_.end() ? Eigen::Vector2f(0.0f, 0.0f) : known->second;
@@ -58,9 +58,10 @@ void DrawLiquid::draw(const FrameView::Liquid& all, const ViewTransforms& transf
     gl_.Disable(GL_BLEND);
     if (samples > 1) gl_.Enable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     const GLsizei count = static_cast<GLsizei>(liquid.positions.size());
-    for (GLsizei first = 0; first < count; first += kPointsPerBatch) {
-        gl_.DrawArrays(GL_POINTS, first, std::min(kPointsPerBatch, count - first));
-        gl_.Finish();
+    const GLsizei batch = isSoftware_ ? kPointsPerBatch : count;
+    for (GLsizei first = 0; first < count; first += batch) {
+        gl_.DrawArrays(GL_POINTS, first, std::min(batch, count - first));
+        if (isSoftware_) gl_.Finish();
     }
     gl_.Disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     requireNoGlError(gl_, "drawing the liquid");

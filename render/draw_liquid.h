@@ -14,7 +14,8 @@ namespace render {
 /// Liquid particles as shaded spheres: one point sprite each, shaped and lit in the fragment shader.
 class DrawLiquid {
  public:
-    DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir);
+    /// @param isSoftware  hidden spheres cost it much, and what waits to be drawn its memory
+    DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir, bool isSoftware);
     /// Draws with depth test and depth write. `samples` > 1: edges of spheres are blended between samples.
     void draw(const FrameView::Liquid& all, const ViewTransforms& transforms, const LiquidLook& look, int samples);
 
@@ -28,6 +29,7 @@ class DrawLiquid {
                      bool smoothEdges, const Eigen::Vector2f& pointShift) const;
 
     const Gl& gl_;
+    const bool isSoftware_;
     Program program_;
     VertexArray vertices_;
     Buffer positions_, values_;

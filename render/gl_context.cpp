@@ -1,8 +1,17 @@
 #include "render/gl_context.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace render {
+
+bool GlContext::isSoftware() const
+{
+    const std::string name = rendererName();
+    constexpr std::array kNames = {"llvmpipe", "softpipe", "swrast", "SWR", "Software", "SwiftShader", "GDI Generic"};
+    return std::ranges::any_of(kNames, [&](const char* known) { return name.find(known) != std::string::npos; });
+}
 
 std::vector<std::string> GlContext::takeComplaints()
 {

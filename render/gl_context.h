@@ -21,6 +21,8 @@ class GlContext {
     const Gl& gl() const { return gl_; }
     /// What draws, say "llvmpipe (LLVM 15.0.6, 256 bits)". The context must be current.
     std::string rendererName() const { return reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)); }
+    /// Is it drawn by the processor? The context must be current.
+    bool isSoftware() const;
     /// The errors OpenGL has told of since the last call, for tests: its own messages where the context has them (those
     /// of windows, with most drivers), else the error that is pending. The context must be current.
     std::vector<std::string> takeComplaints();

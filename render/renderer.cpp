@@ -23,7 +23,7 @@ struct Renderer::Parts {
     Parts(GlContext& c, const std::filesystem::path& shaderDir)
         : context(c),
           gl(c.gl()),
-          liquid(gl, shaderDir),
+          liquid(gl, shaderDir, c.isSoftware()),
           surface(gl, shaderDir),
           yarns(gl, shaderDir),
           cloth(gl, shaderDir),

@@ -11,8 +11,8 @@ namespace render {
 inline constexpr float kSmallestDisc = 2.0f;       ///< pixels across; smaller ones would leave holes between particles
 
 /// Picks the particles of a liquid that some pixel may show. Within a body of liquid most are hidden by others, and a
-/// software renderer spends its time on them. The picture is the same with and without those left out: one is left out
-/// only where nearer particles cover every pixel of its sprite whole.
+/// software renderer spends its time on them; a graphics card does not mind. The picture is the same with and without
+/// those left out: one is left out only where nearer particles cover every pixel of its sprite whole.
 class VisibleParticles {
  public:
     /// The visible ones in their order; spans live until the next call. With fewer than a few thousand, or drawn as

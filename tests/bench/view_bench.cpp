@@ -1,17 +1,48 @@
-// usage: xvfb-run -s "-screen 0 1280x1024x24" view_bench [SCENE [SECONDS]]
+// usage: xvfb-run -s "-screen 0 1280x1024x24" view_bench [--free] [SCENE [SECONDS]]
 // Frames per second of the window, and how long it takes from an input to the picture with its effect, while the scene
-// is simulated.
+// is simulated. With --free as beside a graphics card that draws for nothing, panels apart: what is left is the work of
+// the window's own thread.
 #include "app/view/viewer.h"
 
+#include <GL/glcorearb.h>
+#include <dlfcn.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace {
+
+bool isFree = false;
+
+/// Drawing commands of the renderer, those of the panels are others.
+PFNGLDRAWARRAYSPROC drawArrays = nullptr;
+PFNGLDRAWARRAYSINSTANCEDPROC drawArraysInstanced = nullptr;
+PFNGLDRAWELEMENTSPROC drawElements = nullptr;
+PFNGLBLITFRAMEBUFFERPROC blitFramebuffer = nullptr;
+
+template <auto& real, class... Args>
+void APIENTRY ifDrawn(Args... args)
+{
+    if (!isFree) real(args...);
+}
+
+template <auto& real, class... Args>
+void* inFrontOf(void* function, void(APIENTRYP)(Args...))
+{
+    real = reinterpret_cast<std::remove_reference_t<decltype(real)>>(function);
+    return reinterpret_cast<void*>(&ifDrawn<real, Args...>);
+}
+
+const GLubyte* APIENTRY nameOfCard(GLenum)
+{
+    return reinterpret_cast<const GLubyte*>("one that draws for nothing");
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -38,8 +69,25 @@ double medianOf(std::vector<double> values)
 
 }  // namespace
 
+/// In front of that of GLFW, which is asked in turn.
+extern "C" void* glfwGetProcAddress(const char* name)
+{
+    using Ask = void* (*)(const char*);
+    static const auto ask = reinterpret_cast<Ask>(dlsym(RTLD_NEXT, "glfwGetProcAddress"));
+    void* const function = ask(name);
+    const std::string_view asked = name;
+    if (isFree && asked == "glGetString") return reinterpret_cast<void*>(&nameOfCard);
+    if (asked == "glDrawArrays") return inFrontOf<drawArrays>(function, drawArrays);
+    if (asked == "glDrawArraysInstanced") return inFrontOf<drawArraysInstanced>(function, drawArraysInstanced);
+    if (asked == "glDrawElements") return inFrontOf<drawElements>(function, drawElements);
+    if (asked == "glBlitFramebuffer") return inFrontOf<blitFramebuffer>(function, blitFramebuffer);
+    return function;
+}
+
 int main(int argc, char** argv)
 {
+    isFree = argc > 1 && argv[1] == std::string_view("--free");
+    if (isFree) --argc, ++argv;
     const std::string scene = argc > 1 ? argv[1] : "scenes/dam_break_small.yaml";
     const double seconds = argc > 2 ? std::atof(argv[2]) : 20.0;
     app::Viewer viewer({.file = scene, .variant = "", .sets = {}}, app::drenchParts(), {.width = 1280, .height = 800});
