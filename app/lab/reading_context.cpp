@@ -57,7 +57,7 @@ void readFlow(const Node* node, const ReadingContext& context, Measures& measure
 Take takeIn(const Node& node, const std::string& path)
 {
     const std::vector<std::string> words(kTakes.begin(), kTakes.end());
-    return static_cast<Take>(sim::readChoice(node, path, words, std::vector<bool>(words.size(), true)));
+    return static_cast<Take>(sim::readChoice(node, path, words));
 }
 
 std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& path)

@@ -10,13 +10,12 @@ template <class E>
 struct Choice {
     const char* word;
     E value;
-    bool runs = true;  ///< false: known, but not in this version
 };
 
 /// One word of a list that switches something on.
 struct NamedFlag {
     const char* word;
-    bool* value;  ///< nullptr: known, but not in this version
+    bool* value;
 };
 
 }  // namespace sim

@@ -109,7 +109,7 @@ void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid)
     std::vector<std::string> names;
     for (const LiquidPreset& preset : liquidPresets()) names.emplace_back(preset.name);
     names.emplace_back("none");
-    const std::size_t chosen = readChoice(*node, section.pathOf("preset"), names, std::vector<bool>(names.size(), true));
+    const std::size_t chosen = readChoice(*node, section.pathOf("preset"), names);
     if (chosen >= liquidPresets().size()) return;
     const LiquidPreset& preset = liquidPresets()[chosen];
     liquid.density = preset.density;

@@ -48,7 +48,6 @@ class ParameterList {
     {
         Parameter& p = add(key, Parameter::Kind::Word, "", help);
         for (const Choice<E>& c : choicesOf(x)) {
-            if (!c.runs) continue;
             p.words.emplace_back(c.word);
             if (c.value == x && p.value.empty()) p.value = c.word;
         }

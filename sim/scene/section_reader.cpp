@@ -106,45 +106,30 @@ std::vector<std::string> readTexts(const Node& node, const std::string& path)
     return texts;
 }
 
-std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words,
-                       const std::vector<bool>& runs)
+std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words)
 {
-    std::vector<std::string> usable;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (runs[i]) usable.push_back(words[i]);
-    }
     if (!node.isScalar())
-        failAt(node, path, fmt::format("needs one word of {}, not {}", listed(usable), node.called()));
-    const auto found = std::find(words.begin(), words.end(), node.text);
+        failAt(node, path, fmt::format("needs one word of {}, not {}", listed(words), node.called()));
+    const auto found = std::ranges::find(words, node.text);
     if (found == words.end())
-        failAt(node, path, fmt::format("{} is unknown{}", inQuotes(node.text), suggestion(node.text, usable)));
-    const auto index = static_cast<std::size_t>(found - words.begin());
-    if (!runs[index])
-        failAt(node, path,
-               fmt::format("{} does not run in this version; write {}", node.text, fmt::join(usable, " or ")));
-    return index;
+        failAt(node, path, fmt::format("{} is unknown{}", inQuotes(node.text), suggestion(node.text, words)));
+    return static_cast<std::size_t>(found - words.begin());
 }
 
 void readNamedFlags(const Node& node, const std::string& path, std::span<const NamedFlag> flags)
 {
     if (!node.isList()) failAt(node, path, fmt::format("needs a list of words, not {}", node.called()));
-    std::vector<std::string> words, usable;
+    std::vector<std::string> words;
     for (const NamedFlag& f : flags) {
         words.emplace_back(f.word);
-        if (f.value) {
-            *f.value = false;
-            usable.emplace_back(f.word);
-        }
+        *f.value = false;
     }
     for (const Node& item : node.items) {
         const std::string& text = readText(item, path);
-        const auto found = std::find(words.begin(), words.end(), text);
+        const auto found = std::ranges::find(words, text);
         if (found == words.end())
-            failAt(item, path, fmt::format("{} is unknown{}", inQuotes(text), suggestion(text, usable)));
-        bool* value = flags[static_cast<std::size_t>(found - words.begin())].value;
-        if (!value)
-            failAt(item, path, fmt::format("{} does not run in this version; there is {}", text, listed(usable)));
-        *value = true;
+            failAt(item, path, fmt::format("{} is unknown{}", inQuotes(text), suggestion(text, words)));
+        *flags[static_cast<std::size_t>(found - words.begin())].value = true;
     }
 }
 
@@ -203,14 +188,10 @@ void SectionReader::color(const char* key, Eigen::Vector3f& out, const char*)
 void SectionReader::onlyRuns(const char* key, const char* word, std::initializer_list<const char*> others, const char*)
 {
     const Node* n = find(key);
-    if (!n) return;
-    std::vector<std::string> words{word};
-    std::vector<bool> runs{true};
-    for (const char* o : others) {
-        words.emplace_back(o);
-        runs.push_back(false);
-    }
-    readChoice(*n, pathOf(key), words, runs);
+    if (!n || (n->isScalar() && n->text == word)) return;
+    if (n->isScalar() && std::ranges::find(others, n->text) != others.end())
+        failAt(*n, pathOf(key), fmt::format("{} does not run in this version; write {}", n->text, word));
+    readChoice(*n, pathOf(key), {word});
 }
 
 void SectionReader::later(const char* key, const char* message)

@@ -24,9 +24,8 @@ std::int64_t readInteger(const Node& node, const std::string& path, std::int64_t
 std::uint64_t readSeed(const Node& node, const std::string& path);
 bool readFlag(const Node& node, const std::string& path);
 const std::string& readText(const Node& node, const std::string& path);
-/// The number of the word in the list; a word that does not run is refused by name.
-std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words,
-                       const std::vector<bool>& runs);
+/// The number of the word in the list.
+std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words);
 void readNamedFlags(const Node& node, const std::string& path, std::span<const NamedFlag> flags);
 std::vector<std::string> readTexts(const Node& node, const std::string& path);
 
@@ -153,12 +152,8 @@ class SectionReader {
         const Node* n = find(key);
         if (!n) return;
         std::vector<std::string> words;
-        std::vector<bool> runs;
-        for (const Choice<E>& c : choicesOf(out)) {
-            words.emplace_back(c.word);
-            runs.push_back(c.runs);
-        }
-        out = choicesOf(out)[readChoice(*n, pathOf(key), words, runs)].value;
+        for (const Choice<E>& c : choicesOf(out)) words.emplace_back(c.word);
+        out = choicesOf(out)[readChoice(*n, pathOf(key), words)].value;
     }
     void vector(const char* key, Vec3& out, Quantity quantity, const char*)
     {
@@ -181,7 +176,7 @@ class SectionReader {
     /// Either of two words.
     void either(const char* key, bool& out, const char* yes, const char* no, const char*)
     {
-        if (const Node* n = find(key)) out = readChoice(*n, pathOf(key), {yes, no}, {true, true}) == 0;
+        if (const Node* n = find(key)) out = readChoice(*n, pathOf(key), {yes, no}) == 0;
     }
     template <class T>
     void section(const char* key, T& out, const char*)

@@ -67,7 +67,7 @@ void SectionWriter::flags(const char* key, std::initializer_list<NamedFlag> all,
 {
     std::string list;
     for (const NamedFlag& f : all) {
-        if (f.value && *f.value) list += (list.empty() ? "" : ", ") + std::string(f.word);
+        if (*f.value) list += (list.empty() ? "" : ", ") + std::string(f.word);
     }
     line(key, "[" + list + "]", help);
 }

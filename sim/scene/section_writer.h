@@ -71,8 +71,8 @@ class SectionWriter {
     {
         std::string words, chosen;
         for (const Choice<E>& c : choicesOf(x)) {
-            if (c.runs && c.value == x) chosen = c.word;
-            if (c.runs) words += (words.empty() ? "" : " | ") + std::string(c.word);
+            if (c.value == x) chosen = c.word;
+            words += (words.empty() ? "" : " | ") + std::string(c.word);
         }
         line(key, chosen, std::string(help) + ": " + words);
     }

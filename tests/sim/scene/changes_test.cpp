@@ -138,6 +138,6 @@ const BadScene kBadChanges[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Changes, BadChange, testing::ValuesIn(kBadChanges),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& bad) { return bad.param.name; });
 
 }  // namespace

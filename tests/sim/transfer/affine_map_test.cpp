@@ -133,9 +133,10 @@ State afterThreeSteps(TransferMethod method, int modes, XiMap xi)
     scene.settings.transfer.modes = modes;
     scene.settings.transfer.xi = xi;
     for (double side : {-1.0, 1.0}) {
-        Emission emission;
-        emission.velocity = {-20.0 * side, 5.0 * side, 0.0};
-        scene.sources.push_back({"drop", Shape::ball({0.7 * side, 0.0, 0.0}, 0.8), {}, {emission}, {}, {}});
+        SourceSettings drop;
+        drop.shape = Shape::ball({0.7 * side, 0.0, 0.0}, 0.8);
+        drop.emissions.emplace_back().velocity = {-20.0 * side, 5.0 * side, 0.0};
+        scene.sources.push_back(drop);
     }
     Simulation simulation(scene);
     for (int n = 1; n <= 3; ++n) {
