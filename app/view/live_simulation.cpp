@@ -15,21 +15,10 @@ namespace {
 
 constexpr std::size_t kMostSteps = 100'000;  ///< that wait to be taken: of a window that is not drawn
 
-/// Memory of a copy of the state, about.
-std::size_t bytesOf(const sim::State& state)
-{
-    const sim::LiquidParticles& liquid = state.liquid;
-    constexpr std::size_t kPerVertex = 7 * sizeof(sim::Vec3) + 8 * sizeof(double);
-    const auto rows = static_cast<std::size_t>(sim::kAxes * (1 + liquid.modeCount) + 2);
-    return liquid.count * rows * sizeof(double) +
-           static_cast<std::size_t>(state.grid.count()) * sim::kBlockCells * sizeof(double) +
-           state.fabric.x.size() * kPerVertex;
-}
-
 }  // namespace
 
 LiveSimulation::LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory)
-    : parts_(parts), memory_(memory), settings_(std::move(request), parts.loadScene),
+    : parts_(parts), settings_(std::move(request), parts.loadScene), moments_(memory),
       extras_(extrasOf(settings_.setup().pictures.render))
 {
     startAnew();
@@ -52,27 +41,26 @@ void LiveSimulation::ask(Command command)
 void LiveSimulation::play()
 {
     ask([this] {
-        if (status().mode == LiveMode::Paused) setMode(LiveMode::Playing);
+        if (mode_ == LiveMode::Paused) mode_ = LiveMode::Playing;
     });
 }
 
 void LiveSimulation::pause()
 {
     ask([this] {
-        if (status().mode != LiveMode::Playing) return;
+        if (mode_ != LiveMode::Playing) return;
         pausesAtFrame_ = !isAtFrame();
-        if (!pausesAtFrame_) setMode(LiveMode::Paused);
+        if (!pausesAtFrame_) mode_ = LiveMode::Paused;
     });
 }
 
 void LiveSimulation::stepOnce()
 {
     ask([this] {
-        const LiveMode mode = status().mode;
-        if (mode == LiveMode::Ended || mode == LiveMode::Failed) return;
-        setMode(LiveMode::Paused);
+        if (mode_ == LiveMode::Ended || mode_ == LiveMode::Failed) return;
+        mode_ = LiveMode::Paused;
         do advance();
-        while (!isAtFrame() && status().mode == LiveMode::Paused);
+        while (!isAtFrame() && mode_ == LiveMode::Paused);
     });
 }
 
@@ -82,16 +70,13 @@ void LiveSimulation::restart()
         if (settings_.restart())
             startAnew();
         else
-            goTo(moments_.front());
+            goTo(moments_.first());
     });
 }
 
 void LiveSimulation::goBackTo(double time)
 {
-    ask([this, time] {
-        const auto after = std::ranges::find_if(moments_, [&](const Moment& m) { return m.state.time > time; });
-        goTo(after == moments_.begin() ? moments_.front() : *std::prev(after));
-    });
+    ask([this, time] { goTo(moments_.latest(time)); });
 }
 
 void LiveSimulation::change(std::vector<std::string> sets)
@@ -110,10 +95,10 @@ void LiveSimulation::change(std::vector<std::string> sets)
 
 void LiveSimulation::tryToChange(const std::vector<std::string>& sets)
 {
-    const LiveMode mode = status().mode;
+    const LiveMode mode = mode_;
     if (settings_.change(sets, simulation_->state().step)) {
         startAnew();
-        setMode(mode == LiveMode::Playing ? mode : LiveMode::Paused);
+        mode_ = mode == LiveMode::Playing ? mode : LiveMode::Paused;
         return;
     }
     simulation_->setChanges(settings_.setup().scene.changes);
@@ -174,24 +159,17 @@ std::optional<double> LiveSimulation::waiting() const
     return ready_ ? std::optional(ready_->time) : std::nullopt;
 }
 
-void LiveSimulation::setMode(LiveMode mode)
-{
-    const std::lock_guard lock(mutex_);
-    status_.mode = mode;
-}
-
 void LiveSimulation::fail(const std::string& why)
 {
-    const std::lock_guard lock(mutex_);
-    status_.mode = LiveMode::Failed;
-    status_.failure = why;
+    mode_ = LiveMode::Failed;
+    failure_ = why;
 }
 
 void LiveSimulation::work(const std::stop_token& stop)
 {
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-        const auto goesOn = [&] { return status_.mode == LiveMode::Playing && !(frameByFrame_ && ready_); };
+        const auto goesOn = [&] { return mode_ == LiveMode::Playing && !(frameByFrame_ && ready_); };
         wake_.wait(lock, stop, [&] { return !commands_.empty() || goesOn(); });
         runCommands(lock);
         if (stop.stop_requested() || !goesOn()) continue;
@@ -243,13 +221,12 @@ void LiveSimulation::advance()
     }
     if (state.step + 1 >= nextChange_) publishScene();
     if (state.time == until) ++frame_;
-    LiveMode mode = status().mode;
     if (state.time == until && until < end) {
-        if (frame_ % momentEvery_ == 0) keepMoment();
-        if (std::exchange(pausesAtFrame_, false)) mode = LiveMode::Paused;
+        moments_.keep(state, frame_);
+        if (std::exchange(pausesAtFrame_, false)) mode_ = LiveMode::Paused;
     }
-    if (state.time >= end) mode = LiveMode::Ended;
-    publish(state.time >= end, mode);
+    if (state.time >= end) mode_ = LiveMode::Ended;
+    publish(state.time >= end);
 }
 
 /// May it pause here? Anywhere, but frame by frame.
@@ -262,18 +239,17 @@ bool LiveSimulation::isAtFrame() const
     return simulation_->state().time == frameTime(settings_.setup(), frame_);
 }
 
-void LiveSimulation::goTo(const Moment& moment)
+void LiveSimulation::goTo(const Moments::Moment& moment)
 {
     const double time = moment.state.time;
     frame_ = moment.frame;
     pausesAtFrame_ = false;
     settings_.goBackTo(moment.state.step);
     simulation_ = parts_.resumeSimulation(settings_.setup(), moment.state);
-    std::erase_if(moments_, [&](const Moment& m) { return m.state.time > time; });
+    moments_.forgetAfter(time);
+    mode_ = LiveMode::Paused;
+    failure_.clear();
     publishScene();
-    const std::lock_guard lock(mutex_);
-    status_.mode = LiveMode::Paused;
-    status_.failure.clear();
 }
 
 /// From the initial state of the scene as it is set.
@@ -282,27 +258,12 @@ void LiveSimulation::startAnew()
     const SceneSetup& setup = settings_.setup();
     simulation_ = parts_.startSimulation(setup);
     placeObstacles_ = parts_.meshObstacles(setup);
-    moments_.clear();
-    momentEvery_ = 1;
+    moments_.begin(simulation_->state());
     frame_ = 0;
     pausesAtFrame_ = false;
-    keepMoment();
+    mode_ = LiveMode::Paused;
+    failure_.clear();
     publishScene();
-    const std::lock_guard lock(mutex_);
-    status_.mode = LiveMode::Paused;
-    status_.failure.clear();
-}
-
-/// Where memory is used up every second moment is forgotten, and from here on half as many are kept.
-void LiveSimulation::keepMoment()
-{
-    const sim::State& state = simulation_->state();
-    const std::size_t fits = std::max<std::size_t>(1, memory_ / std::max<std::size_t>(1, bytesOf(state)));
-    while (moments_.size() > 1 && moments_.size() >= fits) {
-        momentEvery_ *= 2;
-        std::erase_if(moments_, [&](const Moment& m) { return m.frame % momentEvery_ != 0; });
-    }
-    if (frame_ % momentEvery_ == 0 && (moments_.empty() || moments_.size() < fits)) moments_.push_back({state, frame_});
 }
 
 /// What holds now, and until when.
@@ -315,15 +276,14 @@ void LiveSimulation::publishScene()
     scene_ = std::move(scene);
 }
 
-/// Hand out how it stands. Without `always` only if the last snapshot was taken: who looks seldom costs little. The
-/// status is told last, so that who knows it has ended or pauses finds the picture of that.
-void LiveSimulation::publish(bool always, std::optional<LiveMode> mode)
+/// Hand out how it stands. A picture, without `always`, only if the last one was taken: who looks seldom costs little.
+/// The status is told last, all at once, so that who knows that it has ended or pauses finds the picture of that.
+void LiveSimulation::publish(bool always)
 {
     const sim::State& state = simulation_->state();
     std::unique_lock lock(mutex_);
-    const LiveMode then = mode.value_or(status_.mode);
     const bool isBetween =
-        frameByFrame_ && then < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
+        frameByFrame_ && mode_ < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
     if (!isBetween && (always || !ready_)) {
         std::unique_ptr<FrameSnapshot> snapshot = std::move(spare_);
         lock.unlock();
@@ -336,11 +296,11 @@ void LiveSimulation::publish(bool always, std::optional<LiveMode> mode)
         std::swap(ready_, snapshot);
         if (snapshot) spare_ = std::move(snapshot);
     }
-    status_.mode = then;
+    status_.mode = mode_;
+    status_.failure = failure_;
     status_.step = state.step;
     status_.time = state.time;
-    status_.moments.clear();
-    for (const Moment& moment : moments_) status_.moments.push_back(moment.state.time);
+    status_.moments = moments_.times();
 }
 
 }  // namespace app

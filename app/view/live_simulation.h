@@ -2,6 +2,7 @@
 
 #include "app/parts.h"
 #include "app/view/live_scene.h"
+#include "app/view/moments.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -77,10 +78,6 @@ class LiveSimulation {
     std::optional<double> waiting() const;
 
  private:
-    struct Moment {
-        sim::State state;
-        std::int64_t frame = 0;  ///< its number
-    };
     using Command = std::function<void()>;
 
     void ask(Command command);
@@ -88,26 +85,24 @@ class LiveSimulation {
     void runCommands(std::unique_lock<std::mutex>& lock);
     void advance();
     bool isAtFrame() const;
-    void setMode(LiveMode mode);
     void fail(const std::string& why);
-    void goTo(const Moment& moment);
+    void goTo(const Moments::Moment& moment);
     void startAnew();
-    void keepMoment();
-    void publish(bool always, std::optional<LiveMode> mode = {});
+    void publish(bool always);
     void publishScene();
     void tryToChange(const std::vector<std::string>& sets);
 
     const Parts parts_;
-    const std::size_t memory_;
 
     // The simulation's thread has these to itself once it runs.
     LiveSettings settings_;
     PlaceObstacles placeObstacles_;
     std::unique_ptr<Steppable> simulation_;
-    std::vector<Moment> moments_;   ///< the initial state first
-    std::int64_t momentEvery_ = 1;  ///< frames
-    std::int64_t frame_ = 0;        ///< the last one that was reached
-    std::int64_t nextChange_ = 0;   ///< the step with which settings change next by themselves
+    Moments moments_;
+    std::int64_t frame_ = 0;       ///< the last one that was reached
+    std::int64_t nextChange_ = 0;  ///< the step with which settings change next by themselves
+    LiveMode mode_ = LiveMode::Paused;
+    std::string failure_;
     bool pausesAtFrame_ = false;
     SnapshotExtras extras_;
 
