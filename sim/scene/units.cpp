@@ -201,6 +201,12 @@ ParsedNumber problem(std::string text)
     return {0.0, std::move(text)};
 }
 
+/// -0 is 0: there is no other scene with it.
+double unsignedZero(double value)
+{
+    return value == 0.0 ? 0.0 : value;
+}
+
 }  // namespace
 
 std::string nameOf(Quantity quantity)
@@ -238,7 +244,7 @@ ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     const QuantityInfo& info = infoOf(quantity);
     if (quantity == Quantity::Angle && unit == "rad")
-        return {number, ""};  // as it is stored: not through degrees and back
+        return {unsignedZero(number), ""};  // as it is stored: not through degrees and back
     double inFile = isSi ? number * info.siInCgs : number;
     if (!unit.empty()) {
         const std::optional<Scale> scale = parseUnit(unit);
@@ -253,12 +259,12 @@ ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
         inFile = number * scale->factor;
     }
     if (!std::isfinite(inFile)) return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
-    return {toStored(inFile, quantity), ""};
+    return {unsignedZero(toStored(inFile, quantity)), ""};
 }
 
 std::string formatPlain(double value)
 {
-    std::string text = fmt::format("{}", value == 0.0 ? 0.0 : value);
+    std::string text = fmt::format("{}", unsignedZero(value));
     const std::size_t exponent = text.find('e');
     // YAML 1.1 readers take 1e-05 for a word; 1.0e-05 is a number everywhere.
     if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
