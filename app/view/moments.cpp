@@ -1,6 +1,7 @@
 #include "app/view/moments.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace app {
 
