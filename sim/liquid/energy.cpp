@@ -1,6 +1,7 @@
 #include "sim/liquid/energy.h"
 
 #include "sim/core/parallel.h"
+#include "sim/transfer/modes.h"
 #include "sim/transfer/reference.h"
 
 namespace sim {
@@ -17,7 +18,15 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity)
 
 double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration)
 {
-    return duration * parallelSum(particles.count, [&](std::size_t p) { return particles.mass[p] * gravity.dot(particles.velocity(p)); });
+    double power = 0.0;
+    for (int axis = 0; axis < kAxes; ++axis)
+        for (int r = 0; r < particles.modeCount; ++r) {
+            const double share = gravity[axis] * kMeanOfMode[r];  // most modes do not move the particle, few weights act along all axes
+            if (share == 0.0) continue;
+            const double* c = particles.mode(axis, r);
+            power += share * parallelSum(particles.count, [&](std::size_t p) { return particles.mass[p] * c[p]; });
+        }
+    return duration * power;
 }
 
 namespace {
