@@ -1,7 +1,7 @@
-// usage: xvfb-run -s "-screen 0 1280x1024x24" view_bench [--free] [SCENE [SECONDS]]
+// usage: xvfb-run -s "-screen 0 1280x1024x24" view_bench [--free | --count] [SCENE [SECONDS]]
 // Frames per second of the window, and how long it takes from an input to the picture with its effect, while the scene
 // is simulated. With --free as beside a graphics card that draws for nothing, panels apart: what is left is the work of
-// the window's own thread.
+// the window's own thread. With --count what such a card is given to do in one frame instead.
 #include "app/view/viewer.h"
 
 #include <GL/glcorearb.h>
@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <string>
@@ -16,20 +17,32 @@
 #include <type_traits>
 #include <vector>
 
+extern "C" void* glfwGetProcAddress(const char* name);
+
 namespace {
 
-bool isFree = false;
+enum class Card { None, Free, Counted };
+Card card = Card::None;
 
 /// Drawing commands of the renderer, those of the panels are others.
 PFNGLDRAWARRAYSPROC drawArrays = nullptr;
 PFNGLDRAWARRAYSINSTANCEDPROC drawArraysInstanced = nullptr;
 PFNGLDRAWELEMENTSPROC drawElements = nullptr;
 PFNGLBLITFRAMEBUFFERPROC blitFramebuffer = nullptr;
+PFNGLBUFFERDATAPROC bufferData = nullptr;
+
+double uploaded = 0.0;  // [bytes]
+
+void APIENTRY countAndUpload(GLenum target, GLsizeiptr size, const void* data, GLenum usage)
+{
+    uploaded += static_cast<double>(size);
+    bufferData(target, size, data, usage);
+}
 
 template <auto& real, class... Args>
 void APIENTRY ifDrawn(Args... args)
 {
-    if (!isFree) real(args...);
+    if (card != Card::Free) real(args...);
 }
 
 template <auto& real, class... Args>
@@ -43,6 +56,37 @@ const GLubyte* APIENTRY nameOfCard(GLenum)
 {
     return reinterpret_cast<const GLubyte*>("one that draws for nothing");
 }
+
+/// Counts what shaders are called for between begin() and end().
+class WorkOfCard {
+ public:
+    WorkOfCard() { load<PFNGLGENQUERIESPROC>("glGenQueries")(kWhat.size(), queries_.data()); }
+    void begin() const
+    {
+        for (std::size_t i = 0; i < kWhat.size(); ++i) load<PFNGLBEGINQUERYPROC>("glBeginQuery")(kWhat[i], queries_[i]);
+    }
+    void end()
+    {
+        for (std::size_t i = 0; i < kWhat.size(); ++i) {
+            load<PFNGLENDQUERYPROC>("glEndQuery")(kWhat[i]);
+            GLuint64 count = 0;
+            load<PFNGLGETQUERYOBJECTUI64VPROC>("glGetQueryObjectui64v")(queries_[i], GL_QUERY_RESULT, &count);
+            counts_[i] = static_cast<double>(count);
+        }
+    }
+    double vertices() const { return counts_[0]; }
+    double fragments() const { return counts_[1]; }
+
+ private:
+    template <class Function>
+    static Function load(const char* name)
+    {
+        return reinterpret_cast<Function>(glfwGetProcAddress(name));
+    }
+    static constexpr std::array<GLenum, 2> kWhat = {GL_VERTEX_SHADER_INVOCATIONS, GL_FRAGMENT_SHADER_INVOCATIONS};
+    std::array<GLuint, 2> queries_{};
+    std::array<double, 2> counts_{};
+};
 
 using Clock = std::chrono::steady_clock;
 
@@ -67,32 +111,62 @@ double medianOf(std::vector<double> values)
     return values[values.size() / 2];
 }
 
+/// Of frames of full quality, which cards draw while the scene is simulated, too, and software only when it is paused.
+void printWorkOfCard(app::Viewer& viewer, double seconds)
+{
+    WorkOfCard work;
+    viewer.pair().first().pause();
+    timeToShow(viewer, [&] { return viewer.pair().first().status().mode == app::LiveMode::Paused; });
+    std::vector<double> vertices, fragments, bytes;
+    for (const auto begin = Clock::now(); since(begin) < seconds;) {
+        uploaded = 0.0;
+        work.begin();
+        viewer.frame();
+        work.end();
+        vertices.push_back(work.vertices());
+        fragments.push_back(work.fragments());
+        bytes.push_back(uploaded);
+    }
+    fmt::print("one frame of a card, panels included (median of {}): {:.0f} vertices, {:.0f} fragments, {:.2f} MB of vertices uploaded\n",
+               vertices.size(), medianOf(vertices), medianOf(fragments), 1.0e-6 * medianOf(bytes));
+}
+
 }  // namespace
 
 /// In front of that of GLFW, which is asked in turn.
-extern "C" void* glfwGetProcAddress(const char* name)
+void* glfwGetProcAddress(const char* name)
 {
     using Ask = void* (*)(const char*);
     static const auto ask = reinterpret_cast<Ask>(dlsym(RTLD_NEXT, "glfwGetProcAddress"));
     void* const function = ask(name);
     const std::string_view asked = name;
-    if (isFree && asked == "glGetString") return reinterpret_cast<void*>(&nameOfCard);
+    if (card != Card::None && asked == "glGetString") return reinterpret_cast<void*>(&nameOfCard);
     if (asked == "glDrawArrays") return inFrontOf<drawArrays>(function, drawArrays);
     if (asked == "glDrawArraysInstanced") return inFrontOf<drawArraysInstanced>(function, drawArraysInstanced);
     if (asked == "glDrawElements") return inFrontOf<drawElements>(function, drawElements);
     if (asked == "glBlitFramebuffer") return inFrontOf<blitFramebuffer>(function, blitFramebuffer);
+    if (asked == "glBufferData") {
+        bufferData = reinterpret_cast<PFNGLBUFFERDATAPROC>(function);
+        return reinterpret_cast<void*>(&countAndUpload);
+    }
     return function;
 }
 
 int main(int argc, char** argv)
 {
-    isFree = argc > 1 && argv[1] == std::string_view("--free");
-    if (isFree) --argc, ++argv;
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    card = first == "--free" ? Card::Free : first == "--count" ? Card::Counted : Card::None;
+    if (card != Card::None) --argc, ++argv;
     const std::string scene = argc > 1 ? argv[1] : "scenes/dam_break_small.yaml";
     const double seconds = argc > 2 ? std::atof(argv[2]) : 20.0;
     app::Viewer viewer({.file = scene, .variant = "", .sets = {}}, app::drenchParts(), {.width = 1280, .height = 800});
     app::LivePair& pair = viewer.pair();
     while (!pair.sides().front()->shown || pair.first().status().step < 2) viewer.frame();
+    if (card == Card::Counted) {
+        fmt::print("{}: {} particles\n", scene, pair.sides().front()->shown->positions.size());
+        printWorkOfCard(viewer, seconds);
+        return 0;
+    }
 
     std::vector<double> frames;
     for (const auto begin = Clock::now(); since(begin) < seconds;) {
