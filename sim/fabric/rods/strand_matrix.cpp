@@ -34,7 +34,7 @@ void StrandMatrix::resize(const StrandLayout& layout)
 {
     const std::size_t entries = static_cast<std::size_t>(layout.rows) * kBand * kLanes;
     band_.resize(entries);
-    lower_.resize(entries);
+    lower_.resize(layout.vertex.size() * kLowerPerVertex * kLanes);
     inverse_.resize(static_cast<std::size_t>(layout.rows) * kLanes);
     definite_.resize(layout.groups.size());
 }
@@ -44,19 +44,19 @@ bool StrandMatrix::factor(const StrandLayout& layout)
     parallelFor(layout.groups.size(), [&](std::size_t g) {
         const StrandLayout::Group& group = layout.groups[g];
         const Pack* band = packs(band_, group.firstRow * kBand);
-        Pack* lower = packs(lower_, group.firstRow * kBand);
+        Pack* lower = packs(lower_, group.firstVertex * kLowerPerVertex);
         Pack* inverse = packs(inverse_, group.firstRow);
         Pack definite = broadcast(1.0);
         for (int r = 0; r < group.rows(); ++r) {
             const Pack* row = band + r * kBand;
-            const int reach = std::min(r, kBand - 1);
+            const int reach = std::min(r, kReach[r % 4]);
             Pack scaled[kBand];  // L D of this row
-            Pack* own = lower + r * kBand;
+            Pack* own = lowerRow(lower, r);
             Pack diagonal = row[0];
             for (int k = reach; k >= 1; --k) {
-                const Pack* other = lower + (r - k) * kBand;
+                const Pack* other = lowerRow(lower, r - k);
                 Pack v = row[k];
-                for (int m = reach; m > k; --m) v -= scaled[m] * other[m - k];
+                for (int m = std::min(reach, k + kReach[(r - k) % 4]); m > k; --m) v -= scaled[m] * other[m - k];
                 scaled[k] = v;
             }
             for (int k = 1; k <= reach; ++k) {
@@ -73,18 +73,20 @@ bool StrandMatrix::factor(const StrandLayout& layout)
 
 void StrandMatrix::solve(const StrandLayout::Group& group, const Pack* b, Pack* z) const
 {
-    const Pack* lower = packs(lower_, group.firstRow * kBand);
+    const Pack* lower = packs(lower_, group.firstVertex * kLowerPerVertex);
     const Pack* inverse = packs(inverse_, group.firstRow);
     const int n = group.rows();
     for (int r = 0; r < n; ++r) {
+        const Pack* own = lowerRow(lower, r);
         Pack v = b[r];
-        for (int k = std::min(r, kBand - 1); k >= 1; --k) v -= lower[r * kBand + k] * z[r - k];
+        for (int k = std::min(r, kReach[r % 4]); k >= 1; --k) v -= own[k] * z[r - k];
         z[r] = v;
     }
     for (int r = 0; r < n; ++r) z[r] *= inverse[r];
     for (int r = n - 1; r >= 0; --r) {
+        const Pack* own = lowerRow(lower, r);
         const Pack v = z[r];
-        for (int k = 1; k <= std::min(r, kBand - 1); ++k) z[r - k] -= lower[r * kBand + k] * v;
+        for (int k = 1; k <= std::min(r, kReach[r % 4]); ++k) z[r - k] -= own[k] * v;
     }
 }
 

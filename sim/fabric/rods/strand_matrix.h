@@ -36,6 +36,9 @@ struct StrandLayout {
 class StrandMatrix {
  public:
     static constexpr int kBand = 11;   ///< entries stored per row: column r − k at k
+    /// Columns before the diagonal in which rows of x, y, z and θ have entries: those of two vertices and their angles before x, y, z,
+    /// of one before θ. Factors have none elsewhere either.
+    static constexpr std::array<int, 4> kReach = {8, 9, 10, 7};
 
     void resize(const StrandLayout& layout);
     void clear() { band_.fill(0.0); }
@@ -61,7 +64,16 @@ class StrandMatrix {
     static const Pack* packs(const AlignedArray<double>& a, std::size_t n) { return reinterpret_cast<const Pack*>(a.data()) + n; }
 
     AlignedArray<double> band_;
-    AlignedArray<double> lower_;       ///< L, laid out like the band, without its unit diagonal
+    /// Where the row of L of one of a group's rows has column r − k at k; `group` points at the group's first vertex.
+    template <class P>
+    static P* lowerRow(P* group, int r)
+    {
+        constexpr std::array<int, 4> kBegin = {0, kReach[0], kReach[0] + kReach[1], kReach[0] + kReach[1] + kReach[2]};
+        return group + (r / 4) * kLowerPerVertex + kBegin[r % 4] - 1;
+    }
+    static constexpr int kLowerPerVertex = kReach[0] + kReach[1] + kReach[2] + kReach[3];
+
+    AlignedArray<double> lower_;       ///< L without its unit diagonal: of each packed vertex its rows, one after the other
     AlignedArray<double> inverse_;     ///< D⁻¹
     std::vector<Pack> definite_;
 };
