@@ -261,3 +261,22 @@ TEST(Energy, GatherCountsWhatTheParticlesThenHave)
             EXPECT_EQ(energies.modal > 0.0, modes > 1);
         }
 }
+
+// Of all modes, what weight does along each axis is what it does to the particles' velocities.
+TEST(Energy, WeightWorksOnTheVelocityOfTheParticles)
+{
+    constexpr double kDuration = 0.01;
+    for (int modes : {1, 8, 11, 27})
+        for (const Vec3& gravity : {Vec3(0.0, -981.0, 0.0), Vec3(300.0, -800.0, 500.0)}) {
+            SCOPED_TRACE(modes);
+            const Transfers t(randomLiquid(3000, modes));
+            const LiquidParticles& p = t.liquid.particles;
+            double work = 0.0, size = 0.0;
+            for (std::size_t i = 0; i < p.count; ++i) {
+                const double power = p.mass[i] * gravity.dot(p.velocity(i));
+                work += kDuration * power;
+                size += kDuration * std::abs(power);
+            }
+            EXPECT_NEAR(weightWork(p, gravity, kDuration), work, 1e-12 * size);
+        }
+}
