@@ -56,12 +56,12 @@ bool StrandMatrix::factor(const StrandLayout& layout)
             for (int k = reach; k >= 1; --k) {
                 const Pack* other = lowerRow(lower, r - k);
                 Pack v = row[k];
-                for (int m = std::min(reach, k + kReach[(r - k) % 4]); m > k; --m) v -= scaled[m] * other[m - k];
+                for (int m = std::min(reach, k + kReach[(r - k) % 4]); m > k; --m) v -= scaled[m] * other[m - k - 1];
                 scaled[k] = v;
             }
             for (int k = 1; k <= reach; ++k) {
-                own[k] = scaled[k] * inverse[r - k];
-                diagonal -= own[k] * scaled[k];
+                own[k - 1] = scaled[k] * inverse[r - k];
+                diagonal -= own[k - 1] * scaled[k];
             }
             definite = select(diagonal > 0.0, definite, broadcast(0.0));
             inverse[r] = broadcast(1.0) / diagonal;
@@ -79,14 +79,14 @@ void StrandMatrix::solve(const StrandLayout::Group& group, const Pack* b, Pack* 
     for (int r = 0; r < n; ++r) {
         const Pack* own = lowerRow(lower, r);
         Pack v = b[r];
-        for (int k = std::min(r, kReach[r % 4]); k >= 1; --k) v -= own[k] * z[r - k];
+        for (int k = std::min(r, kReach[r % 4]); k >= 1; --k) v -= own[k - 1] * z[r - k];
         z[r] = v;
     }
     for (int r = 0; r < n; ++r) z[r] *= inverse[r];
     for (int r = n - 1; r >= 0; --r) {
         const Pack* own = lowerRow(lower, r);
         const Pack v = z[r];
-        for (int k = 1; k <= std::min(r, kReach[r % 4]); ++k) z[r - k] -= own[k] * v;
+        for (int k = 1; k <= std::min(r, kReach[r % 4]); ++k) z[r - k] -= own[k - 1] * v;
     }
 }
 

@@ -64,12 +64,12 @@ class StrandMatrix {
     static const Pack* packs(const AlignedArray<double>& a, std::size_t n) { return reinterpret_cast<const Pack*>(a.data()) + n; }
 
     AlignedArray<double> band_;
-    /// Where the row of L of one of a group's rows has column r − k at k; `group` points at the group's first vertex.
+    /// The row of L of one of a group's rows: column r − k at k − 1; `group` points at the group's first vertex.
     template <class P>
     static P* lowerRow(P* group, int r)
     {
         constexpr std::array<int, 4> kBegin = {0, kReach[0], kReach[0] + kReach[1], kReach[0] + kReach[1] + kReach[2]};
-        return group + (r / 4) * kLowerPerVertex + kBegin[r % 4] - 1;
+        return group + (r / 4) * kLowerPerVertex + kBegin[r % 4];
     }
     static constexpr int kLowerPerVertex = kReach[0] + kReach[1] + kReach[2] + kReach[3];
 
