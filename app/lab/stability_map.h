@@ -27,7 +27,7 @@ struct StabilityRow {
     double seconds = 0.0;       ///< wall
 };
 
-/// A run is stable if it comes to its end in steps of that very length, with all numbers finite, its energy never above
+/// A run is stable if it comes to its end in steps of that length on the mean, with all numbers finite, its energy never above
 /// that of the start plus the work of sources, suction, surface tension, obstacles and pins by more than this share of its
 /// largest kinetic energy …
 inline constexpr double kAllowedGain = 0.05;

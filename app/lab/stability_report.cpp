@@ -45,7 +45,7 @@ std::string plotScript(const StabilityResult& result, const std::string& picture
         stepNames += fmt::format("{}{} {}", s > 0 ? ", " : "", gnuplotText(milliseconds(steps[s])), s);
     return fmt::format(
         "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\n$cells << END\n{}END\n$words << END\n{}END\n"
-        "set title {} noenhanced\nset xlabel 'time step [ms]'\nset xtics ({}) scale 0\nset ytics ({}) scale 0 noenhanced\n"
+        "set label 1 {} at screen 0.5, screen 1 center offset 0,-1 noenhanced\nset tmargin 3\nset xlabel 'time step [ms]'\nset xtics ({}) scale 0\nset ytics ({}) scale 0 noenhanced\n"
         "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset palette defined (0 '{}', 0.5 '#dddddd', 1 '{}')\nset cbrange [0:1]\n"
         "unset colorbox\nunset key\nplot $cells using 1:2:(0.48):(0.48):3 with boxxyerror fillstyle solid noborder linecolor palette, $words using 1:2:3 with labels tc rgb 'white' font ',9'\n",
         std::max<std::size_t>(600, 320 + 80 * steps.size()), 140 + 30 * methods.size(), gnuplotText(picture), cells, words,

@@ -55,6 +55,8 @@ TEST(StabilityMap, StepsMustBeAsLongAsTheyWereToBe)
     logs.energy(1.0, 0.0);
     logs.steps(0.5e-3, 1.0);
     EXPECT_EQ(logs.word(), "cut");
+    logs.steps(0.98e-3, 1.0);  // as an even number of them before the next frame
+    EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
 }
 
 TEST(StabilityMap, TheLargestStableStepHasNoUnstableOneBelow)
