@@ -76,7 +76,7 @@ void finishAtWalls(const BlockGrid& grid, const LiquidSettings& settings, const 
 {
     LiquidGrid& liquid = work.grid;
     const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
-        applyWalls(grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.extrapolation, valid, velocity, liquid);
+        applyWalls(grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.wallFaces, valid, velocity);
     };
     if (plan.flips) {
         liquid.advectedValid = liquid.faces.valid;
@@ -101,7 +101,8 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
     if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
         particlesToFacesAffine(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
     else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
-    if (wallsMirror(settings.liquid.wallFriction)) foldAtWalls(grid, work.obstacles, work.grid.faces);
+    if (wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty())
+        foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid.faces);
     energy.toGrid();
     divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
     energy.onFaces(EnergyChange::Gravity);

@@ -4,7 +4,7 @@
 #include "sim/fabric/grid/grid_solver.h"
 #include "sim/fabric/vertex_solver.h"
 #include "sim/kept_state.h"
-#include "sim/liquid/extrapolate.h"
+#include "sim/liquid/walls.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/reflection.h"
@@ -31,7 +31,7 @@ struct Workspace {
     GatherScratch gather;
     ViscosityWorkspace viscosity;
     PressureWorkspace pressure;
-    ExtrapolationScratch extrapolation;
+    WallFaces wallFaces;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;
     SurfaceTensionWorkspace surfaceTension;

@@ -117,6 +117,7 @@ bool ObstacleField::isNear(const BlockGrid& grid, double distance)
 
 void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors)
 {
+    isFolded_ = false;
     if (slotCount_ == 0) resizeSlots(1);
     oldSlot_.swap(slot_);
     slot_.assign(grid.count() + 1, kOpenSlot);
@@ -160,6 +161,16 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     });
     for (int b = 0; b < grid.count(); ++b)
         if (nearSolid(b)) nearSolid_.push_back(b);
+}
+
+void ObstacleField::foldRoom(bool isFolded)
+{
+    isFolded_ = isFolded;
+    if (!isFolded) return;
+    folded_.resize(slotCount_);
+    parallelFor(slotCount_, 8, [&](std::size_t slot) {
+        std::copy_n(room_.block(static_cast<int>(slot)), BlockArray<double, 3>::kStride, folded_.block(static_cast<int>(slot)));
+    });
 }
 
 void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors)

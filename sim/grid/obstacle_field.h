@@ -28,7 +28,11 @@ class ObstacleField {
     /// Faces of open fraction 0.
     const std::uint64_t* closed(int block, int axis) const { return closed_.block(slot_[block], axis); }
     /// Share of each lower face's B-spline that is outside the solids, 0 … 1: a face amid liquid carries that much of ρ dx³.
-    const double* room(int block, int axis) const { return room_.block(slot_[block], axis); }
+    /// After foldRoom with what has been added since.
+    const double* room(int block, int axis) const { return (isFolded_ ? folded_ : room_).block(slot_[block], axis); }
+    /// Until the next update or call, faces may have more room than their own: that of closed ones whose mass they take over.
+    void foldRoom(bool isFolded);
+    void addRoom(int block, int axis, int face, double room) { folded_.block(slot_[block], axis)[face] += room; }
     /// Cells all of whose faces are closed.
     const std::uint64_t* blocked(int block) const { return blocked_.block(slot_[block]); }
     /// Velocity of the obstacle at each lower face along `axis` [cm/s].
@@ -58,7 +62,8 @@ class ObstacleField {
     std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
     std::vector<int> toCompute_;            ///< blocks
     int slotCount_ = 0;
-    BlockArray<double, 3> open_, room_, wallVelocity_;
+    bool isFolded_ = false;
+    BlockArray<double, 3> open_, room_, folded_, wallVelocity_;
     BlockBits<3> closed_;
     BlockBits<> blocked_;
     BlockArray<double> centerDistance_;

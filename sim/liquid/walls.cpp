@@ -54,54 +54,6 @@ void stick(const BlockGrid& grid, const ObstacleField& field, bool goesStraight,
     });
 }
 
-/// The liquid's velocity at a face: its own component, the others as means of the known faces around.
-Vec3 velocityAtFace(const BlockGrid& grid, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int block, int axis, const Vec3i& cell)
-{
-    Vec3 u;
-    for (int c = 0; c < kAxes; ++c) {
-        double sum = 0.0;
-        int count = 0;
-        for (int side = 0; side < (c == axis ? 1 : 4); ++side) {
-            Vec3i at = cell;
-            if (side & 1) at[c] += 1;
-            if (side & 2) at[axis] -= 1;
-            const CellRef face = cellNear(grid, block, at.x(), at.y(), at.z());
-            if (!valid.test(face.block, face.cell, c)) continue;
-            sum += velocity.block(face.block, c)[face.cell];
-            ++count;
-        }
-        u[c] = count > 0 ? sum / count : 0.0;
-    }
-    return u;
-}
-
-/// The tangential part of the relative velocity stays, less the friction; its normal part goes. Where no liquid reaches, the wall's own remains.
-void slip(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const BlockBits<3>& valid,
-          BlockArray<double, 3>& velocity, LiquidGrid& liquid)
-{
-    const std::vector<int>& blocks = field.blocksNearSolid();
-    parallelFor(blocks.size(), [&](std::size_t n) {
-        const int b = blocks[n];
-        for (int a = 0; a < kAxes; ++a)
-            forEachClosedFace(field, b, a, [&](int face) {
-                if (!valid.test(b, face, a)) return;
-                const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);
-                Vec3 x = grid.lowerCorner(b) + grid.dx * (cell.cast<double>() + Vec3::Constant(0.5));
-                x[a] -= 0.5 * grid.dx;
-                const Vec3 normal = obstacles.normal(x), wall = obstacles.anyMoving() ? obstacles.velocity(x) : Vec3(Vec3::Zero());
-                const Vec3 relative = velocityAtFace(grid, valid, velocity, b, a, cell) - wall;
-                liquid.scratch(b, a)[face] = wall[a] + (1.0 - friction) * (relative[a] - normal[a] * normal.dot(relative));
-            });
-    });
-    parallelFor(blocks.size(), 4, [&](std::size_t n) {
-        const int b = blocks[n];
-        for (int a = 0; a < kAxes; ++a)
-            forEachClosedFace(field, b, a, [&](int face) {
-                velocity.block(b, a)[face] = valid.test(b, face, a) ? liquid.scratch(b, a)[face] : field.wallVelocity(b, a)[face];
-            });
-    });
-}
-
 /// Call f(component, layer, face, image) for the faces of one block that a wall at cell coordinate `plane` mirrors: those behind it with
 /// their images in front, or the other way round. Normal faces of layer 0 stand in the plane and are their own image.
 template <class F>
@@ -184,18 +136,17 @@ double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, i
 }
 
 void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
-                ExtrapolationScratch& scratch, BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid)
+                WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
     if (!wallsMirror(friction)) {
         stick(grid, field, goesStraight, valid, velocity);
         return;
     }
-    extrapolate(grid, field.blocksNearSolid(), scratch, valid, velocity);
-    slip(grid, field, obstacles, friction, valid, velocity, liquid);
-    mirror(grid, obstacles, friction, valid, scratch.newlyValid, velocity);
+    followers.extend(grid, field, valid, velocity);
+    mirror(grid, obstacles, friction, valid, followers.mirrored, velocity);
 }
 
-void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces)
+void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces)
 {
     forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int plane, auto&& forBlocksAtWall) {
         forBlocksAtWall([&](int b) {
@@ -208,7 +159,20 @@ void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& 
                 faces.sums.block(b, FaceFields::kMomentum + c)[face] += normal ? -momentum : momentum;
             });
         });
+        forBlocksAtWall([&](int b) {
+            forEachImage(grid, b, wall, plane, true, [&](int c, int layer, int face, CellRef) {
+                if (c == wall.axis && layer == 0) return;
+                faces.sums.block(b, FaceFields::kMass + c)[face] = faces.sums.block(b, FaceFields::kMomentum + c)[face] = 0.0;
+            });
+        });
     });
+}
+
+void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, FaceFields& faces)
+{
+    foldAtPlaneWalls(grid, obstacles, faces);
+    followers.find(grid, field, obstacles, friction, faces);
+    followers.fold(grid, field, faces);
 }
 
 }  // namespace sim

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "sim/liquid/extrapolate.h"
-#include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/wall_faces.h"
 
 namespace sim {
 
@@ -12,7 +11,7 @@ namespace sim {
 ///               the wall is: what particles near it read is then a straight profile, not one bent towards the face behind
 /// @param valid  in: the faces in front with a velocity; out: those behind that got one, too
 void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
-                ExtrapolationScratch& scratch, BlockBits<3>& valid, BlockArray<double, 3>& velocity, LiquidGrid& liquid);
+                WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
 
 /// Distance of the lower face of a cell from the obstacles, at most 1.5 cells [cm].
 double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell);
@@ -26,6 +25,9 @@ inline bool wallsMirror(double friction) { return friction < 1.0; }
 
 /// After P2G: what particles gave to faces behind plane walls in planes of faces goes to the images of these faces in front, as if every
 /// particle had its mirror image behind the wall. Without it the faces next to a wall know only half of the liquid around them.
-void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces);
+void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces);
+
+/// The same at all walls along which liquid slips: behind others than plane ones goes to the faces that it will follow (WallFaces), with its room.
+void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, FaceFields& faces);
 
 }  // namespace sim

@@ -1,0 +1,208 @@
+#include "sim/liquid/wall_faces.h"
+
+#include "sim/core/parallel.h"
+#include "sim/grid/rows.h"
+
+#include <bit>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+/// Call f(face) for each bit of one kind of a block.
+template <class F>
+void forEachBit(const std::uint64_t* words, F&& f)
+{
+    for (int k = 0; k < kBlockEdge; ++k)
+        for (std::uint64_t bits = words[k]; bits != 0; bits &= bits - 1) f(k * 64 + std::countr_zero(bits));
+}
+
+/// Call f(face) for those of the six neighbours of a face that are known.
+template <class F>
+void forEachKnownBeside(const BlockGrid& grid, int block, int axis, int face, const BlockBits<3>& known, F&& f)
+{
+    const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);
+    for (int a = 0; a < kAxes; ++a)
+        for (int side = -1; side <= 1; side += 2) {
+            Vec3i at = cell;
+            at[a] += side;
+            const CellRef ref = cellNear(grid, block, at.x(), at.y(), at.z());
+            if (known.test(ref.block, ref.cell, axis)) f(ref);
+        }
+}
+
+/// Faces that are known after a sweep and were not before.
+std::array<std::uint64_t, kBlockEdge> freshBits(const BlockBits<3>& known, const BlockBits<3>& before, int block, int axis)
+{
+    std::array<std::uint64_t, kBlockEdge> fresh;
+    for (int k = 0; k < kBlockEdge; ++k) fresh[k] = known.block(block, axis)[k] & ~before.block(block, axis)[k];
+    return fresh;
+}
+
+}  // namespace
+
+/// Call f(place, block) for all blocks near solids, at the same time only for such that do not touch each other: f may write one cell far into
+/// the neighbours, in an order that does not depend on the threads.
+template <class F>
+void WallFaces::inColors(F&& f) const
+{
+    for (const std::vector<int>& color : colors_)
+        parallelFor(color.size(), [&](std::size_t n) { f(color[n], blocks_[color[n]]); });
+}
+
+void WallFaces::findLayers(const BlockGrid& grid, const ObstacleField& field, const FaceFields& faces)
+{
+    for (BlockBits<3>& known : known_) {
+        known.resize(grid.count());
+        std::fill_n(known.block(0), (static_cast<std::size_t>(grid.count()) + 1) * kAxes * BlockBits<3>::kWords, 0);
+    }
+    const std::vector<int>& blocks = field.blocksNearSolid();
+    const auto hasMass = [&](int b, int a, int k) {
+        const double* mass = faces.sums.block(b, FaceFields::kMass + a) + k * 64;
+        std::uint64_t bits = 0;
+        for (int c = 0; c < 64; ++c) bits |= std::uint64_t{mass[c] > 0.0} << c;
+        return bits;
+    };
+    // Only blocks near solids are looked at, and those have no closed neighbour outside of them.
+    parallelFor(blocks.size(), [&](std::size_t n) {
+        const int b = blocks[n];
+        for (int a = 0; a < kAxes; ++a)
+            for (int k = 0; k < kBlockEdge; ++k) known_[0].block(b, a)[k] = hasMass(b, a, k) & ~field.closed(b, a)[k];
+    });
+    for (int layer = 1; layer <= kLayers; ++layer)
+        parallelFor(blocks.size(), [&](std::size_t n) {
+            const int b = blocks[n];
+            const BitAccess bits(grid, b);
+            const BlockBits<3>& known = known_[layer - 1];
+            for (int a = 0; a < kAxes; ++a)
+                for (int k = 0; k < kBlockEdge; ++k) {
+                    std::uint64_t beside = 0;
+                    for (int axis = 0; axis < kAxes; ++axis) beside |= bits.below(known, a, axis, k) | bits.above(known, a, axis, k);
+                    const std::uint64_t fresh = beside & field.closed(b, a)[k] & ~known.block(b, a)[k];
+                    known_[layer].block(b, a)[k] = known.block(b, a)[k] | fresh;
+                }
+        });
+}
+
+void WallFaces::findFollowers(const BlockGrid& grid, const Obstacles& obstacles, double friction, const FaceFields& faces)
+{
+    constexpr double kAlong = 1.0 - 1.0e-6;  ///< cosine from which a wall's normal is along the grid [-]
+    parallelFor(blocks_.size(), [&](std::size_t n) {
+        const int b = blocks_[n];
+        followers_[n].clear();
+        for (int a = 0; a < kAxes; ++a)
+            forEachBit(freshBits(known_[kLayers], known_[0], b, a).data(), [&](int face) {
+                if (!(faces.sums.block(b, FaceFields::kMass + a)[face] > 0.0)) return;
+                Vec3 x = grid.lowerCorner(b) + grid.dx * Vec3((face & 7) + 0.5, (face >> 3 & 7) + 0.5, (face >> 6) + 0.5);
+                x[a] -= 0.5 * grid.dx;
+                const double share = std::abs(obstacles.normal(x)[a]) > kAlong ? 0.0 : 1.0 - friction;
+                followers_[n].push_back({static_cast<std::uint16_t>(face), static_cast<std::uint8_t>(a), share});
+            });
+    });
+    count_ = 0;
+    for (std::size_t n = 0; n < blocks_.size(); ++n) count_ += followers_[n].size();
+}
+
+void WallFaces::find(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const FaceFields& faces)
+{
+    blocks_ = field.blocksNearSolid();
+    place_.assign(grid.count() + 1, BlockGrid::kNone);
+    for (auto& color : colors_) color.clear();
+    if (followers_.size() < blocks_.size()) followers_.resize(blocks_.size());
+    for (std::size_t n = 0; n < blocks_.size(); ++n) {
+        const Vec3i& at = grid.coords(blocks_[n]);
+        place_[blocks_[n]] = static_cast<int>(n);
+        colors_[(at.x() & 1) + 2 * (at.y() & 1) + 4 * (at.z() & 1)].push_back(static_cast<int>(n));
+    }
+    mirrored.resize(grid.count());
+    if (blocks_.empty()) {
+        count_ = 0;
+        return;
+    }
+    findLayers(grid, field, faces);
+    findFollowers(grid, obstacles, friction, faces);
+}
+
+void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces)
+{
+    field.foldRoom(!empty());
+    if (empty()) return;
+    folded_.resize(static_cast<int>(blocks_.size()));
+    parallelFor(blocks_.size(), 8, [&](std::size_t n) { std::fill_n(folded_.block(static_cast<int>(n)), BlockArray<double, 9>::kStride, 0.0); });
+    const auto give = [&](CellRef to, int component, double mass, double momentum, double room) {
+        double* target = folded_.block(place_[to.block]) + to.cell;
+        target[(kMass + component) * kBlockCells] += mass;
+        target[(kMomentum + component) * kBlockCells] += momentum;
+        target[(kRoom + component) * kBlockCells] += room;
+    };
+    // First each closed face's share …
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        const int b = blocks_[n];
+        for (const Follower& f : followers_[n]) {
+            if (f.share == 0.0) continue;
+            double &mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face], &momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face];
+            give({b, f.face}, f.axis, f.share * mass, f.share * momentum, f.share * field.room(b, f.axis)[f.face]);
+            mass = momentum = 0.0;
+        }
+    });
+    // … and then forwards, sweep by sweep.
+    for (int layer = kLayers; layer >= 1; --layer)
+        inColors([&](int place, int b) {
+            for (int a = 0; a < kAxes; ++a) {
+                forEachBit(freshBits(known_[layer], known_[layer - 1], b, a).data(), [&](int face) {
+                    const double* from = folded_.block(place) + face;
+                    int count = 0;
+                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef) { ++count; });
+                    const double share = 1.0 / count;
+                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef to) {
+                        give(to, a, share * from[(kMass + a) * kBlockCells], share * from[(kMomentum + a) * kBlockCells],
+                             share * from[(kRoom + a) * kBlockCells]);
+                    });
+                });
+            }
+        });
+    parallelFor(blocks_.size(), [&](std::size_t n) {
+        const int b = blocks_[n];
+        for (int a = 0; a < kAxes; ++a)
+            forEachBit(known_[0].block(b, a), [&](int face) {
+                const double* from = folded_.block(static_cast<int>(n)) + face;
+                faces.sums.block(b, FaceFields::kMass + a)[face] += from[(kMass + a) * kBlockCells];
+                faces.sums.block(b, FaceFields::kMomentum + a)[face] += from[(kMomentum + a) * kBlockCells];
+                field.addRoom(b, a, face, from[(kRoom + a) * kBlockCells]);
+            });
+    });
+}
+
+void WallFaces::extend(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+{
+    for (int layer = 1; layer <= kLayers && !empty(); ++layer)
+        parallelFor(blocks_.size(), [&](std::size_t n) {
+            const int b = blocks_[n];
+            for (int a = 0; a < kAxes; ++a) {
+                forEachBit(freshBits(known_[layer], known_[layer - 1], b, a).data(), [&](int face) {
+                    double sum = 0.0;
+                    int count = 0;
+                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef from) {
+                        sum += velocity.block(from.block, a)[from.cell];
+                        ++count;
+                    });
+                    velocity.block(b, a)[face] = sum / count;
+                });
+            }
+        });
+    parallelFor(blocks_.size(), [&](std::size_t n) {
+        const int b = blocks_[n];
+        for (int a = 0; a < kAxes; ++a)
+            forEachBit(field.closed(b, a), [&](int face) {
+                if (known_[kLayers].test(b, face, a)) valid.set(b, face, a);
+                else velocity.block(b, a)[face] = field.wallVelocity(b, a)[face];
+            });
+        for (const Follower& f : followers_[n]) {
+            double& u = velocity.block(b, f.axis)[f.face];
+            u = f.share * u + (1.0 - f.share) * field.wallVelocity(b, f.axis)[f.face];
+        }
+    });
+}
+
+}  // namespace sim

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "sim/liquid/liquid_grid.h"
+
+#include <array>
+#include <vector>
+
+namespace sim {
+
+/// The closed faces that particles reach, slaves of the open ones in front of them: u_c = E u_o + the wall's part. E carries the velocity past
+/// the wall component by component: in each of three sweeps a face takes the mean of its known neighbours, times the share that friction
+/// leaves; the component along the normal of a wall along the grid is the wall's own. E takes means, so its rows are positive and sum
+/// to 1 at most. It acts transposed on what particles gave to the closed faces before the step (fold), and as it is after it (extend). Then, by
+/// Cauchy and Schwarz, P_o^2 / M_o <= sum p^2 / m when masses and momenta fold to M_o and P_o, and sum m u^2 <= M_o u_o^2 when velocities
+/// extend: walls never add energy, however little mass a face in front has.
+class WallFaces {
+ public:
+    /// Find the closed faces with mass and their E, from the masses after P2G.
+    void find(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const FaceFields& faces);
+    bool empty() const { return count_ == 0; }
+
+    /// Move mass, momentum and room of the closed faces to those that they follow. What follows no open face keeps its own.
+    void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces);
+
+    BlockBits<3> mirrored;   ///< faces that plane walls give a velocity to, one wall after another
+
+    /// Give the closed faces their velocities [cm/s]; `valid` gets those that follow an open face.
+    void extend(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
+
+ private:
+    /// A face is at most three neighbours behind the last one in front of a wall in the stencil of a particle.
+    static constexpr int kLayers = 3;
+    /// A closed face with mass, and its velocity: `share` of what is carried past the wall, and of the wall's own the rest.
+    struct Follower {
+        std::uint16_t face;
+        std::uint8_t axis;
+        double share;    ///< [-], 0 … 1
+    };
+    /// Mass [g], momentum [g cm/s] and room [-] of the faces of one block that come from behind walls.
+    static constexpr int kMass = 0, kMomentum = 3, kRoom = 6;
+
+    void findLayers(const BlockGrid& grid, const ObstacleField& field, const FaceFields& faces);
+    void findFollowers(const BlockGrid& grid, const Obstacles& obstacles, double friction, const FaceFields& faces);
+    template <class F>
+    void inColors(F&& f) const;
+
+    std::size_t count_ = 0;                           ///< of followers
+    std::array<BlockBits<3>, kLayers + 1> known_;     ///< faces with a velocity after so many sweeps; 0: open faces with mass
+    std::vector<std::vector<Follower>> followers_;    ///< of each block near a solid
+    std::vector<int> place_;                          ///< of each block among those near a solid
+    std::array<std::vector<int>, 8> colors_;          ///< places of blocks of which no two touch
+    std::vector<int> blocks_;                         ///< near a solid
+    BlockArray<double, 9> folded_;                    ///< by place
+};
+
+}  // namespace sim
