@@ -86,6 +86,15 @@ void finishAtWalls(const BlockGrid& grid, const LiquidSettings& settings, const 
     apply(liquid.faces.valid, liquid.faces.velocity);
 }
 
+/// Keep where the particles are before they move.
+void keepPlaces(const LiquidParticles& particles, std::array<AlignedArray<double>, kAxes>& places)
+{
+    for (int a = 0; a < kAxes; ++a) {
+        places[a].resize(particles.x[a].size());
+        parallelFor(particles.count, 4096, [&](std::size_t p) { places[a][p] = particles.x[a][p]; });
+    }
+}
+
 /// Of fabric that is solved for on faces.
 std::optional<FabricFaces> facesOf(const Workspace& work)
 {
@@ -232,13 +241,14 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (plan.relaxes) gather.displacement = work.displacement.data();
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     if (work.kept) work.kept->keepModes(particles, plan.flips);
-    const GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
+    if (!work.obstacles.empty()) keepPlaces(particles, work.places);
+    GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
     report.maxSpeed = plan.reflects ? along : held;
     if (!work.obstacles.empty()) {
         const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
-        pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, particles);
+        sums.kinetic -= pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles);
     }
     energy.toParticles(dt);
 

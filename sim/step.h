@@ -36,6 +36,7 @@ struct Workspace {
     VolumeWorkspace volume;
     SurfaceTensionWorkspace surfaceTension;
     std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
+    std::array<AlignedArray<double>, kAxes> places;        ///< of the particles before they move, where there are obstacles [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]

@@ -177,8 +177,19 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
 {
     const Nodes nodes(grid, block, obstacles);
     computeFaces(grid, block, slot, obstacles, nodes);
-    findBlocked(slot, nodes);
+    findBlocked(grid, block, slot, obstacles, nodes);
     roomOfFaces(grid, block, obstacles, mirrors, room_.block(slot));
+}
+
+/// Is there a wall between the middles of a cell and the one below, both of which are outside of it? It is thinner than a cell, and may be
+/// between the nodes that tell how open the face is.
+bool ObstacleField::isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis)
+{
+    constexpr double kResolution = 0.02;  // [cells]
+    if (distance <= 0.0 || distance >= grid.dx) return false;
+    const Vec3 below = center - grid.dx * Vec3::Unit(axis);
+    const double other = obstacles.distance(below);
+    return other > 0.0 && distance + other <= grid.dx && obstacles.firstContactAtEnd(center, below, kResolution * grid.dx).has_value();
 }
 
 void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes)
@@ -190,9 +201,11 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
             for (int i = 0; i < kBlockEdge; ++i) {
                 const int cell = cellInBlock(i, j, k);
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
-                centerDistance_.block(slot)[cell] = std::min(obstacles.distance(center), kExactDistance * grid.dx);
+                const double distance = obstacles.distance(center);
+                centerDistance_.block(slot)[cell] = std::min(distance, kExactDistance * grid.dx);
                 for (int a = 0; a < kAxes; ++a) {
-                    const double open = nodes.open(a, i, j, k);
+                    double open = nodes.open(a, i, j, k);
+                    if (open > 0.0 && isWallBetween(grid, obstacles, center, distance, a)) open = 0.0;
                     open_.block(slot, a)[cell] = open;
                     if (open == 0.0) closed_.set(slot, cell, a);
                     if (anyMoved_)
@@ -202,15 +215,20 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
             }
 }
 
-void ObstacleField::findBlocked(int slot, const Nodes& nodes)
+void ObstacleField::findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes)
 {
+    const auto isClosed = [&](int a, const Vec3i& c) {
+        if (nodes.open(a, c.x(), c.y(), c.z()) == 0.0) return true;
+        const Vec3 center = grid.lowerCorner(block) + grid.dx * (c.cast<double>() + Vec3::Constant(0.5));
+        return isWallBetween(grid, obstacles, center, obstacles.distance(center), a);
+    };
     std::fill_n(blocked_.block(slot), BlockBits<>::kWords, 0);
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j)
             for (int i = 0; i < kBlockEdge; ++i) {
                 bool blocked = true;
                 for (int a = 0; a < kAxes && blocked; ++a)
-                    blocked = nodes.open(a, i, j, k) == 0.0 && nodes.open(a, i + (a == 0), j + (a == 1), k + (a == 2)) == 0.0;
+                    blocked = isClosed(a, {i, j, k}) && isClosed(a, {i + (a == 0), j + (a == 1), k + (a == 2)});
                 if (blocked) blocked_.set(slot, cellInBlock(i, j, k));
             }
 }

@@ -51,9 +51,10 @@ class ObstacleField {
     void resizeSlots(int count);
     static bool isNear(const BlockGrid& grid, double distance);
     void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors);
+    static bool isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis);
     struct Nodes;
     void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes);
-    void findBlocked(int slot, const Nodes& nodes);
+    void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes);
 
     std::vector<int> slot_, oldSlot_;       ///< per block, the empty block included
     std::vector<int> nearSolid_;

@@ -65,6 +65,48 @@ Vec3 Obstacles::normal(const Vec3& x) const
     return body == nullptr ? Vec3::Zero() : Vec3(body->now.linear() * body->shape.normal(body->toShape * x));
 }
 
+/// start(body): where the path starts, in the space of the body's shape.
+template <class Start>
+std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolution, Start&& start) const
+{
+    std::optional<Contact> first;
+    double earliest = 1.0;  // share of the path
+    for (const Body& body : bodies_) {
+        const Vec3 a = start(body), way = body.toShape * to - a;
+        const double length = way.norm();
+        double distance = body.shape.distance(a);
+        if (distance < 0.0 || distance > length) continue;
+        // The distance never changes faster than the point moves: so far it is safe.
+        for (double gone = 0.0; gone < earliest * length;) {
+            gone = std::min(gone + std::max(distance, resolution), length);
+            const Vec3 x = a + gone / length * way;
+            distance = body.shape.distance(x);
+            if (distance > 0.0) {
+                if (gone >= length) break;
+                continue;
+            }
+            if (gone / length < earliest || !first) {
+                const Vec3 before = a + std::max(0.0, gone - resolution) / length * way;
+                const Vec3 at = body.shape.distance(before) > 0.0 ? before : x;
+                earliest = gone / length;
+                first = Contact{body.now * at, body.now.linear() * body.shape.normal(at)};
+            }
+            break;
+        }
+    }
+    return first;
+}
+
+std::optional<Obstacles::Contact> Obstacles::firstContact(const Vec3& from, const Vec3& to, double resolution) const
+{
+    return meet(to, resolution, [&](const Body& body) -> Vec3 { return body.moving ? body.before.inverse() * from : body.toShape * from; });
+}
+
+std::optional<Obstacles::Contact> Obstacles::firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const
+{
+    return meet(to, resolution, [&](const Body& body) -> Vec3 { return body.toShape * from; });
+}
+
 Vec3 Obstacles::velocity(const Vec3& x) const
 {
     const Body* body = nearest(x);

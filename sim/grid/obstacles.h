@@ -25,6 +25,17 @@ class Obstacles {
     Vec3 normal(const Vec3& x) const;              ///< out of the nearest solid
     Vec3 velocity(const Vec3& x) const;            ///< of the nearest solid's material point at x [cm/s]
 
+    /// Where a path first meets a solid, and on which side.
+    struct Contact {
+        Vec3 x;       ///< on the solid's surface, or up to `resolution` in front of it, where it is at the end of the step [cm]
+        Vec3 normal;  ///< out of the solid
+    };
+    /// First contact of a point that goes straight from one place at the start of the step to another at its end, as seen from each solid;
+    /// nothing if it meets none. Solids in which it starts let it pass. Walls thinner than `resolution` [cm] may be missed.
+    std::optional<Contact> firstContact(const Vec3& from, const Vec3& to, double resolution) const;
+    /// The same where all solids rest in their places at the end of the step.
+    std::optional<Contact> firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const;
+
     /// Plane walls of resting boxes that hold everything: the solid fills all beyond coordinate `at` along `axis`.
     struct Wall {
         int axis;
@@ -41,6 +52,8 @@ class Obstacles {
         bool moving = false;
     };
     const Body* nearest(const Vec3& x) const;
+    template <class Start>
+    std::optional<Contact> meet(const Vec3& to, double resolution, Start&& start) const;
 
     std::vector<Body> bodies_;
     std::vector<Wall> walls_;

@@ -10,11 +10,15 @@ namespace sim {
 /// put right there, under a lid, would never fall while the velocities around it grow.
 inline constexpr double kPushedInFront = 0.01;
 
-/// Move particles that are inside an obstacle out along the gradient of its distance, to just in front of its surface, at
-/// their final positions (model-fluid, D3).
+/// Keep particles outside of the obstacles at their final positions. The path of each, straight from where it was before the step, is swept
+/// against the solids as they move: where it meets one the particle goes on along the surface, so that no wall is too thin or too
+/// fast to hold it. One that began inside a solid is moved out along the gradient of the distance. What touches loses its
+/// velocity towards the solid: the contact is inelastic.
 /// @param order      the order of the positions before they moved
+/// @param before     those positions, in that order; null: particles inside solids are moved out, paths are not looked at
 /// @param farthest   how far a particle can have moved since the sort [cm]
-void pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                        double farthest, LiquidParticles& particles);
+/// @return the kinetic energy that the contacts took [erg], negative where moving solids gave some
+double pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
+                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles);
 
 }  // namespace sim

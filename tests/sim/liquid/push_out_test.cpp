@@ -25,7 +25,7 @@ struct PushedOut {
             for (int a = 0; a < kAxes; ++a) liquid.particles.x[a][p] += way[a];
             before.push_back(liquid.particles.position(p));
         }
-        pushOutOfObstacles(liquid.order, liquid.grid, field, obstacles, farthest, liquid.particles);
+        pushOutOfObstacles(liquid.order, liquid.grid, field, obstacles, farthest, nullptr, liquid.particles);
         for (std::size_t p = 0; p < before.size(); ++p) after.push_back(liquid.particles.position(p));
     }
 };
