@@ -65,6 +65,8 @@ Vec3 Obstacles::normal(const Vec3& x) const
     return body == nullptr ? Vec3::Zero() : Vec3(body->now.linear() * body->shape.normal(body->toShape * x));
 }
 
+constexpr double kLeastStride = 1.0e-4;  ///< of a search along a path, whose length stays finite in steps that fail [lengths of the path]
+
 /// start(body): where the path starts, in the space of the body's shape.
 template <class Start>
 std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolution, Start&& start) const
@@ -73,12 +75,13 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
     double earliest = 1.0;  // share of the path
     for (const Body& body : bodies_) {
         const Vec3 a = start(body), way = body.toShape * to - a;
-        const double length = way.norm();
+        const double length = way.norm(), least = std::max(resolution, kLeastStride * length);
+        if (!std::isfinite(length)) continue;
         double distance = body.shape.distance(a);
         if (distance < 0.0 || distance > length) continue;
         // The distance never changes faster than the point moves: so far it is safe.
         for (double gone = 0.0; gone < earliest * length;) {
-            gone = std::min(gone + std::max(distance, resolution), length);
+            gone = std::min(gone + std::max(distance, least), length);
             const Vec3 x = a + gone / length * way;
             distance = body.shape.distance(x);
             if (distance > 0.0) {
@@ -86,7 +89,7 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
                 continue;
             }
             if (gone / length < earliest || !first) {
-                const Vec3 before = a + std::max(0.0, gone - resolution) / length * way;
+                const Vec3 before = a + std::max(0.0, gone - least) / length * way;
                 const Vec3 at = body.shape.distance(before) > 0.0 ? before : x;
                 earliest = gone / length;
                 first = Contact{body.now * at, body.now.linear() * body.shape.normal(at)};
