@@ -61,6 +61,16 @@ bool canGoOn(const fs::path& folder, const std::string& contentHash)
            !storedFrames(folder, StateKind::ForGoingOn).empty();
 }
 
+bool hasNothingLeft(const ResumeRequest& request)
+{
+    const auto setsAnEnd = [](const std::string& set) { return set.starts_with("time.duration="); };
+    const bool asksForMore = request.fromFrame || !request.out.empty() || std::ranges::any_of(request.sets, setsAnEnd) ||
+                             !std::ranges::all_of(request.sets, isAboutTheRun);
+    if (asksForMore || !fs::exists(request.folder / "resolved.yaml")) return false;
+    const auto report = readReport(request.folder);
+    return report && report->status == "done" && storedFrames(request.folder, StateKind::ForGoingOn).empty();
+}
+
 ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetup(const SceneRequest&)>& loadScene)
 {
     const fs::path scene = request.folder / "resolved.yaml";

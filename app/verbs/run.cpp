@@ -1,5 +1,6 @@
 #include "app/checkpoint/state_files.h"
 #include "app/interrupt.h"
+#include "app/output_files.h"
 #include "app/progress.h"
 #include "app/resume.h"
 #include "app/run_offline.h"
@@ -43,10 +44,13 @@ try {
     throw;
 }
 
+/// A run that was done without pictures and is gone on with has none either.
+bool hasPictures(const std::filesystem::path& folder) { return !numbersIn(folder, "frame_", ".png").empty(); }
+
 int runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Parts& parts)
 {
     const RunSummary summary = withThreads(options.threads, [&] { return runTellingWhatIsKept(setup, run, parts); });
-    if (run.frames && options.video && summary.status == RunStatus::Done) makeVideo(run.out, setup.pictures.output);
+    if (run.frames && options.video && summary.status == RunStatus::Done && hasPictures(run.out)) makeVideo(run.out, setup.pictures.output);
     printOutcome(summary, run.out);
     if (!options.asPanel) fmt::print("{}", stageTable(summary.times));
     if (summary.status == RunStatus::Done) return 0;
@@ -56,7 +60,12 @@ int runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& o
 
 int goOn(const Options& options, const Parts& parts)
 {
-    const ResumedRun resumed = resumeRun({options.resume, options.fromFrame, options.sets, options.out}, parts.loadScene);
+    const ResumeRequest request = {options.resume, options.fromFrame, options.sets, options.out};
+    if (hasNothingLeft(request)) {
+        fmt::print("{}: the run is done, and there is nothing left to go on with\n", options.resume.string());
+        return 0;
+    }
+    const ResumedRun resumed = resumeRun(request, parts.loadScene);
     RunOptions run = runOptions(options, resumed.setup);
     run.out = resumed.out;
     run.from = &resumed.checkpoint;

@@ -3,6 +3,8 @@
 
 #include "app/checkpoint/state_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <random>
@@ -141,7 +143,37 @@ TEST_F(Resume, CheckpointsOfOtherScenesAndDamagedOnesAreRefused)
     std::filesystem::remove(folder / "whole" / "steps.jsonl");
     expectRefused(resume("whole"), "steps.jsonl");
     std::filesystem::remove_all(folder / "whole" / "checkpoints");
-    expectRefused(resume("whole"), "output.data: [checkpoint]");
+    expectRefused(resume("whole", {"--set", "time.duration=0.1"}), "output.data: [checkpoint]");
+}
+
+/// Nothing is left of a run that is done; that is no mistake, whatever it has kept and whatever was drawn.
+TEST_F(Resume, AFinishedRunSaysThatItIsDone)
+{
+    for (const char* data : {"energy", "energy, states", "energy, checkpoint"}) {
+        const std::string set = fmt::format("output.data=[{}]", data);
+        for (const bool isDrawn : {false, true}) {
+            std::vector<std::string> more = {"--set", set, "--set", "time.duration=0.01"};
+            if (!isDrawn) more.emplace_back("--no-frames");
+            ASSERT_EQ(run("finished", more).code, 0);
+            const std::string before = hash("finished");
+            for (const std::vector<std::string>& flags : {std::vector<std::string>{}, {"--no-frames"}}) {
+                std::vector<std::string> all = {"run", "--threads", "1", "--resume", "finished"};
+                all.insert(all.end(), flags.begin(), flags.end());
+                const ChildExit end = drench(all);
+                EXPECT_EQ(end.code, 0) << set << ": " << end.errorText;
+                EXPECT_EQ(report("finished").at("status"), "done");
+                EXPECT_EQ(hash("finished"), before);
+            }
+            std::filesystem::remove_all(folder / "finished");
+        }
+    }
+}
+
+TEST_F(Resume, AFinishedRunWithoutACheckpointIsRefusedWhatIsBehindItsEnd)
+{
+    ASSERT_EQ(run("finished", {"--no-frames", "--set", "output.data=[energy]", "--set", "time.duration=0.01"}).code, 0);
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--set", "time.duration=0.02"}, {"--from-frame", "2"}, {"--out", "branch"}})
+        expectRefused(resume("finished", more), "output.data: [checkpoint]");
 }
 
 /// A run that is stopped leaves a checkpoint though its scene asks for none.
