@@ -1,6 +1,7 @@
 #include "sim/shapes/obj.h"
 
 #include "sim/core/check.h"
+#include "sim/shapes/cut_polygon.h"
 
 #include <charconv>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace sim {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kMostElements = 100'000'000;  ///< vertices or triangles: more is not a mesh but a mistake
 
 /// The next word of a line, which is cut off; empty at its end.
@@ -25,11 +26,18 @@ std::string_view nextWord(std::string_view& line)
     return word;
 }
 
+/// A sign that says nothing is no part of a number for from_chars.
+std::string_view withoutPlus(std::string_view number)
+{
+    if (number.size() > 1 && number[0] == '+' && number[1] != '-' && number[1] != '+') number.remove_prefix(1);
+    return number;
+}
+
 /// Reads one file; knows the line for messages.
 class ObjReader {
  public:
     ObjReader(const std::filesystem::path& file, bool wantsLines)
-        : file_(file.string()), in_(file), wantsLines_(wantsLines)
+        : file_(file.string()), in_(file, std::ios::binary), wantsLines_(wantsLines)
     {
     }
 
@@ -51,10 +59,9 @@ class ObjReader {
     void read()
     {
         if (!in_) throw InputError(file_ + ": cannot be opened");
-        for (std::string line; std::getline(in_, line);) {
-            ++line_;
+        skipByteOrderMark();
+        for (std::string line; nextLine(line);) {
             std::string_view rest(line);
-            rest = rest.substr(0, rest.find('#'));
             const std::string_view kind = nextWord(rest);
             if (kind == "v") readVertex(rest);
             if (kind == "f") readFace(rest);
@@ -63,6 +70,39 @@ class ObjReader {
                 fail("more than 100 million vertices or triangles");
         }
         if (in_.bad()) throw InputError(file_ + ": could not be read to its end");
+    }
+
+    void skipByteOrderMark()
+    {
+        for (const int byte : {0xEF, 0xBB, 0xBF})
+            if (in_.peek() == byte) in_.get();
+    }
+
+    /// Without its comment; a backslash at the end of a line goes on with the next one. Lines end with LF, CR or both.
+    bool nextLine(std::string& line)
+    {
+        line.clear();
+        line_ += linesRead_;
+        linesRead_ = 0;
+        for (std::string part; nextPart(part);) {
+            ++linesRead_;
+            const bool hasComment = part.find('#') != std::string::npos;
+            line += part.substr(0, part.find('#'));
+            if (hasComment || !part.ends_with('\\')) break;
+            line.back() = ' ';
+        }
+        return linesRead_ > 0;
+    }
+
+    bool nextPart(std::string& part)
+    {
+        part.clear();
+        int c = in_.get();
+        if (c == std::ifstream::traits_type::eof()) return false;
+        for (; c != std::ifstream::traits_type::eof() && c != '\n' && c != '\r'; c = in_.get())
+            part.push_back(static_cast<char>(c));
+        if (c == '\r' && in_.peek() == '\n') in_.get();
+        return true;
     }
 
     [[noreturn]] void fail(const std::string& what) const
@@ -76,8 +116,9 @@ class ObjReader {
         for (double& x : v) {
             const std::string_view word = nextWord(rest);
             if (word.empty()) fail("a vertex needs three coordinates");
-            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-            if (error != std::errc() || end != word.data() + word.size())
+            const std::string_view number = withoutPlus(word);
+            const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), x);
+            if (error != std::errc() || end != number.data() + number.size())
                 fail("not a number: \"" + std::string(word) + "\"");
             if (!std::isfinite(x)) fail("not a finite number: \"" + std::string(word) + "\"");
         }
@@ -86,7 +127,7 @@ class ObjReader {
 
     int readCorner(std::string_view word) const
     {
-        const std::string_view number = word.substr(0, word.find('/'));
+        const std::string_view number = withoutPlus(word.substr(0, word.find('/')));
         long long index = 0;
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
         if (error != std::errc() || end != number.data() + number.size())
@@ -100,15 +141,10 @@ class ObjReader {
 
     void readFace(std::string_view rest)
     {
-        int first = -1, last = -1, corners = 0;
-        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
-            const int corner = readCorner(word);
-            ++corners;
-            if (corners == 1) first = corner;
-            if (corners > 2) mesh_.triangles.emplace_back(first, last, corner);
-            last = corner;
-        }
-        if (corners < 3) fail("a face needs three corners or more");
+        corners_.clear();
+        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) corners_.push_back(readCorner(word));
+        if (corners_.size() < 3) fail("a face needs three corners or more");
+        cutPolygon(mesh_.vertices, corners_, mesh_.triangles);
     }
 
     void readLine(std::string_view rest)
@@ -122,7 +158,9 @@ class ObjReader {
     std::string file_;
     std::ifstream in_;
     bool wantsLines_;
-    int line_ = 0;
+    int line_ = 1;       ///< where the line that is being read begins
+    int linesRead_ = 0;  ///< of the file, for that line
+    std::vector<int> corners_;
     TriangleMesh mesh_;
     std::vector<std::vector<int>> lines_;
 };

@@ -7,8 +7,8 @@
 
 namespace sim {
 
-/// The `v` and `f` lines of a Wavefront OBJ file, the others skipped. Faces may have any number of corners (cut into a
-/// fan), written as `1`, `1/2`, `1//3` or `1/2/3`, counted from 1, or backwards from −1. Throws InputError "file:line:
+/// The `v` and `f` lines of a Wavefront OBJ file, the others skipped. Faces may have any number of corners (cut
+/// into triangles), written as `1`, `1/2`, `1//3` or `1/2/3`, counted from 1, or backwards from −1. Throws InputError "file:line:
 /// what".
 TriangleMesh readObj(const std::filesystem::path& file);
 
