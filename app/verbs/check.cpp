@@ -1,12 +1,15 @@
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace app {
 
 int runVerbCheck(const Options& options, const Parts& parts)
 {
-    fmt::print("{}", parts.loadScene(options.request()).resolved);
+    const SceneSetup setup = parts.loadScene(options.request());
+    for (const std::string& note : setup.scene.notes) spdlog::warn("{}", note);
+    fmt::print("{}", setup.resolved);
     return 0;
 }
 

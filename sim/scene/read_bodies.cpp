@@ -76,6 +76,7 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);
     source.shape = std::move(shape.shape);
     source.shapeText = std::move(shape.text);
+    source.notes = std::move(shape.notes);
     return source;
 }
 
@@ -103,6 +104,7 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);
     obstacle.shape = obstacle.inside ? shape.shape.inverted() : std::move(shape.shape);
     obstacle.shapeText = std::move(shape.text);
+    obstacle.notes = std::move(shape.notes);
     if (const Node* motion = node.find("motion")) {
         ReadMotion read = readMotion(*motion, joinPath(path, "motion"));
         obstacle.motion = std::move(read.motion);

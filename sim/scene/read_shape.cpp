@@ -107,11 +107,11 @@ ReadShape readCylinder(const Node& node, const Context& context)
 ReadShape readMesh(const Node& node, const Context& context)
 {
     std::string file;
-    double scale = 1.0, cell = 0.5 * context.cell;
+    double scale = parseNumber("1", Quantity::Length, node.place.source && node.place.source->isSi).value, cell = 0.5 * context.cell;
     const auto fields = [&](auto& v) {
         v.needs("file", "an OBJ file, relative to the scene, like file: cow.obj");
         v.text("file", file, "");
-        v.number("scale", scale, Quantity::None, kSize, "");
+        v.number("scale", scale, Quantity::Length, kSize, "");
         v.number("cell", cell, Quantity::Length, kSize, "");
         v.withoutEffect([](auto& w) {
             std::string cache;
@@ -126,7 +126,10 @@ ReadShape readMesh(const Node& node, const Context& context)
     const std::filesystem::path path = existingFile(name, context.path + ".file");
     file = path.string();
     try {
-        return {shapeFromObj(path, scale, cell), flowOf(fields)};
+        std::vector<std::string> notes;
+        Shape shape = shapeFromObj(path, scale, cell, &notes);
+        for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.place.text(), context.path, note);
+        return {std::move(shape), flowOf(fields), std::move(notes)};
     } catch (const InputError& e) {
         fail(name.place, fmt::format("{}: {}", context.path, e.what()));
     }
@@ -138,15 +141,17 @@ ReadShape readParts(const Node& node, const Context& context, const std::string&
         fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
     std::vector<Shape> shapes;
     std::string texts;
+    std::vector<std::string> notes;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         ReadShape part = readShape(node.items[i], joinPath(context.path, std::to_string(i)), context.cell);
         shapes.push_back(std::move(part.shape));
+        notes.insert(notes.end(), part.notes.begin(), part.notes.end());
         texts += (i > 0 ? ", " : "") + part.text;
     }
     const std::string text = "[" + texts + "]";
-    if (operation == "union") return {Shape::unite(std::move(shapes)), text};
-    if (operation == "intersect") return {Shape::intersect(std::move(shapes)), text};
-    return {Shape::subtract(std::move(shapes)), text};
+    if (operation == "union") return {Shape::unite(std::move(shapes)), text, notes};
+    if (operation == "intersect") return {Shape::intersect(std::move(shapes)), text, notes};
+    return {Shape::subtract(std::move(shapes)), text, notes};
 }
 
 ReadShape readBody(const Node& node, const Context& context, const std::string& kind)
@@ -159,7 +164,7 @@ ReadShape readBody(const Node& node, const Context& context, const std::string& 
     if (kind == "mesh") return readMesh(node, context);
     if (kind != "invert") return readParts(node, context, kind);
     ReadShape inner = readShape(node, context.path, context.cell);
-    return {inner.shape.inverted(), inner.text};
+    return {inner.shape.inverted(), inner.text, inner.notes};
 }
 
 /// Where the shape turns unless it says so: the middle of its bounds, the scene's origin where it has none.

@@ -5,6 +5,7 @@
 #include "sim/shapes/shape.h"
 
 #include <string>
+#include <vector>
 
 namespace sim {
 
@@ -12,6 +13,7 @@ namespace sim {
 struct ReadShape {
     Shape shape;
     std::string text;
+    std::vector<std::string> notes = {};  ///< "drop.yaml:14: …": what was mended in meshes
 };
 
 /// Builds a shape from {box: …}, {union: [..]}, … with optional `rotate` and `translate`.

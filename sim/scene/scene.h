@@ -37,6 +37,7 @@ struct SourceSettings {
     double volume = 0.0;              ///< estimate, inside the domain and outside of obstacles [cm^3]
     std::string where;                ///< "drop.yaml:14", for messages
     std::string shapeText;            ///< the shape as a scene says it, in cgs, on one line
+    std::vector<std::string> notes;   ///< about its meshes
     std::optional<VelocityField> velocityField;  ///< of the initial body, beside the emission's velocity
 };
 
@@ -49,6 +50,7 @@ struct ObstacleSettings {
     std::optional<double> frictionAngle;  ///< of fabric on it; without: the fabric's own [rad]
     std::string where;       ///< "drop.yaml:14", for messages
     std::string shapeText;   ///< the shape (before inverting) as a scene says it, in cgs, on one line
+    std::vector<std::string> notes;  ///< about its meshes
     std::string motionText;  ///< the motion likewise; empty if static
 };
 
@@ -77,6 +79,7 @@ struct Scene {
     std::optional<Shape> domain;      ///< liquid outside of it is deleted
     std::string domainText;           ///< the same as a scene says it, in cgs, on one line
     std::vector<SettingsChange> changes;  ///< during the run, in order
+    std::vector<std::string> notes;       ///< "drop.yaml:14: …": what was mended in its files, for the user to know
 };
 
 }  // namespace sim

@@ -177,13 +177,13 @@ PolylineSet readObjLines(const std::filesystem::path& file)
     return ObjReader(file, true).readLines();
 }
 
-Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell)
+Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell, std::vector<std::string>* notes)
 {
     if (!(scale > 0.0) || !std::isfinite(scale)) throw InputError(file.string() + ": scale must be a positive number");
     TriangleMesh mesh = readObj(file);
     for (Vec3& v : mesh.vertices) v *= scale;
     try {
-        return Shape::mesh(mesh.vertices, mesh.triangles, cell);
+        return Shape::mesh(mesh.vertices, mesh.triangles, cell, notes);
     } catch (const InputError& e) {
         throw InputError(file.string() + ": " + e.what());
     }

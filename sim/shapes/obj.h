@@ -21,7 +21,8 @@ struct PolylineSet {
 /// The `v` and `l` lines of a Wavefront OBJ file, the others skipped; corners as in readObj.
 PolylineSet readObjLines(const std::filesystem::path& file);
 
-/// The closed mesh in an OBJ file, times `scale` (the file's unit in cm), sampled on a lattice of pitch `cell` [cm].
-Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell);
+/// The closed mesh in an OBJ file, times `scale` (the file's unit in cm), sampled on a lattice of pitch `cell` [cm];
+/// `notes` as in Shape::mesh.
+Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell, std::vector<std::string>* notes = nullptr);
 
 }  // namespace sim

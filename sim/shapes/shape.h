@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sim {
@@ -28,10 +29,12 @@ class Shape {
     /// not on the radius: the side stays at `radius`).
     static Shape cylinder(const Vec3& center, const Vec3& axis, double radius, double half, double round);
     /// A closed triangle mesh, sampled on a lattice of pitch `cell` that reaches 3 cells further than the mesh;
-    /// trilinear in between. Inside is where the winding number is above a half: small holes, doubled faces and a mesh
-    /// turned inside out as a whole do no harm. Outside of the lattice: the distance to it plus the value there, which
-    /// is no less than the distance to the mesh. Throws InputError when the lattice has more than 5e8 nodes.
-    static Shape mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell);
+    /// trilinear in between. Inside is where the winding number is above a half, once mendSolid has mended the mesh:
+    /// holes of less than 2 cells, doubled faces and faces or parts turned inside out do no harm, and `notes` takes a
+    /// line about them; an open mesh is no solid. Outside of the lattice: the distance to it plus the value there, which
+    /// is no less than the distance to the mesh. Throws InputError for what
+    /// cannot be mended, and when the lattice has more than 5e8 nodes.
+    static Shape mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell, std::vector<std::string>* notes = nullptr);
 
     static Shape unite(std::vector<Shape> shapes);
     static Shape intersect(std::vector<Shape> shapes);

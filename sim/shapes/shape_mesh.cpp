@@ -2,6 +2,7 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/shapes/body.h"
+#include "sim/shapes/mend_solid.h"
 #include "sim/shapes/triangle_tree.h"
 
 #include <cmath>
@@ -116,14 +117,15 @@ std::shared_ptr<SampledBody> latticeAround(const TriangleMesh& mesh, double cell
 
 }  // namespace
 
-Shape Shape::mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell)
+Shape Shape::mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell, std::vector<std::string>* notes)
 {
-    const TriangleMesh mesh{vertices, triangles};
+    TriangleMesh mesh{vertices, triangles};
     requireSound(mesh, cell);
-    const TriangleTree tree(mesh);
-    if (tree.empty()) throw InputError("a mesh has no triangle with an area");
+    if (TriangleTree(mesh).empty()) throw InputError("a mesh has no triangle with an area");
     const auto lattice = latticeAround(mesh, cell);
-    const double outward = tree.signedVolume() < 0.0 ? -1.0 : 1.0;
+    constexpr double kHoleCells = 2.0;  // a cell of the grid, at half of which a mesh is sampled
+    const std::string mended = mendSolid(mesh, kHoleCells * cell);
+    const TriangleTree tree(mesh);
 
     const auto [nx, ny, nz] = lattice->size;
     parallelFor(ny * nz, [&, nx = nx, ny = ny](std::size_t row) {
@@ -132,10 +134,11 @@ Shape Shape::mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& t
             const Vec3 place(static_cast<double>(i), static_cast<double>(row % ny), static_cast<double>(row / ny));
             const Vec3 x = lattice->lower + cell * place;
             nearest = tree.nearest(x, nearest.triangle);  // one node on, the same triangle is a good guess
-            const bool inside = outward * tree.windingNumber(x) > 0.5;
+            const bool inside = tree.windingNumber(x) > 0.5;
             lattice->values[row * nx + i] = static_cast<float>(inside ? -nearest.distance : nearest.distance);
         }
     });
+    if (notes && !mended.empty()) notes->push_back("the mesh is mended: " + mended);
     return Shape(lattice);
 }
 

@@ -131,6 +131,31 @@ TEST_F(SceneFiles, MistakesInMeshesNameSceneAndMesh)
     EXPECT_EQ(0u, message.find("inner/a.yaml:4: liquid.sources.0.shape.mesh: inner/broken.obj:3: ")) << message;
 }
 
+TEST_F(SceneFiles, OpenMeshesAreRefusedAtTheirLine)
+{
+    write("plate.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n");
+    write("open.yaml", std::string(kScene) + "obstacles:\n  - shape: {mesh: {file: plate.obj}}\n");
+    const std::string message = messageOf("open.yaml");
+    EXPECT_EQ(0u, message.find("open.yaml:")) << message;
+    EXPECT_NE(std::string::npos, message.find("not closed")) << message;
+    EXPECT_NE(std::string::npos, message.find("from vertex 1 (0, 0, 0) to vertex 2 (1, 0, 0) cm")) << message;
+}
+
+TEST_F(SceneFiles, MeshesHaveTheUnitOfTheirScene)
+{
+    write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const auto sizeOf = [&](const std::string& units, const std::string& scale) {
+        write("a.yaml", units + "grid: {cell: 0.1 cm}\nliquid:\n  sources:\n    - shape: {mesh: {file: cube.obj, cell: 0.05 m" + scale + "}}\n");
+        EXPECT_EQ("", messageOf("a.yaml"));
+        return sim::loadScene(folder_ / "a.yaml").sources[0].shape.bounds().sizes()[0];
+    };
+    EXPECT_DOUBLE_EQ(100.0, sizeOf("units: si\n", ""));
+    EXPECT_DOUBLE_EQ(2.0, sizeOf("units: si\n", ", scale: 0.02"));
+    EXPECT_DOUBLE_EQ(2.0, sizeOf("units: si\n", ", scale: 2 cm"));
+    EXPECT_DOUBLE_EQ(1.0, sizeOf("", ""));
+    EXPECT_DOUBLE_EQ(2.0, sizeOf("", ", scale: 2"));
+}
+
 TEST_F(SceneFiles, MeshesAreFoundBesideTheIncludedFile)
 {
     write("inner/tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
