@@ -178,13 +178,13 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
 {
     std::array<double, 2> radius{};
     std::string file;
-    double scale = 1.0;
+    double scale = parseNumber("1", Quantity::Length, context.node.place.source && context.node.place.source->isSi).value;
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
         v.needs("file", isCloth ? "an OBJ file, relative to the scene, like file: shirt.obj"
                                 : "an OBJ file whose l lines are yarns, relative to the scene, like file: net.obj");
         v.text("file", file, "");
-        v.number("scale", scale, Quantity::None, kSize, "The file's unit in cm");
+        v.number("scale", scale, Quantity::Length, kSize, "The file's unit");
     };
     SectionReader::read(&context.node, context.path, fields);
     const Node& name = *context.node.find("file");

@@ -282,6 +282,18 @@ TEST(LoadFabric, MeshesAreScaledAndOrientedAlike)
     EXPECT_NEAR(4.0 * 0.1 * 1.32 * 0.4, massOf(mesh), 1.0e-14);
 }
 
+TEST(LoadFabric, MeshesHaveTheUnitOfTheirScene)
+{
+    const ObjFile file("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+    const auto sizeOf = [&](const std::string& scale) {
+        return load("units: si\ngrid: {cell: 0.01}\nmaterials: {wool: {young: 1.0e+5}}\nfabrics: [{mesh: {material: wool, radius: 1 mm, file: " + file.path.string() + scale + "}}]\n")
+            .fabrics.at(0).points.at(1)[0];
+    };
+    EXPECT_DOUBLE_EQ(100.0, sizeOf(""));
+    EXPECT_DOUBLE_EQ(2.0, sizeOf(", scale: 0.02"));
+    EXPECT_DOUBLE_EQ(2.0, sizeOf(", scale: 2 cm"));
+}
+
 TEST(LoadFabric, LinesOfAFileAreYarns)
 {
     const ObjFile file("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 1 1 0\nl 1 2 3\nl 2 -1\n");
