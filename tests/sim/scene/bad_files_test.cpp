@@ -145,7 +145,7 @@ TEST_F(SceneFiles, MeshesHaveTheUnitOfTheirScene)
 {
     write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
     const auto sizeOf = [&](const std::string& units, const std::string& scale) {
-        write("a.yaml", units + "grid: {cell: 1 cm}\nliquid:\n  sources:\n    - shape: {mesh: {file: cube.obj, cell: 0.2 cm" + scale + "}}\n");
+        write("a.yaml", units + "grid: {cell: 1 cm}\nliquid:\n  sources:\n    - shape: {mesh: {file: cube.obj, cell: 1 cm" + scale + "}}\n");
         EXPECT_EQ("", messageOf("a.yaml"));
         return sim::loadScene(folder_ / "a.yaml").sources[0].shape.bounds().sizes()[0];
     };
