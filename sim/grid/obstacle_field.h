@@ -40,9 +40,10 @@ class ObstacleField {
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
 
-    /// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5). Without
-    /// a corner outside it is closed: also a face in the plane of a wall, all of whose corners are 0.
-    static double openFraction(double d00, double d10, double d11, double d01);
+    /// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5), and the share
+    /// of the edge from each corner to the next before the surface, read where these two are on different sides. Without a corner outside it
+    /// is closed: also a face in the plane of a wall, all of whose corners are 0.
+    static double openFraction(const std::array<double, 4>& distance, const std::array<double, 4>& crossing);
 
  private:
     static constexpr int kOpenSlot = 0;
