@@ -8,6 +8,8 @@
 
 namespace sim {
 
+class OpenFaces;
+
 /// Obstacles on the grid (model-fluid 2.4, 2.5): open fraction, room and velocity of faces, distance of cells. Blocks far from every
 /// solid share one set of numbers; those of a block near a resting solid are computed when the block appears, and kept.
 class ObstacleField {
@@ -40,11 +42,6 @@ class ObstacleField {
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
 
-    /// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5), and the share
-    /// of the edge from each corner to the next before the surface, read where these two are on different sides. Without a corner outside it
-    /// is closed: also a face in the plane of a wall, all of whose corners are 0.
-    static double openFraction(const std::array<double, 4>& distance, const std::array<double, 4>& crossing);
-
  private:
     static constexpr int kOpenSlot = 0;
 
@@ -53,9 +50,8 @@ class ObstacleField {
     static bool isNear(const BlockGrid& grid, double distance);
     void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors);
     static bool isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis);
-    struct Nodes;
-    void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes);
-    void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const Nodes& nodes);
+    void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
+    void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
 
     std::vector<int> slot_, oldSlot_;       ///< per block, the empty block included
     std::vector<int> nearSolid_;

@@ -1,4 +1,5 @@
 #include "sim/grid/obstacle_field.h"
+#include "sim/grid/open_faces.h"
 
 #include "sim/core/units.h"
 #include "tests/sim/liquid/grid_scene.h"
@@ -15,7 +16,7 @@ double openFraction(double d00, double d10, double d11, double d01)
     std::array<double, 4> crossing{};
     for (int n = 0; n < 4; ++n)
         if (const double next = d[(n + 1) % 4]; (d[n] < 0.0) != (next < 0.0)) crossing[n] = d[n] / (d[n] - next);
-    return ObstacleField::openFraction(d, crossing);
+    return sim::openFraction(d, crossing);
 }
 
 /// Part of the unit square where a + b x + c y > 0: strips along y, of which each is exact.
@@ -145,6 +146,45 @@ TEST(ObstacleField, FacesAtTheSeamsOfSolidsAreOpenAsFarAsTheirSurfaceLeavesThem)
         });
         EXPECT_GT(cut, 100);
     }
+}
+
+/// Corners between solids and plates thinner than a cell, wherever they are on a face.
+TEST(ObstacleField, FacesAreOpenAsFarAsSamplesOfThemAre)
+{
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    double worst = 0.0, sum = 0.0;
+    int faces = 0;
+    for (int n = 0; n < 12; ++n) {
+        GridScene scene({-8, -8, -8}, {8, 8, 8}, 0.2, Vec3(unit(random), unit(random), unit(random)));
+        const auto turned = [&](const Shape& shape) {
+            const Vec3 axis(unit(random), unit(random), unit(random));
+            return shape.moved(Eigen::Translation3d(scene.grid.origin + 0.4 * Vec3(unit(random), unit(random), unit(random))) * Eigen::Isometry3d(Eigen::AngleAxisd(kPi * unit(random), axis.normalized())));
+        };
+        const double thickness = 0.2 * (0.15 + 0.1 * (unit(random) + 1.0));  // of a plate, 0.15 to 0.35 cells
+        scene.add(turned(Shape::box(Vec3::Zero(), {0.5 * thickness, 0.6, 0.7})));
+        if (n % 2 == 0) scene.add(turned(Shape::box(Vec3::Zero(), {0.6, 0.3, 0.5})));
+        if (n % 3 == 0) scene.add(turned(Shape::box(Vec3::Zero(), {1.1, 0.9, 1.0}).inverted()));
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            if ((c.array() < -7).any() || (c.array() > 6).any() || scene.open(a, c) == 0.0) return;
+            constexpr int kSamples = 20;
+            int open = 0;
+            for (int i = 0; i < kSamples * kSamples; ++i) {
+                Vec3 at = c.cast<double>();
+                at[(a + 1) % kAxes] += (i % kSamples + 0.5) / kSamples;
+                at[(a + 2) % kAxes] += (i / kSamples + 0.5) / kSamples;
+                open += scene.obstacles.distance(scene.grid.origin + 0.2 * at) >= 0.0;
+            }
+            if (open == kSamples * kSamples && scene.open(a, c) == 1.0) return;
+            const double error = std::abs(scene.open(a, c) - double(open) / (kSamples * kSamples));
+            worst = std::max(worst, error);
+            sum += error;
+            ++faces;
+        });
+    }
+    EXPECT_GT(faces, 2000);
+    EXPECT_LT(worst, 0.12);           // where one surface along the face hides another
+    EXPECT_LT(sum / faces, 5.0e-3);   // of which the samples are half
 }
 
 TEST(ObstacleField, OpenFractionsOfABallCloseItsSurface)
