@@ -91,7 +91,59 @@ void EnergyBook::toGrid()
     last_.liquidKinetic = kinetic;
 }
 
-void EnergyBook::solved(bool isMixed, const FabricReport& fabric)
+double EnergyBook::workAgainstPressure(double dt) const
+{
+    if (!work_.obstacles.anyMoving()) return 0.0;
+    const BlockGrid& grid = state_.grid;
+    const ObstacleField& field = work_.obstacleField;
+    const double area = grid.dx * grid.dx;
+    return parallelSum(grid.count(), [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        double work = 0.0;
+        if (!field.nearSolid(b)) return work;
+        for (int c = 0; c < kBlockCells; ++c) {
+            if (!work_.grid.inside.test(b, c)) continue;
+            for (int a = 0; a < kAxes; ++a)
+                for (int side = 0; side < 2; ++side) {
+                    Vec3i at(c & 7, c >> 3 & 7, c >> 6);
+                    at[a] += side;
+                    const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
+                    const double swept = (1.0 - field.open(face.block, a)[face.cell]) * field.wallVelocity(face.block, a)[face.cell];
+                    work += (side == 0 ? 1.0 : -1.0) * swept * dt * area * state_.pressure.block(b)[c];
+                }
+        }
+        return work;
+    });
+}
+
+double EnergyBook::workOnFollowers() const
+{
+    if (!work_.obstacles.anyMoving()) return 0.0;
+    const ObstacleField& field = work_.obstacleField;
+    return parallelSum(state_.grid.count(), [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        double work = 0.0;
+        if (!field.nearSolid(b)) return work;
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                const double mass = mass_.block(b, a)[c], wall = field.wallVelocity(b, a)[c];
+                if (!(mass > 0.0) || wall == 0.0 || field.open(b, a)[c] > 0.0) continue;
+                work += mass * (work_.grid.faces.velocity.block(b, a)[c] - fallen_.block(b, a)[c]) * wall;
+            }
+        return work;
+    });
+}
+
+void EnergyBook::walls()
+{
+    if (!changes_) return;
+    const double work = workOnFollowers();
+    book(EnergyChange::Solids, work);
+    book(EnergyChange::Walls, -work);
+    after(EnergyChange::Walls);
+}
+
+void EnergyBook::solved(bool isMixed, double dt, const FabricReport& fabric)
 {
     if (!changes_) return;
     const Energy now = look();
@@ -104,20 +156,24 @@ void EnergyBook::solved(bool isMixed, const FabricReport& fabric)
     }
     const double tension = workOfSurfaceTension();
     book(EnergyChange::SurfaceTension, tension);
-    book(EnergyChange::Pressure, alone - tension);
+    const double solids = workAgainstPressure(dt);
+    book(EnergyChange::Solids, solids);
+    book(EnergyChange::Pressure, alone - tension - solids);
     last_ = now;
 }
 
-void EnergyBook::toParticles(double dt)
+void EnergyBook::toParticles(double dt, const PushedOut& pushed)
 {
     if (!changes_) return;
     isOnFaces_ = isSorted_ = false;
     const Energy now = look();
     const LiquidParticles& liquid = state_.liquid;
     const double fallen = -dt * parallelSum(liquid.count, [&](std::size_t p) { return liquid.mass[p] * settings_.gravity.dot(liquid.velocity(p)); });
-    book(EnergyChange::ToParticles, now.liquidKinetic - last_.liquidKinetic);
+    const double lifted = -settings_.gravity.dot(pushed.carried);
+    book(EnergyChange::Solids, pushed.work + lifted);
+    book(EnergyChange::ToParticles, now.liquidKinetic - last_.liquidKinetic - pushed.work);
     book(EnergyChange::Gravity, fallen);
-    book(EnergyChange::Places, now.potential - last_.potential - fallen);
+    book(EnergyChange::Places, now.potential - last_.potential - fallen - lifted);
     last_ = now;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/liquid/push_out.h"
 #include "sim/step.h"
 
 namespace sim {
@@ -20,11 +21,13 @@ class EnergyBook {
     /// On faces that liquid and fabric share its work is part of the pressure's.
     void surfaceTension(bool isMixed);
     /// Back on the particles, which moved for dt [s].
-    void toParticles(double dt);
+    void toParticles(double dt, const PushedOut& pushed);
     /// All that has changed since the last look.
     void after(EnergyChange change);
-    /// Liquid and fabric have been solved for.
-    void solved(bool isMixed, const FabricReport& fabric);
+    /// Liquid and fabric have been solved for, over dt [s].
+    void solved(bool isMixed, double dt, const FabricReport& fabric);
+    /// Faces behind walls have got their velocities.
+    void walls();
     /// The step is over.
     void finished();
 
@@ -39,6 +42,10 @@ class EnergyBook {
     /// Of its impulse on each face, along the velocity at the end: that has no divergence, so that a drop's uniform pressure does
     /// no work on it [erg].
     double workOfSurfaceTension() const;
+    /// Of moving solids against the liquid's pressure on them over dt: what flows out of cells through what is closed of their faces [erg].
+    double workAgainstPressure(double dt) const;
+    /// Of moving solids on the faces behind them, which get their velocity: impulse times velocity [erg].
+    double workOnFollowers() const;
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
 
     const State& state_;

@@ -22,6 +22,7 @@ enum class EnergyChange {
     Contact,           ///< of fabric with itself; its energy counts as given away. Solver grid: with friction
     Friction,          ///< of fabric on fabric
     Obstacles,         ///< on fabric, with friction
+    Solids,            ///< moving ones on the liquid: by its pressure on them, by what follows them at walls, by contact
     Pins,
     FabricToGrid,      ///< solver grid: from vertices to faces …
     FabricToVertices,  ///< … and back, with the fading of velocities
@@ -34,7 +35,7 @@ enum class EnergyChange {
 };
 inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
 inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources", "capture", "to_grid", "gravity", "viscosity", "surface_tension", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "pins",
+    "sources", "capture", "to_grid", "gravity", "viscosity", "surface_tension", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "solids", "pins",
     "fabric_to_grid", "fabric_to_vertices", "walls", "to_particles", "places", "drip", "wicking"};
 
 /// Energy that each gave, or took if negative [erg].

@@ -7,7 +7,7 @@
 #include "sim/liquid/face_velocity.h"
 #include "sim/liquid/push_out.h"
 #include "sim/liquid/walls.h"
-#include "sim/transfer/scatter_affine.h"
+#include "sim/transfer/scatter_bounded.h"
 
 #include <cmath>
 #include <optional>
@@ -107,9 +107,10 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
 {
     const BlockGrid& grid = state.grid;
     clock.start(Stage::ParticlesToGrid);
-    if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount()))
-        particlesToFacesAffine(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, work.grid.faces);
-    else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
+    if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount())) {
+        const Energies own = liquidEnergies(state.liquid, grid, settings.gravity, &work.order);
+        particlesToFacesBounded(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, own.kinetic + own.modal, work.bounded, work.grid.faces);
+    } else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
     if (wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty())
         foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid.faces);
     energy.toGrid();
@@ -232,7 +233,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
         finishAtWalls(grid, settings.liquid, plan, work);
-        energy.after(EnergyChange::Walls);
+        energy.walls();
     }
 
     clock.start(Stage::GridToParticles);
@@ -243,14 +244,16 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (work.kept) work.kept->keepModes(particles, plan.flips);
     if (!work.obstacles.empty()) keepPlaces(particles, work.places);
     GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
+    PushedOut pushed;
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
     report.maxSpeed = plan.reflects ? along : held;
     if (!work.obstacles.empty()) {
         const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
-        sums.kinetic -= pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles);
+        pushed = pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles);
+        sums.kinetic -= pushed.lost;
     }
-    energy.toParticles(dt);
+    energy.toParticles(dt, pushed);
 
     const WeightSums weights = weightSums(particles, settings.gravity);
     report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};

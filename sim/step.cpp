@@ -115,7 +115,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (isWet) plan = startLiquid(state, scene, work, dt, reflects, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     stepFabric(state, scene.settings, work, dt, plan, report, clock);
-    energy.solved(plan.isMixed, report.fabric);
+    energy.solved(plan.isMixed, dt, report.fabric);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);
     if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock, energy);
     findFabricEnergies(state, scene.settings, work, report);

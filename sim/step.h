@@ -15,7 +15,7 @@
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/transfer/gather.h"
-#include "sim/transfer/scatter.h"
+#include "sim/transfer/scatter_bounded.h"
 
 #include <memory>
 
@@ -28,6 +28,7 @@ struct Workspace {
     ObstacleField obstacleField;
     LiquidGrid grid;
     ScatterScratch scatter;
+    BoundedScratch bounded;  ///< of affine maps
     GatherScratch gather;
     ViscosityWorkspace viscosity;
     PressureWorkspace pressure;

@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 
 #include <cmath>
+#include <functional>
 
 namespace sim {
 
@@ -44,17 +45,16 @@ Vec3 slide(const Obstacles& obstacles, double dx, const Vec3& from, const Vec3& 
     return end;
 }
 
-/// Take away the velocity towards the solid at a particle; gives the kinetic energy that it lost [erg].
-double stop(const Obstacles& obstacles, const Vec3& x, const Vec3& normal, std::size_t p, LiquidParticles& particles)
+/// Take away the velocity towards the solid at a particle.
+PushedOut stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidParticles& particles)
 {
-    const Vec3 velocity = particles.velocity(p), wall = obstacles.anyMoving() ? obstacles.velocity(x) : Vec3(Vec3::Zero());
-    const double towards = std::min(0.0, (velocity - wall).dot(normal));
+    const Vec3 velocity = particles.velocity(p);
+    const double towards = std::min(0.0, (velocity - wall).dot(normal)), mass = particles.mass[p];
     for (int a = 0; a < kAxes; ++a) particles.mode(a, 0)[p] -= towards * normal[a];
-    return 0.5 * particles.mass[p] * towards * (2.0 * velocity.dot(normal) - towards);
+    return {0.5 * mass * towards * (2.0 * velocity.dot(normal) - towards), -mass * towards * wall.dot(normal), Vec3::Zero()};
 }
 
-/// Gives the kinetic energy that the particle lost [erg].
-double keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p, LiquidParticles& particles)
+PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p, LiquidParticles& particles)
 {
     const Vec3 x = particles.position(p);
     Vec3 moved = x, normal = Vec3::Zero();
@@ -63,29 +63,33 @@ double keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedAr
         normal = obstacles.normal(moved);
         moved = outside(obstacles, kPushedInFront * dx, moved);
     }
-    if (normal.isZero()) return 0.0;
+    if (normal.isZero()) return {};
     for (int a = 0; a < kAxes; ++a) particles.x[a][p] = moved[a];
-    return stop(obstacles, moved, normal, p, particles);
+    const Vec3 wall = obstacles.anyMoving() ? obstacles.velocity(moved) : Vec3(Vec3::Zero());
+    PushedOut pushed = stop(wall, normal, p, particles);
+    if (!wall.isZero()) pushed.carried = particles.mass[p] * (moved - x);
+    return pushed;
 }
 
 }  // namespace
 
-double pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
+PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
                           double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles)
 {
     const double safe = 0.5 * std::sqrt(3.0) * grid.dx + farthest;
-    return parallelSum(order.occupied.size(), [&](std::size_t n) {
+    const auto ofBlock = [&](std::size_t n) {
         const int b = order.occupied[n];
-        double lost = 0.0;
-        if (!field.nearSolid(b) && farthest < ObstacleField::kExactDistance * grid.dx) return lost;
+        PushedOut pushed;
+        if (!field.nearSolid(b) && farthest < ObstacleField::kExactDistance * grid.dx) return pushed;
         for (int c = 0; c < kBlockCells; ++c) {
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);
             if (start[0] == start[1] || (field.nearSolid(b) && field.centerDistance(b)[c] > safe)) continue;
-            for (int s = start[0]; s < start[1]; ++s) lost += keepOut(obstacles, grid.dx, before, s, particles);
+            for (int s = start[0]; s < start[1]; ++s) pushed = pushed + keepOut(obstacles, grid.dx, before, s, particles);
         }
-        return lost;
-    });
+        return pushed;
+    };
+    return parallelReduce(order.occupied.size(), PushedOut{}, ofBlock, std::plus<>());
 }
 
 }  // namespace sim

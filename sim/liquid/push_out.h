@@ -10,6 +10,15 @@ namespace sim {
 /// put right there, under a lid, would never fall while the velocities around it grow.
 inline constexpr double kPushedInFront = 0.01;
 
+/// What keeping particles outside of solids did to them.
+struct PushedOut {
+    double lost = 0.0;              ///< kinetic energy to the contacts [erg], negative where moving solids gave some
+    double work = 0.0;              ///< of the impulses of moving solids [erg]
+    Vec3 carried = Vec3::Zero();    ///< mass times displacement by moving solids [g cm]
+
+    PushedOut operator+(const PushedOut& other) const { return {lost + other.lost, work + other.work, carried + other.carried}; }
+};
+
 /// Keep particles outside of the obstacles at their final positions. The path of each, straight from where it was before the step, is swept
 /// against the solids as they move: where it meets one the particle goes on along the surface, so that no wall is too thin or too
 /// fast to hold it. One that began inside a solid is moved out along the gradient of the distance. What touches loses its
@@ -17,8 +26,7 @@ inline constexpr double kPushedInFront = 0.01;
 /// @param order      the order of the positions before they moved
 /// @param before     those positions, in that order; null: particles inside solids are moved out, paths are not looked at
 /// @param farthest   how far a particle can have moved since the sort [cm]
-/// @return the kinetic energy that the contacts took [erg], negative where moving solids gave some
-double pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
+PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
                           double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles);
 
 }  // namespace sim

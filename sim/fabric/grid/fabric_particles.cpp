@@ -1,8 +1,8 @@
 #include "sim/fabric/grid/fabric_particles.h"
 
+#include "sim/liquid/energy.h"
 #include "sim/core/parallel.h"
 #include "sim/transfer/modes.h"
-#include "sim/transfer/scatter_affine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +58,10 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     const auto vertices = static_cast<std::uint32_t>(state.x.size());
     vertices_.find(particles_, order_, grid_, 0, vertices);
     elements_.find(particles_, order_, grid_, vertices, vertices + static_cast<std::uint32_t>(elements.size()));
-    if (differsFromTranslation(transfer_.xi, modes_))
-        particlesToFacesAffine(particles_, order_, grid_, transfer_.xi, state.sinceGather, faces_);
-    else
+    if (differsFromTranslation(transfer_.xi, modes_)) {
+        const Energies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
+        particlesToFacesBounded(particles_, order_, grid_, transfer_.xi, state.sinceGather, own.kinetic + own.modal, bounded_, faces_);
+    } else
         particlesToFaces(particles_, order_, grid_, scatter_, faces_);
     faces_.velocity.resize(grid_.count());
     parallelFor(grid_.count(), 8, [&](std::size_t b) {

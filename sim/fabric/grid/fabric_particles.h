@@ -4,7 +4,7 @@
 #include "sim/fabric/grid/block_points.h"
 #include "sim/settings.h"
 #include "sim/transfer/gather.h"
-#include "sim/transfer/scatter.h"
+#include "sim/transfer/scatter_bounded.h"
 
 #include <span>
 #include <vector>
@@ -55,6 +55,7 @@ class FabricParticles {
     Ledger ledger_;  ///< of particles outside the domain; there is none
     FaceFields faces_;
     ScatterScratch scatter_;
+    BoundedScratch bounded_;
     GatherScratch gather_;
     BlockPoints vertices_, elements_;
 };

@@ -1,5 +1,7 @@
 // P2G by the affine maps (model-fluid 4.5, T6 of 14); what they conserve is in conservation_test.cpp.
+#include "sim/liquid/energy.h"
 #include "sim/simulation.h"
+#include "sim/transfer/scatter_bounded.h"
 #include "tests/sim/transfer/transfers.h"
 
 #include <gtest/gtest.h>
@@ -175,4 +177,36 @@ TEST(AffineMap, TheLastStepIsPartOfTheState)
     State a, b;
     b.lastDt = 1.0e-3;
     EXPECT_NE(stateHash(a), stateHash(b));
+}
+
+/// However steep the gradients and however few the particles, the faces get no more energy than the particles have.
+TEST(AffineMap, GivesTheFacesNoEnergyBeyondTheParticles)
+{
+    int cut = 0, whole = 0;
+    for (unsigned seed = 0; seed < 40; ++seed)
+        for (const int modes : {4, 8, 11, 27})
+            for (const XiMap map : {XiMap::Affine, XiMap::AffineConservative}) {
+                const double steepness = std::pow(10.0, -3.0 + 0.1 * seed);  // dt |C| of random modes
+                SortedLiquid liquid = randomLiquid(seed % 3 == 0 ? 3 : 400, modes, {6, 5, 7}, {-2, 6, 3}, kCell, seed);
+                const double dt = steepness * kCell;
+                const Energies own = liquidEnergies(liquid.particles, liquid.grid, Vec3::Zero(), &liquid.order);
+                BoundedScratch scratch;
+                FaceFields faces;
+                const double share = particlesToFacesBounded(liquid.particles, liquid.order, liquid.grid, map, dt, own.kinetic + own.modal, scratch, faces);
+                (share < 1.0 ? cut : whole) += 1;
+                double energy = 0.0;
+                Vec3 momentum = Vec3::Zero(), expected = Vec3::Zero();
+                forEachFaceOf(liquid.grid, [&](int a, int b, int c) {
+                    const double m = faces.sums.block(b, FaceFields::kMass + a)[c], p = faces.sums.block(b, FaceFields::kMomentum + a)[c];
+                    if (m > 0.0) energy += 0.5 * p * p / m;
+                    momentum[a] += p;
+                    expected[a] += scratch.translated.block(b, a)[c];
+                });
+                EXPECT_LE(energy, (own.kinetic + own.modal) * (1.0 + 1.0e-12)) << seed << ": " << modes << " modes";
+                if (map == XiMap::AffineConservative) {
+                    EXPECT_LT((momentum - expected).norm(), 1.0e-11 * static_cast<double>(liquid.particles.count));
+                }
+            }
+    EXPECT_GT(cut, 40);
+    EXPECT_GT(whole, 40);
 }
