@@ -120,6 +120,17 @@ std::string randomCoupling(Dice& dice)
     return text;
 }
 
+/// A box with walls of a tenth to one cell, not on the grid; `vessel`: all of it.
+std::string randomVessel(Dice& dice, double cell, Eigen::AlignedBox3d& vessel)
+{
+    const sim::Vec3 half = cell * sim::Vec3{dice.between(6.0, 9.0), 20.0, dice.between(6.0, 9.0)};
+    const double thickness = dice.acrossScales(0.1, 1.0) * cell;
+    const sim::Vec3 center = sim::Vec3{dice.between(-0.5, 0.5) * cell, half.y(), dice.between(-0.5, 0.5) * cell};
+    const auto box = [&](double out) { return fmt::format("{{box: {{center: {}, half: {}}}}}", listText(center), listText(half + sim::Vec3::Constant(out))); };
+    vessel = {center - half - sim::Vec3::Constant(thickness), center + half + sim::Vec3::Constant(thickness)};
+    return fmt::format("  - {{name: vessel, shape: {{subtract: [{}, {}]}}}}\n", box(thickness), box(0.0));
+}
+
 std::string randomTank(Dice& dice, double cell)
 {
     const double half = dice.between(7.0, 10.0) * cell;
@@ -137,15 +148,16 @@ std::string pictures(const RandomPile& pile, const std::string& domain)
 {
     constexpr double kHalf = 0.499;  // of the duration, of which the file has four digits only
     return fmt::format(
-        "domain: {}\nrender: {{size: [96, 96], samples: 1}}\noutput: {{every: {:.6g}, data: [energy, stats]}}\n", domain,
-        kHalf * pile.duration);
+        "domain: {}\nrender: {{size: [96, 96], samples: 1}}\noutput: {{every: {:.6g}, data: [energy, stats, ledger, "
+        "checkpoint], checkpoint: {{every: {:.6g}}}}}\n",
+        domain, kHalf * pile.duration, kHalf * pile.duration);
 }
 
 }  // namespace
 
 std::string randomSceneName(std::uint64_t seed, int number) { return fmt::format("random_{}_{}", seed, number); }
 
-std::string randomScene(std::uint64_t seed, int number)
+RandomScene randomScene(std::uint64_t seed, int number)
 {
     constexpr double kPublishedStep = 2.0e-4;  // [s]
     Dice dice(seed, static_cast<std::uint64_t>(number));
@@ -158,7 +170,10 @@ std::string randomScene(std::uint64_t seed, int number)
     text += fmt::format("grid: {{cell: {:.4g}}}\n", cell);
     text += randomGravity(dice);
     text += randomTransfer(dice);
-    std::string obstacles = cast.hasTank ? randomTank(dice, cell) : "";
+    RandomScene scene;
+    std::string obstacles;
+    if (cast.hasTank && dice.chance(0.4)) obstacles = randomVessel(dice, cell, scene.vessel.emplace());
+    else if (cast.hasTank) obstacles = randomTank(dice, cell);
     if (cast.hasObstacles) obstacles += randomObstacles(dice, pile);
     if (!obstacles.empty()) text += "obstacles:\n" + obstacles;
     if (cast.hasFabric) {
@@ -169,7 +184,8 @@ std::string randomScene(std::uint64_t seed, int number)
     if (cast.hasLiquid) text += randomLiquid(dice, pile, cast.hasTank);
     if (cast.hasFabric && cast.hasLiquid) text += randomCoupling(dice);
     const double far = 60.0 * cell;
-    return text + pictures(pile, fmt::format("{{box: {{center: [0, 0, 0], half: {}}}}}", listText({far, far, far})));
+    scene.text = text + pictures(pile, fmt::format("{{box: {{center: [0, 0, 0], half: {}}}}}", listText({far, far, far})));
+    return scene;
 }
 
 }  // namespace app

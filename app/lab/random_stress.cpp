@@ -1,6 +1,8 @@
 #include "app/lab/random_stress.h"
 
+#include "app/lab/escapes.h"
 #include "app/lab/random_scene.h"
+#include "app/lab/run_course.h"
 #include "app/output_files.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
@@ -42,6 +44,20 @@ void tell(const RandomStressResult& result)
     std::fflush(stdout);
 }
 
+/// Of a run that finished or stopped: is it where and as fast as it may be?
+void judgeLaws(const fs::path& file, const fs::path& folder, const RandomScene& scene, StressOutcome& outcome)
+{
+    if (isFault(outcome.ending)) return;
+    if (const std::string why = whyUnsound(courseOf(folder)); !why.empty()) {
+        outcome.ending = StressEnding::Unsound;
+        outcome.message = why;
+    }
+    if (const std::string why = whatEscaped(file, folder, scene.vessel); !why.empty()) {
+        outcome.ending = StressEnding::Escaped;
+        outcome.message = why;
+    }
+}
+
 std::string quoted(std::string text)
 {
     std::ranges::replace(text, '"', '\'');
@@ -55,13 +71,14 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
     const Places places(stress);
     makeFolder(places.scenes);
     const auto nameOf = [&](std::size_t n) { return randomSceneName(stress.seed, stress.first + static_cast<int>(n)); };
+    const auto sceneOf = [&](std::size_t n) { return randomScene(stress.seed, stress.first + static_cast<int>(n)); };
     std::map<std::size_t, RandomStressResult> results;
     Crew crew{.count = static_cast<std::size_t>(stress.count), .width = stress.width, .limitSeconds = stress.limitSeconds};
     crew.stopWanted = stress.stopWanted;
     crew.arguments = [&](std::size_t n) {
         const std::string name = nameOf(n);
         places.remove(name);
-        writeWhole(places.file(name), randomScene(stress.seed, stress.first + static_cast<int>(n)));
+        writeWhole(places.file(name), sceneOf(n).text);
         return std::vector<std::string>{"run",       places.file(name).string(), "--out", places.folder(name).string(),
                                         "--threads", "1",                        "--no-video"};
     };
@@ -69,6 +86,7 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
         if (stress.stopWanted()) return;
         const std::string name = nameOf(n);
         RandomStressResult result{name, judgeEnd(end, places.folder(name), kPictures)};
+        judgeLaws(places.file(name), places.folder(name), sceneOf(n), result.outcome);
         tell(result);
         if (result.outcome.ending == StressEnding::Finished) places.remove(name);
         results.emplace(n, std::move(result));

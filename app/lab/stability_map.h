@@ -27,13 +27,6 @@ struct StabilityRow {
     double seconds = 0.0;       ///< wall
 };
 
-/// A run is stable if it comes to its end in steps of that length on the mean, with all numbers finite, its energy never above
-/// that of the start plus the work of sources, suction, surface tension, obstacles and pins by more than this share of its
-/// largest kinetic energy …
-inline constexpr double kAllowedGain = 0.05;
-/// … and no particle faster than so many times the speed of all liquid, had it all that kinetic energy.
-inline constexpr double kAllowedSpeed = 10.0;
-
 /// What to map for one scene.
 struct StabilityMap {
     std::string scene;                        ///< its file

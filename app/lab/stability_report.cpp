@@ -1,6 +1,7 @@
 #include "app/lab/stability_report.h"
 
 #include "app/gnuplot.h"
+#include "app/lab/run_course.h"
 
 #include <fmt/format.h>
 
@@ -86,7 +87,7 @@ std::string stabilityReport(const std::vector<StabilityResult>& results, bool wi
     std::string text = fmt::format(
         "# Stable time steps\n\nEach run goes on at its time step, with the bounds on cells crossed per step lifted. It is stable if "
         "it comes to its end, all its numbers are finite, its energy never rises above that of the start (and the work of sources, "
-        "suction, surface tension, obstacles and pins) by more than {:g} of its largest kinetic energy, and no particle is faster than "
+        "suction, surface tension, obstacles, moving solids and pins) by more than {:g} of its largest kinetic energy, and no particle is faster than "
         "{:g} times the speed of all liquid, had it all that kinetic energy. The largest stable step is one at which all shorter ones "
         "tried are stable too.\n",
         kAllowedGain, kAllowedSpeed);

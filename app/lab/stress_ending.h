@@ -14,6 +14,8 @@ enum class StressEnding {
     Finished,     ///< to its end, all numbers finite, all pictures there
     Stopped,      ///< it told scene, step, stage and why
     TimedOut,
+    Unsound,      ///< it gained energy or speed from nothing
+    Escaped,      ///< something is inside a solid, or outside of the vessel that it was in
     Refused,      ///< the scene could not be read: a mistake of who made it
     NotFinite,    ///< it went on with numbers that are none
     Undiagnosed,  ///< it failed without telling where and why
@@ -21,10 +23,10 @@ enum class StressEnding {
     Count
 };
 inline constexpr std::array<std::string_view, static_cast<int>(StressEnding::Count)> kStressEndings = {
-    "finished", "stopped with a diagnosis", "timed out", "refused", "not finite", "undiagnosed", "crashed"};
+    "finished", "stopped with a diagnosis", "timed out", "unsound", "through a solid", "refused", "not finite", "undiagnosed", "crashed"};
 
 /// Must never happen.
-inline bool isFault(StressEnding ending) { return ending >= StressEnding::Refused; }
+inline bool isFault(StressEnding ending) { return ending >= StressEnding::Unsound; }
 
 struct StressOutcome {
     StressEnding ending = StressEnding::Finished;

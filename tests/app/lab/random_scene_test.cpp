@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kScenes = 500;
 
-sim::SceneFile fileOf(int number) { return sim::sceneFileFromText(randomScene(1, number), randomSceneName(1, number) + ".yaml"); }
+sim::SceneFile fileOf(int number) { return sim::sceneFileFromText(randomScene(1, number).text, randomSceneName(1, number) + ".yaml"); }
 
 TEST(RandomScene, IsOneThatCanBeRead)
 {
@@ -31,7 +31,7 @@ TEST(RandomScene, IsOneThatCanBeRead)
 TEST(RandomScene, IsTheSameForTheSameSeedAndNumberOnly)
 {
     const auto nameless = [](std::uint64_t seed, int number) {
-        std::string text = randomScene(seed, number);
+        std::string text = randomScene(seed, number).text;
         const std::string name = randomSceneName(seed, number);
         return text.erase(text.find(name), name.size());
     };

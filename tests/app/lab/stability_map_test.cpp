@@ -1,5 +1,7 @@
 #include "app/lab/stability_map.h"
 
+#include "app/lab/run_course.h"
+
 #include "sim/core/check.h"
 #include "tests/app/temporary_folder.h"
 

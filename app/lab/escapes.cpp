@@ -1,0 +1,56 @@
+#include "app/lab/escapes.h"
+
+#include "app/checkpoint/checkpoint.h"
+#include "app/checkpoint/state_files.h"
+#include "sim/grid/obstacles.h"
+#include "sim/scene/load_scene.h"
+
+#include <fmt/format.h>
+
+namespace app {
+
+namespace {
+
+/// Deeper in a solid nothing may be [cells].
+constexpr double kDeep = 0.02;
+
+/// Counts the places that are inside of a solid or out of the vessel.
+struct Escapes {
+    const sim::Obstacles& obstacles;
+    const std::optional<Eigen::AlignedBox3d>& vessel;
+    double tolerance;  ///< [cm]
+    int inside = 0, outside = 0;
+
+    void look(const sim::Vec3& x)
+    {
+        inside += obstacles.distance(x) < -tolerance;
+        outside += vessel && vessel->exteriorDistance(x) > tolerance;
+    }
+    std::string text(const char* what) const
+    {
+        std::string told;
+        if (inside > 0) told += fmt::format("{} {} inside of solids ", inside, what);
+        if (outside > 0) told += fmt::format("{} {} outside of the vessel ", outside, what);
+        return told;
+    }
+};
+
+}  // namespace
+
+std::string whatEscaped(const std::filesystem::path& file, const std::filesystem::path& folder, const std::optional<Eigen::AlignedBox3d>& vessel)
+{
+    const auto frames = storedFrames(folder, StateKind::ForGoingOn);
+    if (frames.empty()) return "";
+    const sim::Scene scene = sim::loadScene(file);
+    const sim::State state = loadCheckpoint(stateFile(folder, StateKind::ForGoingOn, frames.back())).state;
+    sim::Obstacles obstacles;
+    for (const sim::ObstacleSettings& obstacle : scene.obstacles) obstacles.add(obstacle.shape, obstacle.motion);
+    obstacles.moveTo(state.time, state.time);
+    const double tolerance = kDeep * scene.settings.cell;
+    Escapes particles{obstacles, vessel, tolerance}, vertices{obstacles, vessel, tolerance};
+    for (std::size_t p = 0; p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
+    for (const sim::Vec3& x : state.fabric.x) vertices.look(x);
+    return particles.text("particles") + vertices.text("vertices");
+}
+
+}  // namespace app

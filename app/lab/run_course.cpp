@@ -1,0 +1,80 @@
+#include "app/lab/run_course.h"
+
+#include "app/csv.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace app {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 6> kFromOutside = {"sources_erg", "suction_erg", "surface_tension_erg", "obstacles_erg", "solids_erg", "pins_erg"};
+
+struct Energy {
+    double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
+};
+
+/// From energy_ledger.csv: what of the energy's rise nothing outside of liquid and fabric has paid for.
+Energy energyOf(const std::filesystem::path& csv)
+{
+    std::ifstream in(csv);
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> names = csvCells(line);
+    Energy energy;
+    std::optional<double> start;
+    while (std::getline(in, line)) {
+        const std::vector<std::string> cells = csvCells(line);
+        double paid = 0.0, total = 0.0;
+        for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
+            const double value = std::strtod(cells[i].c_str(), nullptr);
+            if (names[i] == "total_erg") total = value;
+            if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
+            if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
+        }
+        if (!start) start = total - paid;
+        energy.gain = std::max(energy.gain, total - paid - *start);
+    }
+    return energy;
+}
+
+}  // namespace
+
+RunCourse courseOf(const std::filesystem::path& folder)
+{
+    RunCourse course;
+    std::ifstream in(folder / "steps.jsonl");
+    double mass = 0.0;  // of the liquid, at most [g]
+    for (std::string line; std::getline(in, line);) {
+        const json step = json::parse(line, nullptr, false);
+        if (!step.is_object()) continue;
+        ++course.steps;
+        course.time += step.value("dt", 0.0);
+        course.largestSpeed = std::max(course.largestSpeed, step.value("max_speed", 0.0));
+        if (mass == 0.0) mass = step.at("ledger").value("liquid_mass", 0.0);
+    }
+    const Energy energy = energyOf(folder / "energy_ledger.csv");
+    if (energy.largestKinetic > 0.0) course.energyGain = energy.gain / energy.largestKinetic;
+    if (mass > 0.0) course.commonSpeed = std::sqrt(2.0 * energy.largestKinetic / mass);
+    return course;
+}
+
+std::string whyUnsound(const RunCourse& course)
+{
+    if (course.energyGain > kAllowedGain) return fmt::format("energy: gained {:.3g} of its largest kinetic energy", course.energyGain);
+    if (course.commonSpeed > 0.0 && course.largestSpeed > kAllowedSpeed * course.commonSpeed)
+        return fmt::format("speed: a particle at {:.3g} cm/s; all liquid {:.3g} cm/s", course.largestSpeed, course.commonSpeed);
+    return "";
+}
+
+}  // namespace app

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace app {
+
+/// What the logs of a run tell about its energy and its speeds.
+struct RunCourse {
+    int steps = 0;
+    double time = 0.0;           ///< sum of the lengths of the steps [s]
+    double energyGain = 0.0;     ///< largest rise of the energy over its start, less work done from outside, over the largest kinetic energy [-]
+    double largestSpeed = 0.0;   ///< of a particle of the liquid [cm/s]
+    double commonSpeed = 0.0;    ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
+};
+
+/// A run is sound if its energy is never above that of the start plus the work of sources, suction, surface tension, obstacles, moving solids
+/// and pins by more than this share of its largest kinetic energy …
+inline constexpr double kAllowedGain = 0.01;
+/// … and no particle faster than so many times the speed of all liquid, had it all that kinetic energy.
+inline constexpr double kAllowedSpeed = 10.0;
+
+/// From steps.jsonl and energy_ledger.csv in the run's folder.
+RunCourse courseOf(const std::filesystem::path& folder);
+
+/// Which of the two a run breaks, and by how much; empty if none.
+std::string whyUnsound(const RunCourse& course);
+
+}  // namespace app
