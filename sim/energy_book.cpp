@@ -91,6 +91,13 @@ void EnergyBook::toGrid()
     last_.liquidKinetic = kinetic;
 }
 
+void EnergyBook::pressedIn(double work)
+{
+    if (!changes_) return;
+    pressedIn_ = work;
+    book(EnergyChange::Sources, work);
+}
+
 void EnergyBook::solved(bool isMixed, const FabricReport& fabric)
 {
     if (!changes_) return;
@@ -104,7 +111,7 @@ void EnergyBook::solved(bool isMixed, const FabricReport& fabric)
     }
     const double tension = workOfSurfaceTension();
     book(EnergyChange::SurfaceTension, tension);
-    book(EnergyChange::Pressure, alone - tension);
+    book(EnergyChange::Pressure, alone - tension - pressedIn_);
     last_ = now;
 }
 

@@ -80,19 +80,45 @@ double minimumDistance(const FillSettings& fill, double dx)
     }
 }
 
+Shape regionOf(const SeedPlan& plan)
+{
+    std::vector<Shape> parts = {plan.source};
+    parts.insert(parts.end(), plan.solids.begin(), plan.solids.end());
+    return Shape::subtract(parts);
+}
+
+bool hasEntered(const Shape& region, const Vec3& x, const Vec3& moved)
+{
+    return region.distance(x) < 0.0 && !(region.distance(x - moved) < 0.0);
+}
+
+double areaAcross(const Shape& region, const Vec3& direction, double length)
+{
+    // Of a region thinner than the length only a part is seen; of less, less so.
+    constexpr int kHalvings = 8;
+    constexpr double kSame = 1.0e-3;
+    double area = 0.0;
+    for (int halving = 0; halving < kHalvings; ++halving, length *= 0.5) {
+        Eigen::Isometry3d along = Eigen::Isometry3d::Identity();
+        along.translation() = length * direction.normalized();
+        const double last = area;
+        area = boundedVolume(Shape::subtract({region, region.moved(along)}), 4.0 * length) / length;
+        if (halving > 0 && std::abs(area - last) <= kSame * area) break;
+    }
+    return area;
+}
+
 Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
 {
     if (plan.fill.pattern == Pattern::Reference) return seedReference(plan, nearby);
     const bool moves = !plan.velocity.isZero(0.0), darts = plan.fill.pattern == Pattern::Poisson;
-    std::vector<Shape> parts = {plan.source};
-    parts.insert(parts.end(), plan.solids.begin(), plan.solids.end());
-    const Shape region = Shape::subtract(parts);
+    const Shape region = regionOf(plan);
 
     PatternPlaces places =
         darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
     const double count = moves && !darts ? meanLatticePlaces(plan, region) : static_cast<double>(places.count);
-    if (places.free.empty() || !(count > 0.0)) return {};
-    const double volume = boundedVolume(region, plan.dx) / count;
+    if (!(count > 0.0)) return {{}, std::pow(particleSpacing(plan.fill, plan.dx), 3)};
+    const double volume = (plan.regionVolume > 0.0 ? plan.regionVolume : boundedVolume(region, plan.dx)) / count;
 
     // Liquid that is packed more tightly than the pattern leaves gaps, too; filling all of them would make too much.
     const double room = std::max(0.0, static_cast<double>(places.count) - nearby.volumeInside / volume);

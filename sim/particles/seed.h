@@ -20,6 +20,8 @@ struct SeedPlan {
     /// they leave at the other, and whatever is laid anew fits to what was laid before. 0 for a body that is laid once.
     Vec3 velocity = Vec3::Zero();  ///< [cm/s]
     double age = 0.0;              ///< time since the source began [s]
+    Vec3 moved = Vec3::Zero();     ///< how far the pattern has moved since places of it were last laid [cm]
+    double regionVolume = 0.0;     ///< boundedVolume(regionOf(plan), dx), if it is known already [cm^3]
 };
 
 /// Liquid that is there already: no particle is laid where the pattern has one.
@@ -32,6 +34,17 @@ struct Seeds {
     std::vector<Vec3> positions;  ///< in the order of the pattern's places
     double volume = 0.0;          ///< of each particle [cm^3]
 };
+
+/// Where particles may be laid: the source outside of the solids.
+Shape regionOf(const SeedPlan& plan);
+
+/// Does what moved by `moved` into a region come from outside of it?
+bool hasEntered(const Shape& region, const Vec3& x, const Vec3& moved);
+
+/// Volume that a region gives per length along a direction, of what moves through it: the area of its shadow, of each of its parts that does not
+/// follow on another [cm²].
+/// @param length  no longer than is worth while, of the order of a cell [cm]
+double areaAcross(const Shape& region, const Vec3& direction, double length);
 
 /// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source
 /// outside of solids, so that all of them together are as large as that region; of a moving pattern, on average over

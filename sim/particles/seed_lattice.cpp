@@ -26,11 +26,14 @@ struct Sites {
     CounterRandom random;
     bool jittered;
 
-    Sites(const SeedPlan& plan, const Vec3& shift)
+    /// @param ahead  how far beyond the source's bounds there may be places [cm]
+    Sites(const SeedPlan& plan, const Vec3& shift, const Vec3& ahead = Vec3::Zero())
         : random(plan.fill.seed, plan.stream), jittered(plan.fill.pattern == FillSettings::Pattern::Jittered)
     {
         const double pitch = particleSpacing(plan.fill, plan.dx);
-        lattice = PlaceLattice::inBox(plan.source.bounds(), firstPlace(plan, pitch) + shift, pitch, 0.5);
+        Eigen::AlignedBox3d box = plan.source.bounds();
+        if (!box.isEmpty()) box.extend(Eigen::AlignedBox3d(box.min() + ahead, box.max() + ahead));
+        lattice = PlaceLattice::inBox(box, firstPlace(plan, pitch) + shift, pitch, 0.5);
     }
     Vec3 position(int i, int j, int k) const
     {
@@ -40,6 +43,42 @@ struct Sites {
                 x[a] += (random.uniform(lattice.randomIndex(i, j, k), a) - 0.5) * lattice.pitch;
         return x;
     }
+};
+
+/// Places that have come through the whole region since places were last laid: of a region that is thinner than a step is long, or at its edges.
+class PassedThrough {
+ public:
+    PassedThrough(const SeedPlan& plan, const Shape& region, double pitch)
+        : region_(region), solids_(Shape::unite(plan.solids)), moved_(plan.moved), length_(moved_.norm()), pitch_(pitch)
+    {
+    }
+    /// How far beyond the region they may be [cm].
+    const Vec3& ahead() const { return moved_; }
+    /// Looks back along the way, never further at once than it is to the region or to a solid.
+    bool has(const Vec3& x) const
+    {
+        constexpr int kMostLooks = 256;
+        constexpr double kLeastStep = 1.0e-3;  // [pitches]
+        if (!(region_.distance(x) < length_) || isInside(x - moved_)) return false;
+        double back = 0.0;
+        for (int look = 0; look < kMostLooks && back < length_; ++look) {
+            const Vec3 y = x - (back / length_) * moved_;
+            const double toRegion = region_.distance(y), toSolid = solids_.distance(y);
+            if (toSolid < 0.0) return false;
+            if (toRegion < -kSurface * pitch_) return true;
+            back += std::max(kLeastStep * pitch_, std::min(toRegion, toSolid));
+        }
+        return false;
+    }
+
+ private:
+    bool isInside(const Vec3& x) const { return region_.distance(x) < -kSurface * pitch_; }
+
+    const Shape& region_;
+    Shape solids_;
+    Vec3 moved_;     ///< [cm]
+    double length_;  ///< of the way [cm]
+    double pitch_;   ///< [cm]
 };
 
 }  // namespace
@@ -65,7 +104,8 @@ PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& ori
 
 PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing)
 {
-    const Sites sites(plan, plan.age * plan.velocity);
+    const PassedThrough passed(plan, region, particleSpacing(plan.fill, plan.dx));
+    const Sites sites(plan, plan.age * plan.velocity, passed.ahead());
     const double half = 0.5 * sites.lattice.pitch;
     struct Found {
         Vec3 x;
@@ -76,7 +116,7 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
     const PointBins bins(existing, half);
     const auto found = sites.lattice.collect<Found>([&](int i, int j, int k, std::vector<Found>& list) {
         const Vec3 x = sites.position(i, j, k);
-        if (!(region.distance(x) < -kSurface * sites.lattice.pitch)) return;
+        if (!(region.distance(x) < -kSurface * sites.lattice.pitch) && !passed.has(x)) return;
         const Vec3 middle = sites.lattice.position(i, j, k);
         const bool taken =
             bins.anyNear(middle, [&](std::size_t p) { return (existing[p] - middle).cwiseAbs().maxCoeff() < half; });
