@@ -173,13 +173,14 @@ class Flow {
     Flow(const Scene& scene, std::size_t source, const Emission& emission, double timeFrom, double timeTo, State& state)
         : scene_(scene), emission_(emission), source_(source), state_(state), memory_(state.memory.sources[source]),
           plan_(planFor(scene, source, timeFrom, state)), region_(regionOf(plan_)), pitch_(particleSpacing(plan_.fill, plan_.dx)),
-          speed_(emission.velocity.norm()), time_(std::max(0.0, std::min(timeTo, emission.to) - std::max(timeFrom, emission.from)))
+          speed_(emission.velocity.norm()), timeFrom_(timeFrom), time_(std::max(0.0, std::min(timeTo, emission.to) - std::max(timeFrom, emission.from)))
     {
         plan_.velocity = emission.velocity;
         plan_.age = std::max(0.0, timeFrom - emission.from);
         // Before its first step a source has its whole volume to fill, as far as there is room.
-        isFirst_ = plan_.age < state.lastDt || timeFrom == timeTo;
-        if (!isFirst_) plan_.moved = state.lastDt * emission.velocity;
+        isFirst_ = !(memory_.laidAt >= emission.from);
+        if (isFirst_) time_ += std::max(0.0, timeFrom - emission.from);  // it began within the last step
+        if (!isFirst_) plan_.moved = (timeFrom - memory_.laidAt) * emission.velocity;
     }
 
     void emit(std::optional<MouthSize>& size, std::vector<Inflow>& inflows)
@@ -189,7 +190,8 @@ class Flow {
         plan_.regionVolume = size_.volume;
         const LiquidNearby nearby = liquidNear(state_.liquid, plan_, scene_.settings.liquid.density);
         Seeds seeds = seedsFor(scene_, source_, plan_, nearby);
-        if (isFirst_) memory_ = SourceMemory{0.0, 0.0, 0.0, memory_.isShut};
+        if (isFirst_) memory_ = {.isShut = memory_.isShut};
+        memory_.laidAt = std::max(emission_.from, timeFrom_);
         lookWhatCovers();
         owe();
         layFreely(seeds);
@@ -198,34 +200,46 @@ class Flow {
     }
 
  private:
+    static constexpr double kLayers = 2.0;  ///< behind the inlet that are looked at
+    static constexpr double kFading = 4.0;  ///< how far what came freely moves until it counts no more [pitches]
+
     MouthSize measure() const { return {areaAcross(region_, emission_.velocity, pitch_), boundedVolume(region_, plan_.dx)}; }
     double packing() const { return packingOf(plan_.fill.pattern); }
     double layer() const { return packing() * size_.area * pitch_; }
     double left() const { return emission_.maxVolume - state_.emittedVolume[source_]; }
 
-    /// Finds which share of what enters its region is taken by liquid already: none behind a jet, all of it under water. A mean over a pitch.
+    /// Finds which share of the first layers behind its inlet other liquid takes than what has come there freely and moves along: none in a jet, all of it
+    /// under water, or where what came is held up.
     void lookWhatCovers()
     {
-        const Vec3 way = isFirst_ ? Vec3(pitch_ / speed_ * emission_.velocity) : plan_.moved;
-        const double room = packing() * std::min(size_.area * way.norm(), size_.volume);
+        const double room = kLayers * layer(), moved = plan_.moved.norm();
         if (!(room > 0.0)) return;
-        const double taken = volumeEntered(way) / room, weight = isFirst_ ? 1.0 : std::min(1.0, way.norm() / pitch_);
-        memory_.covered += weight * (std::min(1.0, taken) - memory_.covered);
+        const double taken = volumeBehindInlet() / room;
+        if (isFirst_) {
+            memory_.covered = std::min(1.0, taken);
+            memory_.freely = kFading * layer() * (1.0 - memory_.covered);
+        }
+        const double others = std::clamp(taken - memory_.freely / (kFading * layer()), 0.0, 1.0);
+        memory_.covered += std::min(1.0, moved / pitch_) * (others - memory_.covered);
+        memory_.freely *= std::exp(-moved / (kFading * pitch_));
     }
-    double volumeEntered(const Vec3& way) const
+    double volumeBehindInlet() const
     {
-        const Eigen::AlignedBox3d box = region_.bounds();
+        const Vec3 way = (kLayers * pitch_ / speed_) * emission_.velocity;
+        const Inlet inlet(region_, plan_.solids, way, pitch_);
+        Eigen::AlignedBox3d box = region_.bounds();
+        box.extend(Eigen::AlignedBox3d(box.min() + way, box.max() + way));
         const LiquidParticles& liquid = state_.liquid;
         return parallelSum(liquid.count, [&](std::size_t p) {
             const Vec3 x = liquid.position(p);
-            return box.contains(x) && hasEntered(region_, x, way) ? liquid.mass[p] : 0.0;
+            return box.contains(x) && (inlet.hasEntered(x) || inlet.hasPassed(x)) ? liquid.mass[p] : 0.0;
         }) / scene_.settings.liquid.density;
     }
 
     /// The same, free of the noise of single particles.
     double coveredShare() const
     {
-        constexpr double kAll = 0.8, kNone = 0.1;
+        constexpr double kAll = 0.8, kNone = 0.2;
         return memory_.covered > kAll ? 1.0 : memory_.covered < kNone ? 0.0 : memory_.covered;
     }
 
@@ -251,12 +265,15 @@ class Flow {
         }
         const std::span<const Vec3> positions = firstOf(seeds.positions, most);
         lay(scene_, source_, emission_, positions, seeds.volume, state_);
-        if (!isFirst_) memory_.owed -= static_cast<double>(positions.size()) * seeds.volume;
+        if (isFirst_) return;
+        memory_.owed -= static_cast<double>(positions.size()) * seeds.volume;
+        memory_.freely += static_cast<double>(positions.size()) * seeds.volume;
     }
     void keepAllowed(std::size_t mostEntered, double owed, Seeds& seeds) const
     {
         std::vector<char> hasCome(seeds.positions.size());
-        for (std::size_t n = 0; n < hasCome.size(); ++n) hasCome[n] = !(region_.distance(seeds.positions[n] - plan_.moved) < 0.0);
+        const Inlet inlet(region_, plan_.solids, plan_.moved, pitch_);
+        for (std::size_t n = 0; n < hasCome.size(); ++n) hasCome[n] = inlet.hasEntered(seeds.positions[n]) || inlet.hasPassed(seeds.positions[n]);
         const std::size_t entered = std::min(mostEntered, static_cast<std::size_t>(std::ranges::count(hasCome, 1)));
         std::size_t others = wholeParticles(owed - static_cast<double>(entered) * seeds.volume, seeds.volume), come = entered;
         std::vector<Vec3> kept;
@@ -285,10 +302,11 @@ class Flow {
     std::vector<Vec3> spread(std::size_t count) const
     {
         constexpr std::uint64_t kMostTries = 4096;  // for each, of which as many succeed as the region fills of its box
+        constexpr std::uint64_t kApart = 64;        // elements from where one particle begins to where the next does
         constexpr double kStep[kAxes] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
         const Eigen::AlignedBox3d box = region_.bounds();
         std::vector<Vec3> places;
-        std::uint64_t number = state_.nextId;
+        std::uint64_t number = kApart * state_.nextId;
         for (std::uint64_t tries = 0; places.size() < count && tries < kMostTries * count; ++tries, ++number) {
             Vec3 x;
             for (int a = 0; a < kAxes; ++a) {
@@ -309,7 +327,8 @@ class Flow {
     Shape region_;
     double pitch_;      ///< of the pattern [cm]
     double speed_;      ///< [cm/s]
-    double time_;       ///< of the step, in which it is asked for anything [s]
+    double timeFrom_;   ///< the beginning of the step [s]
+    double time_;       ///< of it, in which it is asked for anything [s]
     MouthSize size_;
     bool isFirst_ = false;
 };

@@ -87,22 +87,44 @@ Shape regionOf(const SeedPlan& plan)
     return Shape::subtract(parts);
 }
 
-bool hasEntered(const Shape& region, const Vec3& x, const Vec3& moved)
+Inlet::Inlet(const Shape& region, const std::vector<Shape>& solids, const Vec3& moved, double pitch)
+    : region_(region), solids_(Shape::unite(solids)), moved_(moved), length_(moved.norm()), pitch_(pitch)
 {
-    return region.distance(x) < 0.0 && !(region.distance(x - moved) < 0.0);
+}
+
+bool Inlet::isInside(const Vec3& x) const
+{
+    return region_.distance(x) < -kOnSurface * pitch_;
+}
+
+/// Looks back along the way, never further at once than it is to the region or to a solid.
+bool Inlet::hasPassed(const Vec3& x) const
+{
+    constexpr int kMostLooks = 256;
+    constexpr double kLeastStep = 1.0e-3;  // [pitches]
+    if (!(region_.distance(x) < length_) || isInside(x) || isInside(x - moved_)) return false;
+    double back = 0.0;
+    for (int look = 0; look < kMostLooks && back < length_; ++look) {
+        const Vec3 y = x - (back / length_) * moved_;
+        const double toSolid = solids_.distance(y);
+        if (toSolid < 0.0) return false;
+        if (isInside(y)) return true;
+        back += std::max(kLeastStep * pitch_, std::min(region_.distance(y), toSolid));
+    }
+    return false;
 }
 
 double areaAcross(const Shape& region, const Vec3& direction, double length)
 {
-    // Of a region thinner than the length only a part is seen; of less, less so.
+    // What is left when the region moves on: of one thinner than the length only a part, and less of it with shorter ones.
     constexpr int kHalvings = 8;
     constexpr double kSame = 1.0e-3;
     double area = 0.0;
     for (int halving = 0; halving < kHalvings; ++halving, length *= 0.5) {
         Eigen::Isometry3d along = Eigen::Isometry3d::Identity();
         along.translation() = length * direction.normalized();
-        const double last = area;
-        area = boundedVolume(Shape::subtract({region, region.moved(along)}), 4.0 * length) / length;
+        const double last = area, cell = 4.0 * length;
+        area = (boundedVolume(region, cell) - boundedVolume(Shape::intersect({region, region.moved(along)}), cell)) / length;
         if (halving > 0 && std::abs(area - last) <= kSame * area) break;
     }
     return area;

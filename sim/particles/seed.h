@@ -38,8 +38,27 @@ struct Seeds {
 /// Where particles may be laid: the source outside of the solids.
 Shape regionOf(const SeedPlan& plan);
 
-/// Does what moved by `moved` into a region come from outside of it?
-bool hasEntered(const Shape& region, const Vec3& x, const Vec3& moved);
+/// What a region lets in along a move.
+class Inlet {
+ public:
+    /// @param solids  through which nothing comes
+    /// @param pitch   of the pattern [cm]
+    Inlet(const Shape& region, const std::vector<Shape>& solids, const Vec3& moved, double pitch);
+
+    /// Has what is in the region now come from outside of it?
+    bool hasEntered(const Vec3& x) const { return isInside(x) && !isInside(x - moved_); }
+    /// Has what is beyond the region now come through all of it? So it is where the region is thinner than the move is long, and at edges.
+    bool hasPassed(const Vec3& x) const;
+
+ private:
+    bool isInside(const Vec3& x) const;
+
+    const Shape& region_;
+    Shape solids_;
+    Vec3 moved_;     ///< [cm]
+    double length_;  ///< of the move [cm]
+    double pitch_;   ///< [cm]
+};
 
 /// Volume that a region gives per length along a direction, of what moves through it: the area of its shadow, of each of its parts that does not
 /// follow on another [cm²].

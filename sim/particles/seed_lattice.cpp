@@ -7,9 +7,6 @@ namespace sim {
 
 namespace {
 
-/// Places nearer to the surface than this count as outside, so that rounding does not decide [pitches].
-constexpr double kSurface = 1.0e-9;
-
 /// Place (0, 0, 0) of a pattern that does not move: half a pitch inside the source's bounds; with two places per cell,
 /// a quarter cell inside of a cell of the grid.
 Vec3 firstPlace(const SeedPlan& plan, double pitch)
@@ -45,42 +42,6 @@ struct Sites {
     }
 };
 
-/// Places that have come through the whole region since places were last laid: of a region that is thinner than a step is long, or at its edges.
-class PassedThrough {
- public:
-    PassedThrough(const SeedPlan& plan, const Shape& region, double pitch)
-        : region_(region), solids_(Shape::unite(plan.solids)), moved_(plan.moved), length_(moved_.norm()), pitch_(pitch)
-    {
-    }
-    /// How far beyond the region they may be [cm].
-    const Vec3& ahead() const { return moved_; }
-    /// Looks back along the way, never further at once than it is to the region or to a solid.
-    bool has(const Vec3& x) const
-    {
-        constexpr int kMostLooks = 256;
-        constexpr double kLeastStep = 1.0e-3;  // [pitches]
-        if (!(region_.distance(x) < length_) || isInside(x - moved_)) return false;
-        double back = 0.0;
-        for (int look = 0; look < kMostLooks && back < length_; ++look) {
-            const Vec3 y = x - (back / length_) * moved_;
-            const double toRegion = region_.distance(y), toSolid = solids_.distance(y);
-            if (toSolid < 0.0) return false;
-            if (toRegion < -kSurface * pitch_) return true;
-            back += std::max(kLeastStep * pitch_, std::min(toRegion, toSolid));
-        }
-        return false;
-    }
-
- private:
-    bool isInside(const Vec3& x) const { return region_.distance(x) < -kSurface * pitch_; }
-
-    const Shape& region_;
-    Shape solids_;
-    Vec3 moved_;     ///< [cm]
-    double length_;  ///< of the way [cm]
-    double pitch_;   ///< [cm]
-};
-
 }  // namespace
 
 PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, double pitch, double margin)
@@ -104,8 +65,8 @@ PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& ori
 
 PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing)
 {
-    const PassedThrough passed(plan, region, particleSpacing(plan.fill, plan.dx));
-    const Sites sites(plan, plan.age * plan.velocity, passed.ahead());
+    const Inlet inlet(region, plan.solids, plan.moved, particleSpacing(plan.fill, plan.dx));
+    const Sites sites(plan, plan.age * plan.velocity, plan.moved);
     const double half = 0.5 * sites.lattice.pitch;
     struct Found {
         Vec3 x;
@@ -116,7 +77,7 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
     const PointBins bins(existing, half);
     const auto found = sites.lattice.collect<Found>([&](int i, int j, int k, std::vector<Found>& list) {
         const Vec3 x = sites.position(i, j, k);
-        if (!(region.distance(x) < -kSurface * sites.lattice.pitch) && !passed.has(x)) return;
+        if (!(region.distance(x) < -kOnSurface * sites.lattice.pitch) && !inlet.hasPassed(x)) return;
         const Vec3 middle = sites.lattice.position(i, j, k);
         const bool taken =
             bins.anyNear(middle, [&](std::size_t p) { return (existing[p] - middle).cwiseAbs().maxCoeff() < half; });
@@ -132,20 +93,20 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
 double meanLatticePlaces(const SeedPlan& plan, const Shape& region)
 {
     // Phases along the velocity: for a velocity along an axis they divide the pitch evenly, for others they spread over
-    // several.
+    // several. None is a multiple of the pitch: a region of so many pitches would have places on both its faces, which count as outside.
     constexpr int kPhases = 16, kPitches = 7;
     const double pitch = particleSpacing(plan.fill, plan.dx);
     const Vec3 direction = plan.velocity / plan.velocity.cwiseAbs().maxCoeff();
     double sum = 0.0;
     for (int phase = 0; phase < kPhases; ++phase) {
-        const Sites sites(plan, (pitch * kPitches * phase / kPhases) * direction);
+        const Sites sites(plan, (pitch * kPitches * (phase + 0.5) / kPhases) * direction);
         const std::size_t rows = static_cast<std::size_t>(sites.lattice.size[1]) * sites.lattice.size[2];
         sum += parallelSum(rows, [&](std::size_t row) {
             const int j = static_cast<int>(row % sites.lattice.size[1]),
                       k = static_cast<int>(row / sites.lattice.size[1]);
             int inside = 0;
             for (int i = 0; i < sites.lattice.size[0]; ++i)
-                inside += region.distance(sites.position(i, j, k)) < -kSurface * pitch;
+                inside += region.distance(sites.position(i, j, k)) < -kOnSurface * pitch;
             return static_cast<double>(inside);
         });
     }
