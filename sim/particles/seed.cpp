@@ -114,20 +114,61 @@ bool Inlet::hasPassed(const Vec3& x) const
     return false;
 }
 
-double areaAcross(const Shape& region, const Vec3& direction, double length)
-{
-    // What is left when the region moves on: of one thinner than the length only a part, and less of it with shorter ones.
-    constexpr int kHalvings = 8;
-    constexpr double kSame = 1.0e-3;
-    double area = 0.0;
-    for (int halving = 0; halving < kHalvings; ++halving, length *= 0.5) {
-        Eigen::Isometry3d along = Eigen::Isometry3d::Identity();
-        along.translation() = length * direction.normalized();
-        const double last = area, cell = 4.0 * length;
-        area = (boundedVolume(region, cell) - boundedVolume(Shape::intersect({region, region.moved(along)}), cell)) / length;
-        if (halving > 0 && std::abs(area - last) <= kSame * area) break;
+namespace {
+
+/// Parallel rays on a lattice over the shadow of a box.
+struct RayLattice {
+    Vec3 first, alongU, alongW, direction;  ///< first ray's beginning, before the box; from one to the next [cm]
+    std::size_t countU = 0, countW = 0;
+    double length = 0.0;                    ///< that they have to go [cm]
+
+    RayLattice(const Eigen::AlignedBox3d& box, const Vec3& unit, double pitch) : direction(unit)
+    {
+        // Along an axis the lattice lies along the others: the edges of boxes fall between rays.
+        const Vec3 u = unit.cross(unit.cwiseAbs().maxCoeff() == std::abs(unit[2]) ? Vec3::UnitX() : Vec3::UnitZ()).normalized(), w = unit.cross(u);
+        const Vec3 half = 0.5 * box.sizes();
+        const auto reach = [&](const Vec3& axis) { return half.dot(axis.cwiseAbs()); };
+        constexpr double kFinest = 512.0, kCoarsest = 32.0, kPerPitch = 8.0;
+        const auto count = [&](double width) { return std::clamp(std::ceil(2.0 * width / pitch * kPerPitch), kCoarsest, kFinest); };
+        countU = static_cast<std::size_t>(count(reach(u)));
+        countW = static_cast<std::size_t>(count(reach(w)));
+        alongU = 2.0 * reach(u) / static_cast<double>(countU) * u;
+        alongW = 2.0 * reach(w) / static_cast<double>(countW) * w;
+        length = 2.0 * reach(unit);
+        first = box.center() - reach(unit) * unit - 0.5 * (static_cast<double>(countU) - 1.0) * alongU - 0.5 * (static_cast<double>(countW) - 1.0) * alongW;
     }
-    return area;
+    double area() const { return alongU.norm() * alongW.norm(); }
+};
+
+/// How often a ray comes into a region: it looks again where the surface may be at the soonest.
+int entries(const Shape& region, const Vec3& begin, const Vec3& direction, double length, double leastStep)
+{
+    int count = 0;
+    bool wasInside = false;
+    for (double way = 0.0; way < length;) {
+        const double distance = region.distance(begin + way * direction);
+        const bool isInside = distance < 0.0;
+        count += isInside && !wasInside;
+        wasInside = isInside;
+        way += std::max(leastStep, std::abs(distance));
+    }
+    return count;
+}
+
+}  // namespace
+
+double areaAcross(const Shape& region, const Vec3& direction, double pitch)
+{
+    const Eigen::AlignedBox3d box = region.bounds();
+    if (box.isEmpty()) return 0.0;
+    const RayLattice rays(box, direction.normalized(), pitch);
+    constexpr double kLeastStep = 1.0e-3;  // [pitches]: thinner regions may be missed
+    return rays.area() * parallelSum(rays.countW, [&](std::size_t w) {
+        int sum = 0;
+        for (std::size_t u = 0; u < rays.countU; ++u)
+            sum += entries(region, rays.first + static_cast<double>(u) * rays.alongU + static_cast<double>(w) * rays.alongW, rays.direction, rays.length, kLeastStep * pitch);
+        return static_cast<double>(sum);
+    });
 }
 
 Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)

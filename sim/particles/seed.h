@@ -62,8 +62,8 @@ class Inlet {
 
 /// Volume that a region gives per length along a direction, of what moves through it: the area of its shadow, of each of its parts that does not
 /// follow on another [cm²].
-/// @param length  no longer than is worth while, of the order of a cell [cm]
-double areaAcross(const Shape& region, const Vec3& direction, double length);
+/// @param pitch  of the pattern that tells what is small [cm]
+double areaAcross(const Shape& region, const Vec3& direction, double pitch);
 
 /// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source
 /// outside of solids, so that all of them together are as large as that region; of a moving pattern, on average over

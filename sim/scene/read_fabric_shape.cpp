@@ -188,24 +188,34 @@ std::vector<int> asInFile(const FabricGeometry& mesh)
     return numbers;
 }
 
+std::array<int, 3> sortedCorners(const Vec3i& face)
+{
+    std::array<int, 3> corners = {face[0], face[1], face[2]};
+    std::ranges::sort(corners);
+    return corners;
+}
+
+bool isNothing(const std::array<int, 3>& corners) { return corners[0] == corners[1] || corners[1] == corners[2]; }
+
 /// Corners at one place become one; faces that lose a corner go, and so do those that are another's double then. Returns the number of
 /// corners that went up in others.
 std::size_t weld(FabricGeometry& mesh, double distance)
 {
     const std::vector<int> number = weldedNumbers(mesh.points, distance);
     std::vector<bool> isGone(mesh.points.size(), false);
-    std::set<std::array<int, 3>> known;
-    for (Vec3i& f : mesh.faces)
+    std::set<std::array<int, 3>> known, knownInFile;
+    std::erase_if(mesh.faces, [&](Vec3i& f) {
+        // What is wrong in the file already stays, and is told as that.
+        const std::array<int, 3> before = sortedCorners(f);
         for (int& corner : f) {
             if (number[corner] != corner) isGone[corner] = true;
             corner = number[corner];
         }
-    std::erase_if(mesh.faces, [&](const Vec3i& f) {
-        std::array<int, 3> corners = {f[0], f[1], f[2]};
-        std::ranges::sort(corners);
-        return corners[0] == corners[1] || corners[1] == corners[2] || !known.insert(corners).second;
+        const std::array<int, 3> corners = sortedCorners(f);
+        const bool isNew = known.insert(corners).second, wasNew = knownInFile.insert(before).second;
+        return (isNothing(corners) && !isNothing(before)) || (!isNew && wasNew);
     });
-    for (int& point : mesh.ofFile) point = number[point];
+    for (int& point : mesh.ofFile) point = point < 0 ? point : number[point];
     return static_cast<std::size_t>(std::ranges::count(isGone, true));
 }
 

@@ -363,8 +363,19 @@ TEST(LoadFabric, LinesOfAFileAreYarns)
 {
     const ObjFile file("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 1 1 0\nl 1 2 3\nl 2 -1\n");
     const FabricPiece net = piece("points: {material: wool, radius: 0.05, file: " + file.path.string() + "}");
+    EXPECT_TRUE(net.notes.empty());
     EXPECT_EQ((std::vector<std::vector<int>>{{0, 1, 2}, {1, 3}}), net.strands);
     EXPECT_NEAR(3.0 * sim::kPi * 0.05 * 0.05 * 1.32 * 0.4, massOf(net), 1.0e-15);
+}
+
+TEST(LoadFabric, PointsOfNoLineAreLeftOut)
+{
+    const ObjFile file("v 9 0 0\nv 0 0 0\nv 1 0 0\nv 9 9 0\nv 2 0 0\nv 2 0 0\nl 2 3 5\n");
+    const FabricPiece yarn = piece("points: {material: wool, radius: 0.05, file: " + file.path.string() + "}, pin: {nodes: [2, 4]}");
+    EXPECT_EQ((std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), yarn.points);
+    EXPECT_EQ((std::vector<int>{1, 2}), yarn.pins.at(0).vertices);
+    ASSERT_EQ(1u, yarn.notes.size());
+    EXPECT_NE(std::string::npos, yarn.notes[0].find("3 of its vertices are in no line")) << yarn.notes[0];
 }
 
 TEST(LoadFabric, OverridesReachIntoPiecesAndMaterials)

@@ -188,7 +188,7 @@ liquid:
 TEST(LoadScene, ASourceThatIsAskedForNothingSaysSo)
 {
     const auto notes = [](const std::string& source) {
-        return load("time: {duration: 2}\nliquid:\n  sources:\n    - {name: jet, shape: {ball: {center: [0, 5, 0], radius: 1}}, " + source + "}\n").notes;
+        return load("grid: {cell: 0.25}\ntime: {duration: 2}\nliquid:\n  sources:\n    - {name: jet, shape: {ball: {center: [0, 5, 0], radius: 1}}, " + source + "}\n").notes;
     };
     EXPECT_TRUE(notes("velocity: [0, 1, 0], emit: [{from: 0, to: 1}]").empty());
     EXPECT_TRUE(notes("velocity: [0, 0, 0]").empty());
