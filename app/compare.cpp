@@ -63,6 +63,7 @@ void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::p
 std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder)
 {
     const SceneSetup asWritten = parts.loadScene({options.scene, "", options.sets});
+    tellNotes(asWritten);
     const std::uint64_t program = programHash();
     std::vector<ComparedRun> runs;
     for (const auto& variant : wantedVariants(options, asWritten.pictures.compare)) {

@@ -7,6 +7,9 @@
 #include "app/progress.h"
 #include "sim/core/check.h"
 
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -55,8 +58,28 @@ class Frames {
     StateKeeper states_;
 };
 
+/// Tells of each source that has to stop, the first time.
+class ShutSources {
+ public:
+    explicit ShutSources(const sim::Scene& scene) : scene_(scene), isTold_(scene.sources.size(), false) {}
+    void look(const sim::State& state)
+    {
+        const std::vector<sim::SourceMemory>& sources = state.memory.sources;
+        for (std::size_t s = 0; s < std::min(sources.size(), isTold_.size()); ++s) {
+            if (!sources[s].isShut || isTold_[s]) continue;
+            isTold_[s] = true;
+            spdlog::warn("{}: liquid.sources.{}: stops at {:.4g} s after {:.4g} cm^3: what it flows into is closed and full; it goes on as soon as there is room",
+                         scene_.sources[s].where, scene_.sources[s].name, state.time, state.emittedVolume[s]);
+        }
+    }
+
+ private:
+    const sim::Scene& scene_;
+    std::vector<bool> isTold_;
+};
+
 /// Step up to `until`, logging every step. Throws RunError for a state that cannot be trusted.
-void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& progress)
+void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& progress, ShutSources& shut)
 {
     // Steps end on `until` itself but for the rounding of sums.
     constexpr double kRounding = 1.0e-12;
@@ -66,6 +89,7 @@ void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& 
         const sim::StepReport report = simulation.step(until);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
         reports.step(state, report);
+        shut.look(state);
         progress.stepDone(state.time, report.dt, seconds.count());
     }
 }
@@ -76,10 +100,11 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
     const auto& time = setup.scene.settings.time;
     const std::int64_t frames = frameCount(setup);
     const double end = time.start + time.duration;
+    ShutSources shut(setup.scene);
     Progress progress(stderr, setup.label, simulation.state().time, end, frames, first);
 
     for (std::int64_t frame = first + 1; frame <= frames; ++frame) {
-        stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress);
+        stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress, shut);
         kept.take(simulation, frame);
         reports.frameDone();
         progress.frameDone();
@@ -87,7 +112,7 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
         kept.checkpoint(simulation, frame, isStopped, reports);
         if (isStopped) return false;
     }
-    stepUntil(end, simulation, reports, progress);
+    stepUntil(end, simulation, reports, progress, shut);
     progress.show();
     return true;
 }

@@ -3,6 +3,7 @@
 #include "app/output_files.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <xxhash.h>
 
 #include <cmath>
@@ -12,6 +13,11 @@ namespace app {
 std::string hexDigits(std::uint64_t value)
 {
     return fmt::format("{:016x}", value);
+}
+
+void tellNotes(const SceneSetup& setup)
+{
+    for (const std::string& note : setup.scene.notes) spdlog::warn("{}", note);
 }
 
 std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash)

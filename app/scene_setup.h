@@ -49,6 +49,9 @@ std::filesystem::path defaultFolder(const SceneSetup& setup);
 /// {variant}, and under the comparison's own name if it has one.
 std::filesystem::path defaultComparisonFolder(const SceneSetup& setup);
 
+/// Tells the user what was mended in the scene's files, and what in them asks for nothing.
+void tellNotes(const SceneSetup& setup);
+
 /// Frames after the initial one that the scene asks for.
 std::int64_t frameCount(const SceneSetup& setup);
 

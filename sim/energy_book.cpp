@@ -91,6 +91,13 @@ void EnergyBook::toGrid()
     last_.liquidKinetic = kinetic;
 }
 
+void EnergyBook::pressedIn(double work)
+{
+    if (!changes_) return;
+    pressedIn_ = work;
+    book(EnergyChange::Sources, work);
+}
+
 double EnergyBook::workAgainstPressure(double dt) const
 {
     if (!work_.obstacles.anyMoving()) return 0.0;
@@ -158,7 +165,7 @@ void EnergyBook::solved(bool isMixed, double dt, const FabricReport& fabric)
     book(EnergyChange::SurfaceTension, tension);
     const double solids = workAgainstPressure(dt);
     book(EnergyChange::Solids, solids);
-    book(EnergyChange::Pressure, alone - tension - solids);
+    book(EnergyChange::Pressure, alone - tension - solids - pressedIn_);
     last_ = now;
 }
 

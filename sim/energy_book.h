@@ -20,6 +20,8 @@ class EnergyBook {
     /// Surface tension has acted there, too, but not yet the pressure that holds against it.
     /// On faces that liquid and fabric share its work is part of the pressure's.
     void surfaceTension(bool isMixed);
+    /// The pressure has done this work on liquid that sources pressed into liquid [erg].
+    void pressedIn(double work);
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt, const PushedOut& pushed);
     /// All that has changed since the last look.
@@ -56,6 +58,7 @@ class EnergyBook {
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
     BlockArray<double, 3> pulled_;  ///< by how much surface tension changed velocities [cm/s], if it acts
     Energy last_;
+    double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
     double lag_ = 0.0;  ///< of potential energy behind the present places [erg]
 };
 

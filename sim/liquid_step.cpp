@@ -5,6 +5,7 @@
 #include "sim/liquid/cells.h"
 #include "sim/liquid/energy.h"
 #include "sim/liquid/face_velocity.h"
+#include "sim/liquid/inflow.h"
 #include "sim/liquid/push_out.h"
 #include "sim/liquid/walls.h"
 #include "sim/transfer/scatter_bounded.h"
@@ -124,6 +125,21 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
     }
 }
 
+/// The pressure, which moves aside what is where sources have pressed liquid in.
+void project(State& state, const Settings& settings, Workspace& work, double dt, StepReport& report, EnergyBook& energy)
+{
+    const BlockGrid& grid = state.grid;
+    findInflowCells(grid, work.grid, work.emission.inflows, work.packing, dt, work.inflow);
+    report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, state.pressure);
+    if (work.emission.inflows.empty()) return;
+    report.inflowWork = inflowWork(grid, work.inflow, state.pressure, dt);
+    energy.pressedIn(report.inflowWork);
+    for (const Inflow& inflow : work.emission.inflows) {
+        const bool isShut = isShutIn(inflow.source, work.inflow, grid, work.grid, work.pressure.solver.components());
+        state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
+    }
+}
+
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
 void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
            EnergyBook& energy)
@@ -146,7 +162,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
         applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt) / dt, work.surfaceTension, work.grid);
         energy.surfaceTension(plan.isMixed);
     }
-    report.pressure = solvePressure(grid, work.obstacleField, settings.solver, work.pressure, work.grid, state.pressure);
+    project(state, settings, work, dt, report, energy);
 
     if (plan.corrects) {
         clock.start(Stage::Volume);
@@ -228,7 +244,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     BlockGrid& grid = state.grid;
     if (plan.reflects) {
         clock.start(Stage::Reflection);
-        report.reflection = reflect(grid, work.obstacleField, settings.solver, work.pressure, work.grid, work.reflection);
+        report.reflection = reflect(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, work.reflection);
     }
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);

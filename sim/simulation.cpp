@@ -69,7 +69,7 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     state_.fabric = settings.fabric.solver == FabricSolver::Off ? restState(fabric_) : initialState(fabric_, scene_.fabrics, settings.liquid.density);
     state_.ledger.emittedMass = std::accumulate(state_.fabric.absorbed.begin(), state_.fabric.absorbed.end(), 0.0);
     prepareWorkspace();
-    emitLiquid(scene_, state_, state_.time, state_.time);
+    emitLiquid(scene_, state_, state_.time, state_.time, work_.emission);
     begin();
 }
 

@@ -11,6 +11,16 @@
 
 namespace sim {
 
+/// Of a source that flows.
+struct SourceMemory {
+    double owed = 0.0;     ///< that it was asked for and has not given; negative: given in advance [cm^3]
+    double toPress = 0.0;  ///< of it, what is to be pressed into the liquid around [cm^3]
+    double freely = 0.0;   ///< that it gave of late where there was room, fading as it moves on by a few pitches [cm^3]
+    double covered = 0.0;  ///< share of its inlet that is covered by liquid that does not move along [-]
+    double laidAt = -std::numeric_limits<double>::infinity();  ///< when particles were last laid, or would have been [s]
+    double isShut = 0.0;   ///< 1 where it has nowhere to go: the liquid around it fills all that is open to it; else 0
+};
+
 /// What steps that were taken tell those to come: how long they may be, and what is to be expected of them.
 struct StepMemory {
     double maxSpeed = 0.0;  ///< of the liquid, as the last step found it [cm/s]
@@ -20,6 +30,7 @@ struct StepMemory {
     int next = 0;           ///< element of them to be overwritten
     double elastic = 0.0;   ///< at the end of the last step [erg]
     double deepest = std::numeric_limits<double>::infinity();  ///< that fabric was in an obstacle then; before the first step it may be anywhere [cm]
+    std::vector<SourceMemory> sources;  ///< as many as the scene has, once any was looked at
 };
 
 /// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (step.h).

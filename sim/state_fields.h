@@ -83,6 +83,10 @@ void visitMemory(V& v, Memory& memory)
     v.number("memory/next_energy", "-", memory.next);
     v.number("memory/elastic", "erg", memory.elastic);
     v.number("memory/deepest", "cm", memory.deepest);
+    std::size_t sources = memory.sources.size();
+    v.number("memory/sources/count", "-", sources);
+    if constexpr (V::kFills) memory.sources.resize(sources);
+    v.rows("memory/sources/owed_press_freely_covered_at_shut", "cm^3, s", sources, 6, [&](std::size_t source) { return &memory.sources[source].owed; });
 }
 
 /// Liquid, fabric and what belongs to them, always in this order.

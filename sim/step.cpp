@@ -103,10 +103,11 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     EnergyBook energy(state, scene.settings, work, report);
     const bool reflects = mayReflect(state, scene.settings.time, work) && !state.reflected;
 
+    work.emission.inflows.clear();
     if (emits(scene, state, state.time, state.time + dt)) {
         clock.start(Stage::Emit);
         const std::size_t before = state.liquid.count;
-        emitLiquid(scene, state, state.time, state.time + dt);
+        emitLiquid(scene, state, state.time, state.time + dt, work.emission);
         for (std::size_t p = before; p < state.liquid.count; ++p)
             report.emittedKinetic += 0.5 * state.liquid.mass[p] * state.liquid.velocity(p).squaredNorm();
     }

@@ -11,6 +11,7 @@
 #include "sim/liquid/surface_tension.h"
 #include "sim/liquid/viscosity.h"
 #include "sim/liquid/volume.h"
+#include "sim/particles/emit.h"
 #include "sim/particles/relax.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
@@ -32,6 +33,8 @@ struct Workspace {
     GatherScratch gather;
     ViscosityWorkspace viscosity;
     PressureWorkspace pressure;
+    EmissionWorkspace emission;
+    std::vector<InflowCell> inflow;                        ///< of the sources of this step
     WallFaces wallFaces;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;

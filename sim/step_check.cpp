@@ -193,7 +193,7 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
     if (feelsSurfaceTension(settings.liquid))
         given += settings.liquid.surfaceTension * settings.cell * settings.cell * static_cast<double>(report.liquidCells);
     const double quiet = kQuiet * settings.cell / report.dt;
-    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + given + 0.5 * mass * quiet * quiet;
+    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + std::max(0.0, report.inflowWork) + given + 0.5 * mass * quiet * quiet;
 }
 
 std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport& report) const

@@ -115,6 +115,7 @@ struct StepReport {
     double liquidMass = 0.0;                     ///< of all particles, at the end of the step [g]
     double absorbedMass = 0.0;                   ///< of liquid in the fabric, likewise [g]
     double emittedKinetic = 0.0;                 ///< of liquid that came from sources in this step [erg]
+    double inflowWork = 0.0;                     ///< of the pressure on liquid that sources pressed into liquid in this step [erg]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
     Vec3 toPins = Vec3::Zero();                  ///< momentum of liquid that fabric took up and moved, which pins held back in this step [g cm/s]
     std::string_view failure;                    ///< empty, or why the state can't be trusted …

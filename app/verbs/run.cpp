@@ -81,7 +81,7 @@ int runVerbRun(const Options& options, const Parts& parts)
 {
     if (!options.resume.empty()) return goOn(options, parts);
     const SceneSetup setup = parts.loadScene(options.request());
-    for (const std::string& note : setup.scene.notes) spdlog::warn("{}", note);
+    tellNotes(setup);
     return runToItsEnd(setup, runOptions(options, setup), options, parts);
 }
 

@@ -26,6 +26,7 @@ SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts
     if (!setup.validation)
         throw sim::InputError(
             fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
+    tellNotes(setup);
     if (!isQuick || setup.validation->quick.empty()) return setup;
     request.sets = setup.validation->quick;
     return parts.loadScene(request);

@@ -7,7 +7,7 @@ namespace app {
 int runVerbView(const Options& options, const Parts& parts)
 {
     SceneRequest request = options.request();
-    parts.loadScene(request);  // mistakes in it are told with or without a display
+    tellNotes(parts.loadScene(request));  // mistakes in it are told with or without a display
     if (!options.beside.empty()) {
         request.variant = options.beside;
         parts.loadScene(request);

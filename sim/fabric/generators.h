@@ -17,6 +17,7 @@ struct FabricGeometry {
     std::vector<Vec3i> faces;
     std::vector<Vec2i> lattice;         ///< of each point: its column and row; empty where there are none
     Vec2i latticeSize = Vec2i::Zero();  ///< number of columns and rows; a strand has one row
+    std::vector<int> ofFile{};          ///< of each vertex of a file: the number of its point, or −1; empty where they are the same
 };
 
 /// A sheet of nodes[0] × nodes[1] vertices; vertex (i, j) has the number j nodes[0] + i.

@@ -58,6 +58,7 @@ struct FabricPiece {
     std::string where;                      ///< "flag.yaml:14", for messages
     std::string kind;                       ///< the generator that made it: "cloth_grid"
     std::string text;                       ///< what it was asked for, as a scene says it, in cgs, on one line
+    std::vector<std::string> notes;         ///< about its file
     std::string transformText;              ///< where it was moved then, likewise; empty if it was not
 };
 

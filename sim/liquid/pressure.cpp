@@ -127,6 +127,11 @@ void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, con
     });
 }
 
+void addInflow(std::span<const InflowCell> inflow, BlockArray<double>& rhs)
+{
+    for (const InflowCell& c : inflow) rhs.block(c.block)[c.cell] += c.rate;
+}
+
 }  // namespace
 
 void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, double dt, const LiquidGrid& liquid,
@@ -135,19 +140,20 @@ void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, co
     computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.full, liquid, work);
 }
 
-SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, PressureWorkspace& work,
-                          LiquidGrid& liquid, BlockArray<double>& pressure)
+SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
+                          PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
 {
     work.matrix.resize(grid.count());
     work.rhs.resize(grid.count());
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
+    addInflow(inflow, work.rhs);
     const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
     subtractGradient(grid, obstacles, work, pressure, liquid);
     return report;
 }
 
 void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
-                 BlockArray<double>& rhs)
+                       std::span<const InflowCell> inflow, BlockArray<double>& rhs)
 {
     rhs.resize(grid.count());
     parallelFor(grid.count(), 2, [&](std::size_t n) {
@@ -160,6 +166,7 @@ void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, co
                 storePack(rhs.block(b) + cellInBlock(0, j, k), select(own, out, broadcast(0.0)));
             }
     });
+    addInflow(inflow, rhs);
 }
 
 double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid)

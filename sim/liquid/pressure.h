@@ -5,7 +5,16 @@
 #include "sim/settings.h"
 #include "sim/solvers/poisson.h"
 
+#include <span>
+
 namespace sim {
+
+/// A cell into which a source presses liquid.
+struct InflowCell {
+    std::size_t source;
+    int block, cell;
+    double rate;  ///< volume per that of the cell [1/s]
+};
 
 /// What the projection keeps from step to step beside the pressure itself.
 struct PressureWorkspace {
@@ -25,13 +34,14 @@ void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, co
 
 /// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the
 /// others, and subtract dt β grad p (model-fluid 6.4, 6.5). All faces with liquid that are not closed are valid afterwards.
+/// @param inflow    cells whose divergence is to be their rates instead; where a cell is named more than once, the sum
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
-SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, PressureWorkspace& work,
-                          LiquidGrid& liquid, BlockArray<double>& pressure);
+SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
+                          PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure);
 
-/// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S) [1/s].
+/// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S), and the inflow [1/s].
 void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
-                 BlockArray<double>& rhs);
+                       std::span<const InflowCell> inflow, BlockArray<double>& rhs);
 
 /// Faces are taken to be at least this full, for the sake of the conditioning.
 inline constexpr double kLeastFill = 0.01;

@@ -11,9 +11,9 @@ constexpr double kTolerance = 1.0e-3;  ///< of the solve: it moves second-order 
 }  // namespace
 
 SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver,
-                    PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work)
+                    std::span<const InflowCell> inflow, PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work)
 {
-    findRightHandSide(grid, obstacles, liquid, liquid.advected, work.rhs);
+    findRightHandSide(grid, obstacles, liquid, liquid.advected, inflow, work.rhs);
     work.potential.resize(grid.count());
     parallelFor(grid.count(), 8,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });

@@ -20,6 +20,8 @@ struct SeedPlan {
     /// they leave at the other, and whatever is laid anew fits to what was laid before. 0 for a body that is laid once.
     Vec3 velocity = Vec3::Zero();  ///< [cm/s]
     double age = 0.0;              ///< time since the source began [s]
+    Vec3 moved = Vec3::Zero();     ///< how far the pattern has moved since places of it were last laid [cm]
+    double regionVolume = 0.0;     ///< boundedVolume(regionOf(plan), dx), if it is known already [cm^3]
 };
 
 /// Liquid that is there already: no particle is laid where the pattern has one.
@@ -32,6 +34,36 @@ struct Seeds {
     std::vector<Vec3> positions;  ///< in the order of the pattern's places
     double volume = 0.0;          ///< of each particle [cm^3]
 };
+
+/// Where particles may be laid: the source outside of the solids.
+Shape regionOf(const SeedPlan& plan);
+
+/// What a region lets in along a move.
+class Inlet {
+ public:
+    /// @param solids  through which nothing comes
+    /// @param pitch   of the pattern [cm]
+    Inlet(const Shape& region, const std::vector<Shape>& solids, const Vec3& moved, double pitch);
+
+    /// Has what is in the region now come from outside of it?
+    bool hasEntered(const Vec3& x) const { return isInside(x) && !isInside(x - moved_); }
+    /// Has what is beyond the region now come through all of it? So it is where the region is thinner than the move is long, and at edges.
+    bool hasPassed(const Vec3& x) const;
+
+ private:
+    bool isInside(const Vec3& x) const;
+
+    const Shape& region_;
+    Shape solids_;
+    Vec3 moved_;     ///< [cm]
+    double length_;  ///< of the move [cm]
+    double pitch_;   ///< [cm]
+};
+
+/// Volume that a region gives per length along a direction, of what moves through it: the area of its shadow, of each of its parts that does not
+/// follow on another [cm²].
+/// @param pitch  of the pattern that tells what is small [cm]
+double areaAcross(const Shape& region, const Vec3& direction, double pitch);
 
 /// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source
 /// outside of solids, so that all of them together are as large as that region; of a moving pattern, on average over

@@ -7,9 +7,6 @@ namespace sim {
 
 namespace {
 
-/// Places nearer to the surface than this count as outside, so that rounding does not decide [pitches].
-constexpr double kSurface = 1.0e-9;
-
 /// Place (0, 0, 0) of a pattern that does not move: half a pitch inside the source's bounds; with two places per cell,
 /// a quarter cell inside of a cell of the grid.
 Vec3 firstPlace(const SeedPlan& plan, double pitch)
@@ -26,11 +23,14 @@ struct Sites {
     CounterRandom random;
     bool jittered;
 
-    Sites(const SeedPlan& plan, const Vec3& shift)
+    /// @param ahead  how far beyond the source's bounds there may be places [cm]
+    Sites(const SeedPlan& plan, const Vec3& shift, const Vec3& ahead = Vec3::Zero())
         : random(plan.fill.seed, plan.stream), jittered(plan.fill.pattern == FillSettings::Pattern::Jittered)
     {
         const double pitch = particleSpacing(plan.fill, plan.dx);
-        lattice = PlaceLattice::inBox(plan.source.bounds(), firstPlace(plan, pitch) + shift, pitch, 0.5);
+        Eigen::AlignedBox3d box = plan.source.bounds();
+        if (!box.isEmpty()) box.extend(Eigen::AlignedBox3d(box.min() + ahead, box.max() + ahead));
+        lattice = PlaceLattice::inBox(box, firstPlace(plan, pitch) + shift, pitch, 0.5);
     }
     Vec3 position(int i, int j, int k) const
     {
@@ -65,7 +65,8 @@ PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& ori
 
 PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing)
 {
-    const Sites sites(plan, plan.age * plan.velocity);
+    const Inlet inlet(region, plan.solids, plan.moved, particleSpacing(plan.fill, plan.dx));
+    const Sites sites(plan, plan.age * plan.velocity, plan.moved);
     const double half = 0.5 * sites.lattice.pitch;
     struct Found {
         Vec3 x;
@@ -76,7 +77,7 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
     const PointBins bins(existing, half);
     const auto found = sites.lattice.collect<Found>([&](int i, int j, int k, std::vector<Found>& list) {
         const Vec3 x = sites.position(i, j, k);
-        if (!(region.distance(x) < -kSurface * sites.lattice.pitch)) return;
+        if (!(region.distance(x) < -kOnSurface * sites.lattice.pitch) && !inlet.hasPassed(x)) return;
         const Vec3 middle = sites.lattice.position(i, j, k);
         const bool taken =
             bins.anyNear(middle, [&](std::size_t p) { return (existing[p] - middle).cwiseAbs().maxCoeff() < half; });
@@ -92,20 +93,20 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
 double meanLatticePlaces(const SeedPlan& plan, const Shape& region)
 {
     // Phases along the velocity: for a velocity along an axis they divide the pitch evenly, for others they spread over
-    // several.
+    // several. None is a multiple of the pitch: a region of so many pitches would have places on both its faces, which count as outside.
     constexpr int kPhases = 16, kPitches = 7;
     const double pitch = particleSpacing(plan.fill, plan.dx);
     const Vec3 direction = plan.velocity / plan.velocity.cwiseAbs().maxCoeff();
     double sum = 0.0;
     for (int phase = 0; phase < kPhases; ++phase) {
-        const Sites sites(plan, (pitch * kPitches * phase / kPhases) * direction);
+        const Sites sites(plan, (pitch * kPitches * (phase + 0.5) / kPhases) * direction);
         const std::size_t rows = static_cast<std::size_t>(sites.lattice.size[1]) * sites.lattice.size[2];
         sum += parallelSum(rows, [&](std::size_t row) {
             const int j = static_cast<int>(row % sites.lattice.size[1]),
                       k = static_cast<int>(row / sites.lattice.size[1]);
             int inside = 0;
             for (int i = 0; i < sites.lattice.size[0]; ++i)
-                inside += region.distance(sites.position(i, j, k)) < -kSurface * pitch;
+                inside += region.distance(sites.position(i, j, k)) < -kOnSurface * pitch;
             return static_cast<double>(inside);
         });
     }

@@ -18,6 +18,9 @@ double meanLatticePlaces(const SeedPlan& plan, const Shape& region);
 PatternPlaces referencePlaces(const SeedPlan& plan, const std::vector<Vec3>& existing);
 PatternPlaces poissonPlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing);
 
+/// Places nearer to the surface than this count as outside, so that rounding does not decide [pitches].
+inline constexpr double kOnSurface = 1.0e-9;
+
 /// Least distance of the poisson pattern in pitches. Darts thrown until hardly any finds room lie about 1 / pitch³
 /// dense then.
 inline constexpr double kPoissonDistance = 0.83;

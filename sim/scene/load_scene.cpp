@@ -141,6 +141,7 @@ Scene readScene(const SceneFile& file)
     }
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
     for (SourceSettings& source : scene.sources) checkSource(scene, root.place.source->bounds.regionBoxes, source);
+    for (const FabricPiece& piece : scene.fabrics) scene.notes.insert(scene.notes.end(), piece.notes.begin(), piece.notes.end());
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());
     checkCoupling(scene);

@@ -21,6 +21,17 @@ void checkEmission(const Emission& e, const Node& node, const std::string& path,
     if (!isInitial && !(e.to > e.from)) fail(node.place, fmt::format("{}: to must be after from", path));
 }
 
+/// Why an emission is asked for nothing, or "".
+std::string whyNothing(const Emission& e, const TimeSettings& time)
+{
+    if (e.from == e.to) return "";
+    const double begin = time.start, end = time.start + time.duration;
+    if (e.to <= begin || e.from >= end)
+        return fmt::format("nothing comes from {:.6g} to {:.6g} s: the run is from {:.6g} to {:.6g} s", e.from, e.to, begin, end);
+    if (e.velocity.isZero(0.0)) return "without a velocity the source is asked for nothing but to stay full; give it one to make it flow";
+    return "";
+}
+
 std::vector<Emission> readEmissions(const Node& source, const std::string& path, const Emission& initial)
 {
     const Node* list = listAt(&source, "emit", joinPath(path, "emit"), "[{from: 0, to: 0.5}]");
@@ -77,6 +88,9 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     source.shape = std::move(shape.shape);
     source.shapeText = std::move(shape.text);
     source.notes = std::move(shape.notes);
+    for (const Emission& e : source.emissions)
+        if (const std::string nothing = whyNothing(e, settings.time); !nothing.empty())
+            source.notes.push_back(fmt::format("{}: {}.emit: {}", node.find("emit")->place.text(), path, nothing));
     return source;
 }
 

@@ -93,6 +93,7 @@ FabricPiece readPiece(const Node& node, const std::string& name, const std::stri
     piece.materialName = material.name;
     piece.material = material.material;
     piece.radius = shape.radius;
+    piece.notes = std::move(shape.notes);
     piece.text = fmt::format("{{material: {}, {}", Node::scalar(material.name, {}).flow(), shape.text.substr(1));
     piece.points = shape.geometry.points;
     if (const Node* transform = node.find("transform"))

@@ -15,6 +15,13 @@ class ClosedComponents {
 
     int count() const { return closed_; }
 
+    /// Number of the closed component that a cell belongs to, or −1.
+    int of(int block, int cell) const
+    {
+        const std::uint16_t label = label_.block(block)[cell];
+        return label == kNoLabel ? -1 : component_[first_[block] + label];
+    }
+
     /// Subtract from v, on each closed component, its mean over it.
     template <class T>
     void removeMeans(BlockArray<T>& v);

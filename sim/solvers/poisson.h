@@ -34,6 +34,7 @@ class PoissonSolver {
     Multigrid& multigrid() { return multigrid_; }
     /// Components without a Dirichlet part in the last solve.
     int closedComponents() const { return components_.count(); }
+    const ClosedComponents& components() const { return components_; }
 
  private:
     struct Problem {

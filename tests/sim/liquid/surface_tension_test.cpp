@@ -184,7 +184,7 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
     findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
     applySurfaceSteps(scene.grid, scene.field, scene.work, 1.0, drop.work, scene.liquid);
     const SolveReport report =
-        solvePressure(scene.grid, scene.field, scene.solver, scene.work, scene.liquid, scene.pressure);
+        solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     EXPECT_TRUE(report.converged);
     const double scale = kStep * kPressure / scene.grid.dx;  // what it would do to a full face alone
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_LT(std::abs(scene.velocity(a, c)), 1.0e-10 * scale); });

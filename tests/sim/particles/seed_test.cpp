@@ -37,6 +37,27 @@ SeedPlan damBreak(Pattern pattern)
 
 const Pattern kPatterns[] = {Pattern::Lattice, Pattern::Reference, Pattern::Jittered, Pattern::Poisson};
 
+Eigen::Isometry3d turned(double angle, const Vec3& axis, const Vec3& to)
+{
+    return Eigen::Isometry3d(Eigen::Translation3d(to) * Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+/// Shadows of boxes, balls and cylinders turned any way, thin ones, too.
+TEST(Seed, AreaAcrossIsThatOfTheShadow)
+{
+    const Vec3 axis(0.3, -0.5, 0.8), to(0.1, 0.7, -0.3);
+    for (const double angle : {0.0, 0.3, 1.1})
+        for (const Vec3& half : {Vec3(0.5, 0.33, 0.41), Vec3(0.5, 0.01, 0.41), Vec3(0.2, 1.3, 0.1)})
+            for (const Vec3& velocity : {Vec3(0.0, -2.0, 0.0), Vec3(1.0, 2.0, 0.5)}) {
+                const Eigen::Isometry3d place = turned(angle, axis, to);
+                const Vec3 d = (place.linear().transpose() * velocity).normalized().cwiseAbs();
+                const double shadow = 4.0 * (d[0] * half[1] * half[2] + d[1] * half[2] * half[0] + d[2] * half[0] * half[1]);
+                EXPECT_NEAR(areaAcross(Shape::box(Vec3::Zero(), half).moved(place), velocity, 0.1152) / shadow, 1.0, 0.01) << angle << ' ' << half.transpose() << ", " << velocity.transpose();
+            }
+    EXPECT_NEAR(areaAcross(Shape::ball(to, 0.5), axis, 0.1152) / (kPi * 0.25), 1.0, 0.01);
+    EXPECT_NEAR(areaAcross(Shape::cylinder(to, axis.normalized(), 0.5, 0.2, 0.0), axis, 0.1152) / (kPi * 0.25), 1.0, 0.01);
+}
+
 double countOf(const Seeds& seeds)
 {
     return static_cast<double>(seeds.positions.size());

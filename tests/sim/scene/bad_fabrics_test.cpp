@@ -235,12 +235,10 @@ TEST(BadFabricFiles, SayWhereAndWhat)
 {
     const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     expectFileRefused("mesh", square + "f 1 2 3\nf 1 1 4\n", "the face 0, 0, 3 has no area; remove it");
-    expectFileRefused("mesh", square + "f 1 2 3\n", "vertex 3 is on no yarn and no face; remove it");
     expectFileRefused("mesh", square + "v 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
                       "the edge between vertices 0 and 1 has more than two faces");
     expectFileRefused("mesh", square + "l 1 2 3 4\n", "has no faces");
     expectFileRefused("points", square + "f 1 2 3\n", "has no lines (l)");
-    expectFileRefused("points", square + "l 1 2 3\n", "vertex 3 is on no yarn and no face");
     expectFileRefused("points", square + "l 1\n", "a line needs two vertices or more");
 }
 

@@ -185,6 +185,19 @@ liquid:
     EXPECT_NEAR(cgs.sources[0].shape.distance(Vec3(5, 0, 0)), si.sources[0].shape.distance(Vec3(5, 0, 0)), 1.0e-12);
 }
 
+TEST(LoadScene, ASourceThatIsAskedForNothingSaysSo)
+{
+    const auto notes = [](const std::string& source) {
+        return load("grid: {cell: 0.25}\ntime: {duration: 2}\nliquid:\n  sources:\n    - {name: jet, shape: {ball: {center: [0, 5, 0], radius: 1}}, " + source + "}\n").notes;
+    };
+    EXPECT_TRUE(notes("velocity: [0, 1, 0], emit: [{from: 0, to: 1}]").empty());
+    EXPECT_TRUE(notes("velocity: [0, 0, 0]").empty());
+    ASSERT_EQ(1u, notes("emit: [{from: 0, to: 1}]").size());
+    EXPECT_NE(std::string::npos, notes("emit: [{from: 0, to: 1}]")[0].find("liquid.sources.jet.emit: without a velocity"));
+    ASSERT_EQ(1u, notes("velocity: [0, 1, 0], emit: [{from: 3, to: 4}, {from: 0, to: 1}]").size());
+    EXPECT_NE(std::string::npos, notes("velocity: [0, 1, 0], emit: [{from: 3, to: 4}]")[0].find("nothing comes from 3 to 4 s"));
+}
+
 TEST(LoadScene, PresetsSetConstantsAndKeysOverrideThem)
 {
     const auto liquid = [](const std::string& keys) {
