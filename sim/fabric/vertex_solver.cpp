@@ -43,6 +43,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     inertia_.resize(fabric.vertexCount());
     free_.resize(fabric.vertexCount());
     move_.resize(fabric.vertexCount());
+    expected_.resize(fabric.vertexCount());
     freeAngle_.resize(fabric.edges.size());
 }
 
@@ -88,13 +89,14 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
         }
         const double most = expectedMove * fabric_.radius[v], size = byForces.norm();
         free_[v] = state.x[v] + move_[v];
+        expected_[v] = move_[v] + byForces;
         move_[v] += (size > most ? most / size : 1.0) * byForces;
     });
     const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
         free_[v] = targets[i];
-        move_[v] = free_[v] - state.x[v];
+        expected_[v] = move_[v] = free_[v] - state.x[v];
     }
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { freeAngle_[e] = state.theta[e] + h * state.omega[e]; });
 }
@@ -163,8 +165,9 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     touching_ = {};
     if (!obstacles_.empty()) {
         clock.start(Stage::FabricContact);
-        const std::span<const Vec3> frictionFrom = newton.count == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
-        touching_ = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h);
+        FabricObstacles::Start start = obstacleStart(h);
+        if (newton.count == 0) start.moves = expected_;
+        touching_ = obstacles_.at(fabric_, state.x, start);
     }
     clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
@@ -233,6 +236,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     });
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
     if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
+    obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
     return true;
 }
 

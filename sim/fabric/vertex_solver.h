@@ -54,6 +54,7 @@ class VertexSolver {
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
+    FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
 
     const Fabric& fabric_;
@@ -73,6 +74,7 @@ class VertexSolver {
     std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
     std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
+    std::vector<Vec3> expected_;                 ///< of each vertex: its move if forces act on as they did [cm]
     std::vector<double> freeAngle_;              ///< of each yarn edge [rad]
     double totalMass_ = 0.0;                     ///< [g]
     double meanRadius_ = 0.0;                    ///< weighted by mass [cm]
