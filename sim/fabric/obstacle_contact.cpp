@@ -81,14 +81,11 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
     const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
     const Vec3 carried = body.carry * point.start, slip = along(point.x - carried);
     const Vec3 held = along(body.carry.linear() * start.held.at({point.number, obstacle}));
-    double share = 0.0;
-    if (start.moves.empty()) share = heldShare((held + stiffness * slip).norm(), body.friction[point.material] * push);
-    else {
-        const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
-        const Vec3 trial = held + stiffness * along(point.start + point.move - carried) + kStiffness * held;
-        share = expectedShare(trial.norm(), body.friction[point.material] * pressed, kStiffness);
-    }
-    return Touch{push, share * stiffness, stiffness, n, share * (held + stiffness * slip)};
+    const double coefficient = body.friction[point.material];
+    if (start.moves.empty()) return Touch{n, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
+    const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
+    const GripSpring spring{held, stiffness, coefficient * pressed};
+    return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), kStiffness)};
 }
 
 /// The contacts of a point.
@@ -98,9 +95,8 @@ void FabricObstacles::collect(const Point& point, int vertex, int other, const S
         const std::optional<Touch> touching = touch(point, body, start);
         if (!touching) continue;
         const Vec3& n = touching->normal;
-        const Mat3 across = n * n.transpose();
-        out.push_back({vertex, other, {point.number, body}, touching->held - touching->push * n,
-                       touching->stiffness * across + touching->friction * (Mat3::Identity() - across)});
+        out.push_back({vertex, other, {point.number, body}, touching->friction.force - touching->push * n,
+                       touching->stiffness * n * n.transpose() + touching->friction.matrix(n)});
     }
 }
 
@@ -141,7 +137,7 @@ void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x
     });
     Grips kept;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-        if (touching[i]) kept.add(contacts_[i].between, touching[i]->held);
+        if (touching[i]) kept.add(contacts_[i].between, touching[i]->friction.force);
     held = std::move(kept);
 }
 

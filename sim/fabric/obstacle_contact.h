@@ -2,6 +2,7 @@
 
 #include "sim/core/types.h"
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/friction_law.h"
 #include "sim/grid/obstacles.h"
 #include "sim/scene/scene.h"
 
@@ -68,10 +69,11 @@ class FabricObstacles {
         int material;
         Vec3 move;        ///< Start::moves, where they are given [cm]
     };
-    /// Friction of a point on a body, and what it is pressed by.
+    /// What a body does to a point.
     struct Touch {
-        double push, friction, stiffness;   ///< force of the penalty [dyn]; stiffness of friction, and of the penalty [dyn/cm]
-        Vec3 normal, held;                  ///< gradient of friction [dyn]
+        Vec3 normal;
+        double push, stiffness;   ///< of the penalty [dyn, dyn/cm]
+        Friction friction;
     };
     void findEdges(const Fabric& fabric);
     Point vertexPoint(const Fabric& fabric, int v, std::span<const Vec3> x, const Start& start) const;
