@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/core/types.h"
+#include "sim/fabric/friction.h"
 
 #include <algorithm>
 

@@ -70,6 +70,7 @@ class VertexSolver {
     LimitReport limits_;                         ///< of the attempt under way
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
+    double feltAcceleration_ = 0.0;              ///< by which errors are measured: gravity, or the earth's where there is none [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
     std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
     std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]

@@ -1,15 +1,16 @@
 #include "sim/fabric/grid/grid_solver.h"
 
 #include "sim/core/parallel.h"
+#include "sim/core/units.h"
 #include "sim/fabric/energies.h"
 
 namespace sim {
 
 namespace {
 
-/// Rms error of accelerations at which the linear solve is good enough: half a percent of gravity [cm/s^2]. In steps of
-/// 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
-constexpr double kAccelerationTolerance = 5.0;
+/// Rms error of accelerations at which the linear solve is good enough, relative to gravity, or to the earth's where there is none. In
+/// steps of 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
+constexpr double kAccelerationTolerance = 0.005;
 constexpr int kMaxIterations = 200;
 /// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
@@ -141,7 +142,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
                                        const FaceLoads* loads)
 {
     FabricReport report;
-    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * h;
+    const double felt = gravity.isZero(0.0) ? kEarthGravity : gravity.norm();
+    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
