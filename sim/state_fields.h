@@ -54,6 +54,13 @@ void visitCells(V& v, const std::string& name, std::string_view unit, const Bloc
     v.rows(name, unit, static_cast<std::size_t>(grid.count()), kinds * kBlockCells, [&](std::size_t b) { return array.block(static_cast<int>(b)); });
 }
 
+template <class V, class Held>
+void visitGrips(V& v, const std::string& name, Held& grips)
+{
+    v.list(name + "/between", "-", grips.between);
+    v.list(name + "/force", "dyn", grips.force);
+}
+
 template <class V, class Fabric>
 void visitFabric(V& v, Fabric& fabric)
 {
@@ -66,7 +73,9 @@ void visitFabric(V& v, Fabric& fabric)
     v.list("fabric/frame", "-", fabric.reference);
     v.list("fabric/frame_twist", "rad", fabric.referenceTwist);
     v.list("fabric/acceleration", "cm/s^2", fabric.acceleration);
+    visitGrips(v, "fabric/friction_on_obstacles", fabric.onObstacles);
     v.number("fabric/taken_fraction", "-", fabric.lastFraction);
+    visitGrips(v, "fabric/friction_on_fabric", fabric.onFabric);
     v.list("fabric/across", "-", fabric.across);
     v.list("fabric/velocity_modes", "cm/s", fabric.modes);
     v.number("fabric/since_gather", "s", fabric.sinceGather);

@@ -17,12 +17,12 @@ namespace {
 
 // A file begins with lines of text, filled up with zeros to where HDF5 looks for its beginning next, that say whether
 // what follows is what was written:
-//   Drench checkpoint 1
+//   Drench checkpoint 2
 //   bytes 123456
 //   xxh3 0123456789abcdef
 constexpr std::size_t kHeaderBytes = 512;
 constexpr std::string_view kMagic = "Drench checkpoint ";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 std::string checksum(std::string_view content) { return hexDigits(XXH3_64bits(content.data(), content.size())); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/friction.h"
 #include "sim/fabric/piece.h"
 #include "sim/grid/block_grid.h"
 
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace sim {
-
-using Vec2i = Eigen::Vector2i;
 
 /// All fabric of a scene: its topology, rest shape and material. Does not change in a run.
 /// Vertices, strands and faces of all pieces stand one behind the other.
@@ -78,9 +77,11 @@ struct FabricState {
     std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 
     std::vector<Vec3> acceleration;       ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
+    Grips onObstacles;                    ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
 
     // Of solver vertex only.
     double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
+    Grips onFabric;                       ///< friction between primitives, as contact/primitives.h counts them
 
     // Of solver grid only; empty until its first step.
     std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]

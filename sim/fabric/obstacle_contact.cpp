@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kStiffness = 50.0;       ///< of the penalty relative to m/h² (contact-design 3.2) [-]
 constexpr double kActivation = 0.25;      ///< distance at which it begins to act, in radii of the fabric [-]
-constexpr double kSmoothingSpeed = 1.0;   ///< below which friction grows with the speed [cm/s]
-
-/// f₁(u)/u of lagged smooth Coulomb friction, with u the slip in a step and e = h times the smoothing speed [1/cm].
-double frictionPerSlip(double slip, double e) { return slip < e ? (2.0 - slip / e) / e : 1.0 / slip; }
 
 }  // namespace
 
@@ -25,6 +21,7 @@ FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleS
         if (!obstacle.collide) continue;
         Body& body = bodies_.emplace_back();
         body.pose.add(obstacle.shape, obstacle.motion);
+        body.motion = obstacle.motion;
         for (const FabricMaterial& material : fabric.materials) {
             const double own = std::tan(material.frictionAngle);
             body.friction.push_back(obstacle.frictionAngle ? std::sqrt(own * std::tan(*obstacle.frictionAngle)) : own);
@@ -51,35 +48,62 @@ void FabricObstacles::findEdges(const Fabric& fabric)
 
 void FabricObstacles::moveTo(double t0, double t1)
 {
-    for (Body& body : bodies_) body.pose.moveTo(t0, t1);
-}
-
-/// give(gradient [dyn], stiffness [dyn/cm]) of the contacts of a point.
-void FabricObstacles::touch(const Point& point, double h, auto&& give) const
-{
-    for (const Body& body : bodies_) {
-        const double overlap = point.reach - body.pose.distance(point.x);
-        if (!(overlap > 0.0)) continue;
-        const double stiffness = kStiffness * point.mass / (h * h), push = stiffness * overlap;
-        const Vec3 n = body.pose.normal(point.x);
-        const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
-        const Vec3 carriedBy = h * body.pose.velocity(point.x), slip = along(point.x - point.start - carriedBy);
-        double pressed = push, usualSlip = slip.norm();
-        if (point.velocity) {
-            pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(point.start + carriedBy));
-            usualSlip = along(h * *point.velocity - carriedBy).norm();
-        }
-        const double friction = body.friction[point.material] * pressed * frictionPerSlip(usualSlip, h * kSmoothingSpeed);
-        const Mat3 across = n * n.transpose();
-        give(friction * slip - push * n, stiffness * across + friction * (Mat3::Identity() - across));
+    for (Body& body : bodies_) {
+        body.pose.moveTo(t0, t1);
+        body.carry = Eigen::Isometry3d::Identity();
+        if (body.motion.moves(t0, t1)) body.carry = body.motion.transform(t1) * body.motion.transform(t0).inverse();
     }
 }
 
-const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, std::span<const Vec3> start,
-                                                        std::span<const Vec3> velocity, std::span<const double> mass, double h)
+FabricObstacles::Point FabricObstacles::vertexPoint(const Fabric& fabric, int v, std::span<const Vec3> x, const Start& start) const
+{
+    const Vec3 move = start.moves.empty() ? Vec3::Zero().eval() : start.moves[v];
+    return {v, x[v], start.x[v], (1.0 + kActivation) * fabric.radius[v], start.mass[v], fabric.vertexMaterial[v], move};
+}
+
+/// Where an obstacle is flat the ends, which begin to feel it earlier, keep it away from the middle.
+FabricObstacles::Point FabricObstacles::edgePoint(const Fabric& fabric, int edge, std::span<const Vec3> x, const Start& start) const
+{
+    const int a = edges_[edge][0], b = edges_[edge][1];
+    const auto middle = [&](std::span<const Vec3> of) -> Vec3 { return 0.5 * (of[a] + of[b]); };
+    const Vec3 move = start.moves.empty() ? Vec3::Zero().eval() : middle(start.moves);
+    return {static_cast<int>(share_.size()) + edge, middle(x), middle(start.x), 0.5 * (fabric.radius[a] + fabric.radius[b]),
+            share_[a] * start.mass[a] + share_[b] * start.mass[b], fabric.vertexMaterial[a], move};
+}
+
+std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point, int obstacle, const Start& start) const
+{
+    const Body& body = bodies_[obstacle];
+    const double overlap = point.reach - body.pose.distance(point.x);
+    if (!(overlap > 0.0)) return std::nullopt;
+    const double stiffness = kStiffness * point.mass / (start.h * start.h), push = stiffness * overlap;
+    const Vec3 n = body.pose.normal(point.x);
+    const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
+    const Vec3 carried = body.carry * point.start, slip = along(point.x - carried);
+    const Vec3 held = along(body.carry.linear() * start.held.at({point.number, obstacle}));
+    const double coefficient = body.friction[point.material];
+    if (start.moves.empty()) return Touch{n, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
+    const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
+    const GripSpring spring{held, stiffness, coefficient * pressed};
+    return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), kStiffness)};
+}
+
+/// The contacts of a point.
+void FabricObstacles::collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const
+{
+    for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
+        const std::optional<Touch> touching = touch(point, body, start);
+        if (!touching) continue;
+        const Vec3& n = touching->normal;
+        out.push_back({vertex, other, {point.number, body}, touching->friction.force - touching->push * n,
+                       touching->stiffness * n * n.transpose() + touching->friction.matrix(n)});
+    }
+}
+
+const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, const Start& start)
 {
     contacts_.clear();
-    const auto collect = [&](std::size_t n, auto&& body) {
+    const auto collectFrom = [&](std::size_t n, auto&& body) {
         const Chunks chunks(n);
         ofChunk_.resize(std::max(ofChunk_.size(), chunks.count()));
         parallelFor(chunks.count(), [&](std::size_t c) {
@@ -88,27 +112,33 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
         });
         for (std::size_t c = 0; c < chunks.count(); ++c) contacts_.insert(contacts_.end(), ofChunk_[c].begin(), ofChunk_[c].end());
     };
-    collect(x.size(), [&](std::size_t v, std::vector<ObstacleContact>& out) {
+    collectFrom(x.size(), [&](std::size_t v, std::vector<ObstacleContact>& out) {
         nearest_[v] = std::numeric_limits<double>::infinity();
         for (const Body& body : bodies_) nearest_[v] = std::min(nearest_[v], body.pose.distance(x[v]));
-        const double reach = (1.0 + kActivation) * fabric.radius[v];
-        if (fabric.pinned[v] || nearest_[v] >= reach) return;
-        const Point point{x[v], start[v], reach, mass[v], fabric.vertexMaterial[v], velocity.empty() ? nullptr : &velocity[v]};
-        touch(point, h, [&](const Vec3& gradient, const Mat3& stiffness) { out.push_back({static_cast<int>(v), ObstacleContact::kNone, gradient, stiffness}); });
+        const Point point = vertexPoint(fabric, static_cast<int>(v), x, start);
+        if (!fabric.pinned[v] && nearest_[v] < point.reach) collect(point, static_cast<int>(v), ObstacleContact::kNone, start, out);
     });
-    collect(edges_.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
+    collectFrom(edges_.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
         const int a = edges_[i][0], b = edges_[i][1];
-        // Where an obstacle is flat the ends, which begin to feel it earlier, keep it away from the middle.
-        const double reach = 0.5 * (fabric.radius[a] + fabric.radius[b]);
-        if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() >= reach) return;
-        const Vec3 middle = velocity.empty() ? Vec3::Zero().eval() : Vec3(0.5 * (velocity[a] + velocity[b]));
-        const Point point{0.5 * (x[a] + x[b]),         0.5 * (start[a] + start[b]),        reach, share_[a] * mass[a] + share_[b] * mass[b],
-                          fabric.vertexMaterial[a], velocity.empty() ? nullptr : &middle};
-        touch(point, h, [&](const Vec3& gradient, const Mat3& stiffness) {
-            out.push_back({a, b, gradient, stiffness});
-        });
+        const Point point = edgePoint(fabric, static_cast<int>(i), x, start);
+        if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() < point.reach) collect(point, a, b, start, out);
     });
     return contacts_;
+}
+
+void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const
+{
+    const int vertices = static_cast<int>(fabric.vertexCount());
+    std::vector<std::optional<Touch>> touching(contacts_.size());
+    parallelFor(contacts_.size(), 256, [&](std::size_t i) {
+        const ObstacleContact& c = contacts_[i];
+        const Point point = c.isEdge() ? edgePoint(fabric, c.between[0] - vertices, x, start) : vertexPoint(fabric, c.vertex, x, start);
+        touching[i] = touch(point, c.between[1], start);
+    });
+    Grips kept;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+        if (touching[i]) kept.add(contacts_[i].between, touching[i]->friction.force);
+    held = std::move(kept);
 }
 
 double FabricObstacles::deepest(const Fabric& fabric, std::span<const Vec3> x) const

@@ -262,6 +262,7 @@ LinearReport VertexSystem::solve(const LinearTolerance& tolerance, double stepEn
         energy = next;
         ++report.iterations;
     }
+    balanceFreePieces();
     report.speedError = totalMass_ > 0.0 ? std::sqrt(std::max(energy, 0.0) / totalMass_) : 0.0;
     return report;
 }

@@ -1,6 +1,7 @@
 #include "sim/fabric/vertex_solver.h"
 
 #include "sim/core/parallel.h"
+#include "sim/core/units.h"
 #include "sim/fabric/energies.h"
 #include "sim/fabric/pins.h"
 
@@ -13,9 +14,9 @@ namespace sim {
 namespace {
 
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
-constexpr double kAccelerationTolerance = 10.0;  ///< rms error at which a linear solve is good enough: 1 % of gravity [cm/s^2]
+constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough [gravity]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii]
-constexpr double kQuietAcceleration = 250.0;  ///< largest change by a Newton iteration after whose small move no other is made [cm/s^2]
+constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [gravity]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
 constexpr double kLastMove = 0.1;             ///< rms move of a Newton iteration that may be the last [radii]
@@ -43,6 +44,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     inertia_.resize(fabric.vertexCount());
     free_.resize(fabric.vertexCount());
     move_.resize(fabric.vertexCount());
+    expected_.resize(fabric.vertexCount());
     freeAngle_.resize(fabric.edges.size());
 }
 
@@ -52,6 +54,7 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     if (booksEnergy_) report.energyChanges.emplace();
     loads_ = loads;
     wholeStep_ = h;
+    feltAcceleration_ = gravity.isZero(0.0) ? kEarthGravity : gravity.norm();
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
     advance(t, h, 0, gravity, state, report, clock);
     report.candidates = contact_ ? contact_->candidates() : 0;
@@ -88,13 +91,14 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
         }
         const double most = expectedMove * fabric_.radius[v], size = byForces.norm();
         free_[v] = state.x[v] + move_[v];
+        expected_[v] = move_[v] + byForces;
         move_[v] += (size > most ? most / size : 1.0) * byForces;
     });
     const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
         free_[v] = targets[i];
-        move_[v] = free_[v] - state.x[v];
+        expected_[v] = move_[v] = free_[v] - state.x[v];
     }
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { freeAngle_[e] = state.theta[e] + h * state.omega[e]; });
 }
@@ -146,7 +150,7 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     system_.shells().startStep(state.x);
     predict(t, h, gravity, state);
     obstacles_.moveTo(t, t + h);
-    if (contact_) contact_->beginStep(state.x, mass_, h);
+    if (contact_) contact_->beginStep(state.x, mass_, h, start_.onFabric);
 
     limit(state, report, clock);
     commit(state, clock);
@@ -159,18 +163,20 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
 /// Newton's move from where the state is, into move_.
 void VertexSolver::solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock)
 {
-    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock) : nullptr;
+    const std::span<const Vec3> expected = newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>();
+    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock, expected) : nullptr;
     touching_ = {};
     if (!obstacles_.empty()) {
         clock.start(Stage::FabricContact);
-        const std::span<const Vec3> frictionFrom = newton.count == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
-        touching_ = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h);
+        FabricObstacles::Start start = obstacleStart(h);
+        start.moves = expected;
+        touching_ = obstacles_.at(fabric_, state.x, start);
     }
     clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
     clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
-    const LinearTolerance tolerance = {share, kAccelerationTolerance * h * share / kTolerance, kMoveTolerance * meanRadius_ / h};
+    const LinearTolerance tolerance = {share, kAccelerationTolerance * feltAcceleration_ * h * share / kTolerance, kMoveTolerance * meanRadius_ / h};
     const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
     if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
@@ -186,7 +192,7 @@ void VertexSolver::judge(double h, Newton& newton) const
 {
     const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
     const double move = rmsInRadii(move_);
-    newton.isQuiet = largest < kQuietAcceleration * h * h && move < kSmallMove;
+    newton.isQuiet = largest < kQuietAcceleration * feltAcceleration_ * h * h && move < kSmallMove;
     newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
     newton.isNear = newton.isSettled && move < kLastMove;
     newton.lastMove = move;
@@ -233,6 +239,9 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     });
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
     if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
+    if (contacts_) contact_->keepFriction(state.x, state.onFabric);
+    else state.onFabric.clear();
+    obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
     return true;
 }
 

@@ -54,6 +54,7 @@ class VertexSolver {
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
+    FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
 
     const Fabric& fabric_;
@@ -69,10 +70,12 @@ class VertexSolver {
     LimitReport limits_;                         ///< of the attempt under way
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
+    double feltAcceleration_ = 0.0;              ///< by which errors are measured: gravity, or the earth's where there is none [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
     std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
     std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
+    std::vector<Vec3> expected_;                 ///< of each vertex: its move if forces act on as they did [cm]
     std::vector<double> freeAngle_;              ///< of each yarn edge [rad]
     double totalMass_ = 0.0;                     ///< [g]
     double meanRadius_ = 0.0;                    ///< weighted by mass [cm]

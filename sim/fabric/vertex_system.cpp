@@ -19,6 +19,7 @@ VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
     pOfVertex_.resize(4 * fabric.vertexCount());
     partialDot_.resize(rods_.layout().groups.size());
     findLinks();
+    findFreePieces();
     clothExtra_.resize(shells_.vertices().size());
     clothIn_.resize(3 * shells_.vertices().size());
     clothOut_.resize(3 * shells_.vertices().size());
@@ -84,6 +85,7 @@ void VertexSystem::sumUp(const NewtonPoint& at, std::span<const ObstacleContact>
     }
     addObstacles(obstacles);
     if (!pairs_.empty()) addContacts(*contacts);
+    weighFreePieces(at, obstacles);
     holdPins();
 }
 

@@ -88,6 +88,9 @@ class VertexSystem {
     double precondition(double step);
     double preconditionCloth();
     void nextDirection(double ratio);
+    void findFreePieces();
+    void weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles);
+    void balanceFreePieces();
 
     const Fabric& fabric_;
     Rods rods_;
@@ -130,6 +133,9 @@ class VertexSystem {
     AlignedArray<double> pairForce_;         ///< C p on either side of each pair, 4 numbers each
     AlignedArray<double> pOfVertex_;         ///< p of each vertex, 4 numbers each
     std::vector<int> heldSlots_;                       ///< unknowns that are pinned
+    std::vector<int> pieceOf_;                         ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
+    std::vector<Mat3> pieceStiffness_;                 ///< of each of these pieces, moved as a whole [dyn/cm]
+    std::vector<Vec3> pieceForce_;                     ///< what is left of the forces on it [dyn]
 
     std::vector<double> partialDot_;                   ///< of each group of strands
     AlignedArray<double> gradient_, solution_, residual_, z_, p_, sp_, q_;

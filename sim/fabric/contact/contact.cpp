@@ -4,6 +4,8 @@
 #include "sim/fabric/contact/candidate_list.h"
 #include "sim/fabric/contact/limiter.h"
 #include "sim/fabric/contact/pair_energy.h"
+#include "sim/fabric/contact/pair_turn.h"
+#include "sim/fabric/friction_law.h"
 
 #include <limits>
 
@@ -14,9 +16,19 @@ using namespace contact;
 struct FabricContact::Parts {
     explicit Parts(const Fabric& fabric) : list(fabric), limiter(list.primitives()), start(fabric.rest) {}
 
+    /// What the friction of an active pair goes by.
+    struct Grip {
+        PairRange range;
+        double stiffness;    ///< of the pair [dyn/cm]
+        double coefficient;  ///< Coulomb's [-]
+        double perMass;      ///< h² over the mass that its separation has [cm/dyn]
+    };
+
     void findActive(const CandidatePool& pairs, std::vector<PairPlace>& found);
-    void describe(std::span<const Vec3> x, const CandidatePool& pairs, std::span<const PairPlace> places, std::size_t first);
-    void describe(std::span<const Vec3> x, const CandidatePool& pairs, std::size_t place, std::size_t slot);
+    void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::span<const PairPlace> places,
+                  std::size_t first);
+    void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::size_t place, std::size_t slot);
+    Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance, std::size_t slot) const;
     void resizeActive(std::size_t n);
 
     CandidateList list;
@@ -28,14 +40,17 @@ struct FabricContact::Parts {
     std::vector<PairPlace> edgePairs, facePairs;  ///< that act, sorted
     PairSorter sorter;
     ActiveContacts active;
+    std::vector<Grip> grips;                  ///< of the active pairs
+    Grips held;                               ///< at the start of the step
 };
 
 FabricContact::FabricContact(const Fabric& fabric) : parts_(std::make_unique<Parts>(fabric)) {}
 FabricContact::~FabricContact() = default;
 
-void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h)
+void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, const Grips& held)
 {
     Parts& p = *parts_;
+    p.held = held;
     p.h = h;
     p.mass.assign(mass.begin(), mass.end());
     p.inverseMass.resize(mass.size());
@@ -55,7 +70,7 @@ void FabricContact::moved()
     parts_->list.moved();
 }
 
-const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageClock& clock)
+const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected)
 {
     Parts& p = *parts_;
     clock.start(Stage::FabricCandidates);
@@ -69,8 +84,8 @@ const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageCloc
     p.findActive(p.list.edgePairs(), p.edgePairs);
     p.findActive(p.list.facePairs(), p.facePairs);
     p.resizeActive(p.edgePairs.size() + p.facePairs.size());
-    p.describe(x, p.list.edgePairs(), p.edgePairs, 0);
-    p.describe(x, p.list.facePairs(), p.facePairs, p.edgePairs.size());
+    p.describe(x, expected, p.list.edgePairs(), p.edgePairs, 0);
+    p.describe(x, expected, p.list.facePairs(), p.facePairs, p.edgePairs.size());
     return p.active;
 }
 
@@ -90,50 +105,90 @@ void FabricContact::Parts::findActive(const CandidatePool& pairs, std::vector<Pa
     sorter.sort(found, list.primitives().firstFace());
 }
 
-void FabricContact::Parts::describe(std::span<const Vec3> x, const CandidatePool& pairs, std::span<const PairPlace> places,
-                                    std::size_t first)
+void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs,
+                                    std::span<const PairPlace> places, std::size_t first)
 {
-    parallelFor(places.size(), 512, [&](std::size_t i) { describe(x, pairs, places[i].place, first + i); });
+    parallelFor(places.size(), 512, [&](std::size_t i) { describe(x, expected, pairs, places[i].place, first + i); });
 }
 
 void FabricContact::Parts::resizeActive(std::size_t n)
 {
     active.vertices.resize(n), active.firstSide.resize(n), active.weights.resize(n), active.normal.resize(n), active.force.resize(n);
-    active.stiffness.resize(n), active.frictionStiffness.resize(n);
+    active.stiffness.resize(n), active.frictionStiffness.resize(n), active.between.resize(n), grips.resize(n);
 }
 
 /// Pair `place` of the pool as number `slot` of the active ones.
-void FabricContact::Parts::describe(std::span<const Vec3> x, const CandidatePool& pairs, std::size_t place, std::size_t slot)
+void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::size_t place,
+                                    std::size_t slot)
 {
-    constexpr double kSmoothSpeed = 1.0;  // of sliding, below which friction fades [cm/s]
     const Primitives& primitives = list.primitives();
     const int a = pairs.a[place], b = pairs.b[place];
     const std::array<int, 4>& v = pairs.vertices[place];
     const std::array<double, 4> c = pairWeights(pairs.kind, pairs.p[place], pairs.q[place]);
 
-    Vec3 apart = Vec3::Zero(), slip = Vec3::Zero();
-    double meanMass = 0.0;
+    Vec3 apart = Vec3::Zero();
+    double meanMass = 0.0, mobility = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
         apart += c[k] * x[v[k]];
-        slip += c[k] * (x[v[k]] - start[v[k]]);
         meanMass += 0.25 * mass[v[k]];
+        mobility += c[k] * c[k] * inverseMass[v[k]];
     }
     const double distance = pairs.distance[place];
     const Vec3 normal = distance > 0.0 ? Vec3(apart / distance) : Vec3::UnitX().eval();
-    slip -= normal.dot(slip) * normal;
 
     const double young = std::min(primitives.young[a], primitives.young[b]);
     const double stiffness = pairStiffness(young, primitives.radius[a] + primitives.radius[b], meanMass, h);
     const PairEnergy energy = pairEnergy(distance, pairs.range(place), stiffness);
-    const double sideways = frictionStiffness(primitives.friction2(a, b), -energy.slope, slip.norm(), kSmoothSpeed * h);
 
     active.vertices[slot] = v;
     active.firstSide[slot] = primitives.kind(a) == PairKind::EdgeEdge ? 2 : 1;
     active.weights[slot] = c;
     active.normal[slot] = normal;
-    active.force[slot] = energy.slope * normal + sideways * slip;
+    active.between[slot] = {a, b};
+    grips[slot] = {pairs.range(place), stiffness, primitives.friction2(a, b), h * h * mobility};
+    const Friction sideways = friction(x, expected, energy, distance, slot);
+    active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
-    active.frictionStiffness[slot] = sideways;
+    active.frictionStiffness[slot] = sideways.along;
+}
+
+/// Of an active pair that is described but for it, at x or where the moves expected lead.
+Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
+                                        std::size_t slot) const
+{
+    const Grip& grip = grips[slot];
+    const double pressed = grip.range.reach - distance;
+    if (!(grip.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
+    const std::array<int, 4>& v = active.vertices[slot];
+    const std::array<double, 4>& c = active.weights[slot];
+    const Vec3& normal = active.normal[slot];
+    Vec3 apart = Vec3::Zero(), before = Vec3::Zero(), further = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+        apart += c[k] * x[v[k]];
+        before += c[k] * start[v[k]];
+        if (!expected.empty()) further += c[k] * expected[v[k]];
+    }
+    const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
+    const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
+    const Vec3 carried = turn * before;
+    const GripSpring spring{along(turn * held.at(active.between[slot])), gripStiffness(grip.stiffness, -energy.slope, pressed),
+                            grip.coefficient * -energy.slope};
+    if (expected.empty()) return spring.at(along(apart - carried));
+    return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
+}
+
+void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held) const
+{
+    const Parts& p = *parts_;
+    std::vector<Vec3> force(p.active.size());
+    parallelFor(force.size(), 512, [&](std::size_t i) {
+        double distance = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) distance += p.active.weights[i][k] * p.active.normal[i].dot(x[p.active.vertices[i][k]]);
+        force[i] = p.friction(x, {}, pairEnergy(distance, p.grips[i].range, p.grips[i].stiffness), distance, i).force;
+    });
+    held.clear();
+    for (std::size_t i = 0; i < force.size(); ++i)
+        if (!force[i].isZero(0.0)) held.add(p.active.between[i], force[i]);
 }
 
 std::size_t FabricContact::candidates() const

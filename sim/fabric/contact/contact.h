@@ -22,6 +22,7 @@ struct ActiveContacts {
     std::vector<Vec3> force;                       ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]
     std::vector<double> stiffness;                 ///< along the normal, k_n [dyn/cm]
     std::vector<double> frictionStiffness;         ///< across it, k_t: the block of vertices a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
+    std::vector<Vec2i> between;                    ///< the two, as contact/primitives.h counts them: ascending
 
     std::size_t size() const { return vertices.size(); }
     bool empty() const { return vertices.empty(); }
@@ -43,15 +44,18 @@ class FabricContact {
     ~FabricContact();
 
     /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and h, friction acts against the
-    /// motion since these positions.
-    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h);
+    /// motion since these positions and goes on from what is held.
+    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, const Grips& held = {});
     /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
     /// unless everything has to be scaled.
     void limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
     /// To be called once the fabric has been moved from x by the u of the last limit().
     void moved();
     /// Pairs that act at x, with force and stiffness.
-    const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock);
+    /// @param expected  moves of the vertices since the start of the step if forces act on as they did [cm], where x is a prediction
+    const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});
+    /// What of the friction of the pairs found last is held at the end of the step, at x.
+    void keepFriction(std::span<const Vec3> x, Grips& held) const;
 
     std::size_t candidates() const;                ///< pairs in the list
     double leastDistance() const;                  ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]

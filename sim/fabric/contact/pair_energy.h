@@ -47,16 +47,11 @@ inline double pairStiffness(double young, double touching, double mass, double h
     return std::max(std::min(0.1 * young * touching, 100.0 * perStep), 4.0 * perStep);
 }
 
-/// Lagged Coulomb friction: across the normal n a pair that has slid by `slip` since the start of the step has the gradient k_t slip.
-/// @param normalForce  pressing the two together [dyn]
-/// @param slip         length across the normal [cm]
-/// @param smooth       slip below which friction grows from 0 to μ N [cm]
-/// @return k_t = μ N f(slip) / slip [dyn/cm]; f(y) = 2y − y² for y = slip / smooth < 1, else 1
-/// Source: model-fabric 13.4; Li et al. 2020, "Incremental Potential Contact".
-inline double frictionStiffness(double coefficient, double normalForce, double slip, double smooth)
+/// Stiffness of a pair's friction [dyn/cm]: no less than that of what presses it, so that it gives no further before it slides.
+/// @param pressed  how far the pair is below its reach [cm]
+inline double gripStiffness(double stiffness, double normalForce, double pressed)
 {
-    const double y = slip / smooth;
-    return coefficient * normalForce * (y < 1.0 ? (2.0 - y) / smooth : 1.0 / slip);
+    return std::max(stiffness, normalForce / pressed);
 }
 
 }  // namespace sim::contact

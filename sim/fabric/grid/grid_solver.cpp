@@ -1,15 +1,16 @@
 #include "sim/fabric/grid/grid_solver.h"
 
 #include "sim/core/parallel.h"
+#include "sim/core/units.h"
 #include "sim/fabric/energies.h"
 
 namespace sim {
 
 namespace {
 
-/// Rms error of accelerations at which the linear solve is good enough: half a percent of gravity [cm/s^2]. In steps of
-/// 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
-constexpr double kAccelerationTolerance = 5.0;
+/// Rms error of accelerations at which the linear solve is good enough, relative to gravity, or to the earth's where there is none. In
+/// steps of 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
+constexpr double kAccelerationTolerance = 0.005;
 constexpr int kMaxIterations = 200;
 /// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
@@ -31,25 +32,13 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
     points_.resize(contact_.size());
     predicted_.resize(fabric.vertexCount());
     reached_.resize(fabric.vertexCount());
+    expectedMove_.resize(fabric.vertexCount());
 }
 
 /// Gives a state that comes from elsewhere what this solver keeps in it.
 void GridFabricSolver::begin(FabricState& state)
 {
     if (state.across.empty()) state.across = contact_.unstrained(state);
-}
-
-/// Contacts with obstacles where the vertices would be at the end of the step.
-std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
-                                                                  const FabricState& state)
-{
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        predicted_[v] = state.v[v] + h * gravity;
-        reached_[v] = state.x[v] + h * predicted_[v];
-    });
-    obstacles_.moveTo(t, t + h);
-    if (obstacles_.empty()) return {};
-    return obstacles_.at(fabric_, reached_, state.x, state.v, mass_, h);
 }
 
 /// v0: what P2G gave, fallen for h and moved by the liquid; the twist goes on as it did.
@@ -104,7 +93,7 @@ void GridFabricSolver::keepChange(FabricState& state) const
     });
 }
 
-/// Accelerations by the fabric's own forces, for liquid to expect in the next step (model-fabric 13.9).
+/// Accelerations by the fabric's own forces, for liquid (model-fabric 13.9) and friction to expect in the next step.
 void GridFabricSolver::keepAccelerations(double h, FabricState& state)
 {
     const BlockArray<double, 3>& inertia = system_.mass();
@@ -122,6 +111,23 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
     system_.gatherVertices(acceleration_, state.acceleration);
 }
 
+/// Contacts with obstacles where the vertices would be at the end of the step. motion_ must hold how they would go without the fabric's own
+/// forces; friction expects these to act on as they did.
+std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
+                                                                  const FabricState& state)
+{
+    obstacles_.moveTo(t, t + h);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        predicted_[v] = state.v[v] + h * gravity;
+        reached_[v] = state.x[v] + h * predicted_[v];
+        expectedMove_[v] = h * (motion_.velocity[v] + h * state.acceleration[v]);
+    });
+    from_ = state.x;
+    FabricObstacles::Start start = obstacleStart(h, state);
+    start.moves = expectedMove_;
+    return obstacles_.at(fabric_, reached_, start);
+}
+
 void GridFabricSolver::spread(FabricState& state, StageClock& clock)
 {
     begin(state);
@@ -136,13 +142,15 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
                                        const FaceLoads* loads)
 {
     FabricReport report;
-    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * h;
+    const double felt = gravity.isZero(0.0) ? kEarthGravity : gravity.norm();
+    const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     clock.start(Stage::FabricContact);
-    const std::span<const ObstacleContact> touching = touchObstacles(t, h, gravity, state);
     system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
+    std::span<const ObstacleContact> touching;
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
+        if (!obstacles_.empty()) touching = touchObstacles(t, h, gravity, state);
         const StepOutlook outlook{motion_, h, particles_.grid().dx, kNegligible * tolerance / h};
         contact_.assemble(state, &outlook);
     }
@@ -163,11 +171,14 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 
     clock.start(Stage::GridToFabric);
     keepChange(state);
-    if (meetsLiquid_) keepAccelerations(h, state);
+    if (meetsLiquid_ || !obstacles_.empty()) keepAccelerations(h, state);
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += h * state.v[v]; });
+    state.onFabric.clear();
+    if (obstacles_.empty()) state.onObstacles.clear();
+    else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
         state.omega[e] = kept * velocity_.twist[e];
         state.theta[e] += h * state.omega[e];

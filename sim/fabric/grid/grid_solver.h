@@ -45,6 +45,10 @@ class GridFabricSolver {
  private:
     void begin(FabricState& state);
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
+    FabricObstacles::Start obstacleStart(double h, const FabricState& state) const
+    {
+        return {from_, mass_, state.onObstacles, h};
+    }
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void keepChange(FabricState& state) const;
@@ -68,6 +72,7 @@ class GridFabricSolver {
     // [cm/s^2].
     BlockArray<double, 3> start_, expected_, acceleration_;
     std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
+    std::vector<Vec3> from_, expectedMove_;  ///< of each vertex: position at the start of the step, its move if forces act on as they did [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
     FabricMotion motion_;

@@ -42,7 +42,8 @@ class Scribbler {
         v.resize(5);
         for (T& x : v)
             if constexpr (std::is_same_v<T, double>) x = next<double>();
-            else x = T(next<typename T::Scalar>(), next<typename T::Scalar>(), next<typename T::Scalar>());
+            else
+                for (typename T::Scalar& number : x) number = next<typename T::Scalar>();
     }
     template <class Row>
     void rows(const std::string&, std::string_view, std::size_t count, std::size_t size, Row&& row)

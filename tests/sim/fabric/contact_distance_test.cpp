@@ -232,18 +232,10 @@ TEST(PairStiffness, IsTheFibresOrWhatAStepResolves)
     EXPECT_NEAR(pairStiffness(1.0, touching, mass, 1.0e-3), 4.0 * mass / 1.0e-6, 1.0e-9);
 }
 
-TEST(Friction, OpposesSlidingAndIsBoundedByTheNormalForce)
+TEST(GripStiffness, LetsAPairGiveNoFurtherThanItIsPressed)
 {
-    constexpr double kSmooth = 1.0e-3, kNormal = 7.0, kCoefficient = 0.577;
-    EXPECT_NEAR(frictionStiffness(kCoefficient, kNormal, 0.0, kSmooth), 2.0 * kCoefficient * kNormal / kSmooth, 1.0e-9);
-    double last = 0.0;
-    for (double slip = 1.0e-5; slip < 3.0e-3; slip += 1.0e-5) {
-        const double force = frictionStiffness(kCoefficient, kNormal, slip, kSmooth) * slip;
-        EXPECT_LE(force, kCoefficient * kNormal * (1.0 + 1.0e-15));
-        EXPECT_GE(force, last * (1.0 - 1.0e-15));
-        last = force;
-    }
-    EXPECT_NEAR(last, kCoefficient * kNormal, 1.0e-12);
+    EXPECT_EQ(gripStiffness(3.0, 0.5, 0.5), 3.0);   // soft beginning: less force than the spring's stiffness times the way
+    EXPECT_EQ(gripStiffness(3.0, 10.0, 0.5), 20.0);  // wall
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sim/core/types.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <vector>
+
+namespace sim {
+
+using Vec2i = Eigen::Vector2i;
+
+/// Forces of friction that were held at the end of a step, by the numbers of the two that touch there: ascending, no two alike.
+struct Grips {
+    std::vector<Vec2i> between;
+    std::vector<Vec3> force;  ///< its gradient: by the position of the first against the second [dyn]
+
+    void clear() { between.clear(), force.clear(); }
+    void add(const Vec2i& pair, const Vec3& f) { between.push_back(pair), force.push_back(f); }
+    /// 0 for what did not touch.
+    Vec3 at(const Vec2i& pair) const
+    {
+        const auto before = [](const Vec2i& a, const Vec2i& b) { return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]); };
+        const auto found = std::ranges::lower_bound(between, pair, before);
+        return found != between.end() && *found == pair ? force[found - between.begin()] : Vec3::Zero().eval();
+    }
+};
+
+}  // namespace sim
