@@ -4,6 +4,7 @@
 #include "sim/shapes/body.h"
 #include "sim/shapes/triangle_tree.h"
 
+#include <array>
 #include <cmath>
 
 namespace sim {
@@ -11,6 +12,7 @@ namespace sim {
 namespace {
 
 constexpr int kPadCells = 3;
+constexpr double kSteepest = 2.0;      ///< slope of its distance: along each axis at most 1 on the lattice, and 1 outside of it [-]
 constexpr double kMostNodes = 5.0e8;  ///< 2 GB of distances
 
 /// Distances on a lattice, trilinear in between.
@@ -67,6 +69,54 @@ struct SampledBody final : Shape::Body {
         const Eigen::AlignedBox3d box = lattice();
         const double inside = between(cornerAt(x), -1);
         return box.contains(x) ? inside : inside + box.exteriorDistance(x);
+    }
+    /// How far the distance is off the plane through its value and slope in the middle, at the nodes around the hull: between them both
+    /// are linear along each axis, so that it is nowhere further off. Hulls over many cells are left to the steepest slope there is.
+    struct Straying {
+        double at, down, up, below, above;  ///< [cm]: in the middle, by the plane's slope, by what is off it
+    };
+    Straying straying(std::span<const Vec3> corners) const
+    {
+        constexpr int kMostCells = 4;
+        const Vec3 middle = meanOf(corners);
+        const double at = distance(middle);
+        Eigen::AlignedBox3d hull;
+        double radius = 0.0;
+        for (const Vec3& x : corners) hull.extend(x), radius = std::max(radius, (x - middle).norm());
+        const Straying steep{at, -kSteepest * radius, kSteepest * radius, 0.0, 0.0};
+        if (!lattice().contains(hull) || (hull.sizes().array() > kMostCells * cell).any()) return steep;
+        const Corner corner = cornerAt(middle);
+        const Vec3 slope = Vec3(between(corner, 0), between(corner, 1), between(corner, 2)) / cell;
+        Straying s{at, 0.0, 0.0, 0.0, 0.0};
+        for (const Vec3& x : corners) {
+            s.down = std::min(s.down, slope.dot(x - middle));
+            s.up = std::max(s.up, slope.dot(x - middle));
+        }
+        std::array<std::size_t, kAxes> first, last;
+        for (int a = 0; a < kAxes; ++a) {
+            first[a] = std::min(static_cast<std::size_t>((hull.min()[a] - lower[a]) / cell), size[a] - 2);
+            last[a] = std::min(static_cast<std::size_t>((hull.max()[a] - lower[a]) / cell) + 1, size[a] - 1);
+        }
+        for (std::size_t k = first[2]; k <= last[2]; ++k)
+            for (std::size_t j = first[1]; j <= last[1]; ++j)
+                for (std::size_t i = first[0]; i <= last[0]; ++i) {
+                    const Vec3 node = lower + cell * Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+                    const double off = static_cast<double>(values[(k * size[1] + j) * size[0] + i]) - at - slope.dot(node - middle);
+                    s.below = std::min(s.below, off);
+                    s.above = std::max(s.above, off);
+                }
+        return s;
+    }
+    double steepest() const override { return kSteepest; }
+    Shape::Look over(std::span<const Vec3> corners) const override
+    {
+        const Straying s = straying(corners);
+        return {s.at + s.down + s.below, s.at};
+    }
+    double mostOver(std::span<const Vec3> corners) const override
+    {
+        const Straying s = straying(corners);
+        return s.at + s.up + s.above;
     }
     Vec3 normal(const Vec3& x) const override
     {

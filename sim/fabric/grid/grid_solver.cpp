@@ -27,7 +27,11 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
       meetsLiquid_(meetsLiquid),
       mass_(fabric.mass)
 {
-    if (settings_.contact) obstacles_ = FabricObstacles(fabric, obstacles);
+    if (settings_.contact) {
+        obstacles_ = FabricObstacles(fabric, obstacles);
+        guard_ = SolidGuard(fabric, obstacles);
+    }
+    move_.resize(fabric.vertexCount());
     points_.resize(contact_.size());
     predicted_.resize(fabric.vertexCount());
     reached_.resize(fabric.vertexCount());
@@ -39,16 +43,20 @@ void GridFabricSolver::begin(FabricState& state)
     if (state.across.empty()) state.across = contact_.unstrained(state);
 }
 
-/// Contacts with obstacles where the vertices would be at the end of the step.
+/// Contacts with obstacles where the vertices would be at the end of the step, which is in front of them.
 std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
                                                                   const FabricState& state)
 {
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        predicted_[v] = state.v[v] + h * gravity;
-        reached_[v] = state.x[v] + h * predicted_[v];
-    });
-    obstacles_.moveTo(t, t + h);
     if (obstacles_.empty()) return {};
+    obstacles_.moveTo(t, t + h);
+    guard_.moveTo(t, t + h);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = h * (state.v[v] + h * gravity); });
+    GuardReport ahead;
+    guard_.limit(state.x, mass_, move_, ahead);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        predicted_[v] = move_[v] / h;
+        reached_[v] = state.x[v] + move_[v];
+    });
     return obstacles_.at(fabric_, reached_, state.x, state.v, mass_, h);
 }
 
@@ -73,6 +81,26 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     });
     velocity_.twist.fill(0.0);
     std::ranges::copy(state.omega, velocity_.twist.begin());
+}
+
+/// Along their velocities, but not through solids: what is stopped or carried by one has the velocity of where it got.
+void GridFabricSolver::moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report)
+{
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = h * state.v[v]; });
+    GuardReport guarded;
+    if (guard_.limit(state.x, mass_, move_, guarded)) {
+        const double given = parallelSum(fabric_.vertexCount(), [&](std::size_t v) {
+            const Vec3 before = state.v[v], change = move_[v] / h - before;
+            state.v[v] = move_[v] / h;
+            return mass_[v] * change.dot(0.5 * (before + state.v[v]) - h * gravity);
+        });
+        if (booksEnergy_) {
+            (*report.energyChanges)[EnergyChange::Obstacles] += given;
+            (*report.energyChanges)[EnergyChange::FabricToVertices] -= given;
+        }
+    }
+    if (guarded.left > 0) ++report.shortened;
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
 }
 
 /// What forces did in the last step, on the faces of this one; null in the first.
@@ -167,7 +195,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += h * state.v[v]; });
+    moveVertices(h, gravity, state, report);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
         state.omega[e] = kept * velocity_.twist[e];
         state.theta[e] += h * state.omega[e];
