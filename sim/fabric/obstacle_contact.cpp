@@ -76,7 +76,8 @@ void FabricObstacles::touch(const Point& point, double h, auto&& give) const
 }
 
 const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, std::span<const Vec3> start,
-                                                        std::span<const Vec3> velocity, std::span<const double> mass, double h)
+                                                        std::span<const Vec3> velocity, std::span<const double> mass, double h,
+                                                        std::span<const NearestPoint> nearest)
 {
     contacts_.clear();
     const auto collect = [&](std::size_t n, auto&& body) {
@@ -106,6 +107,21 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
                           fabric.vertexMaterial[a], velocity.empty() ? nullptr : &middle};
         touch(point, h, [&](const Vec3& gradient, const Mat3& stiffness) {
             out.push_back({a, b, gradient, stiffness});
+        });
+    });
+    collect(nearest.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
+        const NearestPoint& p = nearest[i];
+        const auto mean = [&](std::span<const Vec3> values) -> Vec3 {
+            Vec3 sum = Vec3::Zero();
+            for (int c = 0; c < p.corners; ++c) sum += p.weights[c] * values[p.vertices[c]];
+            return sum;
+        };
+        double compliance = 0.0;
+        for (int c = 0; c < p.corners; ++c) compliance += p.weights[c] * p.weights[c] / mass[p.vertices[c]];
+        const Vec3 ownVelocity = velocity.empty() ? Vec3::Zero().eval() : mean(velocity);
+        const Point point{mean(x), mean(start), p.radius, 1.0 / compliance, fabric.vertexMaterial[p.vertices[0]], velocity.empty() ? nullptr : &ownVelocity};
+        touch(point, h, [&](const Vec3& gradient, const Mat3& stiffness) {
+            out.push_back({p.vertices[0], p.vertices[1], gradient, stiffness, p.corners == 3 ? p.vertices[2] : ObstacleContact::kNone, p.weights});
         });
     });
     return contacts_;

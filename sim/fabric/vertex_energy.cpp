@@ -29,10 +29,16 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
         for (int k = 0; k < 4; ++k) gradient[v[k]] += weight[k] * force;
     }
     for (const ObstacleContact& contact : touching_) {
-        const int a = contact.vertex, b = contact.isEdge() ? contact.other : a;
-        const Vec3 force = contact.gradient + 0.5 * contact.stiffness * (solved(a) + solved(b));
-        changes[EnergyChange::Obstacles] -= 0.5 * force.dot(move(a) + move(b));
-        for (int v : {a, b}) gradient[v] += 0.5 * force;
+        const std::array<int, 3> v = contact.vertices();
+        const std::array<double, 3> share = contact.shares();
+        Vec3 change = Vec3::Zero(), moved = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            change += share[k] * solved(v[k]);
+            moved += share[k] * move(v[k]);
+        }
+        const Vec3 force = contact.gradient + contact.stiffness * change;
+        changes[EnergyChange::Obstacles] -= force.dot(moved);
+        for (int k = 0; k < 3; ++k) gradient[v[k]] += share[k] * force;
     }
 }
 

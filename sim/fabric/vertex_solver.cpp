@@ -192,7 +192,7 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     if (!obstacles_.empty()) {
         clock.start(Stage::FabricContact);
         const std::span<const Vec3> frictionFrom = newton.count == 0 ? std::span<const Vec3>(start_.v) : std::span<const Vec3>();
-        touching_ = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h);
+        touching_ = obstacles_.at(fabric_, state.x, start_.x, frictionFrom, mass_, h, guard_.nearestPoints(state.x));
     }
     clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);

@@ -57,7 +57,10 @@ std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, doub
         predicted_[v] = move_[v] / h;
         reached_[v] = state.x[v] + move_[v];
     });
-    return obstacles_.at(fabric_, reached_, state.x, state.v, mass_, h);
+    guard_.rest();
+    const std::span<const NearestPoint> nearest = guard_.nearestPoints(reached_);
+    guard_.moveTo(t, t + h);
+    return obstacles_.at(fabric_, reached_, state.x, state.v, mass_, h, nearest);
 }
 
 /// v0: what P2G gave, fallen for h and moved by the liquid; the twist goes on as it did.

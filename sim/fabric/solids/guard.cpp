@@ -15,15 +15,17 @@ namespace {
 constexpr double kCore = 0.57;        ///< distance that is kept, as between pairs of fabric [radii]
 constexpr double kKept = 0.85;        ///< what begins nearer keeps this share of its distance: less than kNearestError leaves [-]
 constexpr double kLeastLack = 0.1;    ///< of the core that such gets away in one move, at most [-]
+constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
 constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
 constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
 constexpr double kDrawn = 0.5;        ///< towards the solid's own motion in one of them [-]
 
+/// Around all ways; without moves, around all places.
 Eigen::AlignedBox3d boxAround(std::span<const Vec3> x, std::span<const Vec3> u)
 {
     const Eigen::AlignedBox3d nothing;
     return parallelReduce(
-        x.size(), nothing, [&](std::size_t v) { return Eigen::AlignedBox3d(x[v]).extend(x[v] + u[v]); },
+        x.size(), nothing, [&](std::size_t v) { return u.empty() ? Eigen::AlignedBox3d(x[v]) : Eigen::AlignedBox3d(x[v]).extend(x[v] + u[v]); },
         [](const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) { return a.merged(b); });
 }
 
@@ -94,7 +96,8 @@ void SolidGuard::measure(Points x, std::span<const Vec3> u)
         parallelFor(x.size(), 512, [&](std::size_t v) {
             const Vec3 from = body.toBegin * x[v];
             body.distance[v] = body.shape.distance(from);
-            body.clear[v] = body.distance[v] - body.steepest * (body.toEnd * (x[v] + u[v]) - from).norm();
+            body.clear[v] = body.distance[v];
+            if (!u.empty()) body.clear[v] -= body.steepest * (body.toEnd * (x[v] + u[v]) - from).norm();
         });
     }
 }
@@ -111,12 +114,11 @@ SweptElement SolidGuard::swept(const Body& body, Points x, std::span<const Vec3>
     return element;
 }
 
-/// Distance that an element keeps [cm].
-double SolidGuard::core(const int* vertices, int corners) const
+double SolidGuard::leastRadius(const int* vertices, int corners) const
 {
     double radius = fabric_->radius[vertices[0]];
     for (int c = 1; c < corners; ++c) radius = std::min(radius, fabric_->radius[vertices[c]]);
-    return kCore * radius;
+    return radius;
 }
 
 /// Vertices stop at surfaces and go on along them.
@@ -155,9 +157,9 @@ bool SolidGuard::slide(const Body& body, std::size_t v, bool isLast, const Vec3&
     return true;
 }
 
-/// Can any point of an element be as near as it must not be? A quick look from its corners: no point of an edge is further from both ends
-/// than half its length, none of a face further from its nearest corner than its longest side by √3.
-bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int corners) const
+/// Can any point of an element come as near as `distance`? A quick look from its corners: no point of an edge is further from both ends than
+/// half its length, none of a face further from its nearest corner than its longest side by √3.
+bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const
 {
     double clear = std::numeric_limits<double>::infinity(), longest = 0.0;
     for (int c = 0; c < corners; ++c) {
@@ -165,14 +167,14 @@ bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int c
         longest = std::max(longest, (x[vertices[c]] - x[vertices[(c + 1) % corners]]).squaredNorm());
     }
     const double size = std::sqrt(corners == 3 ? longest / 3.0 : 0.25 * longest);
-    return clear - body.steepest * size < core(vertices, corners);
+    return clear - body.steepest * size < distance;
 }
 
 /// Appends an element that comes too near, or its parts, if the element itself begins inside of the solid.
 void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const
 {
     const Body& body = bodies_[number];
-    const double kept = core(vertices, corners);
+    const double kept = kCore * leastRadius(vertices, corners);
     const SweptElement element = swept(body, x, u, vertices, corners);
     SafePart safe = solids::safePart(body.shape, element, kept);
     if (safe.part >= 1.0) return;
@@ -197,24 +199,64 @@ void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* 
     blocked.weights = safe.weights;
 }
 
-void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
+/// What look(body, element, out) appends for each solid that is near and each element that is not held, in their order.
+template <class Found, class Look>
+void SolidGuard::collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
 {
-    blocked_.clear();
+    all.clear();
     const Chunks chunks(elements_.size());
-    ofChunk_.resize(chunks.count());
+    ofChunk.resize(chunks.count());
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         if (!bodies_[b].isNear) continue;
         parallelFor(chunks.count(), [&](std::size_t chunk) {
-            ofChunk_[chunk].clear();
+            ofChunk[chunk].clear();
             for (std::size_t e = chunks.begin(chunk); e < chunks.end(chunk); ++e) {
-                const int* vertices = elements_[e].data();
-                const int corners = vertices[2] < 0 ? 2 : 3;
-                if (std::all_of(vertices, vertices + corners, [&](int v) { return fabric_->pinned[v] != 0; })) continue;
-                if (mayTouch(bodies_[b], x, vertices, corners)) look(static_cast<int>(b), x, u, vertices, corners, ofChunk_[chunk]);
+                const std::array<int, 3>& v = elements_[e];
+                const bool isHeld = fabric_->pinned[v[0]] && fabric_->pinned[v[1]] && (v[2] < 0 || fabric_->pinned[v[2]]);
+                if (!isHeld) look(static_cast<int>(b), v, ofChunk[chunk]);
             }
         });
-        for (const std::vector<Blocked>& found : ofChunk_) blocked_.insert(blocked_.end(), found.begin(), found.end());
+        for (const std::vector<Found>& found : ofChunk) all.insert(all.end(), found.begin(), found.end());
     }
+}
+
+void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
+{
+    collect(ofChunk_, blocked_, [&](int body, const std::array<int, 3>& vertices, std::vector<Blocked>& out) {
+        const int corners = vertices[2] < 0 ? 2 : 3;
+        if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
+            look(body, x, u, vertices.data(), corners, out);
+    });
+}
+
+/// Appends the nearest point of an element, if it touches, and no vertex does so for it.
+void SolidGuard::addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const
+{
+    const int corners = vertices[2] < 0 ? 2 : 3;
+    const double radius = leastRadius(vertices.data(), corners);
+    if (!mayTouch(body, x, vertices.data(), corners, radius)) return;
+    std::array<Vec3, 3> at;
+    double nearestCorner = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < corners; ++c) {
+        at[c] = body.toEnd * x[vertices[c]];
+        nearestCorner = std::min(nearestCorner, body.distance[vertices[c]]);
+    }
+    const Nearest nearest = nearestTo(body.shape, {at.data(), static_cast<std::size_t>(corners)}, radius);
+    if (nearest.reached <= 0.0 || nearest.reached >= std::min(radius, nearestCorner)) return;
+    if (nearest.weights.maxCoeff() < kInterior) out.push_back({corners, vertices, nearest.weights, radius});
+}
+
+const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
+{
+    nearest_.clear();
+    if (bodies_.empty()) return nearest_;
+    findNear(x, {});
+    if (!isNear_) return nearest_;
+    measure(x, {});
+    collect(nearestOfChunk_, nearest_, [&](int body, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) {
+        addNearest(bodies_[body], x, vertices, out);
+    });
+    return nearest_;
 }
 
 /// One after the other: approaches along the normal where an element is nearest become blows without bounce.

@@ -15,6 +15,14 @@ struct GuardReport {
     int left = 0;     ///< … and that still get through or too near: what is squeezed between solids, or held by pins
 };
 
+/// Where an edge or a face touches a solid with none of its vertices.
+struct NearestPoint {
+    int corners = 0;                ///< 2 or 3
+    std::array<int, 3> vertices{};
+    Vec3 weights = Vec3::Zero();    ///< [-]
+    double radius = 0.0;            ///< of the fabric [cm]
+};
+
 /// Fabric never gets through a solid's surface. Moves are looked at in the frame of each solid, in which it rests while corners of the
 /// fabric go straight from where they are at the start of a step to where they are at its end: no point of an edge or a face may come
 /// nearer than a part of its radius on the way, however thin, pointed or fast the solid is. What would is stopped at the surface, slides
@@ -39,6 +47,8 @@ class SolidGuard {
     bool limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
     /// Was any fabric near a solid, in the last limit()?
     bool isNear() const { return isNear_; }
+    /// Points at which edges of yarns and faces are nearer to solids than their radius, and than their vertices; solids must rest.
+    const std::vector<NearestPoint>& nearestPoints(std::span<const Vec3> x);
     /// Safe part of all moves together [0..1].
     double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
 
@@ -69,8 +79,11 @@ class SolidGuard {
     bool slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const;
     void findBlocked(Points x, std::span<const Vec3> u);
     void look(int body, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
-    bool mayTouch(const Body& body, Points x, const int* vertices, int corners) const;
-    double core(const int* vertices, int corners) const;
+    bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
+    void addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
+    double leastRadius(const int* vertices, int corners) const;
+    template <class Found, class Look>
+    void collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
     void push(Points x, std::span<const double> mass, Moves u) const;
     void draw(Points x, double share, Moves u) const;
 
@@ -81,6 +94,8 @@ class SolidGuard {
     std::vector<char> slid_;
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
+    std::vector<std::vector<NearestPoint>> nearestOfChunk_;
+    std::vector<NearestPoint> nearest_;
 };
 
 }  // namespace sim
