@@ -70,8 +70,9 @@ struct SampledBody final : Shape::Body {
         const double inside = between(cornerAt(x), -1);
         return box.contains(x) ? inside : inside + box.exteriorDistance(x);
     }
-    /// How far the distance is off the plane through its value and slope in the middle, at the nodes around the hull: between them both
-    /// are linear along each axis, so that it is nowhere further off. Hulls over many cells are left to the steepest slope there is.
+    /// How far the distance is off the plane through its value and slope in the middle. Between the nodes both are linear along each axis, so
+    /// that in a box within a cell it is nowhere further off than at the box's corners: those of the hull's box, cut by the lattice.
+    /// Hulls over many cells are left to the steepest slope there is.
     struct Straying {
         double at, down, up, below, above;  ///< [cm]: in the middle, by the plane's slope, by what is off it
     };
@@ -92,16 +93,20 @@ struct SampledBody final : Shape::Body {
             s.down = std::min(s.down, slope.dot(x - middle));
             s.up = std::max(s.up, slope.dot(x - middle));
         }
-        std::array<std::size_t, kAxes> first, last;
+        std::array<std::array<double, kMostCells + 3>, kAxes> cuts;
+        std::array<int, kAxes> count;
         for (int a = 0; a < kAxes; ++a) {
-            first[a] = std::min(static_cast<std::size_t>((hull.min()[a] - lower[a]) / cell), size[a] - 2);
-            last[a] = std::min(static_cast<std::size_t>((hull.max()[a] - lower[a]) / cell) + 1, size[a] - 1);
+            const double first = (hull.min()[a] - lower[a]) / cell, last = (hull.max()[a] - lower[a]) / cell;
+            count[a] = 0;
+            cuts[a][count[a]++] = hull.min()[a];
+            for (double node = std::floor(first) + 1.0; node < last; node += 1.0) cuts[a][count[a]++] = lower[a] + cell * node;
+            cuts[a][count[a]++] = hull.max()[a];
         }
-        for (std::size_t k = first[2]; k <= last[2]; ++k)
-            for (std::size_t j = first[1]; j <= last[1]; ++j)
-                for (std::size_t i = first[0]; i <= last[0]; ++i) {
-                    const Vec3 node = lower + cell * Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
-                    const double off = static_cast<double>(values[(k * size[1] + j) * size[0] + i]) - at - slope.dot(node - middle);
+        for (int k = 0; k < count[2]; ++k)
+            for (int j = 0; j < count[1]; ++j)
+                for (int i = 0; i < count[0]; ++i) {
+                    const Vec3 x(cuts[0][i], cuts[1][j], cuts[2][k]);
+                    const double off = between(cornerAt(x), -1) - at - slope.dot(x - middle);
                     s.below = std::min(s.below, off);
                     s.above = std::max(s.above, off);
                 }

@@ -74,7 +74,7 @@ Vec3 anyPointOf(const std::vector<Vec3>& corners, Numbers& random)
 
 TEST(ShapeOver, BoundsTheDistanceAllOverTheHull)
 {
-    for (unsigned seed = 1; seed <= 400; ++seed) {
+    for (unsigned seed = 1; seed <= 150; ++seed) {
         Numbers random(seed);
         const Shape shape = anyShape(random);
         if (shape.empty()) continue;
