@@ -68,9 +68,11 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
         changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
-        if (!fabric_.pinned[v]) continue;
-        const Vec3 byPin = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
-        changes[EnergyChange::Pins] += byPin.dot(state.v[v]);
+        // What the limiter made of Newton's last move where solids took a hand in it is held by them, as by pins.
+        const bool isHeld = guardActed_ && move_[v] != system_.move(static_cast<int>(v));
+        if (!fabric_.pinned[v] && !isHeld) continue;
+        const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
+        changes[fabric_.pinned[v] ? EnergyChange::Pins : EnergyChange::Obstacles] += byHolder.dot(state.v[v]);
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double inertia = fabric_.edges.twistInertia[e], faster = state.omega[e] - start_.omega[e];

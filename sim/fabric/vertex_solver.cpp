@@ -123,9 +123,12 @@ void VertexSolver::limit(const FabricState& state, FabricReport& report, StageCl
 /// Solids and pairs of fabric each change what the other has left safe, until one has nothing more to change.
 void VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
 {
+    guardActed_ = false;
     for (int turn = 0; turn < kMostTurns; ++turn) {
         clock.start(Stage::FabricContact);
-        if (!guard_.limit(state.x, mass_, move_, guarded_) && turn > 0) return;
+        const bool isChanged = guard_.limit(state.x, mass_, move_, guarded_);
+        guardActed_ = guardActed_ || isChanged;
+        if (!isChanged && turn > 0) return;
         contact_->limit(state.x, move_, limits_, clock);
         if (!guard_.isNear()) return;
     }

@@ -71,6 +71,7 @@ class VertexSolver {
     std::span<const ObstacleContact> touching_;  ///< … and with obstacles
     LimitReport limits_;                         ///< of the attempt under way …
     GuardReport guarded_;                        ///< … likewise
+    bool guardActed_ = false;                    ///< in the last move: solids took a hand in it
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
     FabricState start_;                          ///< of the attempt under way, to go back to

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace sim::testing {
 namespace {
 
@@ -174,6 +176,28 @@ TEST(FabricAtSolids, WhatBeginsInsideIsLetOut)
         EXPECT_EQ(run.pierced(), 0) << int(kind);
         EXPECT_LT(run.fastest(), 10.0) << int(kind);
     }
+}
+
+/// What a plate gives is booked as work of obstacles, whether its penalty gave it or the guard.
+TEST(FabricAtSolids, WorkOfAFastPlateIsBooked)
+{
+    for (const FabricSolver kind : kSolvers)
+        for (const double h : {1.0e-3, 2.5e-4}) {
+            ObstacleSettings plate = solidOf(Shape::box({0.0, -0.01, 0.0}, {3.0, 0.01, 3.0}));
+            plate.motion.addTranslation(0.0, 0.1, Vec3(0.0, 50.0, 0.0), 0.0, 0.0);
+            SolidRun run({sheet(9, 2.0, {0.0, 0.1, 0.0}, Eigen::AngleAxisd(0.03, Vec3::UnitX()).toRotationMatrix())}, {plate}, kind);
+            const auto energies = [&] { return run.vertex ? run.vertex->energies(run.state, run.gravity) : run.grid->energies(run.state, run.gravity); };
+            run.vertex ? run.vertex->bookEnergy() : run.grid->bookEnergy();
+            const double start = energies().total();
+            EnergyChanges all;
+            for (int i = 0; i < 10; ++i) {
+                run.step(h);
+                all += *run.report.energyChanges;
+            }
+            const double gained = energies().total() - start, booked = std::accumulate(all.of.begin(), all.of.end(), 0.0);
+            EXPECT_NEAR(booked, gained, 0.02 * gained) << "solver " << int(kind) << " h " << h;
+            EXPECT_GT(all[EnergyChange::Obstacles], 0.9 * gained);
+        }
 }
 
 }  // namespace
