@@ -13,8 +13,8 @@ using namespace solids;
 namespace {
 
 constexpr double kCore = 0.57;        ///< distance that is kept, as between pairs of fabric [radii]
-constexpr double kKept = 0.85;        ///< what begins nearer keeps this share of its distance: less than kNearestError leaves [-]
-constexpr double kLeastLack = 0.1;    ///< of the core that such gets away in one move, at most [-]
+constexpr double kKept = 0.85;        ///< what begins nearer keeps this share of its distance on the way: less than kNearestError leaves [-] …
+constexpr double kStays = 1.0e-6;     ///< … and ends no nearer than it began, but for this share [-]
 constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
 constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
 constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
@@ -147,12 +147,13 @@ bool SolidGuard::slide(const Body& body, std::size_t v, bool isLast, const Vec3&
     point.corners = 1;
     point.from[0] = from;
     point.to[0] = to;
-    const SafePart safe = solids::safePart(body.shape, point, std::min(kept, kKept * distance));
-    if (safe.part >= 1.0) return false;
+    const SafePart safe = solids::safePart(body.shape, point, distance >= kept ? kept : kKept * distance);
     const Vec3 at = from + safe.part * (to - from), n = body.shape.normal(at);
-    const double away = std::clamp(kept - distance, 0.0, kLeastLack * kept);
-    Vec3 end = at;
-    if (!isLast) end += (to - at) + (away - std::min(0.0, n.dot(to - at))) * n;
+    const double left = body.shape.distance(at);
+    if (safe.part >= 1.0 && left >= std::min(kept, (1.0 - kStays) * distance)) return false;
+    const double away = std::max(0.0, kept - left);
+    Vec3 end = safe.part < 1.0 ? at : from;
+    if (!isLast) end = to + (away - std::min(0.0, n.dot(to - at))) * n;
     u = body.end * end - x;
     return true;
 }
@@ -186,16 +187,24 @@ void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* 
         }
         return;
     }
+    double lack = 0.0;
     if (kKept * nearest.least < kept) {
         safe = solids::safePart(body.shape, element, kKept * std::max(0.0, nearest.least));
-        if (safe.part >= 1.0) return;
+        const Nearest last = nearestTo(body.shape, {element.to.data(), static_cast<std::size_t>(corners)}, kept);
+        if (safe.part >= 1.0) {
+            if (last.reached >= std::min(kept, (1.0 - kStays) * nearest.least)) return;
+            safe.weights = last.weights;
+            lack = kept - last.reached;
+        } else {
+            lack = std::max(0.0, kept - nearest.least);
+        }
     }
     Blocked& blocked = out.emplace_back();
     blocked.body = number;
     blocked.corners = corners;
     std::copy_n(vertices, corners, blocked.vertices.begin());
     blocked.part = safe.part;
-    blocked.lack = std::clamp(kept - nearest.least, 0.0, kLeastLack * kept);
+    blocked.lack = lack;
     blocked.weights = safe.weights;
 }
 

@@ -89,7 +89,11 @@ TEST(SolidGuard, NoMoveGetsThroughASolid)
             guard.limit(x, fabric.mass, u, report);
             EXPECT_EQ(report.left, 0) << "seed " << seed << " step " << step;
             ASSERT_EQ(crossings(fabric, scene.solid, t0, t1, x, u), 0) << "seed " << seed << " step " << step;
-            for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[v];
+            const Eigen::Isometry3d toEnd = scene.solid.motion.transform(t1).inverse();
+            for (std::size_t v = 0; v < x.size(); ++v) {
+                x[v] += u[v];
+                ASSERT_GT(scene.solid.shape.distance(toEnd * x[v]), 0.56 * fabric.radius[v]) << "seed " << seed << " step " << step;
+            }
         }
     }
     EXPECT_GT(without, 60);  // of 480 moves

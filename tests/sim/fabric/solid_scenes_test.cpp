@@ -178,6 +178,21 @@ TEST(FabricAtSolids, WhatBeginsInsideIsLetOut)
     }
 }
 
+TEST(FabricAtSolids, LayersHangOverARodAndLieOnAThinFloor)
+{
+    for (const FabricSolver kind : kSolvers) {
+        const ObstacleSettings rod = solidOf(Shape::capsule({-5.0, 0.0, 0.0}, {5.0, 0.0, 0.0}, 0.02)), floor = solidOf(Shape::box({0.0, -1.01, 0.0}, {9.0, 0.01, 9.0}));
+        SolidRun run({sheet(9, 2.0, {0.0, 0.3, 0.0}), sheet(8, 2.0, {0.2, 0.4, 0.3}), sheet(7, 1.0, {0.1, 0.5, 1.5})}, {rod, floor}, kind);
+        for (FabricPiece& piece : run.pieces) piece.velocity = Vec3(0.0, -100.0, 0.0);
+        run.state = initialState(run.fabric, run.pieces);
+        for (int i = 0; i < 60; ++i) {
+            run.step(2.0e-3);
+            ASSERT_EQ(run.pierced(), 0) << "step " << i << " solver " << int(kind);
+            ASSERT_GT(run.lowestAbove(floor, -1.0), 0.5 * kRadius);
+        }
+    }
+}
+
 /// What a plate gives is booked as work of obstacles, whether its penalty gave it or the guard.
 TEST(FabricAtSolids, WorkOfAFastPlateIsBooked)
 {
