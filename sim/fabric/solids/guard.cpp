@@ -176,17 +176,18 @@ void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* 
 {
     const Body& body = bodies_[number];
     const double kept = kCore * leastRadius(vertices, corners);
+    const auto lookAtParts = [&] {
+        for (int c = 0; corners > 1 && c < corners; ++c) {
+            const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
+            look(number, x, u, part.data(), corners - 1, out);
+        }
+    };
+    if (std::any_of(vertices, vertices + corners, [&](int v) { return body.distance[v] <= 0.0; })) return lookAtParts();
     const SweptElement element = swept(body, x, u, vertices, corners);
     SafePart safe = solids::safePart(body.shape, element, kept);
     if (safe.part >= 1.0) return;
     const Nearest nearest = nearestTo(body.shape, {element.from.data(), static_cast<std::size_t>(corners)}, kept);
-    if (nearest.reached <= 0.0) {
-        for (int c = 0; corners > 1 && c < (corners == 3 ? 3 : 2); ++c) {
-            const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
-            look(number, x, u, part.data(), corners - 1, out);
-        }
-        return;
-    }
+    if (nearest.reached <= 0.0) return lookAtParts();
     double lack = 0.0;
     if (kKept * nearest.least < kept) {
         safe = solids::safePart(body.shape, element, kKept * std::max(0.0, nearest.least));
