@@ -70,6 +70,35 @@ struct SampledBody final : Shape::Body {
         const double inside = between(cornerAt(x), -1);
         return box.contains(x) ? inside : inside + box.exteriorDistance(x);
     }
+    /// A coordinate on the lattice: between node `index` and the next.
+    struct Cut {
+        double x;           ///< [cm]
+        std::size_t index;
+        double t;           ///< how far between them, 0..1
+    };
+    /// Both ends of a range within the lattice, and the nodes between them.
+    /// @return how many
+    int cutAlong(int axis, double first, double last, Cut* cuts) const
+    {
+        int count = 0;
+        const auto add = [&](double x, double q) {
+            const std::size_t index = std::min(static_cast<std::size_t>(std::max(0.0, q)), size[axis] - 2);
+            cuts[count++] = {x, index, q - static_cast<double>(index)};
+        };
+        const double begin = (first - lower[axis]) / cell, end = (last - lower[axis]) / cell;
+        add(first, begin);
+        for (double node = std::floor(begin) + 1.0; node < end; node += 1.0) add(lower[axis] + cell * node, node);
+        add(last, end);
+        return count;
+    }
+    double valueAt(const Cut& x, const Cut& y, const Cut& z) const
+    {
+        const float* v = values.data() + (z.index * size[1] + y.index) * size[0] + x.index;
+        const std::size_t up = size[0], far = size[0] * size[1];
+        const auto along = [&](const float* p) { return (1.0 - x.t) * static_cast<double>(p[0]) + x.t * static_cast<double>(p[1]); };
+        const double near = (1.0 - y.t) * along(v) + y.t * along(v + up);
+        return (1.0 - z.t) * near + z.t * ((1.0 - y.t) * along(v + far) + y.t * along(v + far + up));
+    }
     /// How far the distance is off the plane through its value and slope in the middle. Between the nodes both are linear along each axis, so
     /// that in a box within a cell it is nowhere further off than at the box's corners: those of the hull's box, cut by the lattice.
     /// Hulls over many cells are left to the steepest slope there is.
@@ -78,7 +107,7 @@ struct SampledBody final : Shape::Body {
     };
     Straying straying(std::span<const Vec3> corners) const
     {
-        constexpr int kMostCells = 4;
+        constexpr int kMostCells = 3;
         const Vec3 middle = meanOf(corners);
         const double at = distance(middle);
         Eigen::AlignedBox3d hull;
@@ -93,23 +122,18 @@ struct SampledBody final : Shape::Body {
             s.down = std::min(s.down, slope.dot(x - middle));
             s.up = std::max(s.up, slope.dot(x - middle));
         }
-        std::array<std::array<double, kMostCells + 3>, kAxes> cuts;
+        std::array<std::array<Cut, kMostCells + 3>, kAxes> cuts;
         std::array<int, kAxes> count;
-        for (int a = 0; a < kAxes; ++a) {
-            const double first = (hull.min()[a] - lower[a]) / cell, last = (hull.max()[a] - lower[a]) / cell;
-            count[a] = 0;
-            cuts[a][count[a]++] = hull.min()[a];
-            for (double node = std::floor(first) + 1.0; node < last; node += 1.0) cuts[a][count[a]++] = lower[a] + cell * node;
-            cuts[a][count[a]++] = hull.max()[a];
-        }
+        for (int a = 0; a < kAxes; ++a) count[a] = cutAlong(a, hull.min()[a], hull.max()[a], cuts[a].data());
         for (int k = 0; k < count[2]; ++k)
-            for (int j = 0; j < count[1]; ++j)
+            for (int j = 0; j < count[1]; ++j) {
+                const double onRow = at + slope.y() * (cuts[1][j].x - middle.y()) + slope.z() * (cuts[2][k].x - middle.z());
                 for (int i = 0; i < count[0]; ++i) {
-                    const Vec3 x(cuts[0][i], cuts[1][j], cuts[2][k]);
-                    const double off = between(cornerAt(x), -1) - at - slope.dot(x - middle);
+                    const double off = valueAt(cuts[0][i], cuts[1][j], cuts[2][k]) - onRow - slope.x() * (cuts[0][i].x - middle.x());
                     s.below = std::min(s.below, off);
                     s.above = std::max(s.above, off);
                 }
+            }
         return s;
     }
     double steepest() const override { return kSteepest; }
