@@ -71,6 +71,20 @@ FabricObstacles::Point FabricObstacles::edgePoint(const Fabric& fabric, int edge
             share_[a] * start.mass[a] + share_[b] * start.mass[b], fabric.vertexMaterial[a], move};
 }
 
+/// As heavy as its corners make it.
+FabricObstacles::Point FabricObstacles::nearestPoint(const Fabric& fabric, const NearestPoint& p, std::span<const Vec3> x, const Start& start) const
+{
+    const auto mean = [&](std::span<const Vec3> of) -> Vec3 {
+        Vec3 sum = Vec3::Zero();
+        for (int c = 0; c < p.corners; ++c) sum += p.weights[c] * of[p.vertices[c]];
+        return sum;
+    };
+    double compliance = 0.0;
+    for (int c = 0; c < p.corners; ++c) compliance += p.weights[c] * p.weights[c] / start.mass[p.vertices[c]];
+    const Vec3 move = start.moves.empty() ? Vec3::Zero().eval() : mean(start.moves);
+    return {kNameless, mean(x), mean(start.x), p.radius, 1.0 / compliance, fabric.vertexMaterial[p.vertices[0]], move};
+}
+
 std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point, int obstacle, const Start& start) const
 {
     const Body& body = bodies_[obstacle];
@@ -100,7 +114,8 @@ void FabricObstacles::collect(const Point& point, int vertex, int other, const S
     }
 }
 
-const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, const Start& start)
+const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
+                                                         std::span<const NearestPoint> nearest)
 {
     contacts_.clear();
     const auto collectFrom = [&](std::size_t n, auto&& body) {
@@ -123,6 +138,18 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
         const Point point = edgePoint(fabric, static_cast<int>(i), x, start);
         if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() < point.reach) collect(point, a, b, start, out);
     });
+    collectFrom(nearest.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
+        const NearestPoint& p = nearest[i];
+        const Point point = nearestPoint(fabric, p, x, start);
+        for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
+            const std::optional<Touch> touching = touch(point, body, start);
+            if (!touching) continue;
+            const Vec3& n = touching->normal;
+            out.push_back({p.vertices[0], p.vertices[1], {kNameless, body}, touching->friction.force - touching->push * n,
+                           touching->stiffness * n * n.transpose() + touching->friction.matrix(n),
+                           p.corners == 3 ? p.vertices[2] : ObstacleContact::kNone, p.weights});
+        }
+    });
     return contacts_;
 }
 
@@ -132,6 +159,7 @@ void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x
     std::vector<std::optional<Touch>> touching(contacts_.size());
     parallelFor(contacts_.size(), 256, [&](std::size_t i) {
         const ObstacleContact& c = contacts_[i];
+        if (c.between[0] == kNameless) return;
         const Point point = c.isEdge() ? edgePoint(fabric, c.between[0] - vertices, x, start) : vertexPoint(fabric, c.vertex, x, start);
         touching[i] = touch(point, c.between[1], start);
     });

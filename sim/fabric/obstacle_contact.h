@@ -3,29 +3,41 @@
 #include "sim/core/types.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/friction_law.h"
+#include "sim/fabric/solids/guard.h"
 #include "sim/grid/obstacles.h"
 #include "sim/scene/scene.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace sim {
 
-/// A vertex, or the middle of an edge, that touches an obstacle.
+/// A vertex, the middle of an edge, or the nearest point of an edge or a face, that touches an obstacle.
 struct ObstacleContact {
     int vertex = 0, other = kNone;  ///< ends of the edge, or kNone
-    Vec2i between = {0, 0};         ///< the point's number, vertices first, and the obstacle's among those that fabric feels
+    Vec2i between = {0, 0};         ///< the point's number, vertices first, or −1, and the obstacle's among those that fabric feels
     Vec3 gradient = Vec3::Zero();   ///< of the penalty and of friction by the position of the point [dyn]
     Mat3 stiffness = Mat3::Zero();  ///< [dyn/cm]
+    int third = kNone;              ///< corner of a face, or kNone
+    Vec3 weights = Vec3::Zero();    ///< of the corners at a nearest point; zero for a vertex or a middle [-]
 
     static constexpr int kNone = -1;
     bool isEdge() const { return other != kNone; }
+    /// Vertices and their shares in the point; what there is none of is the first vertex again, with the share 0.
+    std::array<int, 3> vertices() const { return {vertex, isEdge() ? other : vertex, third != kNone ? third : vertex}; }
+    std::array<double, 3> shares() const
+    {
+        if (!weights.isZero()) return {weights[0], weights[1], weights[2]};
+        return {isEdge() ? 0.5 : 1.0, isEdge() ? 0.5 : 0.0, 0.0};
+    }
 };
 
-/// Fabric on obstacles: a penalty on the signed distance of vertices and of the middles of edges at the end-of-step pose, without
-/// continuous collision detection: the sign survives penetration, so that a fast obstacle never blocks the step (contact-design 3.2);
-/// Coulomb's friction (friction.h) relative to the obstacle, which takes its forces along where it turns.
+/// Fabric on obstacles: a penalty on the signed distance of vertices, of the middles of edges and of the points at which edges and faces are
+/// nearest, at the end-of-step pose (contact-design 3.2); SolidGuard keeps them in front of the surface. With it Coulomb's friction
+/// (friction.h) relative to the obstacle, which takes its forces along where it turns; at nearest points, which wander from step to
+/// step, it remembers none.
 class FabricObstacles {
  public:
     FabricObstacles() = default;
@@ -46,8 +58,8 @@ class FabricObstacles {
         /// is held take the vertices.
         std::span<const Vec3> moves = {};
     };
-    /// Contacts at x, of the vertices and then of the edges.
-    const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start);
+    /// Contacts at x, of the vertices, then of the edges, then of the points of edges and faces that touch besides.
+    const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start, std::span<const NearestPoint> nearest = {});
     /// What of the friction is held at the end of the step, at x, where the contacts found last still touch.
     void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const;
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
@@ -78,8 +90,11 @@ class FabricObstacles {
     void findEdges(const Fabric& fabric);
     Point vertexPoint(const Fabric& fabric, int v, std::span<const Vec3> x, const Start& start) const;
     Point edgePoint(const Fabric& fabric, int edge, std::span<const Vec3> x, const Start& start) const;
+    Point nearestPoint(const Fabric& fabric, const NearestPoint& p, std::span<const Vec3> x, const Start& start) const;
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
     void collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const;
+
+    static constexpr int kNameless = -1;    ///< number of points of which no friction is remembered
 
     std::vector<Body> bodies_;
     std::vector<Vec2i> edges_;              ///< of yarns and of cloth

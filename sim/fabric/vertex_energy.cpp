@@ -29,10 +29,16 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
         for (int k = 0; k < 4; ++k) gradient[v[k]] += weight[k] * force;
     }
     for (const ObstacleContact& contact : touching_) {
-        const int a = contact.vertex, b = contact.isEdge() ? contact.other : a;
-        const Vec3 force = contact.gradient + 0.5 * contact.stiffness * (solved(a) + solved(b));
-        changes[EnergyChange::Obstacles] -= 0.5 * force.dot(move(a) + move(b));
-        for (int v : {a, b}) gradient[v] += 0.5 * force;
+        const std::array<int, 3> v = contact.vertices();
+        const std::array<double, 3> share = contact.shares();
+        Vec3 change = Vec3::Zero(), moved = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            change += share[k] * solved(v[k]);
+            moved += share[k] * move(v[k]);
+        }
+        const Vec3 force = contact.gradient + contact.stiffness * change;
+        changes[EnergyChange::Obstacles] -= force.dot(moved);
+        for (int k = 0; k < 3; ++k) gradient[v[k]] += share[k] * force;
     }
 }
 
@@ -62,9 +68,11 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
         changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
-        if (!fabric_.pinned[v]) continue;
-        const Vec3 byPin = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
-        changes[EnergyChange::Pins] += byPin.dot(state.v[v]);
+        // What the limiter made of Newton's last move where solids took a hand in it is held by them, as by pins.
+        const bool isHeld = guardActed_ && move_[v] != system_.move(static_cast<int>(v));
+        if (!fabric_.pinned[v] && !isHeld) continue;
+        const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
+        changes[fabric_.pinned[v] ? EnergyChange::Pins : EnergyChange::Obstacles] += byHolder.dot(state.v[v]);
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double inertia = fabric_.edges.twistInertia[e], faster = state.omega[e] - start_.omega[e];

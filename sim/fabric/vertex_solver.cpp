@@ -28,6 +28,7 @@ constexpr double kFractionTwice = 0.95;       ///< less than this of the moves t
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 300;
+constexpr int kMostTurns = 8;                 ///< of solids and of pairs in limiting a move
 
 }  // namespace
 
@@ -37,6 +38,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     if (settings.contact) {
         contact_.emplace(fabric);
         obstacles_ = FabricObstacles(fabric, obstacles);
+        guard_ = SolidGuard(fabric, obstacles);
     }
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
@@ -117,9 +119,35 @@ void VertexSolver::limit(const FabricState& state, FabricReport& report, StageCl
 {
     if (!contact_) return;
     const LimitReport before = limits_;
-    contact_->limit(state.x, move_, limits_, clock);
+    limitInTurn(state, clock);
     report.listBuilds += limits_.listBuilds - before.listBuilds;
     report.scalings += limits_.scalings - before.scalings;
+}
+
+/// Solids and pairs of fabric each change what the other has left safe, until one has nothing more to change.
+void VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
+{
+    guardActed_ = false;
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        clock.start(Stage::FabricContact);
+        const bool isChanged = guard_.limit(state.x, mass_, move_, guarded_);
+        guardActed_ = guardActed_ || isChanged;
+        if (!isChanged && turn > 0) return;
+        contact_->limit(state.x, move_, limits_, clock);
+        if (!guard_.isNear()) return;
+    }
+    clock.start(Stage::FabricContact);
+    const double part = guard_.safePart(state.x, move_);
+    if (part >= 1.0) return;
+    // A part of each straight move is as safe, if solids rest.
+    if (guard_.anyMoves()) {
+        ++guarded_.left;
+        guard_.limit(state.x, mass_, move_, guarded_);
+        return;
+    }
+    constexpr double kSpare = 0.95;
+    parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSpare * part; });
+    ++limits_.scalings;
 }
 
 /// Moves the fabric by move_.
@@ -145,15 +173,18 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
 {
     start_ = state;
     limits_ = {};
+    guarded_ = {};
     clock.start(Stage::FabricElastic);
     system_.rods().startStep(state);
     system_.shells().startStep(state.x);
     predict(t, h, gravity, state);
     obstacles_.moveTo(t, t + h);
+    guard_.moveTo(t, t + h);
     if (contact_) contact_->beginStep(state.x, mass_, h, start_.onFabric);
 
     limit(state, report, clock);
     commit(state, clock);
+    guard_.rest();
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
         state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn);
     });
@@ -170,7 +201,7 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
         clock.start(Stage::FabricContact);
         FabricObstacles::Start start = obstacleStart(h);
         start.moves = expected;
-        touching_ = obstacles_.at(fabric_, state.x, start);
+        touching_ = obstacles_.at(fabric_, state.x, start, guard_.nearestPoints(state.x));
     }
     clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
@@ -227,7 +258,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || !newton.isSettled;
+                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled;
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     if (isShort) ++report.shortened;

@@ -4,6 +4,7 @@
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
+#include "sim/fabric/solids/guard.h"
 #include "sim/fabric/vertex_system.h"
 #include "sim/scene/scene.h"
 
@@ -14,7 +15,7 @@
 namespace sim {
 
 /// `fabric.solver: vertex`: backward Euler in vertex space with the pairwise-limited Newton step of contact-design 3.3. Nothing ever
-/// crosses: every move that is made was checked pair by pair along its straight path.
+/// crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
 class VertexSolver {
  public:
     VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles);
@@ -52,6 +53,7 @@ class VertexSolver {
     void commit(FabricState& state, StageClock& clock);
     double rmsInRadii(std::span<const Vec3> move) const;
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
+    void limitInTurn(const FabricState& state, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h}; }
@@ -62,12 +64,15 @@ class VertexSolver {
     VertexSystem system_;
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
+    SolidGuard guard_;
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
     bool booksEnergy_ = false;
     const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …
     std::span<const ObstacleContact> touching_;  ///< … and with obstacles
-    LimitReport limits_;                         ///< of the attempt under way
+    LimitReport limits_;                         ///< of the attempt under way …
+    GuardReport guarded_;                        ///< … likewise
+    bool guardActed_ = false;                    ///< in the last move: solids took a hand in it
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
     double feltAcceleration_ = 0.0;              ///< by which errors are measured: gravity, or the earth's where there is none [cm/s^2]

@@ -170,18 +170,27 @@ void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
         else asBlock(cloth_.begin(clothRow_[v])) += stiffness;
     };
     for (const ObstacleContact& contact : obstacles) {
-        const int a = contact.vertex, b = contact.other;
         if (!contact.isEdge()) {
-            add(a, contact.gradient, contact.stiffness);
+            add(contact.vertex, contact.gradient, contact.stiffness);
             continue;
         }
-        const Mat3 quarter = 0.25 * contact.stiffness;
-        const double own = tie(a, b, quarter) ? 0.25 : 0.5;
-        for (int v : {a, b}) add(v, 0.5 * contact.gradient, own * contact.stiffness);
+        const std::array<int, 3> v = contact.vertices();
+        const std::array<double, 3> share = contact.shares();
+        const int corners = contact.third == ObstacleContact::kNone ? 2 : 3;
+        std::array<double, 3> own;
+        for (int k = 0; k < corners; ++k) own[k] = share[k] * share[k];
+        for (int k = 0; k < corners; ++k)
+            for (int l = k + 1; l < corners; ++l) {
+                const double both = share[k] * share[l];
+                if (tie(v[k], v[l], both * contact.stiffness)) continue;
+                own[k] += both;
+                own[l] += both;
+            }
+        for (int k = 0; k < corners; ++k) add(v[k], share[k] * contact.gradient, own[k] * contact.stiffness);
     }
 }
 
-/// Adds a block between the ends of an edge, if the matrix has a place for it.
+/// Adds a block between two corners of an edge or a face, if the matrix has a place for it.
 bool VertexSystem::tie(int a, int b, const Mat3& block)
 {
     if (!unknowns_.isOnStrand(a) && !unknowns_.isOnStrand(b)) {

@@ -14,6 +14,12 @@ struct Shape::Body {
     virtual double distance(const Vec3& x) const = 0;
     virtual Vec3 normal(const Vec3& x) const = 0;
 
+    /// Shape::over, for a body whose distance is a convex function: never below its tangent plane.
+    virtual Look over(std::span<const Vec3> corners) const;
+    /// It is nowhere larger on the hull of these points; a convex function is largest at one of them.
+    virtual double mostOver(std::span<const Vec3> corners) const;
+    virtual double steepest() const { return 1.0; }
+
     /// Bounds after a rigid motion.
     virtual Eigen::AlignedBox3d bounds(const Eigen::Isometry3d& transform) const = 0;
 
@@ -25,6 +31,13 @@ struct Shape::Body {
 };
 
 using BodyPointer = Shape::Body::Pointer;
+
+inline Vec3 meanOf(std::span<const Vec3> points)
+{
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& x : points) sum += x;
+    return sum / static_cast<double>(points.size());
+}
 
 /// The body after a rigid motion (shape_operators.cpp).
 BodyPointer moveBody(const BodyPointer& body, const Eigen::Isometry3d& transform);

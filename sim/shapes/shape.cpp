@@ -2,6 +2,8 @@
 
 #include "sim/shapes/body.h"
 
+#include <algorithm>
+
 namespace sim {
 
 double Shape::distance(const Vec3& x) const
@@ -12,6 +14,33 @@ double Shape::distance(const Vec3& x) const
 Vec3 Shape::normal(const Vec3& x) const
 {
     return body_ ? body_->normal(x) : Vec3(Vec3::UnitX());
+}
+
+Shape::Look Shape::over(std::span<const Vec3> corners) const
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return body_ ? body_->over(corners) : Look{kInfinity, kInfinity};
+}
+
+double Shape::steepest() const
+{
+    return body_ ? body_->steepest() : 0.0;
+}
+
+Shape::Look Shape::Body::over(std::span<const Vec3> corners) const
+{
+    const Vec3 middle = meanOf(corners), n = normal(middle);
+    const double at = distance(middle);
+    double slope = 0.0;
+    for (const Vec3& x : corners) slope = std::min(slope, n.dot(x - middle));
+    return {at + slope, at};
+}
+
+double Shape::Body::mostOver(std::span<const Vec3> corners) const
+{
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vec3& x : corners) most = std::max(most, distance(x));
+    return most;
 }
 
 Eigen::AlignedBox3d Shape::bounds() const

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,18 @@ class Shape {
     /// Unit gradient of the distance: outward. Where it does not exist (the middle of a ball) any unit vector along
     /// which the distance does not fall.
     Vec3 normal(const Vec3& x) const;
+    /// One look at the distance all over the convex hull of some points.
+    struct Look {
+        double least;   ///< it is nowhere smaller [cm]
+        double middle;  ///< what it is at the points' mean [cm]
+    };
+    /// At up to kMostCorners points. The bound is exact for a flat surface and for a point; its error falls with the square of the hull's
+    /// size where the surface is smooth, and by halving the hull it comes as near as one likes anywhere.
+    Look over(std::span<const Vec3> corners) const;
+    static constexpr std::size_t kMostCorners = 6;
+    /// The distance changes by no more than this times the way [-]: 1, but for meshes, between whose samples it may be steeper.
+    double steepest() const;
+
     /// Tight for primitives; the common part of the children's for an intersection. Inverted shapes have corners at ±∞,
     /// the empty shape an empty box.
     Eigen::AlignedBox3d bounds() const;

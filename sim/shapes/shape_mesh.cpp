@@ -5,6 +5,7 @@
 #include "sim/shapes/mend_solid.h"
 #include "sim/shapes/triangle_tree.h"
 
+#include <array>
 #include <cmath>
 
 namespace sim {
@@ -12,6 +13,7 @@ namespace sim {
 namespace {
 
 constexpr int kPadCells = 3;
+constexpr double kSteepest = 2.0;      ///< slope of its distance: along each axis at most 1 on the lattice, and 1 outside of it [-]
 constexpr double kMostNodes = 5.0e8;  ///< 2 GB of distances
 
 /// Distances on a lattice, trilinear in between.
@@ -68,6 +70,83 @@ struct SampledBody final : Shape::Body {
         const Eigen::AlignedBox3d box = lattice();
         const double inside = between(cornerAt(x), -1);
         return box.contains(x) ? inside : inside + box.exteriorDistance(x);
+    }
+    /// A coordinate on the lattice: between node `index` and the next.
+    struct Cut {
+        double x;           ///< [cm]
+        std::size_t index;
+        double t;           ///< how far between them, 0..1
+    };
+    /// Both ends of a range within the lattice, and the nodes between them.
+    /// @return how many
+    int cutAlong(int axis, double first, double last, Cut* cuts) const
+    {
+        int count = 0;
+        const auto add = [&](double x, double q) {
+            const std::size_t index = std::min(static_cast<std::size_t>(std::max(0.0, q)), size[axis] - 2);
+            cuts[count++] = {x, index, q - static_cast<double>(index)};
+        };
+        const double begin = (first - lower[axis]) / cell, end = (last - lower[axis]) / cell;
+        add(first, begin);
+        for (double node = std::floor(begin) + 1.0; node < end; node += 1.0) add(lower[axis] + cell * node, node);
+        add(last, end);
+        return count;
+    }
+    double valueAt(const Cut& x, const Cut& y, const Cut& z) const
+    {
+        const float* v = values.data() + (z.index * size[1] + y.index) * size[0] + x.index;
+        const std::size_t up = size[0], far = size[0] * size[1];
+        const auto along = [&](const float* p) { return (1.0 - x.t) * static_cast<double>(p[0]) + x.t * static_cast<double>(p[1]); };
+        const double near = (1.0 - y.t) * along(v) + y.t * along(v + up);
+        return (1.0 - z.t) * near + z.t * ((1.0 - y.t) * along(v + far) + y.t * along(v + far + up));
+    }
+    /// How far the distance is off the plane through its value and slope in the middle. Between the nodes both are linear along each axis, so
+    /// that in a box within a cell it is nowhere further off than at the box's corners: those of the hull's box, cut by the lattice.
+    /// Hulls over many cells are left to the steepest slope there is.
+    struct Straying {
+        double at, down, up, below, above;  ///< [cm]: in the middle, by the plane's slope, by what is off it
+    };
+    Straying straying(std::span<const Vec3> corners) const
+    {
+        constexpr int kMostCells = 3;
+        const Vec3 middle = meanOf(corners);
+        const double at = distance(middle);
+        Eigen::AlignedBox3d hull;
+        double radius = 0.0;
+        for (const Vec3& x : corners) hull.extend(x), radius = std::max(radius, (x - middle).norm());
+        const Straying steep{at, -kSteepest * radius, kSteepest * radius, 0.0, 0.0};
+        if (!lattice().contains(hull) || (hull.sizes().array() > kMostCells * cell).any()) return steep;
+        const Corner corner = cornerAt(middle);
+        const Vec3 slope = Vec3(between(corner, 0), between(corner, 1), between(corner, 2)) / cell;
+        Straying s{at, 0.0, 0.0, 0.0, 0.0};
+        for (const Vec3& x : corners) {
+            s.down = std::min(s.down, slope.dot(x - middle));
+            s.up = std::max(s.up, slope.dot(x - middle));
+        }
+        std::array<std::array<Cut, kMostCells + 3>, kAxes> cuts;
+        std::array<int, kAxes> count;
+        for (int a = 0; a < kAxes; ++a) count[a] = cutAlong(a, hull.min()[a], hull.max()[a], cuts[a].data());
+        for (int k = 0; k < count[2]; ++k)
+            for (int j = 0; j < count[1]; ++j) {
+                const double onRow = at + slope.y() * (cuts[1][j].x - middle.y()) + slope.z() * (cuts[2][k].x - middle.z());
+                for (int i = 0; i < count[0]; ++i) {
+                    const double off = valueAt(cuts[0][i], cuts[1][j], cuts[2][k]) - onRow - slope.x() * (cuts[0][i].x - middle.x());
+                    s.below = std::min(s.below, off);
+                    s.above = std::max(s.above, off);
+                }
+            }
+        return s;
+    }
+    double steepest() const override { return kSteepest; }
+    Shape::Look over(std::span<const Vec3> corners) const override
+    {
+        const Straying s = straying(corners);
+        return {s.at + s.down + s.below, s.at};
+    }
+    double mostOver(std::span<const Vec3> corners) const override
+    {
+        const Straying s = straying(corners);
+        return s.at + s.up + s.above;
     }
     Vec3 normal(const Vec3& x) const override
     {

@@ -1,5 +1,7 @@
 #include "sim/shapes/body.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace sim {
@@ -17,6 +19,21 @@ struct Placed final : Shape::Body {
 
     double distance(const Vec3& x) const override { return body->distance(toBody * x); }
     Vec3 normal(const Vec3& x) const override { return toWorld.linear() * body->normal(toBody * x); }
+    Shape::Look over(std::span<const Vec3> corners) const override
+    {
+        return body->over(std::span(inBody(corners).data(), corners.size()));
+    }
+    double mostOver(std::span<const Vec3> corners) const override
+    {
+        return body->mostOver(std::span(inBody(corners).data(), corners.size()));
+    }
+    std::array<Vec3, Shape::kMostCorners> inBody(std::span<const Vec3> corners) const
+    {
+        std::array<Vec3, Shape::kMostCorners> moved;
+        for (std::size_t i = 0; i < corners.size(); ++i) moved[i] = toBody * corners[i];
+        return moved;
+    }
+    double steepest() const override { return body->steepest(); }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d& t) const override { return body->bounds(t * toWorld); }
     BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return moveBody(body, t * toWorld); }
 };
@@ -29,6 +46,15 @@ struct Outside final : Shape::Body {
 
     double distance(const Vec3& x) const override { return body ? -body->distance(x) : -kInfinity; }
     Vec3 normal(const Vec3& x) const override { return body ? Vec3(-body->normal(x)) : Vec3(Vec3::UnitX()); }
+    Shape::Look over(std::span<const Vec3> corners) const override
+    {
+        return {body ? -body->mostOver(corners) : -kInfinity, distance(meanOf(corners))};
+    }
+    double mostOver(std::span<const Vec3> corners) const override
+    {
+        return body ? -body->over(corners).least : -kInfinity;
+    }
+    double steepest() const override { return body ? body->steepest() : 0.0; }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d&) const override { return unboundedBox(); }
     BodyPointer movedBody(const Eigen::Isometry3d& t) const override
     {
@@ -52,6 +78,13 @@ Bodies moveAll(const Bodies& bodies, const Eigen::Isometry3d& t)
     return moved;
 }
 
+double steepestOf(const Bodies& bodies)
+{
+    double most = 0.0;
+    for (const BodyPointer& b : bodies) most = std::max(most, b->steepest());
+    return most;
+}
+
 struct Union final : Shape::Body {
     Bodies parts;
 
@@ -71,6 +104,22 @@ struct Union final : Shape::Body {
             if (const double d = b->distance(x); d < nearest) nearest = d, active = b.get();
         return active->normal(x);
     }
+    Shape::Look over(std::span<const Vec3> corners) const override
+    {
+        Shape::Look look{kInfinity, kInfinity};
+        for (const BodyPointer& b : parts) {
+            const Shape::Look part = b->over(corners);
+            look = {std::min(look.least, part.least), std::min(look.middle, part.middle)};
+        }
+        return look;
+    }
+    double mostOver(std::span<const Vec3> corners) const override
+    {
+        double most = kInfinity;
+        for (const BodyPointer& b : parts) most = std::min(most, b->mostOver(corners));
+        return most;
+    }
+    double steepest() const override { return steepestOf(parts); }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d& t) const override
     {
         Eigen::AlignedBox3d all;
@@ -102,6 +151,22 @@ struct Intersection final : Shape::Body {
             if (const double d = b->distance(x); d > farthest) farthest = d, active = b.get();
         return active->normal(x);
     }
+    Shape::Look over(std::span<const Vec3> corners) const override
+    {
+        Shape::Look look{-kInfinity, -kInfinity};
+        for (const BodyPointer& b : parts) {
+            const Shape::Look part = b->over(corners);
+            look = {std::max(look.least, part.least), std::max(look.middle, part.middle)};
+        }
+        return look;
+    }
+    double mostOver(std::span<const Vec3> corners) const override
+    {
+        double most = -kInfinity;
+        for (const BodyPointer& b : parts) most = std::max(most, b->mostOver(corners));
+        return most;
+    }
+    double steepest() const override { return steepestOf(parts); }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d& t) const override
     {
         Eigen::AlignedBox3d common = unboundedBox();

@@ -28,7 +28,11 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
       meetsLiquid_(meetsLiquid),
       mass_(fabric.mass)
 {
-    if (settings_.contact) obstacles_ = FabricObstacles(fabric, obstacles);
+    if (settings_.contact) {
+        obstacles_ = FabricObstacles(fabric, obstacles);
+        guard_ = SolidGuard(fabric, obstacles);
+    }
+    move_.resize(fabric.vertexCount());
     points_.resize(contact_.size());
     predicted_.resize(fabric.vertexCount());
     reached_.resize(fabric.vertexCount());
@@ -62,6 +66,26 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     });
     velocity_.twist.fill(0.0);
     std::ranges::copy(state.omega, velocity_.twist.begin());
+}
+
+/// Along their velocities, but not through solids: what is stopped or carried by one has the velocity of where it got.
+void GridFabricSolver::moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report)
+{
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = h * state.v[v]; });
+    GuardReport guarded;
+    if (guard_.limit(state.x, mass_, move_, guarded)) {
+        const double given = parallelSum(fabric_.vertexCount(), [&](std::size_t v) {
+            const Vec3 before = state.v[v], change = move_[v] / h - before;
+            state.v[v] = move_[v] / h;
+            return mass_[v] * change.dot(0.5 * (before + state.v[v]) - h * gravity);
+        });
+        if (booksEnergy_) {
+            (*report.energyChanges)[EnergyChange::Obstacles] += given;
+            (*report.energyChanges)[EnergyChange::FabricToVertices] -= given;
+        }
+    }
+    if (guarded.left > 0) ++report.shortened;
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
 }
 
 /// What forces did in the last step, on the faces of this one; null in the first.
@@ -111,21 +135,28 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
     system_.gatherVertices(acceleration_, state.acceleration);
 }
 
-/// Contacts with obstacles where the vertices would be at the end of the step. motion_ must hold how they would go without the fabric's own
-/// forces; friction expects these to act on as they did.
+/// Contacts with obstacles where the vertices would be at the end of the step, which is in front of them. motion_ must hold how they would go
+/// without the fabric's own forces; friction expects these to act on as they did.
 std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
                                                                   const FabricState& state)
 {
     obstacles_.moveTo(t, t + h);
+    guard_.moveTo(t, t + h);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = h * (state.v[v] + h * gravity); });
+    GuardReport ahead;
+    guard_.limit(state.x, mass_, move_, ahead);
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        predicted_[v] = state.v[v] + h * gravity;
-        reached_[v] = state.x[v] + h * predicted_[v];
+        predicted_[v] = move_[v] / h;
+        reached_[v] = state.x[v] + move_[v];
         expectedMove_[v] = h * (motion_.velocity[v] + h * state.acceleration[v]);
     });
+    guard_.rest();
+    const std::span<const NearestPoint> nearest = guard_.nearestPoints(reached_);
+    guard_.moveTo(t, t + h);
     from_ = state.x;
     FabricObstacles::Start start = obstacleStart(h, state);
     start.moves = expectedMove_;
-    return obstacles_.at(fabric_, reached_, start);
+    return obstacles_.at(fabric_, reached_, start, nearest);
 }
 
 void GridFabricSolver::spread(FabricState& state, StageClock& clock)
@@ -175,7 +206,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += h * state.v[v]; });
+    moveVertices(h, gravity, state, report);
     state.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
     else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);

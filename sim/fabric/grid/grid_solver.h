@@ -3,6 +3,7 @@
 #include "sim/fabric/grid/face_system.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
+#include "sim/fabric/solids/guard.h"
 #include "sim/scene/scene.h"
 
 #include <span>
@@ -11,7 +12,7 @@
 namespace sim {
 
 /// `fabric.solver: grid`: fabric as the PolyPIC paper solves for it (model-fabric 3 and 4, without the defects of
-/// section 10). The vertices are particles of a MAC grid whose face velocities are the unknowns of one linearised
+/// section 10); nothing of it ever crosses the surface of a solid. The vertices are particles of a MAC grid whose face velocities are the unknowns of one linearised
 /// backward Euler step; contact is a continuum that the grid resolves to a cell, so that nothing keeps yarns from
 /// crossing within one. Contact is implicit and acts on the mesh too, and twist angles are unknowns of their own.
 class GridFabricSolver {
@@ -49,6 +50,7 @@ class GridFabricSolver {
     {
         return {from_, mass_, state.onObstacles, h};
     }
+    void moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void keepChange(FabricState& state) const;
@@ -65,6 +67,7 @@ class GridFabricSolver {
     FabricParticles particles_;
     FaceSystem system_;
     FabricObstacles obstacles_;
+    SolidGuard guard_;
     FaceVector velocity_;
     bool meetsLiquid_, booksEnergy_ = false;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
@@ -75,6 +78,7 @@ class GridFabricSolver {
     std::vector<Vec3> from_, expectedMove_;  ///< of each vertex: position at the start of the step, its move if forces act on as they did [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
+    std::vector<Vec3> move_;  ///< of each vertex in the step [cm]
     FabricMotion motion_;
 };
 

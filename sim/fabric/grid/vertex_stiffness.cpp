@@ -80,7 +80,7 @@ void VertexStiffness::findPins(const FabricState& state, double end)
     const std::vector<Vec3> targets = pinTargets(fabric_, end);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
-        springs_.push_back({v, v, pinStiffness_[i] * Mat3::Identity(), pinStiffness_[i] * (state.x[v] - targets[i])});
+        springs_.push_back({{v, v, v}, {1.0, 0.0, 0.0}, pinStiffness_[i] * Mat3::Identity(), pinStiffness_[i] * (state.x[v] - targets[i])});
     }
     heldTorque_.resize(heldEdges_.size());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i)
@@ -109,13 +109,13 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     sumInner(state, h);
     findPins(state, t + h);
     for (const ObstacleContact& contact : obstacles) {
-        const int a = contact.vertex, b = contact.isEdge() ? contact.other : a;
+        const std::array<int, 3> v = contact.vertices();
+        const std::array<double, 3> share = contact.shares();
+        const Vec3 ahead = share[0] * predicted[v[0]] + share[1] * predicted[v[1]] + share[2] * predicted[v[2]];
         // Known at the predicted position; by its derivative, at the present one.
-        springs_.push_back({a, b, contact.stiffness,
-                            contact.gradient - contact.stiffness * (0.5 * h * (predicted[a] + predicted[b]))});
+        springs_.push_back({v, share, contact.stiffness, contact.gradient - contact.stiffness * (h * ahead)});
     }
-    for (const Spring& s : springs_)
-        for (int v : {s.vertex, s.other}) add(gradient_, v, 0.5 * s.gradient);
+    for (const Spring& s : springs_) addToPoint(gradient_, s, s.gradient);
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
 }
 
@@ -133,7 +133,7 @@ VertexStiffness::Work VertexStiffness::work(const FabricState& state, double h, 
     const double all = given([&] { multiply(u, product); });
     for (std::size_t i = 0; i < springs_.size(); ++i) {
         const Spring& s = springs_[i];
-        const Vec3 mean = 0.5 * (at(u, s.vertex) + at(u, s.other));
+        const Vec3 mean = atPoint(u, s);
         (i < pinStiffness_.size() ? work.pins : work.obstacles) -=
             mean.dot(h * s.gradient + h * h * (s.stiffness * mean));
     }
@@ -181,11 +181,7 @@ void VertexStiffness::multiplyInner(AlignedArray<double>& in, AlignedArray<doubl
 void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& out) const
 {
     multiplyInner(in, out);
-    for (const Spring& s : springs_) {
-        const Vec3 half = 0.25 * (s.stiffness * (at(in, s.vertex) + at(in, s.other)));
-        add(out, s.vertex, half);
-        add(out, s.other, half);
-    }
+    for (const Spring& s : springs_) addToPoint(out, s, s.stiffness * atPoint(in, s));
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
         const int slot = unknowns_.twistSlot[heldEdges_[i]];
         out[slot] += heldStiffness_[i] * in[slot];

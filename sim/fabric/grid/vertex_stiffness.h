@@ -6,6 +6,7 @@
 #include "sim/fabric/shells/shells.h"
 #include "sim/fabric/vertex_unknowns.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -62,9 +63,10 @@ class VertexStiffness {
     struct Shared {
         int slot, ownerSlot;
     };
-    /// What acts on a vertex, or on the middle between two.
+    /// What acts on a point: a vertex, or one of an edge or a face.
     struct Spring {
-        int vertex, other;
+        std::array<int, 3> vertices;
+        std::array<double, 3> shares;  ///< of them in the point [-]
         Mat3 stiffness;  ///< [dyn/cm]
         Vec3 gradient;   ///< at the state [dyn]
     };
@@ -77,6 +79,16 @@ class VertexStiffness {
     void sumInner(const FabricState& state, double h);
     void multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const;
     void findPins(const FabricState& state, double end);
+    /// Of what the vertices have, at a spring's point.
+    Vec3 atPoint(const AlignedArray<double>& u, const Spring& s) const
+    {
+        return s.shares[0] * at(u, s.vertices[0]) + s.shares[1] * at(u, s.vertices[1]) + s.shares[2] * at(u, s.vertices[2]);
+    }
+    void addToPoint(AlignedArray<double>& u, const Spring& s, const Vec3& value) const
+    {
+        for (int k = 0; k < 3; ++k)
+            if (s.shares[k] != 0.0) add(u, s.vertices[k], s.shares[k] * value);
+    }
 
     const Fabric& fabric_;
     Rods rods_;

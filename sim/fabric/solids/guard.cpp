@@ -1,0 +1,344 @@
+#include "sim/fabric/solids/guard.h"
+
+#include "sim/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sim {
+
+using namespace solids;
+
+namespace {
+
+constexpr double kCore = 0.57;        ///< distance that is kept, as between pairs of fabric [radii]
+constexpr double kKept = 0.85;        ///< what begins nearer keeps this share of its distance on the way: less than kNearestError leaves [-] …
+constexpr double kStays = 1.0e-6;     ///< … and ends no nearer than it began, but for this share [-]
+constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
+constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
+constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
+constexpr double kDrawn = 0.5;        ///< towards the solid's own motion in one of them [-]
+
+/// Around all ways; without moves, around all places.
+Eigen::AlignedBox3d boxAround(std::span<const Vec3> x, std::span<const Vec3> u)
+{
+    const Eigen::AlignedBox3d nothing;
+    return parallelReduce(
+        x.size(), nothing, [&](std::size_t v) { return u.empty() ? Eigen::AlignedBox3d(x[v]) : Eigen::AlignedBox3d(x[v]).extend(x[v] + u[v]); },
+        [](const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) { return a.merged(b); });
+}
+
+}  // namespace
+
+SolidGuard::SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> obstacles) : fabric_(&fabric)
+{
+    for (const ObstacleSettings& obstacle : obstacles) {
+        if (!obstacle.collide || obstacle.shape.empty()) continue;
+        Body& body = bodies_.emplace_back();
+        body.shape = obstacle.shape;
+        body.motion = obstacle.motion;
+        body.steepest = obstacle.shape.steepest();
+        body.distance.resize(fabric.vertexCount());
+        body.clear.resize(fabric.vertexCount());
+    }
+    if (bodies_.empty()) return;
+    for (const Vec2i& e : fabric.edges.vertices) elements_.push_back({e[0], e[1], -1});
+    for (const Vec3i& f : fabric.faces.vertices) elements_.push_back({f[0], f[1], f[2]});
+    slid_.resize(fabric.vertexCount());
+    moveTo(0.0, 0.0);
+}
+
+void SolidGuard::moveTo(double t0, double t1)
+{
+    for (Body& body : bodies_) {
+        body.moves = body.motion.moves(t0, t1);
+        body.end = body.motion.transform(t1);
+        body.toEnd = body.end.inverse();
+        body.toBegin = body.moves ? body.motion.transform(t0).inverse() : body.toEnd;
+    }
+}
+
+void SolidGuard::rest()
+{
+    for (Body& body : bodies_) {
+        body.moves = false;
+        body.toBegin = body.toEnd;
+    }
+}
+
+bool SolidGuard::anyMoves() const
+{
+    return std::ranges::any_of(bodies_, [](const Body& body) { return body.isNear && body.moves; });
+}
+
+/// Solids whose boxes the fabric meets on its way.
+void SolidGuard::findNear(Points x, std::span<const Vec3> u)
+{
+    isNear_ = false;
+    const Eigen::AlignedBox3d fabric = boxAround(x, u);
+    const double reach = std::ranges::max(fabric_->radius);
+    for (Body& body : bodies_) {
+        const Eigen::AlignedBox3d solid = body.shape.bounds();
+        Eigen::AlignedBox3d seen;
+        for (const Eigen::Isometry3d* to : {&body.toBegin, &body.toEnd})
+            for (int c = 0; c < 8; ++c) seen.extend(*to * fabric.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c)));
+        body.isNear = (seen.min().array() - reach <= solid.max().array()).all() && (seen.max().array() + reach >= solid.min().array()).all();
+        isNear_ = isNear_ || body.isNear;
+    }
+}
+
+/// Distances at the start, and what may be left of them on the way.
+void SolidGuard::measure(Points x, std::span<const Vec3> u)
+{
+    for (Body& body : bodies_) {
+        if (!body.isNear) continue;
+        parallelFor(x.size(), 512, [&](std::size_t v) {
+            const Vec3 from = body.toBegin * x[v];
+            body.distance[v] = body.shape.distance(from);
+            body.clear[v] = body.distance[v];
+            if (!u.empty()) body.clear[v] -= body.steepest * (body.toEnd * (x[v] + u[v]) - from).norm();
+        });
+    }
+}
+
+SweptElement SolidGuard::swept(const Body& body, Points x, std::span<const Vec3> u, const int* vertices, int corners) const
+{
+    SweptElement element;
+    element.corners = corners;
+    for (int c = 0; c < corners; ++c) {
+        const int v = vertices[c];
+        element.from[c] = body.toBegin * x[v];
+        element.to[c] = body.toEnd * (x[v] + u[v]);
+    }
+    return element;
+}
+
+double SolidGuard::leastRadius(const int* vertices, int corners) const
+{
+    double radius = fabric_->radius[vertices[0]];
+    for (int c = 1; c < corners; ++c) radius = std::min(radius, fabric_->radius[vertices[c]]);
+    return radius;
+}
+
+/// Vertices stop at surfaces and go on along them.
+bool SolidGuard::slide(Points x, Moves u)
+{
+    parallelFor(x.size(), 512, [&](std::size_t v) {
+        slid_[v] = 0;
+        if (fabric_->pinned[v]) return;
+        for (int n = 0; n <= kSlides; ++n) {
+            bool any = false;
+            for (const Body& body : bodies_)
+                if (body.isNear) any = slide(body, v, n == kSlides, x[v], u[v]) || any;
+            if (!any) return;
+            slid_[v] = 1;
+        }
+    });
+    return std::ranges::any_of(slid_, [](char c) { return c != 0; });
+}
+
+bool SolidGuard::slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const
+{
+    const double kept = kCore * fabric_->radius[v], distance = body.distance[v];
+    const Vec3 from = body.toBegin * x, to = body.toEnd * (x + u);
+    if (distance <= 0.0 || distance - body.steepest * (to - from).norm() >= kept) return false;
+    SweptElement point;
+    point.corners = 1;
+    point.from[0] = from;
+    point.to[0] = to;
+    const SafePart safe = solids::safePart(body.shape, point, distance >= kept ? kept : kKept * distance);
+    const Vec3 at = from + safe.part * (to - from), n = body.shape.normal(at);
+    const double left = body.shape.distance(at);
+    if (safe.part >= 1.0 && left >= std::min(kept, (1.0 - kStays) * distance)) return false;
+    const double away = std::max(0.0, kept - left);
+    Vec3 end = safe.part < 1.0 ? at : from;
+    if (!isLast) end = to + (away - std::min(0.0, n.dot(to - at))) * n;
+    u = body.end * end - x;
+    return true;
+}
+
+/// Can any point of an element come as near as `distance`? A quick look from its corners: no point of an edge is further from both ends than
+/// half its length, none of a face further from its nearest corner than its longest side by √3.
+bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const
+{
+    double clear = std::numeric_limits<double>::infinity(), longest = 0.0;
+    for (int c = 0; c < corners; ++c) {
+        clear = std::min(clear, body.clear[vertices[c]]);
+        longest = std::max(longest, (x[vertices[c]] - x[vertices[(c + 1) % corners]]).squaredNorm());
+    }
+    const double size = std::sqrt(corners == 3 ? longest / 3.0 : 0.25 * longest);
+    return clear - body.steepest * size < distance;
+}
+
+/// Appends an element that comes too near, or its parts, if the element itself begins inside of the solid.
+void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const
+{
+    const Body& body = bodies_[number];
+    const double kept = kCore * leastRadius(vertices, corners);
+    const auto lookAtParts = [&] {
+        for (int c = 0; corners > 1 && c < corners; ++c) {
+            const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
+            look(number, x, u, part.data(), corners - 1, out);
+        }
+    };
+    if (std::any_of(vertices, vertices + corners, [&](int v) { return body.distance[v] <= 0.0; })) return lookAtParts();
+    const SweptElement element = swept(body, x, u, vertices, corners);
+    SafePart safe = solids::safePart(body.shape, element, kept);
+    if (safe.part >= 1.0) return;
+    const Nearest nearest = nearestTo(body.shape, {element.from.data(), static_cast<std::size_t>(corners)}, kept);
+    if (nearest.reached <= 0.0) return lookAtParts();
+    double lack = 0.0;
+    if (kKept * nearest.least < kept) {
+        safe = solids::safePart(body.shape, element, kKept * std::max(0.0, nearest.least));
+        const Nearest last = nearestTo(body.shape, {element.to.data(), static_cast<std::size_t>(corners)}, kept);
+        if (safe.part >= 1.0) {
+            if (last.reached >= std::min(kept, (1.0 - kStays) * nearest.least)) return;
+            safe.weights = last.weights;
+            lack = kept - last.reached;
+        } else {
+            lack = std::max(0.0, kept - nearest.least);
+        }
+    }
+    Blocked& blocked = out.emplace_back();
+    blocked.body = number;
+    blocked.corners = corners;
+    std::copy_n(vertices, corners, blocked.vertices.begin());
+    blocked.part = safe.part;
+    blocked.lack = lack;
+    blocked.weights = safe.weights;
+}
+
+/// What look(body, element, out) appends for each solid that is near and each element that is not held, in their order.
+template <class Found, class Look>
+void SolidGuard::collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
+{
+    all.clear();
+    const Chunks chunks(elements_.size());
+    ofChunk.resize(chunks.count());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (!bodies_[b].isNear) continue;
+        parallelFor(chunks.count(), [&](std::size_t chunk) {
+            ofChunk[chunk].clear();
+            for (std::size_t e = chunks.begin(chunk); e < chunks.end(chunk); ++e) {
+                const std::array<int, 3>& v = elements_[e];
+                const bool isHeld = fabric_->pinned[v[0]] && fabric_->pinned[v[1]] && (v[2] < 0 || fabric_->pinned[v[2]]);
+                if (!isHeld) look(static_cast<int>(b), v, ofChunk[chunk]);
+            }
+        });
+        for (const std::vector<Found>& found : ofChunk) all.insert(all.end(), found.begin(), found.end());
+    }
+}
+
+void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
+{
+    collect(ofChunk_, blocked_, [&](int body, const std::array<int, 3>& vertices, std::vector<Blocked>& out) {
+        const int corners = vertices[2] < 0 ? 2 : 3;
+        if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
+            look(body, x, u, vertices.data(), corners, out);
+    });
+}
+
+/// Appends the nearest point of an element, if it touches, and no vertex does so for it.
+void SolidGuard::addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const
+{
+    const int corners = vertices[2] < 0 ? 2 : 3;
+    const double radius = leastRadius(vertices.data(), corners);
+    if (!mayTouch(body, x, vertices.data(), corners, radius)) return;
+    std::array<Vec3, 3> at;
+    double nearestCorner = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < corners; ++c) {
+        at[c] = body.toEnd * x[vertices[c]];
+        nearestCorner = std::min(nearestCorner, body.distance[vertices[c]]);
+    }
+    const Nearest nearest = nearestTo(body.shape, {at.data(), static_cast<std::size_t>(corners)}, radius);
+    if (nearest.reached <= 0.0 || nearest.reached >= std::min(radius, nearestCorner)) return;
+    if (nearest.weights.maxCoeff() < kInterior) out.push_back({corners, vertices, nearest.weights, radius});
+}
+
+const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
+{
+    nearest_.clear();
+    if (bodies_.empty()) return nearest_;
+    findNear(x, {});
+    if (!isNear_) return nearest_;
+    measure(x, {});
+    collect(nearestOfChunk_, nearest_, [&](int body, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) {
+        addNearest(bodies_[body], x, vertices, out);
+    });
+    return nearest_;
+}
+
+/// One after the other: approaches along the normal where an element is nearest become blows without bounce.
+void SolidGuard::push(Points x, std::span<const double> mass, Moves u) const
+{
+    for (const Blocked& b : blocked_) {
+        const Body& body = bodies_[b.body];
+        const SweptElement element = swept(body, x, u, b.vertices.data(), b.corners);
+        const Vec3 at = element.at(b.weights, b.part), n = body.shape.normal(at);
+        const double excess = b.lack - n.dot(element.at(b.weights, 1.0) - at);
+        double compliance = 0.0;
+        for (int c = 0; c < b.corners; ++c)
+            if (const int v = b.vertices[c]; !fabric_->pinned[v]) compliance += b.weights[c] * b.weights[c] / mass[v];
+        if (!(excess > 0.0) || compliance == 0.0) continue;
+        const Vec3 blow = excess / compliance * (body.end.linear() * n);
+        for (int c = 0; c < b.corners; ++c)
+            if (const int v = b.vertices[c]; !fabric_->pinned[v]) u[v] += b.weights[c] / mass[v] * blow;
+    }
+}
+
+/// Draws moves of what is blocked towards going with the solid.
+void SolidGuard::draw(Points x, double share, Moves u) const
+{
+    for (const Blocked& b : blocked_) {
+        const Body& body = bodies_[b.body];
+        for (int c = 0; c < b.corners; ++c) {
+            const int v = b.vertices[c];
+            if (!fabric_->pinned[v]) u[v] += share * (body.end * (body.toBegin * x[v]) - x[v] - u[v]);
+        }
+    }
+}
+
+bool SolidGuard::limit(Points x, std::span<const double> mass, Moves u, GuardReport& report)
+{
+    isNear_ = false;
+    if (bodies_.empty()) return false;
+    findNear(x, u);
+    if (!isNear_) return false;
+    measure(x, u);
+    bool changed = slide(x, u);
+    for (int round = 0;; ++round) {
+        if (round > 0) findNear(x, u);
+        if (round > 0 || changed) measure(x, u);
+        findBlocked(x, u);
+        if (blocked_.empty()) return changed;
+        if (round == kPushes + kDraws + kCarries) break;
+        if (round == 0) report.blocked += static_cast<int>(blocked_.size());
+        changed = true;
+        if (round < kPushes) {
+            push(x, mass, u);
+            slide(x, u);
+        } else {
+            draw(x, round < kPushes + kDraws ? kDrawn : 1.0, u);
+        }
+    }
+    // What pins draw into solids nothing else can help.
+    report.left += static_cast<int>(std::ranges::count_if(blocked_, [&](const Blocked& b) {
+        return std::none_of(b.vertices.begin(), b.vertices.begin() + b.corners, [&](int v) { return fabric_->pinned[v] != 0; });
+    }));
+    return changed;
+}
+
+double SolidGuard::safePart(Points x, std::span<const Vec3> u)
+{
+    if (bodies_.empty()) return 1.0;
+    findNear(x, u);
+    if (!isNear_) return 1.0;
+    measure(x, u);
+    findBlocked(x, u);
+    double part = 1.0;
+    for (const Blocked& b : blocked_) part = std::min(part, b.part);
+    return part;
+}
+
+}  // namespace sim

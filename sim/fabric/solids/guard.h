@@ -1,0 +1,101 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/solids/sweep.h"
+#include "sim/scene/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// What keeping moves in front of solids took.
+struct GuardReport {
+    int blocked = 0;  ///< edges and faces whose moves had to be changed
+    int left = 0;     ///< … and that still get through or too near: what is squeezed between solids, or held by pins
+};
+
+/// Where an edge or a face touches a solid with none of its vertices.
+struct NearestPoint {
+    int corners = 0;                ///< 2 or 3
+    std::array<int, 3> vertices{};
+    Vec3 weights = Vec3::Zero();    ///< [-]
+    double radius = 0.0;            ///< of the fabric [cm]
+};
+
+/// Fabric never gets through a solid's surface. Moves are looked at in the frame of each solid, in which it rests while corners of the
+/// fabric go straight from where they are at the start of a step to where they are at its end: no point of an edge or a face may come
+/// nearer than a part of its radius on the way, however thin, pointed or fast the solid is. What would is stopped at the surface, slides
+/// along it, or is carried ahead. What begins nearer may come no nearer still, and what begins inside of a solid is free to leave it: of
+/// faces that a solid pierces their edges are looked at, of such edges their ends.
+class SolidGuard {
+ public:
+    SolidGuard() = default;
+    /// Against those of the scene that fabric feels.
+    SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> obstacles);
+
+    bool empty() const { return bodies_.empty(); }
+    /// The next moves are made while solids go from where they are at t0 to where they are at t1 [s] …
+    void moveTo(double t0, double t1);
+    /// … and those after them while they rest there.
+    void rest();
+    bool anyMoves() const;
+
+    /// Makes the moves u from x safe [cm], but for those of pinned vertices.
+    /// @param mass  of each vertex [g]
+    /// @return whether it changed any
+    bool limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
+    /// Was any fabric near a solid, in the last limit()?
+    bool isNear() const { return isNear_; }
+    /// Points at which edges of yarns and faces are nearer to solids than their radius, and than their vertices; solids must rest.
+    const std::vector<NearestPoint>& nearestPoints(std::span<const Vec3> x);
+    /// Safe part of all moves together [0..1].
+    double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
+
+ private:
+    struct Body {
+        Shape shape;
+        Motion motion;
+        double steepest;                               ///< slope of its distance [-]
+        Eigen::Isometry3d end, toBegin, toEnd;         ///< from its frame at the end, and into it at both ends of the moves
+        bool moves = false, isNear = false;
+        std::vector<double> distance, clear;           ///< of each vertex: at the start, and less its way past the solid [cm]
+    };
+    /// One that comes too near on its way.
+    struct Blocked {
+        int body, corners;
+        std::array<int, 3> vertices;
+        double part;       ///< of the way that is safe [0..1]
+        double lack;       ///< of its distance at the start: this much it should get away [cm]
+        Vec3 weights;      ///< of the corners where it is nearest [-]
+    };
+    using Moves = std::span<Vec3>;
+    using Points = std::span<const Vec3>;
+
+    void findNear(Points x, std::span<const Vec3> u);
+    void measure(Points x, std::span<const Vec3> u);
+    solids::SweptElement swept(const Body& body, Points x, std::span<const Vec3> u, const int* vertices, int corners) const;
+    bool slide(Points x, Moves u);
+    bool slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const;
+    void findBlocked(Points x, std::span<const Vec3> u);
+    void look(int body, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
+    bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
+    void addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
+    double leastRadius(const int* vertices, int corners) const;
+    template <class Found, class Look>
+    void collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
+    void push(Points x, std::span<const double> mass, Moves u) const;
+    void draw(Points x, double share, Moves u) const;
+
+    const Fabric* fabric_ = nullptr;
+    std::vector<Body> bodies_;
+    std::vector<std::array<int, 3>> elements_;         ///< edges of yarns, whose third vertex is −1, and faces
+    bool isNear_ = false;
+    std::vector<char> slid_;
+    std::vector<std::vector<Blocked>> ofChunk_;
+    std::vector<Blocked> blocked_;
+    std::vector<std::vector<NearestPoint>> nearestOfChunk_;
+    std::vector<NearestPoint> nearest_;
+};
+
+}  // namespace sim
