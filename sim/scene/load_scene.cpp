@@ -9,6 +9,7 @@
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/section_writer.h"
+#include "sim/shapes/thickness.h"
 
 #include <fmt/format.h>
 
@@ -124,6 +125,18 @@ void readSettings(const Node& root, Settings& settings, std::vector<NamedMateria
     materials = readMaterials(root, settings.porous);
 }
 
+/// Tells of walls between which and the liquid the grid sees little.
+void noteThinWalls(Scene& scene)
+{
+    constexpr double kCells = 2.0;
+    const double cell = scene.settings.cell;
+    for (const ObstacleSettings& solid : scene.obstacles)
+        if (const double thick = thicknessOf(solid.shape, cell); thick < kCells * cell)
+            scene.notes.push_back(fmt::format("{}: obstacle {} is {:.2g} cm thick, {:.2g} cells: liquid does not pass it, but what flows close to its two sides is as coarse as a cell; "
+                                              "a grid.cell of {:.2g} cm would resolve it",
+                                              solid.where, solid.name, thick, thick / cell, thick / kCells));
+}
+
 Scene readScene(const SceneFile& file)
 {
     Scene scene;
@@ -144,6 +157,7 @@ Scene readScene(const SceneFile& file)
     for (const FabricPiece& piece : scene.fabrics) scene.notes.insert(scene.notes.end(), piece.notes.begin(), piece.notes.end());
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());
+    if (!scene.sources.empty()) noteThinWalls(scene);
     checkCoupling(scene);
     scene.changes = readChanges(root, scene);
     return scene;

@@ -1,0 +1,41 @@
+#include "sim/shapes/thickness.h"
+
+#include "sim/core/units.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace sim::test {
+namespace {
+
+TEST(Thickness, IsThatOfThePlateHoweverItIsTurned)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int n = 0; n < 30; ++n) {
+        const double thick = 0.02 * std::pow(10.0, 0.5 * (unit(random) + 1.0));
+        const Eigen::Isometry3d turn(Eigen::AngleAxisd(kPi * unit(random), Vec3(unit(random), unit(random), unit(random)).normalized()));
+        const Shape plate = Shape::box(Vec3(unit(random), unit(random), 0.0), {2.0, 0.5 * thick, 1.5}).moved(turn);
+        EXPECT_NEAR(thicknessOf(plate, 0.25), thick, 0.01) << n;
+    }
+}
+
+TEST(Thickness, OfAVesselIsThatOfItsWall)
+{
+    const Shape vessel = Shape::subtract({Shape::box(Vec3::Zero(), {1.1, 2.1, 1.1}), Shape::box(Vec3(0.0, 0.5, 0.0), {1.0, 2.5, 1.0})});
+    EXPECT_NEAR(thicknessOf(vessel, 0.2), 0.1, 0.01);
+    const Shape bowl = Shape::subtract({Shape::ball(Vec3::Zero(), 1.0), Shape::ball(Vec3::Zero(), 0.95), Shape::box({0.0, 1.0, 0.0}, {2.0, 1.0, 2.0})});
+    EXPECT_NEAR(thicknessOf(bowl, 0.2), 0.05, 0.02);
+}
+
+TEST(Thickness, OfWhatIsNowhereThinIsItsSize)
+{
+    EXPECT_NEAR(thicknessOf(Shape::ball({1.0, 2.0, 3.0}, 1.5), 0.25), 3.0, 0.1);
+    EXPECT_GT(thicknessOf(Shape::box(Vec3::Zero(), {1.0, 1.0, 1.0}), 0.25), 1.0);
+    EXPECT_TRUE(std::isinf(thicknessOf(Shape::box(Vec3::Zero(), {1.0, 1.0, 1.0}).inverted(), 0.25)));
+    EXPECT_TRUE(std::isinf(thicknessOf(Shape(), 0.25)));
+}
+
+}  // namespace
+}  // namespace sim::test
