@@ -173,7 +173,7 @@ class Flow {
     Flow(const Scene& scene, std::size_t source, const Emission& emission, double timeFrom, double timeTo, State& state)
         : scene_(scene), emission_(emission), source_(source), state_(state), memory_(state.memory.sources[source]),
           plan_(planFor(scene, source, timeFrom, state)), region_(regionOf(plan_)), pitch_(particleSpacing(plan_.fill, plan_.dx)),
-          speed_(emission.velocity.norm()), timeFrom_(timeFrom), time_(std::max(0.0, std::min(timeTo, emission.to) - std::max(timeFrom, emission.from)))
+          speed_(emission.velocity.norm()), timeFrom_(timeFrom), time_(std::max(0.0, std::min(timeTo, emission.to) - std::max(timeFrom, emission.from))), isLast_(emission.to <= timeTo)
     {
         plan_.velocity = emission.velocity;
         plan_.age = std::max(0.0, timeFrom - emission.from);
@@ -249,9 +249,10 @@ class Flow {
         const double asked = memory_.isShut ? 0.0 : packing() * size_.area * speed_ * time_, covered = coveredShare();
         memory_.owed += asked;
         // Layers come one by one, of which the first may be late: no more than that and the rounding to steps is no reason to press.
-        const double slack = layer() + 2.0 * asked;
+        const double slack = (1.0 - covered) * layer() + 2.0 * asked;
         const double share = covered > 0.0 ? memory_.toPress + covered * asked : 0.0;
-        memory_.toPress = covered == 1.0 ? memory_.owed : std::clamp(share, memory_.owed - slack, memory_.owed + slack);
+        const bool isAllPressed = covered == 1.0 || (covered > 0.0 && isLast_);
+        memory_.toPress = isAllPressed ? memory_.owed : std::clamp(share, memory_.owed - slack, memory_.owed + slack);
         memory_.toPress = std::max(0.0, memory_.toPress);
     }
 
@@ -331,6 +332,7 @@ class Flow {
     double time_;       ///< of it, in which it is asked for anything [s]
     MouthSize size_;
     bool isFirst_ = false;
+    bool isLast_;       ///< it ends within the step
 };
 
 /// Measures anew what may have changed.
