@@ -44,6 +44,7 @@ void FabricObstacles::findEdges(const Fabric& fabric)
         for (int v : e) share_[v] += 1.0;
     for (double& share : share_) share = share > 0.0 ? 1.0 / share : 0.0;
     nearest_.resize(fabric.vertexCount());
+    pushedOut_.resize(fabric.vertexCount());
 }
 
 void FabricObstacles::moveTo(double t0, double t1)
@@ -102,16 +103,24 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
     return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), kStiffness)};
 }
 
-/// The contacts of a point.
-void FabricObstacles::collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const
+/// The contacts of a point; how far they push it [cm].
+Vec3 FabricObstacles::collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const
 {
+    Vec3 pushedOut = Vec3::Zero();
     for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
         const std::optional<Touch> touching = touch(point, body, start);
         if (!touching) continue;
         const Vec3& n = touching->normal;
+        pushedOut += touching->push / touching->stiffness * n;
         out.push_back({vertex, other, {point.number, body}, touching->friction.force - touching->push * n,
                        touching->stiffness * n * n.transpose() + touching->friction.matrix(n)});
     }
+    return pushedOut;
+}
+
+bool FabricObstacles::touches(const Vec3& x, double reach) const
+{
+    return std::ranges::any_of(bodies_, [&](const Body& body) { return body.pose.distance(x) < reach; });
 }
 
 const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
@@ -131,12 +140,16 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
         nearest_[v] = std::numeric_limits<double>::infinity();
         for (const Body& body : bodies_) nearest_[v] = std::min(nearest_[v], body.pose.distance(x[v]));
         const Point point = vertexPoint(fabric, static_cast<int>(v), x, start);
-        if (!fabric.pinned[v] && nearest_[v] < point.reach) collect(point, static_cast<int>(v), ObstacleContact::kNone, start, out);
+        pushedOut_[v].setZero();
+        if (!fabric.pinned[v] && nearest_[v] < point.reach) pushedOut_[v] = collect(point, static_cast<int>(v), ObstacleContact::kNone, start, out);
     });
     collectFrom(edges_.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
         const int a = edges_[i][0], b = edges_[i][1];
         const Point point = edgePoint(fabric, static_cast<int>(i), x, start);
-        if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() < point.reach) collect(point, a, b, start, out);
+        if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() >= point.reach) return;
+        // A middle that its ends will lift off is left to them: a spring of its own would pull it back.
+        const Vec3 lifted = point.x + 0.5 * (pushedOut_[a] + pushedOut_[b]);
+        if (touches(lifted, point.reach)) collect(point, a, b, start, out);
     });
     collectFrom(nearest.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
         const NearestPoint& p = nearest[i];

@@ -92,7 +92,8 @@ class FabricObstacles {
     Point edgePoint(const Fabric& fabric, int edge, std::span<const Vec3> x, const Start& start) const;
     Point nearestPoint(const Fabric& fabric, const NearestPoint& p, std::span<const Vec3> x, const Start& start) const;
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
-    void collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const;
+    Vec3 collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const;
+    bool touches(const Vec3& x, double reach) const;
 
     static constexpr int kNameless = -1;    ///< number of points of which no friction is remembered
 
@@ -100,6 +101,7 @@ class FabricObstacles {
     std::vector<Vec2i> edges_;              ///< of yarns and of cloth
     std::vector<double> share_;             ///< of each vertex: part of its mass that each of its edges stands for [-]
     std::vector<double> nearest_;           ///< of each vertex: distance of the nearest obstacle [cm]
+    std::vector<Vec3> pushedOut_;           ///< of each vertex: how far it is pushed out of obstacles [cm]
     std::vector<std::vector<ObstacleContact>> ofChunk_;
     std::vector<ObstacleContact> contacts_;
 };

@@ -94,7 +94,8 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
         const double most = expectedMove * fabric_.radius[v], size = byForces.norm();
         free_[v] = state.x[v] + move_[v];
         expected_[v] = move_[v] + byForces;
-        move_[v] += (size > most ? most / size : 1.0) * byForces;
+        const bool stays = expected_[v].squaredNorm() <= most * most;  // and so feels what it feels where it is
+        move_[v] += (size > most && !stays ? most / size : 1.0) * byForces;
     });
     const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
     for (std::size_t i = 0; i < targets.size(); ++i) {
