@@ -12,7 +12,7 @@ namespace sim {
 /// What keeping moves in front of solids took.
 struct GuardReport {
     int blocked = 0;  ///< edges and faces whose moves had to be changed
-    int left = 0;     ///< … and that still get through or too near: what is squeezed between solids, or held by pins
+    int left = 0;     ///< … and that still get through or too near: they are squeezed between solids
 };
 
 /// Where an edge or a face touches a solid with none of its vertices.
@@ -27,7 +27,7 @@ struct NearestPoint {
 /// fabric go straight from where they are at the start of a step to where they are at its end: no point of an edge or a face may come
 /// nearer than a part of its radius on the way, however thin, pointed or fast the solid is. What would is stopped at the surface, slides
 /// along it, or is carried ahead. What begins nearer may come no nearer still, and what begins inside of a solid is free to leave it: of
-/// faces that a solid pierces their edges are looked at, of such edges their ends.
+/// faces that a solid pierces their edges are looked at, of such edges their ends; likewise of what pins draw into a solid.
 class SolidGuard {
  public:
     SolidGuard() = default;
@@ -63,7 +63,7 @@ class SolidGuard {
     };
     /// One that comes too near on its way.
     struct Blocked {
-        int body, corners;
+        int body, element, corners;
         std::array<int, 3> vertices;
         double part;       ///< of the way that is safe [0..1]
         double lack;       ///< of its distance at the start: this much it should get away [cm]
@@ -78,7 +78,9 @@ class SolidGuard {
     bool slide(Points x, Moves u);
     bool slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const;
     void findBlocked(Points x, std::span<const Vec3> u);
-    void look(int body, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
+    void look(int body, int element, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
+    bool isHeld(const int* vertices, int corners) const;
+    void leaveToPins();
     bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
     void addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
     double leastRadius(const int* vertices, int corners) const;
@@ -92,6 +94,7 @@ class SolidGuard {
     std::vector<std::array<int, 3>> elements_;         ///< edges of yarns, whose third vertex is −1, and faces
     bool isNear_ = false;
     std::vector<char> slid_;
+    std::vector<char> isLeft_;                         ///< of each element: pins draw it through a solid in this step
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
     std::vector<std::vector<NearestPoint>> nearestOfChunk_;
