@@ -45,7 +45,12 @@ SolidGuard::SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> o
     }
     if (bodies_.empty()) return;
     for (const Vec2i& e : fabric.edges.vertices) elements_.push_back({e[0], e[1], -1});
-    for (const Vec3i& f : fabric.faces.vertices) elements_.push_back({f[0], f[1], f[2]});
+    for (const Vec3i& f : fabric.faces.vertices) {
+        elements_.push_back({f[0], f[1], f[2]});
+        for (int k = 0; k < 3; ++k) clothEdges_.push_back({std::min(f[k], f[(k + 1) % 3]), std::max(f[k], f[(k + 1) % 3]), -1});
+    }
+    std::ranges::sort(clothEdges_);
+    clothEdges_.erase(std::unique(clothEdges_.begin(), clothEdges_.end()), clothEdges_.end());
     slid_.resize(fabric.vertexCount());
     isLeft_.resize(elements_.size());
     moveTo(0.0, 0.0);
@@ -221,30 +226,30 @@ void SolidGuard::look(int number, int name, Points x, std::span<const Vec3> u, c
     blocked.weights = safe.weights;
 }
 
-/// What look(body, element, out) appends for each solid that is near and each element that can move, in their order.
+/// Appends what look(body, element, out) gives for each solid that is near and each element that can move, in their order.
 template <class Found, class Look>
-void SolidGuard::collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
+void SolidGuard::collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
 {
-    all.clear();
-    const Chunks chunks(elements_.size());
-    ofChunk.resize(chunks.count());
+    const Chunks chunks(elements.size());
+    ofChunk.resize(std::max(ofChunk.size(), chunks.count()));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         if (!bodies_[b].isNear) continue;
         parallelFor(chunks.count(), [&](std::size_t chunk) {
             ofChunk[chunk].clear();
             for (std::size_t e = chunks.begin(chunk); e < chunks.end(chunk); ++e) {
-                const std::array<int, 3>& v = elements_[e];
+                const std::array<int, 3>& v = elements[e];
                 const bool isFree = !fabric_->pinned[v[0]] || !fabric_->pinned[v[1]] || (v[2] >= 0 && !fabric_->pinned[v[2]]);
                 if (isFree) look(static_cast<int>(b), static_cast<int>(e), ofChunk[chunk]);
             }
         });
-        for (const std::vector<Found>& found : ofChunk) all.insert(all.end(), found.begin(), found.end());
+        for (std::size_t c = 0; c < chunks.count(); ++c) all.insert(all.end(), ofChunk[c].begin(), ofChunk[c].end());
     }
 }
 
 void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
 {
-    collect(ofChunk_, blocked_, [&](int body, int element, std::vector<Blocked>& out) {
+    blocked_.clear();
+    collect(elements_, ofChunk_, blocked_, [&](int body, int element, std::vector<Blocked>& out) {
         const std::array<int, 3>& vertices = elements_[element];
         const int corners = vertices[2] < 0 ? 2 : 3;
         if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
@@ -276,9 +281,11 @@ const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
     findNear(x, {});
     if (!isNear_) return nearest_;
     measure(x, {});
-    collect(nearestOfChunk_, nearest_, [&](int body, int element, std::vector<NearestPoint>& out) {
-        addNearest(bodies_[body], x, elements_[element], out);
-    });
+    // Of a face that lies across an edge of the solid any point along it may be nearest; those of the face's own edges are where it rests.
+    for (const Elements* elements : {&elements_, &clothEdges_})
+        collect(*elements, nearestOfChunk_, nearest_, [&](int body, int element, std::vector<NearestPoint>& out) {
+            addNearest(bodies_[body], x, (*elements)[element], out);
+        });
     return nearest_;
 }
 

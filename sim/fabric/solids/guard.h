@@ -47,7 +47,7 @@ class SolidGuard {
     bool limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
     /// Was any fabric near a solid, in the last limit()?
     bool isNear() const { return isNear_; }
-    /// Points at which edges of yarns and faces are nearer to solids than their radius, and than their vertices; solids must rest.
+    /// Points at which edges and faces are nearer to solids than their radius, and than their vertices; solids must rest.
     const std::vector<NearestPoint>& nearestPoints(std::span<const Vec3> x);
     /// Safe part of all moves together [0..1].
     double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
@@ -84,14 +84,16 @@ class SolidGuard {
     bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
     void addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
     double leastRadius(const int* vertices, int corners) const;
+    using Elements = std::vector<std::array<int, 3>>;
     template <class Found, class Look>
-    void collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
+    void collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
     void push(Points x, std::span<const double> mass, Moves u) const;
     void draw(Points x, double share, Moves u) const;
 
     const Fabric* fabric_ = nullptr;
     std::vector<Body> bodies_;
-    std::vector<std::array<int, 3>> elements_;         ///< edges of yarns, whose third vertex is −1, and faces
+    Elements elements_;                                ///< edges of yarns, whose third vertex is −1, and faces
+    Elements clothEdges_;                              ///< each once, likewise
     bool isNear_ = false;
     std::vector<char> slid_;
     std::vector<char> isLeft_;                         ///< of each element: pins draw it through a solid in this step
