@@ -22,18 +22,47 @@ Shape::Look Shape::over(std::span<const Vec3> corners) const
     return body_ ? body_->over(corners) : Look{kInfinity, kInfinity};
 }
 
+/// Where the distance, a convex function that falls at a, is lowest on the way from a to b: from where it rises if b is not it.
+static Vec3 lowestBetween(const Shape::Body& body, const Vec3& a, const Vec3& b)
+{
+    constexpr int kHalvings = 14;
+    const Vec3 way = b - a;
+    if (body.normal(b).dot(way) <= 0.0) return b;
+    double low = 0.0, high = 1.0;
+    for (int n = 0; n < kHalvings; ++n) {
+        const double t = 0.5 * (low + high);
+        (body.normal(a + t * way).dot(way) > 0.0 ? high : low) = t;
+    }
+    return a + 0.5 * (low + high) * way;
+}
+
 double Shape::steepest() const
 {
     return body_ ? body_->steepest() : 0.0;
 }
 
+/// The tangent plane in the middle, and then, while it bounds far less than the distance where it touches, those at the lowest points on the
+/// ways from there to the corner that lies deepest below each plane (Frank and Wolfe 1956). An edge of the body that runs along a hull is
+/// found by the second of them.
 Shape::Look Shape::Body::over(std::span<const Vec3> corners) const
 {
-    const Vec3 middle = meanOf(corners), n = normal(middle);
-    const double at = distance(middle);
-    double slope = 0.0;
-    for (const Vec3& x : corners) slope = std::min(slope, n.dot(x - middle));
-    return {at + slope, at};
+    constexpr int kPlanes = 5;
+    constexpr double kNear = 0.05;
+    Vec3 x = meanOf(corners);
+    double at = distance(x);
+    Look look{-std::numeric_limits<double>::infinity(), at};
+    for (int plane = 0; plane < kPlanes; ++plane) {
+        const Vec3 n = normal(x);
+        double slope = 0.0;
+        Vec3 deepest = x;
+        for (const Vec3& corner : corners)
+            if (const double s = n.dot(corner - x); s < slope) slope = s, deepest = corner;
+        look.least = std::max(look.least, at + slope);
+        if (at <= 0.0 || look.least >= (1.0 - kNear) * at) break;
+        x = lowestBetween(*this, x, deepest);
+        at = distance(x);
+    }
+    return look;
 }
 
 double Shape::Body::mostOver(std::span<const Vec3> corners) const

@@ -18,6 +18,7 @@ constexpr double kStays = 1.0e-6;     ///< … and ends no nearer than it began,
 constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
 constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
 constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
+constexpr int kHelped = 3;            ///< of those in which fabric goes with the solid, until what still fails is left to its pins
 constexpr double kDrawn = 0.5;        ///< towards the solid's own motion in one of them [-]
 
 /// Around all ways; without moves, around all places.
@@ -44,13 +45,20 @@ SolidGuard::SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> o
     }
     if (bodies_.empty()) return;
     for (const Vec2i& e : fabric.edges.vertices) elements_.push_back({e[0], e[1], -1});
-    for (const Vec3i& f : fabric.faces.vertices) elements_.push_back({f[0], f[1], f[2]});
+    for (const Vec3i& f : fabric.faces.vertices) {
+        elements_.push_back({f[0], f[1], f[2]});
+        for (int k = 0; k < 3; ++k) clothEdges_.push_back({std::min(f[k], f[(k + 1) % 3]), std::max(f[k], f[(k + 1) % 3]), -1});
+    }
+    std::ranges::sort(clothEdges_);
+    clothEdges_.erase(std::unique(clothEdges_.begin(), clothEdges_.end()), clothEdges_.end());
     slid_.resize(fabric.vertexCount());
+    isLeft_.resize(elements_.size());
     moveTo(0.0, 0.0);
 }
 
 void SolidGuard::moveTo(double t0, double t1)
 {
+    std::ranges::fill(isLeft_, 0);
     for (Body& body : bodies_) {
         body.moves = body.motion.moves(t0, t1);
         body.end = body.motion.transform(t1);
@@ -171,17 +179,25 @@ bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int c
     return clear - body.steepest * size < distance;
 }
 
-/// Appends an element that comes too near, or its parts, if the element itself begins inside of the solid.
-void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const
+/// Is any of them pinned?
+bool SolidGuard::isHeld(const int* vertices, int corners) const
 {
+    return std::any_of(vertices, vertices + corners, [&](int v) { return fabric_->pinned[v] != 0; });
+}
+
+/// Appends an element that comes too near, or its parts, if the element itself begins inside of the solid or is left to pins.
+void SolidGuard::look(int number, int name, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const
+{
+    if (corners == 1 && fabric_->pinned[*vertices]) return;
     const Body& body = bodies_[number];
     const double kept = kCore * leastRadius(vertices, corners);
     const auto lookAtParts = [&] {
         for (int c = 0; corners > 1 && c < corners; ++c) {
             const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
-            look(number, x, u, part.data(), corners - 1, out);
+            look(number, name, x, u, part.data(), corners - 1, out);
         }
     };
+    if (isLeft_[name] && isHeld(vertices, corners)) return lookAtParts();
     if (std::any_of(vertices, vertices + corners, [&](int v) { return body.distance[v] <= 0.0; })) return lookAtParts();
     const SweptElement element = swept(body, x, u, vertices, corners);
     SafePart safe = solids::safePart(body.shape, element, kept);
@@ -202,6 +218,7 @@ void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* 
     }
     Blocked& blocked = out.emplace_back();
     blocked.body = number;
+    blocked.element = name;
     blocked.corners = corners;
     std::copy_n(vertices, corners, blocked.vertices.begin());
     blocked.part = safe.part;
@@ -209,33 +226,34 @@ void SolidGuard::look(int number, Points x, std::span<const Vec3> u, const int* 
     blocked.weights = safe.weights;
 }
 
-/// What look(body, element, out) appends for each solid that is near and each element that is not held, in their order.
+/// Appends what look(body, element, out) gives for each solid that is near and each element that can move, in their order.
 template <class Found, class Look>
-void SolidGuard::collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
+void SolidGuard::collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
 {
-    all.clear();
-    const Chunks chunks(elements_.size());
-    ofChunk.resize(chunks.count());
+    const Chunks chunks(elements.size());
+    ofChunk.resize(std::max(ofChunk.size(), chunks.count()));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         if (!bodies_[b].isNear) continue;
         parallelFor(chunks.count(), [&](std::size_t chunk) {
             ofChunk[chunk].clear();
             for (std::size_t e = chunks.begin(chunk); e < chunks.end(chunk); ++e) {
-                const std::array<int, 3>& v = elements_[e];
-                const bool isHeld = fabric_->pinned[v[0]] && fabric_->pinned[v[1]] && (v[2] < 0 || fabric_->pinned[v[2]]);
-                if (!isHeld) look(static_cast<int>(b), v, ofChunk[chunk]);
+                const std::array<int, 3>& v = elements[e];
+                const bool isFree = !fabric_->pinned[v[0]] || !fabric_->pinned[v[1]] || (v[2] >= 0 && !fabric_->pinned[v[2]]);
+                if (isFree) look(static_cast<int>(b), static_cast<int>(e), ofChunk[chunk]);
             }
         });
-        for (const std::vector<Found>& found : ofChunk) all.insert(all.end(), found.begin(), found.end());
+        for (std::size_t c = 0; c < chunks.count(); ++c) all.insert(all.end(), ofChunk[c].begin(), ofChunk[c].end());
     }
 }
 
 void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
 {
-    collect(ofChunk_, blocked_, [&](int body, const std::array<int, 3>& vertices, std::vector<Blocked>& out) {
+    blocked_.clear();
+    collect(elements_, ofChunk_, blocked_, [&](int body, int element, std::vector<Blocked>& out) {
+        const std::array<int, 3>& vertices = elements_[element];
         const int corners = vertices[2] < 0 ? 2 : 3;
         if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
-            look(body, x, u, vertices.data(), corners, out);
+            look(body, element, x, u, vertices.data(), corners, out);
     });
 }
 
@@ -263,9 +281,11 @@ const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
     findNear(x, {});
     if (!isNear_) return nearest_;
     measure(x, {});
-    collect(nearestOfChunk_, nearest_, [&](int body, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) {
-        addNearest(bodies_[body], x, vertices, out);
-    });
+    // Of a face that lies across an edge of the solid any point along it may be nearest; those of the face's own edges are where it rests.
+    for (const Elements* elements : {&elements_, &clothEdges_})
+        collect(*elements, nearestOfChunk_, nearest_, [&](int body, int element, std::vector<NearestPoint>& out) {
+            addNearest(bodies_[body], x, (*elements)[element], out);
+        });
     return nearest_;
 }
 
@@ -299,6 +319,13 @@ void SolidGuard::draw(Points x, double share, Moves u) const
     }
 }
 
+/// Elements that come too near although all of them that can goes with the solid: their pins take them there.
+void SolidGuard::leaveToPins()
+{
+    for (const Blocked& b : blocked_)
+        if (isHeld(b.vertices.data(), b.corners)) isLeft_[b.element] = 1;
+}
+
 bool SolidGuard::limit(Points x, std::span<const double> mass, Moves u, GuardReport& report)
 {
     isNear_ = false;
@@ -320,12 +347,10 @@ bool SolidGuard::limit(Points x, std::span<const double> mass, Moves u, GuardRep
             slide(x, u);
         } else {
             draw(x, round < kPushes + kDraws ? kDrawn : 1.0, u);
+            if (round >= kPushes + kDraws + kHelped) leaveToPins();
         }
     }
-    // What pins draw into solids nothing else can help.
-    report.left += static_cast<int>(std::ranges::count_if(blocked_, [&](const Blocked& b) {
-        return std::none_of(b.vertices.begin(), b.vertices.begin() + b.corners, [&](int v) { return fabric_->pinned[v] != 0; });
-    }));
+    report.left += static_cast<int>(blocked_.size());
     return changed;
 }
 

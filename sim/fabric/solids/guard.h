@@ -12,7 +12,7 @@ namespace sim {
 /// What keeping moves in front of solids took.
 struct GuardReport {
     int blocked = 0;  ///< edges and faces whose moves had to be changed
-    int left = 0;     ///< … and that still get through or too near: what is squeezed between solids, or held by pins
+    int left = 0;     ///< … and that still get through or too near: they are squeezed between solids
 };
 
 /// Where an edge or a face touches a solid with none of its vertices.
@@ -27,7 +27,7 @@ struct NearestPoint {
 /// fabric go straight from where they are at the start of a step to where they are at its end: no point of an edge or a face may come
 /// nearer than a part of its radius on the way, however thin, pointed or fast the solid is. What would is stopped at the surface, slides
 /// along it, or is carried ahead. What begins nearer may come no nearer still, and what begins inside of a solid is free to leave it: of
-/// faces that a solid pierces their edges are looked at, of such edges their ends.
+/// faces that a solid pierces their edges are looked at, of such edges their ends; likewise of what pins draw into a solid.
 class SolidGuard {
  public:
     SolidGuard() = default;
@@ -47,7 +47,7 @@ class SolidGuard {
     bool limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
     /// Was any fabric near a solid, in the last limit()?
     bool isNear() const { return isNear_; }
-    /// Points at which edges of yarns and faces are nearer to solids than their radius, and than their vertices; solids must rest.
+    /// Points at which edges and faces are nearer to solids than their radius, and than their vertices; solids must rest.
     const std::vector<NearestPoint>& nearestPoints(std::span<const Vec3> x);
     /// Safe part of all moves together [0..1].
     double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
@@ -63,7 +63,7 @@ class SolidGuard {
     };
     /// One that comes too near on its way.
     struct Blocked {
-        int body, corners;
+        int body, element, corners;
         std::array<int, 3> vertices;
         double part;       ///< of the way that is safe [0..1]
         double lack;       ///< of its distance at the start: this much it should get away [cm]
@@ -78,20 +78,25 @@ class SolidGuard {
     bool slide(Points x, Moves u);
     bool slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const;
     void findBlocked(Points x, std::span<const Vec3> u);
-    void look(int body, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
+    void look(int body, int element, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
+    bool isHeld(const int* vertices, int corners) const;
+    void leaveToPins();
     bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
     void addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
     double leastRadius(const int* vertices, int corners) const;
+    using Elements = std::vector<std::array<int, 3>>;
     template <class Found, class Look>
-    void collect(std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
+    void collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
     void push(Points x, std::span<const double> mass, Moves u) const;
     void draw(Points x, double share, Moves u) const;
 
     const Fabric* fabric_ = nullptr;
     std::vector<Body> bodies_;
-    std::vector<std::array<int, 3>> elements_;         ///< edges of yarns, whose third vertex is −1, and faces
+    Elements elements_;                                ///< edges of yarns, whose third vertex is −1, and faces
+    Elements clothEdges_;                              ///< each once, likewise
     bool isNear_ = false;
     std::vector<char> slid_;
+    std::vector<char> isLeft_;                         ///< of each element: pins draw it through a solid in this step
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
     std::vector<std::vector<NearestPoint>> nearestOfChunk_;

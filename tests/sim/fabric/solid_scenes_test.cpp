@@ -193,6 +193,27 @@ TEST(FabricAtSolids, LayersHangOverARodAndLieOnAThinFloor)
     }
 }
 
+/// Where pins lead they go; all else stays in front of the solid, and goes on moving.
+TEST(FabricAtSolids, PinsThatAreLedThroughATableTakeNothingElseThrough)
+{
+    for (const FabricSolver kind : kSolvers) {
+        const ObstacleSettings table = solidOf(Shape::box({0.0, -0.01, 0.0}, {3.0, 0.01, 3.0}));
+        FabricPiece piece = sheet(9, 2.0, {0.0, 0.1, 0.0});
+        PinGroup pins;
+        pins.vertices = {0};
+        pins.motion.addTranslation(0.0, 0.1, Vec3(0.0, -0.4, 0.0), 0.0, 0.0);
+        piece.pins = {pins};
+        SolidRun run({piece}, {table}, kind);
+        for (int i = 0; i < 55; ++i) {  // from 71 on the cloth is pulled out of all proportion
+            run.step(1.0e-3);
+            for (std::size_t v = 1; v < run.state.x.size(); ++v) ASSERT_GT(run.state.x[v].y(), 0.5 * kRadius) << "step " << i << " solver " << int(kind);
+            ASSERT_EQ(run.report.shortened, 0) << "step " << i << " solver " << int(kind);
+        }
+        EXPECT_LT(run.state.x[0].y(), -0.1);
+        EXPECT_LT(run.state.x[80].y(), 0.05);  // the far corner has fallen
+    }
+}
+
 /// What a plate gives is booked as work of obstacles, whether its penalty gave it or the guard.
 TEST(FabricAtSolids, WorkOfAFastPlateIsBooked)
 {
