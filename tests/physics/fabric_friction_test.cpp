@@ -45,20 +45,6 @@ struct Incline {
     std::optional<FabricRun> run;
 };
 
-/// Friction is smoothed, 2 s − s² of a slip s of the smoothing speed: below the friction angle cloth creeps where that is
-/// tan 29° / tan 30°, at 0.80 cm/s, whatever the steps.
-TEST(Incline, CreepsBelowTheFrictionAngleByTheSmoothingOnly)
-{
-    constexpr double kAngle = 30.0;
-    for (double h : {2.0e-4, 1.0e-3}) {
-        Incline below(kAngle - 1.0, std::tan(kAngle * kPi180));
-        below.run->steps(static_cast<int>(std::lround(0.4 / h)), h);
-        const double before = below.run->state.x[0].x();
-        below.run->steps(static_cast<int>(std::lround(0.2 / h)), h);
-        EXPECT_NEAR((below.run->state.x[0].x() - before) / 0.2, 0.80, 0.01) << h;
-    }
-}
-
 TEST(Incline, RestsBelowTheFrictionAngleAndSlidesAboveIt)
 {
     constexpr double kAngle = 30.0, h = 5.0e-5;
@@ -165,15 +151,6 @@ TEST(ClothOnCloth, FrictionTakesItsForceTimesTheWay)
     EXPECT_NEAR(-all[EnergyChange::Friction] / given, 1.03 * 0.3 / std::tan(30.0 * kPi180), 0.04 * 0.52) << from;
     const double unbooked = cloth.run->energies().total() - before - std::accumulate(all.of.begin(), all.of.end(), 0.0);
     EXPECT_LT(std::abs(unbooked), 0.01 * given);
-}
-
-TEST(ClothOnCloth, CreepsBelowTheFrictionAngleByTheSmoothingOnly)
-{
-    for (double h : {1.0e-3, 2.0e-4}) {
-        ClothOnCloth cloth(25.0, std::tan(30.0 * kPi180));
-        cloth.run->steps(static_cast<int>(0.3 / h), h);
-        EXPECT_NEAR(cloth.speed(), 0.56, 0.02) << h;  // by the smoothing only, as on obstacles: 2 s - s^2 = tan 25 / tan 30
-    }
 }
 
 /// A yarn drawn over half a fixed cylinder, a mass on its other end: the tensions differ by e^{μψ}.
