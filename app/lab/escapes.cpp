@@ -4,8 +4,11 @@
 #include "app/checkpoint/state_files.h"
 #include "sim/grid/obstacles.h"
 #include "sim/scene/load_scene.h"
+#include "sim/simulation.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace app {
 
@@ -20,16 +23,19 @@ struct Escapes {
     const std::optional<Eigen::AlignedBox3d>& vessel;
     double tolerance;  ///< [cm]
     int inside = 0, outside = 0;
+    double deepest = 0.0;  ///< [cm]
 
     void look(const sim::Vec3& x)
     {
-        inside += obstacles.distance(x) < -tolerance;
+        const double depth = -obstacles.distance(x);
+        inside += depth > tolerance;
+        deepest = std::max(deepest, depth);
         outside += vessel && vessel->exteriorDistance(x) > tolerance;
     }
     std::string text(const char* what) const
     {
         std::string told;
-        if (inside > 0) told += fmt::format("{} {} inside of solids ", inside, what);
+        if (inside > 0) told += fmt::format("{} {} inside of solids, up to {:.2g} cm ", inside, what, deepest);
         if (outside > 0) told += fmt::format("{} {} outside of the vessel ", outside, what);
         return told;
     }
@@ -47,9 +53,14 @@ std::string whatEscaped(const std::filesystem::path& file, const std::filesystem
     for (const sim::ObstacleSettings& obstacle : scene.obstacles) obstacles.add(obstacle.shape, obstacle.motion);
     obstacles.moveTo(state.time, state.time);
     const double tolerance = kDeep * scene.settings.cell;
+    sim::Obstacles atStart = obstacles;
+    atStart.moveTo(0.0, 0.0);
+    const auto startsOutside = [&](const sim::Vec3& x) { return atStart.distance(x) >= 0.0 && (!vessel || vessel->contains(x)); };
     Escapes particles{obstacles, vessel, tolerance}, vertices{obstacles, vessel, tolerance};
     for (std::size_t p = 0; p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
-    for (const sim::Vec3& x : state.fabric.x) vertices.look(x);
+    const sim::Simulation start(scene);
+    for (std::size_t v = 0; scene.settings.fabric.contact && v < state.fabric.x.size(); ++v)
+        if (!start.fabric().pinned[v] && startsOutside(start.state().fabric.x[v])) vertices.look(state.fabric.x[v]);
     return particles.text("particles") + vertices.text("vertices");
 }
 

@@ -186,11 +186,13 @@ std::string randomObstacles(Dice& dice, RandomPile& pile)
     std::string text;
     const int plates = dice.whole(0, 2);
     for (int i = 0; i < plates; ++i) {
-        const double radius = dice.between(2.0, 5.0) * pile.cell;
-        const double height = pile.add(0.8 * radius, dice.between(0.1, 0.8) * pile.cell);
-        const Vec3 center = Vec3{dice.between(-3.0, 3.0) * pile.cell, height, dice.between(-3.0, 3.0) * pile.cell};
+        const double radius = dice.between(2.0, 4.0) * pile.cell;
+        const bool isFast = dice.chance(0.4);
+        // What turns reaches nothing that lies below, and no floor: between two solids that close there is nowhere to go.
+        const double height = pile.add((isFast ? 2.4 : 1.6) * radius, dice.between(0.1, 0.8) * pile.cell);
+        const Vec3 center = Vec3{dice.between(-1.5, 1.5) * pile.cell, height, dice.between(-1.5, 1.5) * pile.cell};
         text += fmt::format("  - name: plate_{}\n    shape: {}\n", i, randomPlate(dice, center, radius, pile.cell));
-        if (dice.chance(0.4)) text += fmt::format("    motion: {}\n", fastMotion(dice, pile));
+        if (isFast) text += fmt::format("    motion: {}\n", fastMotion(dice, pile));
     }
     const int count = dice.whole(0, 2);
     for (int i = 0; i < count; ++i) {
@@ -235,8 +237,8 @@ std::string randomSources(Dice& dice, RandomPile& pile, bool withPool)
     for (int i = 0; i < count; ++i) {
         const double radius = dice.between(1.0, 2.4) * pile.cell;
         // A third of those with no liquid below begin within what lies there: in fabric, or around an obstacle.
-        const double above = pile.add(2.0 * radius, dice.between(0.0, 0.5) * pile.cell);
-        const double height = !withPool && i == 0 && dice.chance(0.33) ? dice.between(0.5, 1.0) * above : above;
+        const double above = pile.add((i == 0 ? 3.6 : 2.0) * radius, dice.between(0.0, 0.5) * pile.cell);
+        const double height = !withPool && i == 0 && dice.chance(0.33) ? std::max(1.8 * radius, dice.between(0.5, 1.0) * above) : above;
         const Vec3 center{dice.between(-2.0, 2.0) * pile.cell, height, dice.between(-2.0, 2.0) * pile.cell};
         text += fmt::format("    - name: body_{}\n      shape: {}\n", i, randomShape(dice, center, radius));
         text += fmt::format("      {}\n", randomEmission(dice, pile));

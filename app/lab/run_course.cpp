@@ -18,7 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 6> kFromOutside = {"sources_erg", "suction_erg", "surface_tension_erg", "obstacles_erg", "solids_erg", "pins_erg"};
+constexpr std::array<std::string_view, 5> kFromOutside = {"sources_erg", "suction_erg", "obstacles_erg", "solids_erg", "pins_erg"};
+/// What only gives, counted where it does: what a surface takes is not lost, and its energy is in no sum; viscosity gives where walls move.
+constexpr std::array<std::string_view, 2> kGivesOnly = {"surface_tension_erg", "viscosity_erg"};
 
 struct Energy {
     double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
@@ -41,6 +43,7 @@ Energy energyOf(const std::filesystem::path& csv)
             if (names[i] == "total_erg") total = value;
             if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
             if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
+            if (std::ranges::find(kGivesOnly, names[i]) != kGivesOnly.end()) paid += std::max(0.0, value);
         }
         if (!start) start = total - paid;
         energy.gain = std::max(energy.gain, total - paid - *start);

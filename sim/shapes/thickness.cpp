@@ -9,6 +9,21 @@ namespace sim {
 
 namespace {
 
+/// Move a place to the surface, as far as distances that may be bounds tell where it is; false where they lead nowhere.
+/// @param normal  out: there, as seen from where it came, for on an edge it is either side's
+bool goToSurface(const Shape& shape, double resolution, Vec3& x, Vec3& normal)
+{
+    normal = shape.normal(x);
+    constexpr int kMostMoves = 8;
+    for (int n = 0; n < kMostMoves; ++n) {
+        const double distance = shape.distance(x);
+        if (std::abs(distance) < 0.1 * resolution) return true;
+        normal = shape.normal(x);
+        x -= distance * normal;
+    }
+    return false;
+}
+
 /// Length within the solid along −n from a place on its surface, found in steps of the distance to the other side.
 double throughSolid(const Shape& shape, const Vec3& surface, const Vec3& normal, double resolution, double most)
 {
@@ -38,11 +53,10 @@ double thicknessOf(const Shape& shape, double pitch)
     for (int k = 0; k < count.z(); ++k)
         for (int j = 0; j < count.y(); ++j)
             for (int i = 0; i < count.x(); ++i) {
-                const Vec3 x = box.min() + size.cwiseProduct((Vec3(i, j, k) + Vec3::Constant(0.5)).cwiseQuotient(count.cast<double>()));
-                const double distance = shape.distance(x);
-                if (std::abs(distance) > step) continue;
-                const Vec3 normal = shape.normal(x);
-                lengths.push_back(throughSolid(shape, x - distance * normal, normal, resolution, size.norm() + step));
+                Vec3 normal, x = box.min() + size.cwiseProduct((Vec3(i, j, k) + Vec3::Constant(0.5)).cwiseQuotient(count.cast<double>()));
+                if (std::abs(shape.distance(x)) > step || !goToSurface(shape, resolution, x, normal)) continue;
+                if (shape.distance(x - resolution * normal) >= 0.0) continue;
+                lengths.push_back(throughSolid(shape, x, normal, resolution, size.norm() + step));
             }
     if (lengths.empty()) return kInfinity;
     const auto thin = lengths.begin() + static_cast<std::ptrdiff_t>(kThin * static_cast<double>(lengths.size()));

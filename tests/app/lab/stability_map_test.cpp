@@ -32,12 +32,12 @@ TEST(StabilityMap, EnergyMayRiseOnlyByWhatIsDoneFromOutside)
 {
     Logs logs;
     logs.steps(1.0e-3, 4.0);
-    logs.energy(1.3, 0.0);
+    logs.energy(1.05, 0.0);
     EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
     logs.energy(2.0, 0.0);
     EXPECT_EQ(logs.word(), "energy");
     EXPECT_NEAR(logs.judged().energyGain, 1.0 / 8.0, 1.0e-12);
-    logs.energy(2.0, 0.9);
+    logs.energy(2.0, 0.95);
     EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
 }
 
