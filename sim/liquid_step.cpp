@@ -112,10 +112,11 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
         const Energies own = liquidEnergies(state.liquid, grid, settings.gravity, &work.order);
         particlesToFacesBounded(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, own.kinetic + own.modal, work.bounded, work.grid.faces);
     } else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
-    if (wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty())
-        foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid.faces);
+    const bool mirrors = wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty();
+    if (mirrors) foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
     energy.toGrid();
     divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
+    if (mirrors) withholdWeightOfImages(grid, work.obstacles, settings.liquid.wallFriction, settings.gravity, fall, work.grid);
     energy.onFaces(EnergyChange::Gravity);
 
     if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {

@@ -73,6 +73,7 @@ void visitFabric(V& v, Fabric& fabric)
     v.list("fabric/frame", "-", fabric.reference);
     v.list("fabric/frame_twist", "rad", fabric.referenceTwist);
     v.list("fabric/acceleration", "cm/s^2", fabric.acceleration);
+    v.list("fabric/held", "-", fabric.held);
     visitGrips(v, "fabric/friction_on_obstacles", fabric.onObstacles);
     v.number("fabric/taken_fraction", "-", fabric.lastFraction);
     visitGrips(v, "fabric/friction_on_fabric", fabric.onFabric);

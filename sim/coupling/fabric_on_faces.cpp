@@ -115,7 +115,7 @@ void FabricOnFaces::spread(const FabricState& state)
         parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
     }
     particlesToFaces(particles, vertices_.order, grid(), scatter_, sums_);
-    for (BlockArray<double, 3>* u : {&mass, &velocity, &acceleration, &fibres, &solid, &shape, &squares}) u->resize(grid().count());
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &solid, &shape, &squares}) u->resize(grid().count());
     parallelFor(grid().count(), 8, [&](std::size_t i) {
         const int b = static_cast<int>(i);
         std::copy_n(sums_.sums.block(b, FaceFields::kMass), kAxes * kBlockCells, mass.block(b));
@@ -124,19 +124,17 @@ void FabricOnFaces::spread(const FabricState& state)
     rows_.find(mass);
     findDirections(state);
     divideByMass(velocity);
-    scatter([&](int v) { return Vec3(massOf_[v] * state.acceleration[v]); }, acceleration);
     scatter([&](int v) { return Vec3(massOf_[v] * squaresOf_[v]); }, squares);
-    divideByMass(acceleration);
     divideByMass(squares);
     findVolumes(state);
     findShapes();
-    if (!fabric_.pins.vertex.empty()) findHeld();
+    findHeld(state);
 }
 
-void FabricOnFaces::findHeld()
+void FabricOnFaces::findHeld(const FabricState& state)
 {
     held.resize(grid().count());
-    scatter([&](int v) { return Vec3::Constant(fabric_.pinned[v] ? massOf_[v] : 0.0); }, held);
+    scatter([&](int v) { return Vec3(massOf_[v] * (fabric_.pinned[v] ? Vec3(Vec3::Ones()) : state.held[v])); }, held);
     divideByMass(held);
 }
 

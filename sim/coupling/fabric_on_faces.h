@@ -30,11 +30,10 @@ class FabricOnFaces {
     // Of each face; of its own component where there are several.
     BlockArray<double, 3> mass;           ///< with what has been absorbed [g]
     BlockArray<double, 3> velocity;       ///< [cm/s]
-    BlockArray<double, 3> acceleration;   ///< by all forces but gravity over the last step [cm/s^2]
     BlockArray<double, 3> fibres;         ///< volume of the fibres [cm^3]
     BlockArray<double, 3> solid;          ///< volume of them and of what has been absorbed [cm^3]
     BlockArray<double, 3> shape;          ///< 1 = yarns, 0 = cloth, or between
-    BlockArray<double, 3> held;           ///< part of the mass that pins hold [0..1]; empty without pins
+    BlockArray<double, 3> held;           ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
     BlockArray<double, 3> squares;        ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
     /// Wᵀ: of(v) is what vertex v gives to the faces normal to each axis. Faces without mass stay as they are.
@@ -47,7 +46,7 @@ class FabricOnFaces {
  private:
     void findVolumes(const FabricState& state);
     void findShapes();
-    void findHeld();
+    void findHeld(const FabricState& state);
     void findDirections(const FabricState& state);
     void divideByMass(BlockArray<double, 3>& u) const;
 

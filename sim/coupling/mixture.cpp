@@ -11,7 +11,7 @@ namespace sim {
 
 namespace {
 
-/// Where pins hold all of the fabric: what else could move of it, so that its mass stays finite.
+/// Where all of the fabric is held: what else could move of it, so that its mass stays finite.
 constexpr double kLeastFree = 1.0e-9;
 
 }  // namespace
@@ -130,14 +130,13 @@ void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const 
 void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
 {
     const double cell = std::pow(onFaces_.grid().dx, 3);
-    const bool hasPins = onFaces_.held.size() > 0;
     forEachShared([&](int b, int m, int a, int c) {
         const double fibres = onFaces_.fibres.block(b, a)[c];
         const double mass = liquidMass_.block(b, a)[c], full = liquid.fullMass * obstacles.room(m, a)[c];
         MixtureFace face;
-        const double free = hasPins ? std::clamp(1.0 - onFaces_.held.block(b, a)[c], kLeastFree, 1.0) : 1.0;
+        const double free = std::clamp(1.0 - onFaces_.held.block(b, a)[c], kLeastFree, 1.0);
         face.liquidMass = mass;
-        face.fabricMass = onFaces_.mass.block(b, a)[c] / free;  // pins hold against drag and pressure
+        face.fabricMass = onFaces_.mass.block(b, a)[c] / free;  // what is held does not give way to drag and pressure
         face.fabricVolume = onFaces_.solid.block(b, a)[c];
         // Pressure acts on all the room that the fabric leaves, as without fabric; on a little liquid as on kLeastFill.
         face.liquidVolume = std::max(full / liquidDensity_ - face.fabricVolume, 0.0) * std::min(1.0, mass / (kLeastFill * full));
@@ -146,8 +145,11 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
         const PorousLaw::Drag drag = law_.drag(face.fraction, speedAt(b, a, c));
         face.drag = dt_ * (mass / liquidDensity_ + face.fabricVolume) * dragAlongAxis(drag, shape, square);
 
+        if (!settings_.pressureOnFabric) face.fabricVolume = 0.0;
+
         const MixtureSplit split = splitMixture(face);
-        const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * (free * gravity[a] + onFaces_.acceleration.block(b, a)[c]);
+        const double back = settings_.capillary && settings_.capillaryReaction ? sucked_.block(b, a)[c] / face.fabricMass : 0.0;
+        const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * free * gravity[a] - back;
         liquidVolume_.block(b, a)[c] = face.liquidVolume;
         drag_.block(b, a)[c] = face.drag;
         mixed_.block(b, a)[c] = split.ofLiquid * predicted_.block(b, a)[c] + split.ofFabric * fabric;

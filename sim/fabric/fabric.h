@@ -77,6 +77,7 @@ struct FabricState {
     std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 
     std::vector<Vec3> acceleration;       ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
+    std::vector<Vec3> held;               ///< of each vertex and axis: how far the fabric's own forces held it in the last step (heldShare) [0..1]
     Grips onObstacles;                    ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
 
     // Of solver vertex only.

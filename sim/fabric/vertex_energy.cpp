@@ -1,6 +1,8 @@
 #include "sim/fabric/energies.h"
 #include "sim/fabric/vertex_solver.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace sim {
@@ -42,6 +44,28 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
     }
 }
 
+/// Vertices that solids hold, as pins do: what the limiter made of Newton's last move where they took a hand in it, and what hangs on those by
+/// edges, faces and contacts, whose forces are out of balance by as much.
+std::vector<char> VertexSolver::heldBySolids() const
+{
+    std::vector<char> stopped(fabric_.vertexCount(), 0);
+    if (!guardActed_) return stopped;
+    for (std::size_t v = 0; v < stopped.size(); ++v) stopped[v] = move_[v] != system_.move(static_cast<int>(v));
+    std::vector<char> held = stopped;
+    const auto hold = [&](const auto& vertices) {
+        if (std::ranges::none_of(vertices, [&](int v) { return stopped[v] != 0; })) return;
+        for (int v : vertices) held[v] = 1;
+    };
+    for (int s = 0; s < fabric_.strands.count(); ++s)  // bending reaches over two edges
+        for (int j = 0; j + 2 < fabric_.strands.size(s); ++j)
+            hold(std::array<int, 3>{fabric_.strands.vertex(s, j), fabric_.strands.vertex(s, j + 1), fabric_.strands.vertex(s, j + 2)});
+    for (const Vec2i& edge : fabric_.edges.vertices) hold(edge);
+    for (const Vec3i& face : fabric_.faces.vertices) hold(face);
+    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) hold(contacts_->vertices[i]);
+    for (const ObstacleContact& contact : touching_) hold(contact.vertices());
+    return held;
+}
+
 /// Work of what acted from start_ to the state, by the forces at the state: backward Euler's are those at the end of a step.
 EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state) const
 {
@@ -62,15 +86,14 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     bookContacts(state, changes, gradient.byPosition);
 
     const double part = h / wholeStep_;
+    const std::vector<char> isHeld = heldBySolids();
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         const Vec3 faster = state.v[v] - start_.v[v];
         Vec3 byLiquid = Vec3::Zero();
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
         changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
-        // What the limiter made of Newton's last move where solids took a hand in it is held by them, as by pins.
-        const bool isHeld = guardActed_ && move_[v] != system_.move(static_cast<int>(v));
-        if (!fabric_.pinned[v] && !isHeld) continue;
+        if (!fabric_.pinned[v] && !isHeld[v]) continue;
         const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
         changes[fabric_.pinned[v] ? EnergyChange::Pins : EnergyChange::Obstacles] += byHolder.dot(state.v[v]);
     }

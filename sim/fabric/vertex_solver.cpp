@@ -3,8 +3,10 @@
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 #include "sim/fabric/energies.h"
+#include "sim/fabric/held.h"
 #include "sim/fabric/pins.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -15,7 +17,8 @@ namespace {
 
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
 constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough [gravity]
-constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii]
+constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
+constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [gravity]
 constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [gravity]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
@@ -27,7 +30,7 @@ constexpr int kMostNewton = 6;                ///< iterations to get there; more
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
-constexpr int kMaxLinearIterations = 300;
+constexpr int kMaxLinearIterations = 1000;
 constexpr int kMostTurns = 8;                 ///< of solids and of pairs in limiting a move
 
 }  // namespace
@@ -208,7 +211,9 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
     clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
-    const LinearTolerance tolerance = {share, kAccelerationTolerance * feltAcceleration_ * h * share / kTolerance, kMoveTolerance * meanRadius_ / h};
+    const double fall = feltAcceleration_ * h;
+    const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
+                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall)};
     const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
     if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
@@ -243,6 +248,54 @@ void VertexSolver::take(double t, Newton& newton, FabricState& state, FabricRepo
     turnHeldEdges(t, state);
 }
 
+/// Velocities by which the state came from that at the start, and what the fabric's own forces did.
+void VertexSolver::findRates(double h, FabricState& state) const
+{
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        state.v[v] = (state.x[v] - start_.x[v]) / h;
+        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
+        state.held[v] = heldShare(state.acceleration[v], (state.v[v] - start_.v[v]) / h);
+    });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
+}
+
+/// Energy that the fabric may have at the end of a step [erg]: that of the start, and the liquid's work. Infinite where pins or solids move, whose
+/// work is known only of steps that are solved for.
+double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
+{
+    const bool pinsMove = std::ranges::any_of(fabric_.pins.vertex, [&](int v) { return state.x[v] != start_.x[v]; });
+    if (pinsMove || guard_.anyMoves()) return std::numeric_limits<double>::infinity();
+    double byLiquid = 0.0;
+    for (std::size_t v = 0; loads_ && v < state.x.size(); ++v)
+        byLiquid += h / wholeStep_ * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
+    return energies(start_, gravity).total() + byLiquid;
+}
+
+/// Where Newton did not settle in the last attempt the state is no solution: as much of the way there as does not take more energy than there is.
+void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+{
+    const double allowed = allowedEnergy(h, gravity, state);
+    if (energies(state, gravity).total() <= allowed) return;
+    std::vector<Vec3> way(state.x.size());
+    std::vector<double> turn(state.theta.size());
+    for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
+    for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
+    const double lastFraction = state.lastFraction;
+    for (const double part : {0.5, 0.25, 0.125, 0.0}) {
+        state = start_;
+        state.lastFraction = lastFraction;
+        guard_.moveTo(t, t + h);
+        if (contact_) contact_->beginStep(state.x, mass_, h, start_.onFabric);
+        for (std::size_t v = 0; v < way.size(); ++v) move_[v] = part * way[v];
+        limit(state, report, clock);
+        commit(state, clock);
+        guard_.rest();
+        for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += part * turn[e];
+        findRates(h, state);
+        if (energies(state, gravity).total() <= allowed) return;
+    }
+}
+
 bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
 {
     begin(t, h, gravity, state, report, clock);
@@ -262,14 +315,13 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
                          limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled;
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
-    if (isShort) ++report.shortened;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        state.v[v] = (state.x[v] - start_.x[v]) / h;
-        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
-    });
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
+    findRates(h, state);
+    if (isShort) {
+        ++report.shortened;
+        giveNoEnergy(t, h, gravity, state, report, clock);
+    }
     if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
     if (contacts_) contact_->keepFriction(state.x, state.onFabric);
     else state.onFabric.clear();

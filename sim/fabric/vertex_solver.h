@@ -55,6 +55,10 @@ class VertexSolver {
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void limitInTurn(const FabricState& state, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
+    void findRates(double h, FabricState& state) const;
+    double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
+    void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    std::vector<char> heldBySolids() const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;

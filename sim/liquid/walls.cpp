@@ -146,33 +146,58 @@ void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacl
     mirror(grid, obstacles, friction, valid, followers.mirrored, velocity);
 }
 
-void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces)
+void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, FaceFields& faces, BlockArray<double, 3>& weightless)
 {
+    weightless.resize(grid.count());
+    forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall&, int, auto&& forBlocksAtWall) {
+        forBlocksAtWall([&](int b) { std::fill_n(weightless.block(b), BlockArray<double, 3>::kStride, 0.0); });
+    });
     forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int plane, auto&& forBlocksAtWall) {
         forBlocksAtWall([&](int b) {
             forEachImage(grid, b, wall, plane, false, [&](int c, int layer, int face, CellRef image) {
                 const bool normal = c == wall.axis;
                 if (normal && layer == 0) return;
                 const double mass = faces.sums.block(image.block, FaceFields::kMass + c)[image.cell],
-                             momentum = faces.sums.block(image.block, FaceFields::kMomentum + c)[image.cell];
+                             momentum = faces.sums.block(image.block, FaceFields::kMomentum + c)[image.cell],
+                             held = weightless.block(image.block, c)[image.cell];
                 faces.sums.block(b, FaceFields::kMass + c)[face] += mass;
                 faces.sums.block(b, FaceFields::kMomentum + c)[face] += normal ? -momentum : momentum;
+                weightless.block(b, c)[face] += normal ? 2.0 * mass - held : held + friction * (mass - held);
             });
         });
         forBlocksAtWall([&](int b) {
             forEachImage(grid, b, wall, plane, true, [&](int c, int layer, int face, CellRef) {
                 if (c == wall.axis && layer == 0) return;
                 faces.sums.block(b, FaceFields::kMass + c)[face] = faces.sums.block(b, FaceFields::kMomentum + c)[face] = 0.0;
+                weightless.block(b, c)[face] = 0.0;
             });
         });
     });
 }
 
-void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, FaceFields& faces)
+void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid)
 {
-    foldAtPlaneWalls(grid, obstacles, faces);
-    followers.find(grid, field, obstacles, friction, faces);
-    followers.fold(grid, field, faces);
+    foldAtPlaneWalls(grid, obstacles, friction, liquid.faces, liquid.weightless);
+    followers.find(grid, field, obstacles, friction, liquid.faces);
+    followers.fold(grid, field, liquid.faces);
+}
+
+void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, double friction, const Vec3& gravity, double dt, LiquidGrid& liquid)
+{
+    forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int, auto&& forBlocksAtWall) {
+        for (int a = 0; a < kAxes; ++a) {
+            if (gravity[a] == 0.0 || (a != wall.axis && friction == 0.0)) continue;
+            forBlocksAtWall([&](int b) {
+                double *held = liquid.weightless.block(b, a), *velocity = liquid.faces.velocity.block(b, a);
+                const double* mass = liquid.faces.sums.block(b, FaceFields::kMass + a);
+                for (int c = 0; c < kBlockCells; ++c) {
+                    if (held[c] == 0.0 || !(mass[c] > 0.0)) continue;
+                    velocity[c] -= dt * gravity[a] * held[c] / mass[c];
+                    held[c] = 0.0;  // once, where walls meet
+                }
+            });
+        }
+    });
 }
 
 }  // namespace sim

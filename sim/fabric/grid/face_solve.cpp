@@ -53,8 +53,7 @@ void FaceSystem::goAlong(const BlockArray<double, 3>& expected, FaceVector& v)
 // at the square of the cells that sound crosses in a step. Twist would have them far from there and is eliminated.
 // That none is below 1 bounds the error by what the iterations found, without looking ahead (Meurant and Tichy 2013,
 // "On computing quadrature-based bounds for the A-norm of the error in conjugate gradients": Gauss-Radau).
-FaceSolveReport FaceSystem::solve(double tolerance, int maxIterations, FaceVector& v,
-                                  const BlockArray<double, 3>* expected)
+FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v, const BlockArray<double, 3>* expected)
 {
     FaceSolveReport report;
     startSolve(v);
@@ -72,7 +71,7 @@ FaceSolveReport FaceSystem::solve(double tolerance, int maxIterations, FaceVecto
     double bound = 1.0;  // of the error's eᵀ A e, relative to rᵀ M⁻¹ r
     const auto speedError = [&] { return totalMass_ > 0.0 ? std::sqrt(bound * energy / totalMass_) : 0.0; };
     report.speedError = speedError();
-    while (energy > 0.0 && report.speedError > tolerance && report.iterations < maxIterations) {
+    while (energy > 0.0 && report.speedError > tolerance.after(report.iterations) && report.iterations < tolerance.most) {
         const double curvature = multiplyFollowed(p_, q_);
         if (!(curvature > 0.0)) break;
         const double step = energy / curvature;

@@ -34,6 +34,15 @@ struct FaceVector {
     }
 };
 
+/// When a linear solve on the faces is good enough.
+struct FaceTolerance {
+    double wanted;        ///< rms error [cm/s] …
+    int patience;         ///< … and after so many iterations
+    double bearable;      ///< this [cm/s]
+    int most;             ///< iterations
+    double after(int iterations) const { return iterations < patience ? wanted : bearable; }
+};
+
 /// A linear solve on the faces.
 struct FaceSolveReport {
     int iterations = 0;
@@ -63,11 +72,10 @@ class FaceSystem {
     /// −h times the energy gradient by the unknowns' displacements: impulses of the forces at the start of the step.
     void impulses(FaceVector& q);
     /// A v = M v0 + impulses by conjugate gradients, preconditioned by the masses, from v = v0 on, with twist
-    /// eliminated: it follows the faces. Stops when the error is not above `tolerance` [cm/s].
+    /// eliminated: it follows the faces. Stops when the error is within the tolerance.
     /// @param expected  a change of the faces' velocities, of which the solve starts with the multiple that comes
     ///                  nearest to the solution in A's norm; or null
-    FaceSolveReport solve(double tolerance, int maxIterations, FaceVector& v,
-                          const BlockArray<double, 3>* expected = nullptr);
+    FaceSolveReport solve(const FaceTolerance& tolerance, FaceVector& v, const BlockArray<double, 3>* expected = nullptr);
 
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
     AlignedArray<double>& onVertices(const FaceVector& u);

@@ -3,6 +3,9 @@
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 #include "sim/fabric/energies.h"
+#include "sim/fabric/held.h"
+
+#include <limits>
 
 namespace sim {
 
@@ -11,7 +14,10 @@ namespace {
 /// Rms error of accelerations at which the linear solve is good enough, relative to gravity, or to the earth's where there is none. In
 /// steps of 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
 constexpr double kAccelerationTolerance = 0.005;
-constexpr int kMaxIterations = 200;
+/// Beyond so many iterations errors are borne up to a share of gravity; larger ones would push liquid with forces that no fabric has, and make
+/// energy, so that the solve goes on however long it takes.
+constexpr int kMaxIterations = 200, kMostIterations = 20000;
+constexpr double kBearable = 0.1;  ///< [gravity]
 /// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
 
@@ -33,6 +39,7 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
         guard_ = SolidGuard(fabric, obstacles);
     }
     move_.resize(fabric.vertexCount());
+    wanted_.resize(fabric.vertexCount());
     points_.resize(contact_.size());
     predicted_.resize(fabric.vertexCount());
     reached_.resize(fabric.vertexCount());
@@ -68,20 +75,55 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     std::ranges::copy(state.omega, velocity_.twist.begin());
 }
 
+/// Energy of the fabric when it has made a part of move_ in h: kinetic, by weight, elastic but for twist [erg].
+GridFabricSolver::Mechanical GridFabricSolver::energyAfter(double part, double h, const Vec3& gravity, const FabricState& state)
+{
+    FabricState& at = trial_;
+    at.x.resize(state.x.size());
+    parallelFor(at.x.size(), 1024, [&](std::size_t v) { at.x[v] = state.x[v] + part * move_[v]; });
+    at.theta = state.theta, at.tangent = state.tangent, at.reference = state.reference, at.referenceTwist = state.referenceTwist;
+    stiffness_.rods().transportFrames(at);
+    const auto [stretching, bending, twisting] = stiffness_.rods().energies(at);
+    const auto [membrane, shellBending] = stiffness_.shells().energies(at.x);
+    const double free = parallelSum(move_.size(), [&](std::size_t v) {
+        const Vec3 move = part * move_[v];
+        return mass_[v] * (0.5 * move.squaredNorm() / (h * h) - gravity.dot(move));
+    });
+    return {free, stretching + bending + membrane + shellBending};
+}
+
+/// Of move_, which solids at rest have changed: the part with which they give the fabric no energy, or the least of it [0..1]. Where some
+/// vertices are stopped and those beside them go on, threads stretch, which is paid for by what all of them lose of their motion.
+double GridFabricSolver::partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state)
+{
+    double best = 1.0, least = std::numeric_limits<double>::infinity();
+    for (const double part : {1.0, 0.5, 0.25, 0.125, 0.0}) {
+        const double energy = energyAfter(part, h, gravity, state).sum();
+        if (energy < least) best = part, least = energy;
+        if (energy <= limit) break;
+    }
+    return best;
+}
+
 /// Along their velocities, but not through solids: what is stopped or carried by one has the velocity of where it got.
 void GridFabricSolver::moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report)
 {
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = h * state.v[v]; });
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * state.v[v]; });
     GuardReport guarded;
     if (guard_.limit(state.x, mass_, move_, guarded)) {
-        const double given = parallelSum(fabric_.vertexCount(), [&](std::size_t v) {
-            const Vec3 before = state.v[v], change = move_[v] / h - before;
+        move_.swap(wanted_);
+        const Mechanical wanted = energyAfter(1.0, h, gravity, state);
+        move_.swap(wanted_);
+        const double part = guard_.anyMoves() ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
+        parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+            move_[v] *= part;
             state.v[v] = move_[v] / h;
-            return mass_[v] * change.dot(0.5 * (before + state.v[v]) - h * gravity);
         });
         if (booksEnergy_) {
-            (*report.energyChanges)[EnergyChange::Obstacles] += given;
-            (*report.energyChanges)[EnergyChange::FabricToVertices] -= given;
+            const Mechanical got = energyAfter(1.0, h, gravity, state);
+            (*report.energyChanges)[EnergyChange::Obstacles] += got.sum() - wanted.sum();
+            (*report.energyChanges)[EnergyChange::FabricToVertices] -= got.free - wanted.free;
+            (*report.energyChanges)[EnergyChange::Implicit] -= got.elastic - wanted.elastic;
         }
     }
     if (guarded.left > 0) ++report.shortened;
@@ -192,7 +234,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 
     clock.start(Stage::FabricSolve);
     start_ = velocity_.faces;
-    const FaceSolveReport solve = system_.solve(tolerance, kMaxIterations, velocity_, expectedChange(state));
+    const FaceSolveReport solve = system_.solve({tolerance, kMaxIterations, kBearable * felt * h, kMostIterations}, velocity_, expectedChange(state));
     report.newton = 1;
     report.iterations = solve.iterations;
     report.speedError = solve.speedError;
@@ -203,10 +245,15 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::GridToFabric);
     keepChange(state);
     if (meetsLiquid_ || !obstacles_.empty()) keepAccelerations(h, state);
+    if (meetsLiquid_) before_ = state.v;
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
     moveVertices(h, gravity, state, report);
+    if (meetsLiquid_)
+        parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+            state.held[v] = heldShare(state.acceleration[v], (state.v[v] - before_[v]) / h);
+        });
     state.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
     else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);

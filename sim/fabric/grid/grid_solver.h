@@ -50,6 +50,13 @@ class GridFabricSolver {
     {
         return {from_, mass_, state.onObstacles, h};
     }
+    /// Of the fabric [erg].
+    struct Mechanical {
+        double free, elastic;  ///< free: kinetic and potential
+        double sum() const { return free + elastic; }
+    };
+    Mechanical energyAfter(double part, double h, const Vec3& gravity, const FabricState& state);
+    double partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state);
     void moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
@@ -78,7 +85,9 @@ class GridFabricSolver {
     std::vector<Vec3> from_, expectedMove_;  ///< of each vertex: position at the start of the step, its move if forces act on as they did [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
-    std::vector<Vec3> move_;  ///< of each vertex in the step [cm]
+    std::vector<Vec3> before_;         ///< velocity of each vertex at the start of the step [cm/s]
+    std::vector<Vec3> move_, wanted_;  ///< of each vertex in the step, and but for solids [cm]
+    FabricState trial_;                ///< places and frames where a move would take the fabric
     FabricMotion motion_;
 };
 

@@ -1,6 +1,7 @@
 #include "sim/liquid/walls.h"
 
 #include "sim/core/units.h"
+#include "sim/liquid/face_velocity.h"
 #include "sim/transfer/scatter.h"
 #include "tests/sim/fixtures.h"
 #include "tests/sim/liquid/grid_scene.h"
@@ -165,7 +166,8 @@ TEST(Walls, FoldingIsLikeMirroredParticles)
     inside.sort();
     all.sort();
     particlesToFaces(inside.particles, inside.order, inside.grid, scratch, folded);
-    foldAtPlaneWalls(inside.grid, obstacles, folded);
+    BlockArray<double, 3> weightless;
+    foldAtPlaneWalls(inside.grid, obstacles, 0.0, folded, weightless);
     particlesToFaces(all.particles, all.order, all.grid, scratch, expected);
     for (int a = 0; a < kAxes; ++a)
         for (int z = a == 2; z < size.z(); ++z)
@@ -226,7 +228,7 @@ TEST(Walls, NeverAddEnergyWhateverMassesTheFacesHave)
         const auto before = faces.sums;
         const double friction = seed % 3 == 0 ? 0.4 : 0.0, given = energyOfSums(scene);
         WallFaces followers;
-        foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, faces);
+        foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
         const double folded = energyOfSums(scene);
         ASSERT_LE(folded, given * (1.0 + 1.0e-13)) << seed;
         // What particles will read with the masses that they gave, where only walls have acted.
@@ -243,6 +245,48 @@ TEST(Walls, NeverAddEnergyWhateverMassesTheFacesHave)
         });
         ASSERT_LE(read, folded * (1.0 + 1.0e-13)) << seed;
         ASSERT_GT(read, 0.1 * given) << seed;
+    }
+}
+
+/// Weight acts on the folded masses; its power must be that on what the particles gave, at the velocities that they read.
+TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
+{
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        GridScene scene({-3, -3, -3}, {16, 16, 16});
+        const Vec3i size(5 + static_cast<int>(seed % 5), 4, 9);
+        const bool isTank = seed % 2 == 1;
+        if (isTank) scene.add(tankOfCells(scene, {0, 0, 0}, size));
+        else addRandomSolids(scene, random);
+        FaceFields& faces = scene.liquid.faces;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            // Of a tank those that particles in it reach.
+            if (isTank && ((c.array() < -1).any() || (c.array() > size.array() + Vec3i::Unit(a).array()).any())) return;
+            faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = unit(random) > 0.0 ? std::pow(10.0, 2.0 * unit(random)) : 0.0;
+        });
+        const auto given = faces.sums;
+        const double friction = seed % 3 == 0 ? 0.4 : 0.0, dt = 0.01;
+        const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
+        WallFaces followers;
+        foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
+        divideAndAddGravity(scene.grid, gravity, dt, false, scene.liquid);
+        withholdWeightOfImages(scene.grid, scene.obstacles, friction, gravity, dt, scene.liquid);
+        const auto mass = [&](const auto& sums, int a, const Vec3i& c) { return sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell]; };
+        const BlockArray<double, 3> fallen = faces.velocity;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            scene.velocity(a, c) = 10.0 * unit(random);
+            if (mass(faces.sums, a, c) > 0.0 && scene.open(a, c) > 0.0) scene.setValid(a, c);
+        });
+        applyWalls(scene.grid, scene.field, scene.obstacles, friction, false, followers, faces.valid, faces.velocity);
+        double onFaces = 0.0, onParticles = 0.0, scale = 0.0;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            const double u = scene.velocity(a, c), particles = mass(given, a, c) * gravity[a] * u;
+            onFaces += mass(faces.sums, a, c) * fallen.block(scene.at(c).block, a)[scene.at(c).cell] / dt * u;
+            onParticles += particles;
+            scale += std::abs(particles);
+        });
+        EXPECT_NEAR(onFaces, onParticles, 1.0e-12 * scale) << seed;
     }
 }
 
@@ -269,7 +313,7 @@ TEST(Walls, FrictionlessOnesOffTheGridKeepMassAndMomentum)
         });
         sumUp(0);
         WallFaces followers;
-        foldAtWalls(scene.grid, scene.obstacles, 0.0, scene.field, followers, faces);
+        foldAtWalls(scene.grid, scene.obstacles, 0.0, scene.field, followers, scene.liquid);
         sumUp(1);
         for (int a = 0; a < kAxes; ++a) {
             EXPECT_NEAR(mass[1][a], mass[0][a], 1.0e-12 * mass[0][a]);

@@ -1,0 +1,153 @@
+#include "sim/fabric/generators.h"
+#include "sim/simulation.h"
+#include "tests/sim/fabric/pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <random>
+
+// Stiff fabric among solids and in liquid gives nobody energy: what enters comes from weight, which the sum holds.
+
+namespace sim::test {
+namespace {
+
+/// Largest rise of all energy over its start, relative to the largest kinetic energy until then [-].
+double gainOf(const Scene& scene, double duration)
+{
+    Simulation run(scene);
+    double start = run.energies().total(), kinetic = 0.0, rise = 0.0;
+    while (run.state().time < duration) {
+        const StepReport report = run.step(duration);
+        if (report.isReflected) continue;
+        kinetic = std::max(kinetic, report.energies.kinetic + report.energies.modal + report.energies.fabric.kinetic);
+        rise = std::max(rise, report.energies.total() - start);
+    }
+    return rise / kinetic;
+}
+
+struct Random {
+    explicit Random(unsigned seed) : engine(seed) {}
+    double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+    Vec3 direction() { return Vec3((*this)(-1.0, 1.0), (*this)(-1.0, 1.0), (*this)(-1.0, 1.0)).normalized(); }
+    std::mt19937 engine;
+};
+
+FabricMaterial stiff(Random& random)
+{
+    FabricMaterial material = testing::wool();
+    material.young = std::pow(10.0, random(7.0, 8.5));
+    material.density = 0.3;
+    return material;
+}
+
+/// Yarns that swing about a pinned end, and a drop that falls into them.
+Scene yarnsInDrop(unsigned seed, FabricSolver solver)
+{
+    Random random(seed);
+    Scene scene;
+    scene.name = "swinging yarns";
+    scene.settings.cell = 0.25;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = random(1.0e-3, 3.0e-3);
+    scene.settings.fabric.solver = solver;
+    scene.settings.coupling.pressureOnFabric = seed % 3 != 0;
+    scene.settings.coupling.capillary = false;  // whose work is no loss of anything else
+    SourceSettings source;
+    source.name = "drop";
+    source.shape = Shape::ball(Vec3(0.0, 1.0, 0.0), 0.6);
+    Emission emission;
+    emission.velocity = {0.0, -30.0, 0.0};
+    source.emissions.push_back(emission);
+    scene.sources.push_back(source);
+    for (int n = 0; n < 2; ++n) {
+        Vec3 along = random.direction();
+        along.y() *= 0.3;
+        const Vec3 middle(0.0, 0.3 - 0.5 * n, 0.0), half = along.normalized();
+        FabricPiece yarn = testing::pieceOf(strand(middle - half, middle + half, 8), stiff(random), {0.06, 0.06});
+        PinGroup hold;
+        hold.vertices = {0, 1};
+        yarn.pins.push_back(hold);
+        yarn.velocity = 30.0 * random.direction();
+        scene.fabrics.push_back(yarn);
+    }
+    return scene;
+}
+
+/// Stiff cloth thrown at a ball, a plate and an edge, each smaller than a cell or thinner.
+Scene clothAtSolids(unsigned seed, FabricSolver solver)
+{
+    Random random(seed);
+    Scene scene;
+    scene.name = "thrown cloth";
+    scene.settings.cell = 0.25;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = random(1.0e-3, 3.0e-3);
+    scene.settings.fabric.solver = solver;
+    ClothGrid grid;
+    grid.nodes = Vec2i(9, 7);
+    grid.spacing = {0.12, 0.12};
+    grid.origin = Vec3(-0.5, 0.5, -0.4);
+    FabricPiece cloth = testing::pieceOf(clothGrid(grid), stiff(random), {0.02, 0.02});
+    const Eigen::AngleAxisd turn(random(-0.7, 0.7), random.direction());
+    for (Vec3& x : cloth.points) x = turn * x + Vec3(0.0, 0.3, 0.0);
+    cloth.velocity = {0.0, -random(50.0, 150.0), 0.0};
+    scene.fabrics.push_back(cloth);
+    const auto add = [&](const char* name, const Shape& shape) {
+        ObstacleSettings solid;
+        solid.name = name;
+        solid.shape = shape;
+        scene.obstacles.push_back(solid);
+    };
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translate(Vec3(random(-0.3, 0.3), -0.3, random(-0.3, 0.3)));
+    place.rotate(Eigen::AngleAxisd(random(-0.5, 0.5), random.direction()));
+    add("ball", Shape::ball(Vec3(random(-0.5, 0.5), 0.1, random(-0.4, 0.4)), 0.1));
+    add("plate", Shape::box(Vec3::Zero(), Vec3(0.6, 0.02, 0.6)).moved(place));
+    return scene;
+}
+
+class CoupledEnergy : public ::testing::TestWithParam<FabricSolver> {};
+
+TEST_P(CoupledEnergy, StiffYarnsThatSwingGiveLiquidNone)
+{
+    for (unsigned seed = 1; seed <= 12; ++seed) EXPECT_LT(gainOf(yarnsInDrop(seed, GetParam()), 0.06), 1.0e-2) << seed;
+}
+
+TEST_P(CoupledEnergy, SolidsAtRestGiveFabricNone)
+{
+    for (unsigned seed = 1; seed <= 12; ++seed) EXPECT_LT(gainOf(clothAtSolids(seed, GetParam()), 0.03), 1.0e-2) << seed;
+}
+
+/// In a drop around a yarn that has only just begun to drink, suction takes back from the yarn what it gives to the liquid.
+TEST_P(CoupledEnergy, SuctionMovesHardlyAnythingButTheWaterThatItDraws)
+{
+    Scene scene;
+    scene.settings.cell = 0.125;
+    scene.settings.gravity.setZero();
+    scene.settings.coupling.capillaryReaction = true;
+    scene.settings.fabric.solver = GetParam();
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = 3.0e-4;
+    SourceSettings source;
+    source.name = "drop";
+    source.shape = Shape::box(Vec3::Zero(), Vec3(0.27, 0.13, 0.27));
+    source.emissions.push_back({});
+    scene.sources.push_back(source);
+    FabricPiece yarn = testing::pieceOf(strand(Vec3(-0.42, -0.25, 0.05), Vec3(0.42, -0.25, -0.05), 9), testing::wool(), {0.022, 0.022});
+    scene.fabrics.push_back(yarn);
+    Simulation run(scene);
+    for (int n = 0; n < 10; ++n) {
+        const StepReport report = run.step(1.0);
+        const double speed = std::sqrt(2.0 * (report.energies.kinetic + report.energies.modal) / report.liquidMass);
+        EXPECT_LT(speed, 1.0) << n;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, CoupledEnergy, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
+                         [](const auto& info) { return info.param == FabricSolver::Grid ? "grid" : "vertex"; });
+
+}  // namespace
+}  // namespace sim::test
