@@ -77,11 +77,12 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
         const Vec3 a = start(body), way = body.toShape * to - a;
         const double length = way.norm(), least = std::max(resolution, kLeastStride * length);
         if (!std::isfinite(length)) continue;
+        const double steepest = std::max(1.0, body.shape.steepest());
         double distance = body.shape.distance(a);
-        if (distance < 0.0 || distance > length) continue;
-        // The distance never changes faster than the point moves: so far it is safe.
+        if (distance < 0.0 || distance > steepest * length) continue;
+        // So far it is safe: the distance never changes faster than the point moves, or, of a mesh, than at its steepest.
         for (double gone = 0.0; gone < earliest * length;) {
-            gone = std::min(gone + std::max(distance, least), length);
+            gone = std::min(gone + std::max(distance / steepest, least), length);
             const Vec3 x = a + gone / length * way;
             distance = body.shape.distance(x);
             if (distance > 0.0) {
