@@ -29,13 +29,15 @@ struct Chance {
     }
 };
 
+/// Of corners that are counted along x, then y, then z.
+inline const std::vector<Vec3i> kFacesOfBox = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                               {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+
 inline Shape meshOfBox(const Vec3& half, double cell)
 {
     std::vector<Vec3> corners;
     for (int n = 0; n < 8; ++n) corners.push_back(half.cwiseProduct(Vec3(n & 1 ? 1 : -1, n & 2 ? 1 : -1, n & 4 ? 1 : -1)));
-    const std::vector<Vec3i> faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-    return Shape::mesh(corners, faces, cell);
+    return Shape::mesh(corners, kFacesOfBox, cell);
 }
 
 struct Kind {
