@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/grid/open_faces.h"
 #include "sim/grid/room.h"
+#include "sim/grid/seams.h"
 
 #include <cmath>
 #include <limits>
@@ -134,7 +135,7 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
             for (int i = 0; i < kBlockEdge; ++i) {
                 const int cell = cellInBlock(i, j, k);
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
-                const double distance = obstacles.distance(center);
+                const double distance = distanceAcrossSeams(obstacles, center, kExactDistance * grid.dx);
                 centerDistance_.block(slot)[cell] = std::min(distance, kExactDistance * grid.dx);
                 for (int a = 0; a < kAxes; ++a) {
                     double open = faces.open(a, i, j, k);

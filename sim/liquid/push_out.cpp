@@ -1,6 +1,7 @@
 #include "sim/liquid/push_out.h"
 
 #include "sim/core/parallel.h"
+#include "sim/grid/seams.h"
 
 #include <bit>
 #include <cmath>
@@ -12,18 +13,23 @@ namespace sim {
 namespace {
 
 constexpr int kRepeats = 2;         ///< the second for edges, and for distances that are only bounds
+constexpr double kAcrossSeams = 2.0;  ///< as far a way out of solids that touch is looked for [cells]
 constexpr int kContacts = 5;         ///< of a particle in one step: a corner has three surfaces, round ones are met again
 constexpr double kResolution = 5.0e-3;  ///< of paths: thinner walls may be missed [cells]
 
 /// The nearest place outside of all solids, a little in front.
 Vec3 outside(const Obstacles& obstacles, double inFront, Vec3 x)
 {
+    const Vec3 start = x;
     for (int repeat = 0; repeat < kRepeats; ++repeat) {
         const double distance = obstacles.distance(x);
         if (distance >= 0.0) return x;
         x += (inFront - distance) * obstacles.normal(x);
     }
-    return x;
+    if (obstacles.distance(x) >= 0.0) return x;
+    // The shortest way out of one solid may lead into another that touches it.
+    const std::optional<Vec3> surface = nearestSurface(obstacles, start, kAcrossSeams / kPushedInFront * inFront);
+    return surface ? *surface + inFront * (*surface - start).normalized() : x;
 }
 
 /// What may be in front of some planes, and no further.
