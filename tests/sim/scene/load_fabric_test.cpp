@@ -349,7 +349,7 @@ TEST(LoadFabric, MistakesNameVerticesOfTheFile)
     expectError("points: {material: wool, radius: 0.05, file: " + line.path.string() + "}", "turns straight back at vertex 2");
     const ObjFile sound(sheet);
     EXPECT_EQ((std::vector<int>{1, 2, 3, 6}), piece(mesh(sound)).inFile);
-    expectError(mesh(sound) + ", pin: [{nodes: [6]}, {nodes: [6], motion: [{translate: {t: [0, 1], by: [0, 1, 0]}}]}]", "vertex 6 is held by two pins");
+    expectError(mesh(sound) + ", pin: [{nodes: [6]}, {nodes: [6], motion: [{t: [0, 1], translate: [0, 1, 0]}]}]", "vertex 6 is held by two pins");
 }
 
 /// Triangles of a sheet in any order, each with its own corners, are one sheet again.
