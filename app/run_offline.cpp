@@ -5,9 +5,8 @@
 #include "app/frame_sink.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
+#include "app/shut_sources.h"
 #include "sim/core/check.h"
-
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -56,26 +55,6 @@ class Frames {
     std::optional<FrameSink> pictures_;
     GeometrySink geometry_;
     StateKeeper states_;
-};
-
-/// Tells of each source that has to stop, the first time.
-class ShutSources {
- public:
-    explicit ShutSources(const sim::Scene& scene) : scene_(scene), isTold_(scene.sources.size(), false) {}
-    void look(const sim::State& state)
-    {
-        const std::vector<sim::SourceMemory>& sources = state.memory.sources;
-        for (std::size_t s = 0; s < std::min(sources.size(), isTold_.size()); ++s) {
-            if (!sources[s].isShut || isTold_[s]) continue;
-            isTold_[s] = true;
-            spdlog::warn("{}: liquid.sources.{}: stops at {:.4g} s after {:.4g} cm^3: what it flows into is closed and full; it goes on as soon as there is room",
-                         scene_.sources[s].where, scene_.sources[s].name, state.time, state.emittedVolume[s]);
-        }
-    }
-
- private:
-    const sim::Scene& scene_;
-    std::vector<bool> isTold_;
 };
 
 /// Step up to `until`, logging every step. Throws RunError for a state that cannot be trusted.

@@ -100,7 +100,7 @@ std::string StepCheck::nameOf(std::size_t vertex) const
 {
     std::size_t begin = 0;
     for (const FabricPiece& piece : scene_.fabrics) {
-        if (vertex < begin + piece.points.size()) return fmt::format("vertex {} of {}", vertex - begin, piece.name);
+        if (vertex < begin + piece.points.size()) return fmt::format("vertex {} of {}", piece.called(static_cast<int>(vertex - begin)), piece.name);
         begin += piece.points.size();
     }
     return fmt::format("vertex {}", vertex);

@@ -15,8 +15,8 @@ struct Followed {
 };
 
 /// Steps to the end, and calls `read` at the start and after every `every` seconds. Throws RunError, also when it
-/// is to stop.
-Followed follow(Steppable& simulation, const sim::TimeSettings& time, double every,
+/// is to stop. Tells of sources that stop.
+Followed follow(Steppable& simulation, const sim::Scene& scene, double every,
                 const std::function<void(double time)>& read, const std::function<bool()>& stopWanted);
 
 }  // namespace app

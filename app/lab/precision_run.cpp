@@ -70,7 +70,7 @@ Outcome runOnce(const SceneSetup& setup, const std::vector<Check>& checks, const
             if (const auto reading = readOnce(checks[i], time)) outcome.errors[i].push_back(*reading);
         if (precision.energy) outcome.energies.push_back({time, (*precision.energy)(std::array{time}), 0.0});
     };
-    outcome.followed = follow(*simulation, setup.scene.settings.time, precision.every, read, stopWanted);
+    outcome.followed = follow(*simulation, setup.scene, precision.every, read, stopWanted);
     return outcome;
 }
 

@@ -22,7 +22,7 @@ void follow(const SceneSetup& setup, const Parts& parts, const std::function<boo
     const auto simulation = parts.startSimulation(setup);
     validation.measures->look(*simulation);
     const auto read = [&](double time) { readAll(validation, time, result); };
-    result.steps = follow(*simulation, setup.scene.settings.time, validation.every, read, stopWanted).steps;
+    result.steps = follow(*simulation, setup.scene, validation.every, read, stopWanted).steps;
 }
 
 }  // namespace

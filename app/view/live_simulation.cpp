@@ -210,6 +210,7 @@ void LiveSimulation::advance()
         return;
     }
     const sim::State& state = simulation_->state();
+    shutSources_->look(state);
     step.step = state.step;
     step.time = state.time;
     step.ledger = state.ledger;
@@ -256,6 +257,7 @@ void LiveSimulation::startAnew()
 {
     const SceneSetup& setup = settings_.setup();
     simulation_ = parts_.startSimulation(setup);
+    shutSources_.emplace(setup.scene);
     placeObstacles_ = parts_.meshObstacles(setup);
     moments_.begin(simulation_->state());
     frame_ = 0;

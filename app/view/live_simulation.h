@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/parts.h"
+#include "app/shut_sources.h"
 #include "app/view/live_scene.h"
 #include "app/view/moments.h"
 
@@ -98,6 +99,7 @@ class LiveSimulation {
     LiveSettings settings_;
     PlaceObstacles placeObstacles_;
     std::unique_ptr<Steppable> simulation_;
+    std::optional<ShutSources> shutSources_;  ///< since it was started
     Moments moments_;
     std::int64_t frame_ = 0;       ///< the last one that was reached
     std::int64_t nextChange_ = 0;  ///< the step with which settings change next by themselves

@@ -32,7 +32,7 @@ class PieceAssembly {
         for (const Vec3i& face : piece_.faces) addFace(face);
         for (std::size_t i = 0; i < piece_.points.size(); ++i) {
             if (!(fabric_.mass[first_ + i] > 0.0))
-                fail(fmt::format("vertex {} is on no yarn and no face; remove it", i));
+                fail(fmt::format("vertex {} is on no yarn and no face; remove it", piece_.called(static_cast<int>(i))));
         }
         for (const PinGroup& group : piece_.pins) addPins(group);
     }
@@ -91,12 +91,12 @@ class PieceAssembly {
         const Vec3 along = fabric_.rest[edge[1]] - fabric_.rest[edge[0]];
         const double length = along.norm();
         if (!(length > 0.0))
-            fail(fmt::format("vertices {} and {} of a yarn are at one place; remove one", strand[j], strand[j + 1]));
+            fail(fmt::format("vertices {} and {} of a yarn are at one place; remove one", piece_.called(strand[j]), piece_.called(strand[j + 1])));
         if (j > 0) {
             const Vec3 before = fabric_.rest[edge[0]] - fabric_.rest[global(strand[j - 1])];
             constexpr double kSharpestTurn = 1.0e-9;  // 1 + cosine; bending energy is infinite at 0
             if (1.0 + before.dot(along) / (before.norm() * length) < kSharpestTurn)
-                fail(fmt::format("a yarn turns straight back at vertex {}; make a bend", strand[j]));
+                fail(fmt::format("a yarn turns straight back at vertex {}; make a bend", piece_.called(strand[j])));
         }
         const auto [a, b] = piece_.radius;
         const double volume = kPi * a * b * length;
@@ -116,7 +116,8 @@ class PieceAssembly {
         const double area = 0.5 * e1.cross(e2).norm();
         constexpr double kFlattest = 1.0e-9;  // area per square of the edges: the rest is round-off
         if (!(area > kFlattest * (e1.squaredNorm() + e2.squaredNorm())))
-            fail(fmt::format("the face {}, {}, {} has no area; remove it", corners[0], corners[1], corners[2]));
+            fail(fmt::format("the face {}, {}, {} has no area; remove it", piece_.called(corners[0]), piece_.called(corners[1]),
+                             piece_.called(corners[2])));
         const double thickness = piece_.radius[0] + piece_.radius[1];
         fabric_.faces.vertices.push_back(face);
         fabric_.faces.material.push_back(material_);

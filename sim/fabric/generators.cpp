@@ -32,6 +32,15 @@ std::vector<int> borderYarn(int corner, const std::vector<int>& ends, int nextCo
 
 }  // namespace
 
+std::vector<int> firstInFile(const FabricGeometry& geometry)
+{
+    if (geometry.ofFile.empty()) return {};
+    std::vector<int> first(geometry.points.size(), 0);
+    for (int vertex = static_cast<int>(geometry.ofFile.size()) - 1; vertex >= 0; --vertex)
+        if (const int point = geometry.ofFile[vertex]; point >= 0) first[point] = vertex;
+    return first;
+}
+
 FabricGeometry clothGrid(const ClothGrid& grid)
 {
     FabricGeometry out;

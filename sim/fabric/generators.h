@@ -20,6 +20,9 @@ struct FabricGeometry {
     std::vector<int> ofFile{};          ///< of each vertex of a file: the number of its point, or −1; empty where they are the same
 };
 
+/// Of each point the first vertex of the file that is there; empty where they are the same.
+std::vector<int> firstInFile(const FabricGeometry& geometry);
+
 /// A sheet of nodes[0] × nodes[1] vertices; vertex (i, j) has the number j nodes[0] + i.
 /// Each quad (a, a+1, a+n, a+n+1) is cut along one diagonal: (a, a+1, a+n), (a+1, a+n+1, a+n).
 struct ClothGrid {

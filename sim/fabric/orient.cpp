@@ -39,8 +39,9 @@ struct Neighbour {
 
 }  // namespace
 
-std::string orientAlike(std::vector<Vec3i>& faces)
+std::string orientAlike(std::vector<Vec3i>& faces, const std::vector<int>& names)
 {
+    const auto nameOf = [&](int vertex) { return names.empty() ? vertex : names[static_cast<std::size_t>(vertex)]; };
     const std::vector<Side> sides = sortedSides(faces);
     std::vector<std::array<Neighbour, 3>> neighbours(faces.size());
     std::vector<int> known(faces.size(), 0);
@@ -49,7 +50,7 @@ std::string orientAlike(std::vector<Vec3i>& faces)
         if (!a.isBeside(b)) continue;
         if (i + 2 < sides.size() && a.isBeside(sides[i + 2]))
             return fmt::format("the edge between vertices {} and {} has more than two faces; split the mesh there",
-                               a.low, a.high);
+                               nameOf(a.low), nameOf(a.high));
         const bool isAgainst = a.isDown == b.isDown;
         neighbours[a.face][known[a.face]++] = {b.face, isAgainst};
         neighbours[b.face][known[b.face]++] = {a.face, isAgainst};

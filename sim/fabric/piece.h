@@ -52,6 +52,7 @@ struct FabricPiece {
     std::vector<Vec3> points;               ///< [cm]
     std::vector<std::vector<int>> strands;  ///< points in order, at least 2 each
     std::vector<Vec3i> faces;               ///< consistently oriented
+    std::vector<int> inFile;                ///< of each point the first vertex of its file that is there, counted from 0; empty where they are the same
     Vec3 velocity = Vec3::Zero();           ///< [cm/s]
     double wetness = 0.0;                   ///< share of the pores that liquid fills at the start [-]
     std::vector<PinGroup> pins;
@@ -60,6 +61,9 @@ struct FabricPiece {
     std::string text;                       ///< what it was asked for, as a scene says it, in cgs, on one line
     std::vector<std::string> notes;         ///< about its file
     std::string transformText;              ///< where it was moved then, likewise; empty if it was not
+
+    /// What a scene calls a point: its number, or that in the file from which it comes.
+    int called(int point) const { return inFile.empty() ? point : inFile[static_cast<std::size_t>(point)]; }
 };
 
 }  // namespace sim

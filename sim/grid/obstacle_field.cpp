@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/grid/open_faces.h"
 #include "sim/grid/room.h"
+#include "sim/grid/seams.h"
 
 #include <cmath>
 #include <limits>
@@ -43,10 +44,10 @@ int ObstacleField::takeSlot()
     return slot;
 }
 
-bool ObstacleField::isNear(const BlockGrid& grid, double distance)
+bool ObstacleField::isNear(const BlockGrid& grid, int block, const Obstacles& obstacles, Obstacles::Which which)
 {
-    // From its middle a block reaches half its diagonal.
-    return distance < (0.5 * std::sqrt(3.0) * kBlockEdge + kExactDistance) * grid.dx;
+    const double half = 0.5 * kBlockEdge * grid.dx;
+    return obstacles.reach(grid.lowerCorner(block) + Vec3::Constant(half), half, kExactDistance * grid.dx, which);
 }
 
 void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors)
@@ -76,11 +77,10 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     for (int old = 0; old < oldBlocks; ++old)
         if (oldSlot_[old] != kOpenSlot) freeSlots_.push_back(oldSlot_[old]);
 
-    const Vec3 half = Vec3::Constant(0.5 * kBlockEdge * grid.dx);
     for (int b : toCompute_)
-        if (isNear(grid, obstacles.distance(grid.lowerCorner(b) + half))) slot_[b] = takeSlot();
+        if (isNear(grid, b, obstacles, Obstacles::Which::All)) slot_[b] = takeSlot();
     for (int b = 0; b < grid.count(); ++b) {
-        const bool reached = obstacles.anyMoving() && isNear(grid, obstacles.movingDistance(grid.lowerCorner(b) + half));
+        const bool reached = obstacles.anyMoving() && isNear(grid, b, obstacles, Obstacles::Which::Moving);
         const bool wasReached = slot_[b] != kOpenSlot && touchedByMoving_[slot_[b]] != 0;
         if (!reached && !wasReached) continue;
         if (slot_[b] == kOpenSlot) slot_[b] = takeSlot();
@@ -135,7 +135,7 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
             for (int i = 0; i < kBlockEdge; ++i) {
                 const int cell = cellInBlock(i, j, k);
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
-                const double distance = obstacles.distance(center);
+                const double distance = distanceAcrossSeams(obstacles, center, kExactDistance * grid.dx);
                 centerDistance_.block(slot)[cell] = std::min(distance, kExactDistance * grid.dx);
                 for (int a = 0; a < kAxes; ++a) {
                     double open = faces.open(a, i, j, k);

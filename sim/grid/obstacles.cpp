@@ -1,5 +1,8 @@
 #include "sim/grid/obstacles.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sim {
 
 void Obstacles::add(const Shape& shape, const Motion& motion)
@@ -37,12 +40,26 @@ double Obstacles::distance(const Vec3& x) const
     return d;
 }
 
-double Obstacles::movingDistance(const Vec3& x) const
+/// A distance that may be more than the way to the surface, as that of a mesh far away, is trusted no further than its slope lets it: cubes
+/// that it leaves in doubt are halved.
+static bool reaches(const Shape& shape, const Eigen::Isometry3d& toShape, const Vec3& x, double halfEdge, double within, int halvings)
 {
-    double d = std::numeric_limits<double>::infinity();
-    for (const Body& body : bodies_)
-        if (body.moving) d = std::min(d, body.shape.distance(body.toShape * x));
-    return d;
+    const double distance = shape.distance(toShape * x), corner = std::sqrt(3.0) * halfEdge, steepest = std::max(1.0, shape.steepest());
+    if (distance >= within + steepest * corner) return false;
+    if (distance < within + corner || halvings == 0) return true;
+    for (int n = 0; n < 8; ++n) {
+        const Vec3 aside = 0.5 * halfEdge * Vec3(n & 1 ? 1 : -1, n & 2 ? 1 : -1, n & 4 ? 1 : -1);
+        if (reaches(shape, toShape, x + aside, 0.5 * halfEdge, within, halvings - 1)) return true;
+    }
+    return false;
+}
+
+bool Obstacles::reach(const Vec3& x, double halfEdge, double within, Which which) const
+{
+    constexpr int kHalvings = 3;
+    return std::ranges::any_of(bodies_, [&](const Body& body) {
+        return (which == Which::All || body.moving) && reaches(body.shape, body.toShape, x, halfEdge, within, kHalvings);
+    });
 }
 
 const Obstacles::Body* Obstacles::nearest(const Vec3& x) const
@@ -66,6 +83,7 @@ Vec3 Obstacles::normal(const Vec3& x) const
 }
 
 constexpr double kLeastStride = 1.0e-4;  ///< of a search along a path, whose length stays finite in steps that fail [lengths of the path]
+constexpr double kOnSurface = 1.0e-3;    ///< as little in a solid is on its surface [resolutions]
 
 /// start(body): where the path starts, in the space of the body's shape.
 template <class Start>
@@ -75,24 +93,23 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
     double earliest = 1.0;  // share of the path
     for (const Body& body : bodies_) {
         const Vec3 a = start(body), way = body.toShape * to - a;
-        const double length = way.norm(), least = std::max(resolution, kLeastStride * length);
+        const double length = way.norm(), least = std::max(resolution, kLeastStride * length), steepest = std::max(1.0, body.shape.steepest());
         if (!std::isfinite(length)) continue;
         double distance = body.shape.distance(a);
-        if (distance < 0.0 || distance > length) continue;
-        // The distance never changes faster than the point moves: so far it is safe.
+        if (distance < -kOnSurface * resolution || distance > steepest * length) continue;
+        // So far it is safe: the distance never changes faster than the point moves, or, of a mesh, than at its steepest.
         for (double gone = 0.0; gone < earliest * length;) {
-            gone = std::min(gone + std::max(distance, least), length);
-            const Vec3 x = a + gone / length * way;
-            distance = body.shape.distance(x);
+            gone = std::min(gone + std::max(distance / steepest, least), length);
+            distance = body.shape.distance(a + gone / length * way);
             if (distance > 0.0) {
                 if (gone >= length) break;
                 continue;
             }
             if (gone / length < earliest || !first) {
-                const Vec3 before = a + std::max(0.0, gone - least) / length * way;
-                const Vec3 at = body.shape.distance(before) > 0.0 ? before : x;
                 earliest = gone / length;
-                first = Contact{body.now * at, body.now.linear() * body.shape.normal(at)};
+                const double share = std::max(0.0, gone - least) / length;
+                const Vec3 at = a + share * way;
+                first = Contact{body.now * at, body.now.linear() * body.shape.normal(at), share};
             }
             break;
         }
@@ -100,14 +117,32 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
     return first;
 }
 
-std::optional<Obstacles::Contact> Obstacles::firstContact(const Vec3& from, const Vec3& to, double resolution) const
+std::optional<Obstacles::Contact> Obstacles::firstContact(const Way& way, const Vec3& to, double resolution) const
 {
-    return meet(to, resolution, [&](const Body& body) -> Vec3 { return body.moving ? body.before.inverse() * from : body.toShape * from; });
+    return meet(to, resolution, [&](const Body& body) {
+        Vec3 x = body.moving ? Vec3(body.before.inverse() * way.start_) : Vec3(body.toShape * way.start_);
+        for (int n = 0; n < way.count_; ++n) x += way.legs_[n].share * (body.toShape * way.legs_[n].to - x);
+        return x;
+    });
 }
 
 std::optional<Obstacles::Contact> Obstacles::firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const
 {
     return meet(to, resolution, [&](const Body& body) -> Vec3 { return body.toShape * from; });
+}
+
+double Obstacles::farthestMove(const Vec3& x, double halfEdge) const
+{
+    double farthest = 0.0;
+    for (const Body& body : bodies_) {
+        if (!body.moving) continue;
+        const Eigen::Isometry3d move = body.now * body.before.inverse();
+        for (int n = 0; n < 8; ++n) {
+            const Vec3 corner = x + halfEdge * Vec3(n & 1 ? 1 : -1, n & 2 ? 1 : -1, n & 4 ? 1 : -1);
+            farthest = std::max(farthest, (move * corner - corner).norm());
+        }
+    }
+    return farthest;
 }
 
 Vec3 Obstacles::velocity(const Vec3& x) const

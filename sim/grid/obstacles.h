@@ -4,6 +4,7 @@
 #include "sim/scene/motion.h"
 #include "sim/shapes/shape.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,20 +22,47 @@ class Obstacles {
     bool anyMoving() const { return anyMoving_; }  ///< between t0 and t1 of the last moveTo
 
     double distance(const Vec3& x) const;          ///< to the nearest solid [cm], negative inside; infinite without any
-    double movingDistance(const Vec3& x) const;    ///< to the nearest that moves
+    enum class Which { All, Moving };
+    /// Does a solid come nearer than `within` to some place of the cube around x [cm]? Rather yes than no: as if it were a ball, and for meshes
+    /// a little more.
+    bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
     Vec3 normal(const Vec3& x) const;              ///< out of the nearest solid
     Vec3 velocity(const Vec3& x) const;            ///< of the nearest solid's material point at x [cm/s]
 
     /// Where a path first meets a solid, and on which side.
     struct Contact {
-        Vec3 x;       ///< on the solid's surface, or up to `resolution` in front of it, where it is at the end of the step [cm]
-        Vec3 normal;  ///< out of the solid
+        Vec3 x;        ///< on the solid's surface, or up to `resolution` in front of it, where it is at the end of the step [cm]
+        Vec3 normal;   ///< out of the solid
+        double share;  ///< of the way that the point has gone until then
     };
-    /// First contact of a point that goes straight from one place at the start of the step to another at its end, as seen from each solid;
-    /// nothing if it meets none. Solids in which it starts let it pass. Walls thinner than `resolution` [cm] may be missed.
-    std::optional<Contact> firstContact(const Vec3& from, const Vec3& to, double resolution) const;
+    /// The way of a point through a step, straight as seen from each solid from where it is to where it wants to be at the step's end.
+    class Way {
+     public:
+        explicit Way(const Vec3& start) : start_(start) {}
+        /// Go the first `share` of the way to a place.
+        void go(const Vec3& to, double share) { legs_[count_++] = {to, share}; }
+        static constexpr int kMostLegs = 6;
+
+     private:
+        friend class Obstacles;
+        struct Leg {
+            Vec3 to;
+            double share;
+        };
+        Vec3 start_;  ///< at the start of the step [cm]
+        std::array<Leg, kMostLegs> legs_;
+        int count_ = 0;
+    };
+    /// First contact of what goes on from there to another place; nothing if it meets none. Solids in which it is by more than a thousandth of
+    /// `resolution` [cm] let it pass. Walls thinner than `resolution` may be missed.
+    std::optional<Contact> firstContact(const Way& way, const Vec3& to, double resolution) const;
+    std::optional<Contact> firstContact(const Vec3& from, const Vec3& to, double resolution) const { return firstContact(Way(from), to, resolution); }
     /// The same where all solids rest in their places at the end of the step.
     std::optional<Contact> firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const;
+
+    /// The farthest that a solid's point goes in the step that is somewhere in the cube around x before it, or would be if the solid were
+    /// there [cm].
+    double farthestMove(const Vec3& x, double halfEdge) const;
 
     /// Plane walls of resting boxes that hold everything: the solid fills all beyond coordinate `at` along `axis`.
     struct Wall {

@@ -1,5 +1,7 @@
 #include "sim/grid/room.h"
 
+#include "sim/grid/seams.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +27,7 @@ void openVolumes(const BlockGrid& grid, int block, const Obstacles& obstacles, R
         for (int j = 0; j < kEdge; ++j)
             for (int i = 0; i < kEdge; ++i)
                 volume.at({i, j, k}) =
-                    std::clamp(0.5 + obstacles.distance(corner + grid.dx * Vec3(i, j, k)) / grid.dx, 0.0, 1.0);
+                    std::clamp(0.5 + distanceAcrossSeams(obstacles, corner + grid.dx * Vec3(i, j, k), grid.dx) / grid.dx, 0.0, 1.0);
 }
 
 /// The cells behind the wall get the values of their mirror images in front.

@@ -1,48 +1,108 @@
 #include "sim/liquid/push_out.h"
 
 #include "sim/core/parallel.h"
+#include "sim/grid/seams.h"
 
+#include <bit>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace sim {
 
 namespace {
 
 constexpr int kRepeats = 2;         ///< the second for edges, and for distances that are only bounds
-constexpr int kSlides = 3;           ///< along as many surfaces a particle goes in one step: a corner has three
+constexpr double kAcrossSeams = 2.0;  ///< as far a way out of solids that touch is looked for [cells]
+constexpr int kContacts = 5;         ///< of a particle in one step: a corner has three surfaces, round ones are met again
 constexpr double kResolution = 5.0e-3;  ///< of paths: thinner walls may be missed [cells]
 
 /// The nearest place outside of all solids, a little in front.
 Vec3 outside(const Obstacles& obstacles, double inFront, Vec3 x)
 {
+    const Vec3 start = x;
     for (int repeat = 0; repeat < kRepeats; ++repeat) {
         const double distance = obstacles.distance(x);
         if (distance >= 0.0) return x;
         x += (inFront - distance) * obstacles.normal(x);
     }
-    return x;
+    if (obstacles.distance(x) >= 0.0) return x;
+    // The shortest way out of one solid may lead into another that touches it.
+    const std::optional<Vec3> surface = nearestSurface(obstacles, start, kAcrossSeams / kPushedInFront * inFront);
+    return surface ? *surface + inFront * (*surface - start).normalized() : x;
 }
+
+/// What may be in front of some planes, and no further.
+class Fronts {
+ public:
+    void add(const Vec3& normal, const Vec3& through)
+    {
+        normals_[count_] = normal;
+        offsets_[count_++] = normal.dot(through);
+    }
+    bool hold(const Vec3& x, double tolerance) const
+    {
+        for (int n = 0; n < count_; ++n)
+            if (normals_[n].dot(x) < offsets_[n] - tolerance) return false;
+        return true;
+    }
+    /// The place in front of all of them that is nearest to x: on none, one, two or three of them. Nothing if there is none.
+    std::optional<Vec3> nearest(const Vec3& x, double tolerance) const
+    {
+        std::optional<Vec3> best;
+        for (unsigned chosen = 0; chosen < 1u << count_; ++chosen) {
+            const std::optional<Vec3> place = std::popcount(chosen) > kAxes ? std::nullopt : onAll(chosen, x);
+            if (place && hold(*place, tolerance) && (!best || (*place - x).squaredNorm() < (*best - x).squaredNorm())) best = place;
+        }
+        return best;
+    }
+
+ private:
+    /// The place nearest to x on each of some planes; nothing if two of them are as good as parallel.
+    std::optional<Vec3> onAll(unsigned chosen, Vec3 x) const
+    {
+        constexpr double kParallel = 1.0e-3;
+        std::array<Vec3, kAxes> across;  // unit vectors, orthogonal to each other, that span the normals
+        int count = 0;
+        for (int n = 0; n < count_; ++n) {
+            if ((chosen >> n & 1) == 0) continue;
+            Vec3 free = normals_[n];
+            for (int m = 0; m < count; ++m) free -= free.dot(across[m]) * across[m];
+            if (free.norm() < kParallel) return std::nullopt;
+            across[count] = free.normalized();
+            x += (offsets_[n] - normals_[n].dot(x)) / normals_[n].dot(across[count]) * across[count];
+            ++count;
+        }
+        return x;
+    }
+
+    std::array<Vec3, kContacts> normals_;
+    std::array<double, kContacts> offsets_{};
+    int count_ = 0;
+};
 
 /// Where a particle gets that wants to go from one place to another, along the surfaces that it meets.
 /// @param normal  out: of the last of them
 Vec3 slide(const Obstacles& obstacles, double dx, const Vec3& from, const Vec3& to, Vec3& normal)
 {
+    constexpr double kOnPlane = 1.0e-6;  // [cells]
     const double inFront = kPushedInFront * dx, resolution = kResolution * dx;
-    auto contact = obstacles.firstContact(from, to, resolution);
-    if (!contact) return to;
-    Vec3 end = to;
-    for (int n = 0; n < kSlides; ++n) {
-        normal = contact->normal;
-        Vec3 at = contact->x + inFront * normal;
-        if (obstacles.distance(at) <= 0.0) at = contact->x;
-        const Vec3 rest = end - at;
-        end = outside(obstacles, inFront, at + rest - std::min(0.0, rest.dot(normal)) * normal);
-        contact = obstacles.firstContactAtEnd(at, end, resolution);
+    Obstacles::Way way(from);
+    Fronts fronts;
+    Vec3 end = to, at = to;
+    for (int n = 0; n < kContacts; ++n) {
+        const auto contact = obstacles.firstContact(way, end, resolution);
         if (!contact) return end;
-        if (n + 1 == kSlides) return at;
+        normal = contact->normal;
+        at = contact->x + inFront * normal;
+        if (obstacles.distance(at) <= 0.0) at = contact->x;
+        fronts.add(normal, contact->x + inFront * normal);
+        way.go(end, contact->share);
+        const Vec3 along = fronts.nearest(to, kOnPlane * dx).value_or(at), moved = outside(obstacles, inFront, along);
+        // Not out of one solid into or through another: that one is then met on the way.
+        end = fronts.hold(moved, kOnPlane * dx) ? moved : along;
     }
-    return end;
+    return obstacles.firstContact(way, end, resolution) ? at : end;
 }
 
 /// Take away the velocity towards the solid at a particle.
@@ -76,11 +136,14 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
 PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
                           double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles)
 {
-    const double safe = 0.5 * std::sqrt(3.0) * grid.dx + farthest;
     const auto ofBlock = [&](std::size_t n) {
         const int b = order.occupied[n];
         PushedOut pushed;
-        if (!field.nearSolid(b) && farthest < ObstacleField::kExactDistance * grid.dx) return pushed;
+        // Solids are known where they are now: on its way a particle has been no nearer to them than this.
+        const double half = 0.5 * kBlockEdge * grid.dx;
+        const double sweep = obstacles.anyMoving() ? obstacles.farthestMove(grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
+        const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * grid.dx + reach;
+        if (!field.nearSolid(b) && reach < ObstacleField::kExactDistance * grid.dx) return pushed;
         for (int c = 0; c < kBlockCells; ++c) {
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);

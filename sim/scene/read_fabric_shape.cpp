@@ -323,7 +323,7 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     if (isCloth && out.faces.empty()) fail(context.node.find("weld") ? context.node.find("weld")->place : name.place, context.path + ".weld: leaves no triangle; ask for less");
     for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.place.text(), context.path, note);
     requireFew(static_cast<double>(out.points.size()), context);
-    if (const std::string problem = orientAlike(out.faces); !problem.empty())
+    if (const std::string problem = orientAlike(out.faces, firstInFile(out)); !problem.empty())
         fail(name.place, fmt::format("{}.file: {}", context.path, problem));
     return {std::move(out), radius, flowOf(fields), std::move(notes)};
 }

@@ -100,6 +100,7 @@ FabricPiece readPiece(const Node& node, const std::string& name, const std::stri
         piece.transformText = place(*transform, joinPath(path, "transform"), piece.points);
     if (const Node* pin = node.find("pin"))
         piece.pins = readPins(*pin, joinPath(path, "pin"), shape.geometry, piece.points, scene.settings.cell);
+    piece.inFile = firstInFile(shape.geometry);
     piece.strands = std::move(shape.geometry.strands);
     piece.faces = std::move(shape.geometry.faces);
     return piece;

@@ -89,7 +89,7 @@ void requireOneMotionPerVertex(const FabricPiece& piece)
                 fail(pin.where,
                      fmt::format("fabrics.{}.pin: vertex {} is held by two pins that move differently; let them "
                                  "not overlap",
-                                 piece.name, v));
+                                 piece.name, piece.called(v)));
             holder[v] = &pin;
         }
     }

@@ -63,6 +63,11 @@ class ToySimulation : public Steppable {
         report.energies = energies();
         if (booksEnergy_) report.energyChanges.emplace()[sim::EnergyChange::Gravity] = -0.75 * toy_.speed * report.dt;  // a quarter is missing
         report.liquidMass = 2.0;
+        if (toy_.shutAtStep > 0) {
+            state_.memory.sources.resize(1);
+            state_.memory.sources[0].isShut = state_.step >= toy_.shutAtStep ? 1.0 : 0.0;
+            state_.emittedVolume = {0.25 * static_cast<double>(state_.step)};
+        }
         return report;
     }
 

@@ -14,6 +14,7 @@ struct ToySettings {
     int stepMilliseconds = 0;        ///< that a step takes
     int drawMilliseconds = 0, writeMilliseconds = 0;
     int failAtStep = 0;              ///< the step that throws RunError; 0: none
+    int shutAtStep = 0;              ///< the step after which its one source has to stop; 0: it has none
     int failAtDrawing = -1;          ///< the frame whose drawing throws
     int failAtWriting = -1;          ///< the frame whose file cannot be written
 };

@@ -335,6 +335,23 @@ TEST(LoadFabric, PinsNameVerticesOfTheFile)
     expectError(begin + ", weld: 5}", "leaves no triangle");
 }
 
+/// Whatever is wrong is at the vertices that the file's own numbers name, counted from 0 as for pins.
+TEST(LoadFabric, MistakesNameVerticesOfTheFile)
+{
+    // Two triangles whose common corners are there twice, after a vertex that nothing uses.
+    const std::string sheet = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 2 3 4\nf 5 6 7\n";
+    const auto mesh = [](const ObjFile& file) { return "mesh: {material: wool, radius: 0.05, file: " + file.path.string() + "}"; };
+    const ObjFile flat(sheet + "v 5 5 5\nv 6 6 6\nv 7 7 7\nf 8 9 10\n");
+    expectError(mesh(flat), "the face 7, 8, 9 has no area");
+    const ObjFile threeFaces(sheet + "v 0 0 0\nv 1 1 0\nv 0 0 1\nf 8 9 10\n");
+    expectError(mesh(threeFaces), "between vertices 1 and 3 has more than two faces");
+    const ObjFile line("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 0 0\nl 2 3 4\n");
+    expectError("points: {material: wool, radius: 0.05, file: " + line.path.string() + "}", "turns straight back at vertex 2");
+    const ObjFile sound(sheet);
+    EXPECT_EQ((std::vector<int>{1, 2, 3, 6}), piece(mesh(sound)).inFile);
+    expectError(mesh(sound) + ", pin: [{nodes: [6]}, {nodes: [6], motion: [{t: [0, 1], translate: [0, 1, 0]}]}]", "vertex 6 is held by two pins");
+}
+
 /// Triangles of a sheet in any order, each with its own corners, are one sheet again.
 TEST(LoadFabric, ASoupOfTrianglesIsOneSheet)
 {

@@ -1,6 +1,7 @@
 #include "sim/shapes/thickness.h"
 
 #include "sim/core/units.h"
+#include "tests/sim/grid/random_solids.h"
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,42 @@ TEST(Thickness, OfWhatIsNowhereThinIsItsSize)
     EXPECT_GT(thicknessOf(Shape::box(Vec3::Zero(), {1.0, 1.0, 1.0}), 0.25), 1.0);
     EXPECT_TRUE(std::isinf(thicknessOf(Shape::box(Vec3::Zero(), {1.0, 1.0, 1.0}).inverted(), 0.25)));
     EXPECT_TRUE(std::isinf(thicknessOf(Shape(), 0.25)));
+}
+
+TEST(Thickness, OfABallIsItsDiameterHoweverFineItIsLookedAt)
+{
+    for (double radius : {0.05, 0.4, 2.0, 30.0})
+        for (double pitch : {0.02, 0.1, 0.25, 1.0}) {
+            const double thick = thicknessOf(Shape::ball({1.0, -2.0, 0.5}, radius), pitch);
+            EXPECT_NEAR(thick, 2.0 * radius, 0.05 * radius + 0.03 * pitch) << radius << " at " << pitch;
+        }
+}
+
+/// A sheet of cells of its own pitch: what is thinner than the samples is as thick as they tell.
+TEST(Thickness, OfAMeshIsThatOfTheBodyItIs)
+{
+    Chance chance(2);
+    for (int n = 0; n < 12; ++n) {
+        const double thick = chance.between(0.15, 0.6), pitch = 0.2;
+        const Shape mesh = meshOfBox({1.0, 0.5 * thick, 1.3}, 0.5 * pitch).moved(chance.turn(2.0));
+        EXPECT_NEAR(thicknessOf(mesh, pitch), thick, 0.25 * pitch) << n;
+    }
+}
+
+TEST(Thickness, GrowsWithTheShapeAndThePitch)
+{
+    Chance chance(3);
+    for (const Kind& kind : kSolidKinds) {
+        if (kind.isMesh || kind.name == std::string("vessel")) continue;
+        const Shape shape = kind.make(chance);
+        const double thick = thicknessOf(shape, 0.1), moved = thicknessOf(shape.moved(Eigen::Isometry3d(Eigen::Translation3d(3.0, -4.0, 5.0))), 0.1);
+        EXPECT_GT(thick, 0.0) << kind.name;
+        EXPECT_NEAR(moved, thick, 1.0e-6) << kind.name;
+        EXPECT_LE(thick, shape.bounds().diagonal().norm()) << kind.name;
+        // Turned, other places of it are looked at: near its edges and rims they tell of less.
+        const double turned = thicknessOf(shape.moved(chance.turn(2.0)), 0.1);
+        EXPECT_NEAR(turned, thick, 0.3 * thick + 0.02) << kind.name;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// Every block that a solid comes near to knows it, and particles that one comes upon are moved, however fast it is.
+#include "tests/sim/grid/random_solids.h"
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+/// A mesh that runs across its bounds: outside of the lattice that it is sampled on it is much nearer than its distance says.
+Shape meshOfSlantedPlate(Chance& chance)
+{
+    const double thick = chance.between(0.1, 0.3);
+    std::vector<Vec3> corners;
+    const Vec3 normal = Vec3::Ones().normalized(), u = Vec3(1.0, -1.0, 0.0).normalized(), v = normal.cross(u);
+    for (int n = 0; n < 8; ++n) corners.emplace_back((n & 1 ? 1.5 : -1.5) * u + (n & 2 ? 1.5 : -1.5) * v + (n & 4 ? thick : -thick) * normal);
+    return Shape::mesh(corners, kFacesOfBox, 0.05);
+}
+
+TEST(NearSolids, BlocksThatOneReachesKnowIt)
+{
+    std::vector<Kind> kinds(kSolidKinds.begin(), kSolidKinds.end());
+    kinds.push_back({"mesh of a slanted plate", meshOfSlantedPlate, true});
+    for (const Kind& kind : kinds) {
+        SCOPED_TRACE(kind.name);
+        constexpr double kCell = 0.1, kWithin = (ObstacleField::kExactDistance - 0.05) * kCell;  // what is sampled is off by some per mille
+        Chance chance(1);
+        const Shape shape = kind.make(chance);
+        int near = 0, far = 0;
+        for (int n = 0; n < 800; ++n) {
+            // One block, of which some corner, edge or face may come near.
+            GridScene scene({0, 0, 0}, {8, 8, 8}, kCell, chance.inCube(3.0) - Vec3::Constant(0.4));
+            scene.obstacles.add(shape, {});
+            scene.updateObstacles();
+            double least = 1.0e9;
+            for (int k = 0; k <= 8; k += 2)
+                for (int j = 0; j <= 8; j += 2)
+                    for (int i = 0; i <= 8; i += 2) least = std::min(least, shape.distance(scene.corner({i, j, k})));
+            ASSERT_TRUE(scene.field.nearSolid(0) || least >= kWithin) << n << ": " << least << " cm";
+            ASSERT_FALSE(scene.field.nearSolid(0) && least > 8.0 * kCell) << n << ": " << least << " cm";
+            near += least < kWithin;
+            far += least > 8.0 * kCell;
+        }
+        EXPECT_GT(near, 20);
+        EXPECT_TRUE(far > 20 || kind.name == std::string("vessel")) << far;
+    }
+}
+
+}  // namespace
+}  // namespace sim::test

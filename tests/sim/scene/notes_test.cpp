@@ -1,0 +1,67 @@
+// What a scene that can be run tells its user nevertheless.
+#include "sim/scene/load_scene.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr const char* kPool = "liquid: {sources: [{name: pool, shape: {box: {min: [-1, 3, -1], max: [1, 4, 1]}}}]}\n";
+
+/// What a scene says of walls: a plate or a mesh of this thickness [cm], with or without liquid, in cells of 0.25 cm.
+std::vector<std::string> notesOf(const std::string& obstacles, bool hasLiquid = true)
+{
+    return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\n" + std::string(hasLiquid ? kPool : "") + "obstacles:\n" + obstacles, "thin.yaml")).notes;
+}
+
+std::string plate(const std::string& name, double thickness, const std::string& more = "")
+{
+    return fmt::format("  - {{name: {}, shape: {{box: {{min: [-2, 0, -2], max: [2, {}, 2]}}}}{}}}\n", name, thickness, more);
+}
+
+TEST(Notes, NameThinWallsOnceAndHowThickTheyAre)
+{
+    const std::vector<std::string> notes = notesOf(plate("lid", 0.1) + plate("floor", 1.0) + plate("table", 0.45));
+    ASSERT_EQ(2u, notes.size());
+    EXPECT_NE(std::string::npos, notes[0].find("thin.yaml:4: obstacle lid is 0.1 cm thick, 0.4 cells")) << notes[0];
+    EXPECT_NE(std::string::npos, notes[0].find("a grid.cell of 0.05 cm would resolve it")) << notes[0];
+    EXPECT_NE(std::string::npos, notes[1].find("obstacle table is 0.45 cm thick, 1.8 cells")) << notes[1];
+}
+
+TEST(Notes, NameThinWallsHoweverTheyAreTurnedOrMove)
+{
+    for (const char* more : {", motion: [{t: [0, 1], translate: [0, 1, 0]}]", ", friction_angle: 30", ", collide: false"})
+        EXPECT_EQ(1u, notesOf(plate("lid", 0.1, more)).size()) << more;
+    const auto turned = notesOf("  - {name: lid, shape: {box: {min: [-2, 0, -2], max: [2, 0.1, 2]}, rotate: {axis: [1, 2, 3], angle: 40}}}\n");
+    ASSERT_EQ(1u, turned.size());
+    EXPECT_NE(std::string::npos, turned[0].find("obstacle lid is 0.")) << turned[0];
+}
+
+TEST(Notes, SayNothingOfThickWallsVesselsAndScenesWithoutLiquid)
+{
+    EXPECT_TRUE(notesOf(plate("floor", 0.55)).empty());
+    EXPECT_TRUE(notesOf(plate("tank", 4.0, ", inside: true")).empty());
+    EXPECT_TRUE(notesOf(plate("tank", 0.1, ", inside: true")).empty()) << "the space is thin, not the wall";
+    EXPECT_TRUE(notesOf("  - {name: post, shape: {ball: {center: [0, 5, 0], radius: 0.5}}}\n").empty());
+    EXPECT_TRUE(notesOf(plate("lid", 0.1), false).empty());
+}
+
+TEST(Notes, ASourceThatIsAskedForNothingSaysSo)
+{
+    const auto notes = [](const std::string& source) {
+        return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\ntime: {duration: 2}\nliquid:\n  sources:\n    - {name: jet, shape: {ball: {center: [0, 5, 0], radius: 1}}, " + source + "}\n",
+                                                        "good.yaml"))
+            .notes;
+    };
+    EXPECT_TRUE(notes("velocity: [0, 1, 0], emit: [{from: 0, to: 1}]").empty());
+    EXPECT_TRUE(notes("velocity: [0, 0, 0]").empty());
+    ASSERT_EQ(1u, notes("emit: [{from: 0, to: 1}]").size());
+    EXPECT_NE(std::string::npos, notes("emit: [{from: 0, to: 1}]")[0].find("liquid.sources.jet.emit: without a velocity"));
+    ASSERT_EQ(1u, notes("velocity: [0, 1, 0], emit: [{from: 3, to: 4}, {from: 0, to: 1}]").size());
+    EXPECT_NE(std::string::npos, notes("velocity: [0, 1, 0], emit: [{from: 3, to: 4}]")[0].find("nothing comes from 3 to 4 s"));
+}
+
+}  // namespace
