@@ -20,6 +20,7 @@ struct FabricContact::Parts {
     struct Grip {
         PairRange range;
         double stiffness;    ///< of the pair [dyn/cm]
+        double perStep;      ///< mean mass of its vertices over h² [dyn/cm]
         double coefficient;  ///< Coulomb's [-]
         double perMass;      ///< h² over the mass that its separation has [cm/dyn]
     };
@@ -145,7 +146,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.weights[slot] = c;
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
-    grips[slot] = {pairs.range(place), stiffness, primitives.friction2(a, b), h * h * mobility};
+    grips[slot] = {pairs.range(place), stiffness, meanMass / (h * h), primitives.friction2(a, b), h * h * mobility};
     const Friction sideways = friction(x, expected, energy, distance, slot);
     active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
@@ -171,7 +172,7 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
-    const GripSpring spring{along(turn * held.at(active.between[slot])), gripStiffness(grip.stiffness, -energy.slope, pressed),
+    const GripSpring spring{along(turn * held.at(active.between[slot])), gripStiffness(-energy.slope, pressed, grip.perStep),
                             grip.coefficient * -energy.slope};
     if (expected.empty()) return spring.at(along(apart - carried));
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
