@@ -26,6 +26,13 @@ struct Friction {
     }
 };
 
+/// A force as far as friction can hold it.
+inline Vec3 atMost(double bound, const Vec3& force)
+{
+    const double size = force.norm();
+    return size > bound ? Vec3(bound / size * force) : force;
+}
+
 /// A spring that friction holds, and by what it can be held.
 struct GripSpring {
     Vec3 held;          ///< its force at the start of the step [dyn]
@@ -53,7 +60,7 @@ inline Friction GripSpring::expected(const Vec3& slip, const Vec3& expectedSlip,
     const Vec3 smooth = trial(expectedSlip), free = smooth + perMass * held;
     const double size = free.norm();
     const Vec3 direction = size > 0.0 ? Vec3(free / size) : Vec3::Zero().eval();
-    const double last = std::max(size - perMass * bound, direction.dot(smooth));
+    const double last = size - perMass * bound;
     if (last <= bound) return {trial(slip), stiffness, stiffness};
     const double share = bound / last, along = stiffness * bound / (last + perMass * bound);
     const Vec3 further = slip - (last * direction - held) / stiffness;

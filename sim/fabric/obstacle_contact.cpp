@@ -86,12 +86,18 @@ FabricObstacles::Point FabricObstacles::nearestPoint(const Fabric& fabric, const
     return {kNameless, mean(x), mean(start.x), p.radius, 1.0 / compliance, fabric.vertexMaterial[p.vertices[0]], move};
 }
 
+/// Of the penalty on a point [dyn/cm].
+double FabricObstacles::stiffnessOf(const Point& point, const Start& start)
+{
+    return kStiffness * point.mass / (start.h * start.h);
+}
+
 std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point, int obstacle, const Start& start) const
 {
     const Body& body = bodies_[obstacle];
     const double overlap = point.reach - body.pose.distance(point.x);
     if (!(overlap > 0.0)) return std::nullopt;
-    const double stiffness = kStiffness * point.mass / (start.h * start.h), push = stiffness * overlap;
+    const double stiffness = stiffnessOf(point, start), push = stiffness * overlap;
     const Vec3 n = body.pose.normal(point.x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
     const Vec3 carried = body.carry * point.start, slip = along(point.x - carried);
@@ -113,7 +119,7 @@ Vec3 FabricObstacles::collect(const Point& point, int vertex, int other, const S
         const Vec3& n = touching->normal;
         pushedOut += touching->push / touching->stiffness * n;
         out.push_back({vertex, other, {point.number, body}, touching->friction.force - touching->push * n,
-                       touching->stiffness * n * n.transpose() + touching->friction.matrix(n)});
+                       touching->stiffness * n * n.transpose() + touching->friction.matrix(n), point.x});
     }
     return pushedOut;
 }
@@ -159,7 +165,7 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
             if (!touching) continue;
             const Vec3& n = touching->normal;
             out.push_back({p.vertices[0], p.vertices[1], {kNameless, body}, touching->friction.force - touching->push * n,
-                           touching->stiffness * n * n.transpose() + touching->friction.matrix(n),
+                           touching->stiffness * n * n.transpose() + touching->friction.matrix(n), point.x,
                            p.corners == 3 ? p.vertices[2] : ObstacleContact::kNone, p.weights});
         }
     });
@@ -169,17 +175,21 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
 void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const
 {
     const int vertices = static_cast<int>(fabric.vertexCount());
-    std::vector<std::optional<Touch>> touching(contacts_.size());
+    std::vector<std::optional<Vec3>> force(contacts_.size());
     parallelFor(contacts_.size(), 256, [&](std::size_t i) {
         const ObstacleContact& c = contacts_[i];
         if (c.between[0] == kNameless) return;
         const Point point = c.isEdge() ? edgePoint(fabric, c.between[0] - vertices, x, start) : vertexPoint(fabric, c.vertex, x, start);
-        touching[i] = touch(point, c.between[1], start);
+        const Body& body = bodies_[c.between[1]];
+        const double overlap = point.reach - body.pose.distance(point.x);
+        if (!(overlap > 0.0)) return;
+        const Vec3 n = body.pose.normal(point.x), acted = c.gradient + c.stiffness * (point.x - c.place);
+        const double bound = body.friction[point.material] * stiffnessOf(point, start) * overlap;
+        force[i] = atMost(bound, acted - acted.dot(n) * n);
     });
-    Grips kept;
+    held.clear();
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-        if (touching[i]) kept.add(contacts_[i].between, touching[i]->friction.force);
-    held = std::move(kept);
+        if (force[i]) held.add(contacts_[i].between, *force[i]);
 }
 
 double FabricObstacles::deepest(const Fabric& fabric, std::span<const Vec3> x) const

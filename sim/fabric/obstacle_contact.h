@@ -20,6 +20,7 @@ struct ObstacleContact {
     Vec2i between = {0, 0};         ///< the point's number, vertices first, or −1, and the obstacle's among those that fabric feels
     Vec3 gradient = Vec3::Zero();   ///< of the penalty and of friction by the position of the point [dyn]
     Mat3 stiffness = Mat3::Zero();  ///< [dyn/cm]
+    Vec3 place = Vec3::Zero();      ///< of the point, where these are [cm]
     int third = kNone;              ///< corner of a face, or kNone
     Vec3 weights = Vec3::Zero();    ///< of the corners at a nearest point; zero for a vertex or a middle [-]
 
@@ -60,7 +61,8 @@ class FabricObstacles {
     };
     /// Contacts at x, of the vertices, then of the edges, then of the points of edges and faces that touch besides.
     const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start, std::span<const NearestPoint> nearest = {});
-    /// What of the friction is held at the end of the step, at x, where the contacts found last still touch.
+    /// What of the friction is held at the end of the step, at x, where the contacts found last still touch: what acted there according to
+    /// their gradients and stiffnesses.
     void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const;
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
     double deepest(const Fabric& fabric, std::span<const Vec3> x) const;
@@ -91,6 +93,7 @@ class FabricObstacles {
     Point vertexPoint(const Fabric& fabric, int v, std::span<const Vec3> x, const Start& start) const;
     Point edgePoint(const Fabric& fabric, int edge, std::span<const Vec3> x, const Start& start) const;
     Point nearestPoint(const Fabric& fabric, const NearestPoint& p, std::span<const Vec3> x, const Start& start) const;
+    static double stiffnessOf(const Point& point, const Start& start);
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
     Vec3 collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const;
     bool touches(const Vec3& x, double reach) const;

@@ -19,7 +19,9 @@ struct FabricContact::Parts {
     /// What the friction of an active pair goes by.
     struct Grip {
         PairRange range;
+        Vec3 apart;          ///< separation where it was looked at last [cm]
         double stiffness;    ///< of the pair [dyn/cm]
+        double perStep;      ///< mean mass of its vertices over h² [dyn/cm]
         double coefficient;  ///< Coulomb's [-]
         double perMass;      ///< h² over the mass that its separation has [cm/dyn]
     };
@@ -145,7 +147,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.weights[slot] = c;
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
-    grips[slot] = {pairs.range(place), stiffness, primitives.friction2(a, b), h * h * mobility};
+    grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (h * h), primitives.friction2(a, b), h * h * mobility};
     const Friction sideways = friction(x, expected, energy, distance, slot);
     active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
@@ -162,16 +164,16 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const std::array<int, 4>& v = active.vertices[slot];
     const std::array<double, 4>& c = active.weights[slot];
     const Vec3& normal = active.normal[slot];
-    Vec3 apart = Vec3::Zero(), before = Vec3::Zero(), further = Vec3::Zero();
+    const Vec3& apart = grip.apart;
+    Vec3 before = Vec3::Zero(), further = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) {
-        apart += c[k] * x[v[k]];
         before += c[k] * start[v[k]];
         if (!expected.empty()) further += c[k] * expected[v[k]];
     }
     const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
-    const GripSpring spring{along(turn * held.at(active.between[slot])), gripStiffness(grip.stiffness, -energy.slope, pressed),
+    const GripSpring spring{along(turn * held.at(active.between[slot])), gripStiffness(-energy.slope, pressed, grip.perStep),
                             grip.coefficient * -energy.slope};
     if (expected.empty()) return spring.at(along(apart - carried));
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
@@ -182,9 +184,12 @@ void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held) const
     const Parts& p = *parts_;
     std::vector<Vec3> force(p.active.size());
     parallelFor(force.size(), 512, [&](std::size_t i) {
-        double distance = 0.0;
-        for (std::size_t k = 0; k < 4; ++k) distance += p.active.weights[i][k] * p.active.normal[i].dot(x[p.active.vertices[i][k]]);
-        force[i] = p.friction(x, {}, pairEnergy(distance, p.grips[i].range, p.grips[i].stiffness), distance, i).force;
+        const Vec3& n = p.active.normal[i];
+        Vec3 apart = Vec3::Zero();
+        for (std::size_t k = 0; k < 4; ++k) apart += p.active.weights[i][k] * x[p.active.vertices[i][k]];
+        const Vec3 acted = p.active.force[i] + p.active.frictionStiffness[i] * (apart - p.grips[i].apart);
+        const double normalForce = -pairEnergy(apart.dot(n), p.grips[i].range, p.grips[i].stiffness).slope;
+        force[i] = atMost(p.grips[i].coefficient * normalForce, acted - acted.dot(n) * n);
     });
     held.clear();
     for (std::size_t i = 0; i < force.size(); ++i)

@@ -54,7 +54,8 @@ class FabricContact {
     /// Pairs that act at x, with force and stiffness.
     /// @param expected  moves of the vertices since the start of the step if forces act on as they did [cm], where x is a prediction
     const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});
-    /// What of the friction of the pairs found last is held at the end of the step, at x.
+    /// What of the friction of the pairs found last is held at the end of the step, at x: what acted there according to their forces and
+    /// stiffnesses.
     void keepFriction(std::span<const Vec3> x, Grips& held) const;
 
     std::size_t candidates() const;                ///< pairs in the list

@@ -234,8 +234,8 @@ TEST(PairStiffness, IsTheFibresOrWhatAStepResolves)
 
 TEST(GripStiffness, LetsAPairGiveNoFurtherThanItIsPressed)
 {
-    EXPECT_EQ(gripStiffness(3.0, 0.5, 0.5), 3.0);   // soft beginning: less force than the spring's stiffness times the way
-    EXPECT_EQ(gripStiffness(3.0, 10.0, 0.5), 20.0);  // wall
+    EXPECT_EQ(gripStiffness(0.5, 0.5, 3.0), 12.0);   // pressed lightly: what stops the masses
+    EXPECT_EQ(gripStiffness(10.0, 0.5, 3.0), 20.0);  // pressed hard: N over how far
 }
 
 }  // namespace
