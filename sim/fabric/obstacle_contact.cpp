@@ -18,7 +18,7 @@ constexpr double kActivation = 0.25;      ///< distance at which it begins to ac
 FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles)
 {
     for (const ObstacleSettings& obstacle : obstacles) {
-        if (!obstacle.collide) continue;
+        if (!obstacle.collide || obstacle.shape.empty()) continue;  // as SolidGuard counts them
         Body& body = bodies_.emplace_back();
         body.pose.add(obstacle.shape, obstacle.motion);
         body.motion = obstacle.motion;
@@ -83,7 +83,8 @@ FabricObstacles::Point FabricObstacles::nearestPoint(const Fabric& fabric, const
     double compliance = 0.0;
     for (int c = 0; c < p.corners; ++c) compliance += p.weights[c] * p.weights[c] / start.mass[p.vertices[c]];
     const Vec3 move = start.moves.empty() ? Vec3::Zero().eval() : mean(start.moves);
-    return {kNameless, mean(x), mean(start.x), p.radius, 1.0 / compliance, fabric.vertexMaterial[p.vertices[0]], move};
+    const int number = static_cast<int>(share_.size() + edges_.size()) + p.element;
+    return {number, mean(x), mean(start.x), p.radius, 1.0 / compliance, fabric.vertexMaterial[p.vertices[0]], move};
 }
 
 /// Of the penalty on a point [dyn/cm].
@@ -109,18 +110,38 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
     return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), kStiffness)};
 }
 
-/// The contacts of a point; how far they push it [cm].
-Vec3 FabricObstacles::collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const
+FabricObstacles::Point FabricObstacles::pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x,
+                                                const Start& start) const
+{
+    const int vertices = static_cast<int>(share_.size()), nearest = vertices + static_cast<int>(edges_.size()), number = contact.between[0];
+    if (number < vertices) return vertexPoint(fabric, number, x, start);
+    if (number < nearest) return edgePoint(fabric, number - vertices, x, start);
+    NearestPoint p{number - nearest, contact.between[1], contact.third == ObstacleContact::kNone ? 2 : 3, contact.vertices(), contact.weights, 0.0};
+    p.radius = fabric.radius[p.vertices[0]];
+    for (int v : p.vertices) p.radius = std::min(p.radius, fabric.radius[v]);
+    return nearestPoint(fabric, p, x, start);
+}
+
+/// The contact of a point between these corners with an obstacle, if they touch; how far it pushes the point [cm].
+Vec3 FabricObstacles::collect(const Point& point, int obstacle, const ObstacleContact& corners, const Start& start,
+                              std::vector<ObstacleContact>& out) const
+{
+    const std::optional<Touch> touching = touch(point, obstacle, start);
+    if (!touching) return Vec3::Zero();
+    const Vec3& n = touching->normal;
+    ObstacleContact& contact = out.emplace_back(corners);
+    contact.between = {point.number, obstacle};
+    contact.gradient = touching->friction.force - touching->push * n;
+    contact.stiffness = touching->stiffness * n * n.transpose() + touching->friction.matrix(n);
+    contact.place = point.x;
+    return touching->push / touching->stiffness * n;
+}
+
+/// Likewise with all obstacles.
+Vec3 FabricObstacles::collect(const Point& point, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const
 {
     Vec3 pushedOut = Vec3::Zero();
-    for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
-        const std::optional<Touch> touching = touch(point, body, start);
-        if (!touching) continue;
-        const Vec3& n = touching->normal;
-        pushedOut += touching->push / touching->stiffness * n;
-        out.push_back({vertex, other, {point.number, body}, touching->friction.force - touching->push * n,
-                       touching->stiffness * n * n.transpose() + touching->friction.matrix(n), point.x});
-    }
+    for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) pushedOut += collect(point, body, corners, start, out);
     return pushedOut;
 }
 
@@ -147,7 +168,7 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
         for (const Body& body : bodies_) nearest_[v] = std::min(nearest_[v], body.pose.distance(x[v]));
         const Point point = vertexPoint(fabric, static_cast<int>(v), x, start);
         pushedOut_[v].setZero();
-        if (!fabric.pinned[v] && nearest_[v] < point.reach) pushedOut_[v] = collect(point, static_cast<int>(v), ObstacleContact::kNone, start, out);
+        if (!fabric.pinned[v] && nearest_[v] < point.reach) pushedOut_[v] = collect(point, {static_cast<int>(v)}, start, out);
     });
     collectFrom(edges_.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
         const int a = edges_[i][0], b = edges_[i][1];
@@ -155,31 +176,24 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
         if (std::max(nearest_[a], nearest_[b]) - 0.5 * (x[b] - x[a]).norm() >= point.reach) return;
         // A middle that its ends will lift off is left to them: a spring of its own would pull it back.
         const Vec3 lifted = point.x + 0.5 * (pushedOut_[a] + pushedOut_[b]);
-        if (touches(lifted, point.reach)) collect(point, a, b, start, out);
+        if (touches(lifted, point.reach)) collect(point, {a, b}, start, out);
     });
     collectFrom(nearest.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
         const NearestPoint& p = nearest[i];
-        const Point point = nearestPoint(fabric, p, x, start);
-        for (int body = 0; body < static_cast<int>(bodies_.size()); ++body) {
-            const std::optional<Touch> touching = touch(point, body, start);
-            if (!touching) continue;
-            const Vec3& n = touching->normal;
-            out.push_back({p.vertices[0], p.vertices[1], {kNameless, body}, touching->friction.force - touching->push * n,
-                           touching->stiffness * n * n.transpose() + touching->friction.matrix(n), point.x,
-                           p.corners == 3 ? p.vertices[2] : ObstacleContact::kNone, p.weights});
-        }
+        ObstacleContact corners{p.vertices[0], p.vertices[1]};
+        corners.third = p.corners == 3 ? p.vertices[2] : ObstacleContact::kNone;
+        corners.weights = p.weights;
+        collect(nearestPoint(fabric, p, x, start), p.body, corners, start, out);
     });
     return contacts_;
 }
 
 void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const
 {
-    const int vertices = static_cast<int>(fabric.vertexCount());
     std::vector<std::optional<Vec3>> force(contacts_.size());
     parallelFor(contacts_.size(), 256, [&](std::size_t i) {
         const ObstacleContact& c = contacts_[i];
-        if (c.between[0] == kNameless) return;
-        const Point point = c.isEdge() ? edgePoint(fabric, c.between[0] - vertices, x, start) : vertexPoint(fabric, c.vertex, x, start);
+        const Point point = pointOf(fabric, c, x, start);
         const Body& body = bodies_[c.between[1]];
         const double overlap = point.reach - body.pose.distance(point.x);
         if (!(overlap > 0.0)) return;

@@ -17,7 +17,7 @@ namespace sim {
 /// A vertex, the middle of an edge, or the nearest point of an edge or a face, that touches an obstacle.
 struct ObstacleContact {
     int vertex = 0, other = kNone;  ///< ends of the edge, or kNone
-    Vec2i between = {0, 0};         ///< the point's number, vertices first, or −1, and the obstacle's among those that fabric feels
+    Vec2i between = {0, 0};         ///< number of the point (vertices, middles, nearest points), and of the obstacle among those felt
     Vec3 gradient = Vec3::Zero();   ///< of the penalty and of friction by the position of the point [dyn]
     Mat3 stiffness = Mat3::Zero();  ///< [dyn/cm]
     Vec3 place = Vec3::Zero();      ///< of the point, where these are [cm]
@@ -37,8 +37,8 @@ struct ObstacleContact {
 
 /// Fabric on obstacles: a penalty on the signed distance of vertices, of the middles of edges and of the points at which edges and faces are
 /// nearest, at the end-of-step pose (contact-design 3.2); SolidGuard keeps them in front of the surface. With it Coulomb's friction
-/// (friction.h) relative to the obstacle, which takes its forces along where it turns; at nearest points, which wander from step to
-/// step, it remembers none.
+/// (friction.h) relative to the obstacle, which takes its forces along where it turns. At nearest
+/// points, which wander along their edge or face, it remembers those of the edge or face.
 class FabricObstacles {
  public:
     FabricObstacles() = default;
@@ -95,10 +95,10 @@ class FabricObstacles {
     Point nearestPoint(const Fabric& fabric, const NearestPoint& p, std::span<const Vec3> x, const Start& start) const;
     static double stiffnessOf(const Point& point, const Start& start);
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
-    Vec3 collect(const Point& point, int vertex, int other, const Start& start, std::vector<ObstacleContact>& out) const;
+    Point pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x, const Start& start) const;
+    Vec3 collect(const Point& point, int obstacle, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
+    Vec3 collect(const Point& point, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     bool touches(const Vec3& x, double reach) const;
-
-    static constexpr int kNameless = -1;    ///< number of points of which no friction is remembered
 
     std::vector<Body> bodies_;
     std::vector<Vec2i> edges_;              ///< of yarns and of cloth

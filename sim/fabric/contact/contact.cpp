@@ -182,14 +182,15 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
 void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held) const
 {
     const Parts& p = *parts_;
-    std::vector<Vec3> force(p.active.size());
+    std::vector<Vec3> force(p.active.size(), Vec3::Zero());
     parallelFor(force.size(), 512, [&](std::size_t i) {
         const Vec3& n = p.active.normal[i];
         Vec3 apart = Vec3::Zero();
         for (std::size_t k = 0; k < 4; ++k) apart += p.active.weights[i][k] * x[p.active.vertices[i][k]];
-        const Vec3 acted = p.active.force[i] + p.active.frictionStiffness[i] * (apart - p.grips[i].apart);
-        const double normalForce = -pairEnergy(apart.dot(n), p.grips[i].range, p.grips[i].stiffness).slope;
-        force[i] = atMost(p.grips[i].coefficient * normalForce, acted - acted.dot(n) * n);
+        if (apart.dot(n) >= p.grips[i].range.reach) return;
+        const Vec3 moved = apart - p.grips[i].apart, acted = p.active.force[i] + p.active.frictionStiffness[i] * moved;
+        const double normalForce = -(p.active.force[i] + p.active.stiffness[i] * moved).dot(n);
+        force[i] = atMost(p.grips[i].coefficient * std::max(normalForce, 0.0), acted - acted.dot(n) * n);
     });
     held.clear();
     for (std::size_t i = 0; i < force.size(); ++i)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sim {
 
@@ -258,8 +259,9 @@ void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
 }
 
 /// Appends the nearest point of an element, if it touches, and no vertex does so for it.
-void SolidGuard::addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const
+void SolidGuard::addNearest(int solid, int element, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const
 {
+    const Body& body = bodies_[solid];
     const int corners = vertices[2] < 0 ? 2 : 3;
     const double radius = leastRadius(vertices.data(), corners);
     if (!mayTouch(body, x, vertices.data(), corners, radius)) return;
@@ -271,7 +273,7 @@ void SolidGuard::addNearest(const Body& body, Points x, const std::array<int, 3>
     }
     const Nearest nearest = nearestTo(body.shape, {at.data(), static_cast<std::size_t>(corners)}, radius);
     if (nearest.reached <= 0.0 || nearest.reached >= std::min(radius, nearestCorner)) return;
-    if (nearest.weights.maxCoeff() < kInterior) out.push_back({corners, vertices, nearest.weights, radius});
+    if (nearest.weights.maxCoeff() < kInterior) out.push_back({element, solid, corners, vertices, nearest.weights, radius});
 }
 
 const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
@@ -282,10 +284,13 @@ const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
     if (!isNear_) return nearest_;
     measure(x, {});
     // Of a face that lies across an edge of the solid any point along it may be nearest; those of the face's own edges are where it rests.
-    for (const Elements* elements : {&elements_, &clothEdges_})
+    for (const Elements* elements : {&elements_, &clothEdges_}) {
+        const int first = elements == &elements_ ? 0 : static_cast<int>(elements_.size());
         collect(*elements, nearestOfChunk_, nearest_, [&](int body, int element, std::vector<NearestPoint>& out) {
-            addNearest(bodies_[body], x, (*elements)[element], out);
+            addNearest(body, first + element, x, (*elements)[element], out);
         });
+    }
+    std::ranges::sort(nearest_, {}, [](const NearestPoint& p) { return std::pair(p.element, p.body); });
     return nearest_;
 }
 

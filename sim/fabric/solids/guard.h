@@ -17,6 +17,7 @@ struct GuardReport {
 
 /// Where an edge or a face touches a solid with none of its vertices.
 struct NearestPoint {
+    int element = 0, body = 0;      ///< number of the edge or face, and of the solid among those that fabric feels
     int corners = 0;                ///< 2 or 3
     std::array<int, 3> vertices{};
     Vec3 weights = Vec3::Zero();    ///< [-]
@@ -47,7 +48,8 @@ class SolidGuard {
     bool limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
     /// Was any fabric near a solid, in the last limit()?
     bool isNear() const { return isNear_; }
-    /// Points at which edges and faces are nearer to solids than their radius, and than their vertices; solids must rest.
+    /// Points at which edges and faces are nearer to solids than their radius, and than their vertices, by elements, then by solids, which
+    /// must rest.
     const std::vector<NearestPoint>& nearestPoints(std::span<const Vec3> x);
     /// Safe part of all moves together [0..1].
     double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
@@ -82,7 +84,7 @@ class SolidGuard {
     bool isHeld(const int* vertices, int corners) const;
     void leaveToPins();
     bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
-    void addNearest(const Body& body, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
+    void addNearest(int body, int element, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const;
     double leastRadius(const int* vertices, int corners) const;
     using Elements = std::vector<std::array<int, 3>>;
     template <class Found, class Look>
