@@ -77,7 +77,8 @@ bool sameState(const std::vector<BenchResult>& results)
 std::string benchTable(const std::vector<BenchResult>& results)
 {
     std::string table = fmt::format("{:<20}", "ms per step");
-    for (const auto& result : results) table += fmt::format("{:>22}", fmt::format("{} threads: min", result.threads)) + fmt::format("{:>10}", "median");
+    for (const auto& result : results)
+        table += fmt::format("{:>22}", fmt::format("{} threads: min", result.threads)) + fmt::format("{:>10}", "median");
     table += '\n';
     for (int s = 0; s <= kWholeStep; ++s) {
         table += fmt::format("{:<20}", stageName(s));

@@ -85,7 +85,9 @@ std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& fo
             throw sim::InputError(fmt::format("--from {}: this is no folder of a run", folder.string()));
         if (numbersIn(folder, "frame_", ".png").empty())
             throw sim::InputError(fmt::format("--from {}: there are no pictures in it; drench render makes some of stored states", folder.string()));
-        ComparedRun run = {.setup = parts.loadScene({(folder / "resolved.yaml").string(), "", sets}), .folder = folder, .contentHash = report->contentHash};
+        ComparedRun run = {.setup = parts.loadScene({(folder / "resolved.yaml").string(), "", sets}),
+                           .folder = folder,
+                           .contentHash = report->contentHash};
         run.setup.variant = report->variant;
         run.setup.label = report->label.empty() ? folder.lexically_normal().filename().string() : report->label;
         runs.push_back(std::move(run));

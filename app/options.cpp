@@ -46,7 +46,9 @@ CLI::App* addBenchPrecision(CLI::App& bench, Options& options)
     verb->add_option("case", options.cases, "names in scenes/bench/precision (default: all)");
     verb->add_option("--out", options.out, "folder of table, plots and report");
     auto* threads = verb->add_option("--threads", options.threads, "threads of the simulation (default: 2)")->check(CLI::Range(1, kMaxThreads));
-    auto* repeats = verb->add_option("--repeats", options.repeats, "runs of the front and of the published scheme, of which the median counts (default: 1)")->check(CLI::Range(1, 1000));
+    auto* repeats = verb->add_option("--repeats", options.repeats,
+                                     "runs of the front and of the published scheme, of which the median counts (default: 1)")
+                        ->check(CLI::Range(1, 1000));
     verb->add_flag("--quick", options.quick, "few of them, within minutes");
     verb->add_flag("--csv", options.csv, "keep them in <results>/<machine>/precision");
     verb->add_option("--results", options.results, "folder of the machines' results");
@@ -87,7 +89,8 @@ void addImport(CLI::App& program, Options& options)
     verb->add_option("file", options.scene, "scene of libWetCloth (XML)")->required();
     verb->add_option("-o,--out", options.out, "scene file to write (default: the same name with .yaml, in this folder)");
     const std::map<std::string, bool> solvers = {{"grid", false}, {"vertex", true}};
-    verb->add_option("--solver", options.import.vertexSolver, "of the fabric: grid, as published (default), or vertex")->transform(CLI::CheckedTransformer(solvers));
+    verb->add_option("--solver", options.import.vertexSolver, "of the fabric: grid, as published (default), or vertex")
+        ->transform(CLI::CheckedTransformer(solvers));
     verb->add_flag("--strict-fork", options.import.strictFork, "without picMethod it is PIC, as the PolyPIC fork reads it");
     verb->add_flag("--trust-friction-angle", options.import.trustFrictionAngle, "friction_angle counts, which libWetCloth does not read");
     verb->add_flag("--round-sections", options.import.roundSections, "a missing biradius is the radius, not 0.018 cm");
@@ -120,11 +123,13 @@ void addExport(CLI::App& program, Options& options)
 
 void addSweep(CLI::App& program, Options& options)
 {
-    auto* verb = program.add_subcommand("sweep", "do the runs of a study: one scene with different settings, in one table; what is done already is not done again");
+    auto* verb = program.add_subcommand(
+        "sweep", "do the runs of a study: one scene with different settings, in one table; what is done already is not done again");
     verb->add_option("study", options.scene, "study file (YAML): scene, runs, and what holds for all of them")->required();
     verb->add_option("--out", options.out, "folder of the study (default: out/<study>)");
     verb->add_option("--jobs", options.jobs, "runs side by side (default: 1)")->check(CLI::Range(1, 10'000));
-    auto* threads = verb->add_option("--threads", options.threads, "threads of each run (default: all, shared among them)")->check(CLI::Range(1, kMaxThreads));
+    auto* threads = verb->add_option("--threads", options.threads, "threads of each run (default: all, shared among them)")
+                        ->check(CLI::Range(1, kMaxThreads));
     auto* onSlurm = verb->add_option("--on", "where: here (default), or slurm")->check(CLI::IsMember({"here", "slurm"}));
     verb->add_flag("!--no-wait", options.wait, "with slurm: hand over the jobs, and that is all");
     verb->add_option("--task", options.task, "do this run alone, as a job of slurm does: a number from 0")->check(CLI::NonNegativeNumber);
@@ -147,8 +152,11 @@ void addVerbs(CLI::App& program, Options& options)
     addScene(*run, options)->required(false);
     addVariant(*run, options);
     addOutput(*run, options);
-    auto* resume = run->add_option("--resume", options.resume, "go on with the run in this folder; with --out go on elsewhere, where --set may change settings");
-    run->add_option("--from-frame", options.fromFrame, "go on from the checkpoint of this frame (default: the last one)")->check(CLI::NonNegativeNumber)->needs(resume);
+    auto* resume = run->add_option("--resume", options.resume,
+                                   "go on with the run in this folder; with --out go on elsewhere, where --set may change settings");
+    run->add_option("--from-frame", options.fromFrame, "go on from the checkpoint of this frame (default: the last one)")
+        ->check(CLI::NonNegativeNumber)
+        ->needs(resume);
     run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
     run->callback([&options] {
         options.verb = Verb::Run;
@@ -158,7 +166,10 @@ void addVerbs(CLI::App& program, Options& options)
 
     auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");
     addScene(*compare, options)->required(false);
-    compare->add_option("--from", options.from, "put runs side by side that are there, each in its folder, in place of a scene's; needs --out")->take_all()->allow_extra_args(false);
+    compare
+        ->add_option("--from", options.from, "put runs side by side that are there, each in its folder, in place of a scene's; needs --out")
+        ->take_all()
+        ->allow_extra_args(false);
     addOutput(*compare, options);
     compare->add_option("--variant", options.variants, "only this variant; may be repeated")->take_all()->allow_extra_args(false);
     compare->add_flag("--force", options.force, "redo variants that are done");

@@ -67,10 +67,10 @@ std::string paperTable(const std::vector<PaperResult>& results)
         for (const ComparedRun& run : result.runs) {
             const auto r = readReport(run.folder);
             if (!r) continue;
-            table += fmt::format("| {}, {} | {:.4g} | {:.2g} | {:.4f} | {:.1f} | {:.3f} | {:.0f} | {:.0f} | {} |\n", result.scene.example, methodOf(run),
-                                 r->simulatedTime, run.setup.scene.settings.time.dt, r->meanSecondsPerStep, r->wallSeconds / 60.0,
-                                 r->peakMemoryMegabytes / 1000.0, r->meanParticles + static_cast<double>(r->fabricVertices), r->meanParticles,
-                                 r->fabricElements);
+            table += fmt::format("| {}, {} | {:.4g} | {:.2g} | {:.4f} | {:.1f} | {:.3f} | {:.0f} | {:.0f} | {} |\n", result.scene.example,
+                                 methodOf(run), r->simulatedTime, run.setup.scene.settings.time.dt, r->meanSecondsPerStep,
+                                 r->wallSeconds / 60.0, r->peakMemoryMegabytes / 1000.0,
+                                 r->meanParticles + static_cast<double>(r->fabricVertices), r->meanParticles, r->fabricElements);
         }
     return table;
 }

@@ -76,7 +76,12 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
         {"blocks", report.blocks},
         {"cells", report.liquidCells},
         {"energy", energyJson(report.energies)},
-        {"ledger", {{"emitted_mass", state.ledger.emittedMass}, {"left_mass", state.ledger.leftMass}, {"liquid_mass", report.liquidMass}, {"absorbed_mass", report.absorbedMass}, {"momentum_to_pins", {report.toPins.x(), report.toPins.y(), report.toPins.z()}}}},
+        {"ledger",
+         {{"emitted_mass", state.ledger.emittedMass},
+          {"left_mass", state.ledger.leftMass},
+          {"liquid_mass", report.liquidMass},
+          {"absorbed_mass", report.absorbedMass},
+          {"momentum_to_pins", {report.toPins.x(), report.toPins.y(), report.toPins.z()}}}},
     };
     if (!state.fabric.x.empty()) line["fabric"] = fabricJson(report);
     return line.dump();
@@ -236,7 +241,9 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     const auto& output = setup.pictures.output;
     if (output.stats) steps_.emplace(folder / "steps.jsonl", before.stepsBytes);
     if (output.energy) energy_.emplace(folder / "energy.csv", before.energyBytes);
-    if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes, before.summary.energyLedger.value_or(EnergyLedger::Summary()));
+    if (output.ledger)
+        energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes,
+                              before.summary.energyLedger.value_or(EnergyLedger::Summary()));
     describe(setup, std::move(contentHash), threads);
 }
 
@@ -300,7 +307,8 @@ void Reports::step(const sim::State& state, const sim::StepReport& report)
     summary_.largestCfl = std::max(summary_.largestCfl, report.cfl);
     const double entered = state.ledger.emittedMass;
     if (entered > 0.0)
-        summary_.massError = std::max(summary_.massError, std::abs(entered - state.ledger.leftMass - report.liquidMass - report.absorbedMass) / entered);
+        summary_.massError =
+            std::max(summary_.massError, std::abs(entered - state.ledger.leftMass - report.liquidMass - report.absorbedMass) / entered);
 }
 
 void Reports::finish(RunStatus status, const std::string& reason, const std::string& stateHash)

@@ -22,7 +22,8 @@ namespace {
 class Frames {
  public:
     Frames(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
-        : geometry_(setup, parts, options.out), states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()})
+        : geometry_(setup, parts, options.out),
+          states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()})
     {
         if (options.frames) pictures_.emplace(setup, parts, options.out, options.asPanel, options.from == nullptr);
     }
@@ -97,11 +98,13 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
 }
 
 /// The same; of a run that fails in a mode that takes bad steps back, the last good state is kept.
-bool runFramesOrKeepState(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, Frames& kept, Reports& reports)
+bool runFramesOrKeepState(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, Frames& kept,
+                          Reports& reports)
 try {
     return runFrames(setup, options, first, simulation, kept, reports);
 } catch (const sim::RunError&) {
-    if (setup.scene.settings.time.mode == sim::TimeMode::Adaptive) kept.keepLastGood(simulation, lastFrameUpTo(setup, simulation.state().time), reports);
+    if (setup.scene.settings.time.mode == sim::TimeMode::Adaptive)
+        kept.keepLastGood(simulation, lastFrameUpTo(setup, simulation.state().time), reports);
     throw;
 }
 

@@ -91,8 +91,9 @@ void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::p
     if (frames.empty()) throw std::runtime_error(fmt::format("cannot write {}: there are no pictures", target.string()));
     // The pattern stands alone and ffmpeg runs in the folder, whose own name may hold a '%'.
     const auto part = std::filesystem::absolute(partFile(target));
-    const auto arguments = ffmpegArguments({"-framerate", fmt::format("{}", fps), "-start_number", fmt::format("{}", frames.front()), "-i", "frame_%05d.png"},
-                                           outputArguments(codec, part));
+    const auto arguments =
+        ffmpegArguments({"-framerate", fmt::format("{}", fps), "-start_number", fmt::format("{}", frames.front()), "-i", "frame_%05d.png"},
+                        outputArguments(codec, part));
     const ChildExit end = runChild(ffmpegProgram(), arguments, {.folder = folder});
     if (!end.ok()) throwNoVideo(target, end);
     putInPlace(part, target);

@@ -30,8 +30,8 @@ void DrawCloth::draw(const FrameView::Cloth& cloth, const ViewTransforms& transf
     std::vector<Vertex> vertices;
     vertices.reserve(mesh_.vertices.size());
     for (const ClothMesh::Vertex& v : mesh_.vertices)
-        vertices.push_back({v.position, v.normal, cloth.values.empty() ? 0.0f : cloth.values[v.source],
-                            v.isBack ? 1.0f : 0.0f, paintOf(look, cloth.materials[v.source], cloth.wetness.empty() ? 0.0f : cloth.wetness[v.source])});
+        vertices.push_back({v.position, v.normal, cloth.values.empty() ? 0.0f : cloth.values[v.source], v.isBack ? 1.0f : 0.0f,
+                            paintOf(look, cloth.materials[v.source], cloth.wetness.empty() ? 0.0f : cloth.wetness[v.source])});
 
     colorMap_.bind(look.colorMap);
     program_.use();

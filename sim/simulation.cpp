@@ -195,10 +195,14 @@ RunError Simulation::failure(const Fault& fault, int halvings, double dt) const
 
 double Simulation::chooseLength(double until) const
 {
-    const double largest = std::min(state_.memory.longest, chooseTimeStep(scene_.settings, state_, state_.memory.maxSpeed)), least = scene_.settings.time.dtMin;
+    const double largest = std::min(state_.memory.longest, chooseTimeStep(scene_.settings, state_, state_.memory.maxSpeed)),
+                 least = scene_.settings.time.dtMin;
     if (!(largest >= least))
-        throw failure("time_step", fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: liquid moves at {:.3g} cm/s, fabric at {:.3g} cm/s",
-                                               largest, least, state_.memory.maxSpeed, fastestOf(state_.fabric)));
+        throw failure(
+            "time_step",
+            fmt::format(
+                "the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: liquid moves at {:.3g} cm/s, fabric at {:.3g} cm/s",
+                largest, least, state_.memory.maxSpeed, fastestOf(state_.fabric)));
     return lengthOfStep(until - state_.time, largest);
 }
 

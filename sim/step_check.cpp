@@ -151,7 +151,8 @@ std::optional<Fault> StepCheck::tooFar(const State& state, const StepReport& rep
     const double cells = hasLiquid(state) ? report.dt * report.maxSpeed / scene_.settings.cell : 0.0;
     const double bound = kSurprise * std::min(time.cfl, time.maxCflLiquid);
     if (cells <= bound) return std::nullopt;
-    return Fault{Stage::GridToParticles, fmt::format("liquid crossed {:.3g} cells in the step, more than {:.3g}: {}", cells, bound, fastestParticle(state)),
+    return Fault{Stage::GridToParticles,
+                 fmt::format("liquid crossed {:.3g} cells in the step, more than {:.3g}: {}", cells, bound, fastestParticle(state)),
                  "slower sources and obstacles, or a larger time.cfl"};
 }
 
@@ -193,7 +194,8 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
     if (feelsSurfaceTension(settings.liquid))
         given += settings.liquid.surfaceTension * settings.cell * settings.cell * static_cast<double>(report.liquidCells);
     const double quiet = kQuiet * settings.cell / report.dt;
-    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + std::max(0.0, report.inflowWork) + given + 0.5 * mass * quiet * quiet;
+    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + std::max(0.0, report.inflowWork) +
+           given + 0.5 * mass * quiet * quiet;
 }
 
 std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport& report) const

@@ -154,7 +154,8 @@ Checkpoint loadCheckpoint(const std::filesystem::path& file)
         FieldReader reader(hdf5);
         visitOrigin(reader, checkpoint.origin);
         sim::visitState(reader, checkpoint.state);
-        if (const int modes = checkpoint.state.liquid.modeCount; modes != sim::storedModes(modes)) throw std::runtime_error("a number of modes that there is not");
+        if (const int modes = checkpoint.state.liquid.modeCount; modes != sim::storedModes(modes))
+            throw std::runtime_error("a number of modes that there is not");
         return checkpoint;
     } catch (const std::runtime_error& error) {
         throw sim::InputError(fmt::format("{}: not understood: {}; was it written by another version?", file.string(), error.what()));

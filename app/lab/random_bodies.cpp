@@ -167,14 +167,17 @@ std::string randomPlate(Dice& dice, const Vec3& center, double radius, double ce
     const Vec3 half = Vec3{dice.between(0.4, 0.8) * radius, 0.5 * cell * dice.acrossScales(0.1, 1.0), dice.between(0.4, 0.8) * radius};
     if (dice.chance(0.3)) return fmt::format("{{box: {{center: {}, half: {}}}}}", listText(center), listText(half));
     const Vec3 axis = dice.direction();
-    return fmt::format("{{box: {{center: {}, half: {}}}, rotate: {{axis: {}, angle: {:.4g}}}}}", listText(center), listText(half), listText(axis), dice.between(-60.0, 60.0));
+    return fmt::format("{{box: {{center: {}, half: {}}}, rotate: {{axis: {}, angle: {:.4g}}}}}", listText(center), listText(half),
+                       listText(axis), dice.between(-60.0, 60.0));
 }
 
 /// Through many cells, or round and round.
 std::string fastMotion(Dice& dice, const RandomPile& pile)
 {
     const std::string span = fmt::format("t: [0, {:.4g}]", 2.0 * pile.duration);
-    if (dice.chance(0.5)) return fmt::format("[{{{}, rotate: {{axis: {}, angle: {:.4g}, frame: local}}}}]", span, listText(dice.direction()), dice.between(-1440.0, 1440.0));
+    if (dice.chance(0.5))
+        return fmt::format("[{{{}, rotate: {{axis: {}, angle: {:.4g}, frame: local}}}}]", span, listText(dice.direction()),
+                           dice.between(-1440.0, 1440.0));
     const double length = std::min(kFastest * pile.duration, dice.acrossScales(1.0, 8.0) * pile.cell);
     return fmt::format("[{{{}, translate: {}, ease: [0, 0]}}]", span, listText(2.0 * length * dice.direction()));
 }
@@ -226,12 +229,16 @@ std::string randomSources(Dice& dice, RandomPile& pile, bool withPool)
     if (withPool) {
         const double half = dice.between(2.0, 4.0) * pile.cell, depth = dice.between(1.0, 2.5) * pile.cell;
         const double middle = pile.add(depth, dice.between(0.0, 1.0) * pile.cell);
-        text += fmt::format("    - name: pool\n      shape: {{box: {{center: [0, {:.4g}, 0], half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n", middle, half, 0.5 * depth, half);
+        text += fmt::format("    - name: pool\n      shape: {{box: {{center: [0, {:.4g}, 0], half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n", middle,
+                            half, 0.5 * depth, half);
     }
     if (withPool && dice.chance(0.3)) {
         const Vec3 mouth = pile.cell * Vec3{dice.between(-1.0, 1.0), dice.between(0.4, 1.0), dice.between(-1.0, 1.0)};
         const double half = dice.between(0.4, 1.0) * pile.cell, end = pile.duration * dice.between(0.3, 1.2), speed = randomSpeed(dice, pile);
-        text += fmt::format("    - name: spring\n      shape: {{box: {{center: {}, half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n      emit: [{{to: {:.4g}, velocity: {}}}]\n", listText(mouth), half, half, half, end, listText(speed * dice.direction()));
+        text += fmt::format(
+            "    - name: spring\n      shape: {{box: {{center: {}, half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n      emit: [{{to: {:.4g}, "
+            "velocity: {}}}]\n",
+            listText(mouth), half, half, half, end, listText(speed * dice.direction()));
     }
     const int count = dice.whole(withPool ? 0 : 1, 2);
     for (int i = 0; i < count; ++i) {

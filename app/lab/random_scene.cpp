@@ -126,7 +126,9 @@ std::string randomVessel(Dice& dice, double cell, Eigen::AlignedBox3d& vessel)
     const sim::Vec3 half = cell * sim::Vec3{dice.between(6.0, 9.0), 20.0, dice.between(6.0, 9.0)};
     const double thickness = dice.acrossScales(0.1, 1.0) * cell;
     const sim::Vec3 center = sim::Vec3{dice.between(-0.5, 0.5) * cell, half.y(), dice.between(-0.5, 0.5) * cell};
-    const auto box = [&](double out) { return fmt::format("{{box: {{center: {}, half: {}}}}}", listText(center), listText(half + sim::Vec3::Constant(out))); };
+    const auto box = [&](double out) {
+        return fmt::format("{{box: {{center: {}, half: {}}}}}", listText(center), listText(half + sim::Vec3::Constant(out)));
+    };
     vessel = {center - half - sim::Vec3::Constant(thickness), center + half + sim::Vec3::Constant(thickness)};
     return fmt::format("  - {{name: vessel, shape: {{subtract: [{}, {}]}}}}\n", box(thickness), box(0.0));
 }

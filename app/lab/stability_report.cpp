@@ -46,12 +46,14 @@ std::string plotScript(const StabilityResult& result, const std::string& picture
         stepNames += fmt::format("{}{} {}", s > 0 ? ", " : "", gnuplotText(milliseconds(steps[s])), s);
     return fmt::format(
         "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\n$cells << END\n{}END\n$words << END\n{}END\n"
-        "set label 1 {} at screen 0.5, screen 1 center offset 0,-1 noenhanced\nset tmargin 3\nset xlabel 'time step [ms]'\nset xtics ({}) scale 0\nset ytics ({}) scale 0 noenhanced\n"
+        "set label 1 {} at screen 0.5, screen 1 center offset 0,-1 noenhanced\nset tmargin 3\nset xlabel 'time step [ms]'\nset xtics ({}) "
+        "scale 0\nset ytics ({}) scale 0 noenhanced\n"
         "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset palette defined (0 '{}', 0.5 '#dddddd', 1 '{}')\nset cbrange [0:1]\n"
-        "unset colorbox\nunset key\nplot $cells using 1:2:(0.48):(0.48):3 with boxxyerror fillstyle solid noborder linecolor palette, $words using 1:2:3 with labels tc rgb 'white' font ',9'\n",
+        "unset colorbox\nunset key\nplot $cells using 1:2:(0.48):(0.48):3 with boxxyerror fillstyle solid noborder linecolor palette, "
+        "$words using 1:2:3 with labels tc rgb 'white' font ',9'\n",
         std::max<std::size_t>(600, 320 + 80 * steps.size()), 140 + 30 * methods.size(), gnuplotText(picture), cells, words,
-        gnuplotText(fmt::format("{}: stable where blue", result.title)), stepNames, methodNames,
-        static_cast<double>(steps.size()) - 0.5, static_cast<double>(methods.size()) - 0.5, kPlotColors[1], kPlotColors[2]);
+        gnuplotText(fmt::format("{}: stable where blue", result.title)), stepNames, methodNames, static_cast<double>(steps.size()) - 0.5,
+        static_cast<double>(methods.size()) - 0.5, kPlotColors[1], kPlotColors[2]);
 }
 
 std::string tableOf(const StabilityResult& result)
@@ -87,7 +89,8 @@ std::string stabilityReport(const std::vector<StabilityResult>& results, bool wi
     std::string text = fmt::format(
         "# Stable time steps\n\nEach run goes on at its time step, with the bounds on cells crossed per step lifted. It is stable if "
         "it comes to its end, all its numbers are finite, its energy never rises above that of the start (and the work of sources, "
-        "suction, surface tension, obstacles, moving solids and pins) by more than {:g} of its largest kinetic energy, and no particle is faster than "
+        "suction, surface tension, obstacles, moving solids and pins) by more than {:g} of its largest kinetic energy, and no particle is "
+        "faster than "
         "{:g} times the speed of all liquid, had it all that kinetic energy. The largest stable step is one at which all shorter ones "
         "tried are stable too.\n",
         kAllowedGain, kAllowedSpeed);

@@ -26,7 +26,8 @@ Node readFile(const std::filesystem::path& file)
     if (!root.isMap()) sim::fail(file.string(), "a study is a map with scene and runs, not " + root.called());
     for (std::size_t k = 0; k < root.keys.size(); ++k)
         if (std::ranges::find(kKeys, root.keys[k]) == kKeys.end())
-            sim::fail(root.items[k].place, fmt::format("unknown key {} of a study{}", sim::inQuotes(root.keys[k]), sim::suggestion(root.keys[k], kKeys)));
+            sim::fail(root.items[k].place,
+                      fmt::format("unknown key {} of a study{}", sim::inQuotes(root.keys[k]), sim::suggestion(root.keys[k], kKeys)));
     return root;
 }
 
@@ -69,7 +70,8 @@ Study readStudy(const std::filesystem::path& file, const std::function<SceneSetu
     const Node root = readFile(file);
     Study study = {.name = textOf(root, "study", file.stem().string()), .file = file, .runs = {}};
     if (study.name.empty() || study.name != sim::asName(study.name))
-        sim::fail(required(root, "study", "study: cells").place, fmt::format("a study's name may have a-z, 0-9 and _ only; {} would do", sim::asName(study.name)));
+        sim::fail(required(root, "study", "study: cells").place,
+                  fmt::format("a study's name may have a-z, 0-9 and _ only; {} would do", sim::asName(study.name)));
     if (const Node* retries = root.find("retries")) study.retries = static_cast<int>(sim::readInteger(*retries, "retries", 0, 100));
     const Node& scene = required(root, "scene", "scene: drop.yaml");
     const std::filesystem::path sceneFile = file.parent_path() / sim::readText(scene, "scene");

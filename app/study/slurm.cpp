@@ -33,7 +33,8 @@ std::string slurmScript(const Study& study, const std::vector<std::size_t>& runs
     const fs::path folder = fs::absolute(places.folder), program = fs::canonical("/proc/self/exe");
     std::string script = fmt::format(
         "#!/bin/bash\n#SBATCH --job-name={}\n#SBATCH --array={}%{}\n#SBATCH --cpus-per-task={}\n#SBATCH --output={}\n#SBATCH --chdir={}\n",
-        study.name, fmt::join(runs, ","), width, places.threads, shellQuoted((folder / "slurm_%a.log").string()), shellQuoted(fs::current_path().string()));
+        study.name, fmt::join(runs, ","), width, places.threads, shellQuoted((folder / "slurm_%a.log").string()),
+        shellQuoted(fs::current_path().string()));
     script += fmt::format("exec {} sweep {} --out {} --threads {} --task \"$SLURM_ARRAY_TASK_ID\"{}{}\n", shellQuoted(program.string()),
                           shellQuoted(fs::absolute(study.file).string()), shellQuoted(folder.string()), places.threads,
                           places.frames ? "" : " --no-frames", places.video ? "" : " --no-video");

@@ -138,7 +138,8 @@ std::string plotScript(const std::string& picture, const std::string& key, const
         ++n;
     }
     return fmt::format(
-        "set terminal pngcairo size 720,480 font 'DejaVu Sans,11'\nset output {}\n{}set xlabel {} noenhanced\nset ylabel {}\nset grid lc rgb '#dddddd'\n"
+        "set terminal pngcairo size 720,480 font 'DejaVu Sans,11'\nset output {}\n{}set xlabel {} noenhanced\nset ylabel {}\nset grid lc "
+        "rgb '#dddddd'\n"
         "set key {}\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nplot {}\n",
         gnuplotText(picture), blocks, gnuplotText(key), gnuplotText(figure.title), curves.size() > 1 ? "outside right top" : "off", lines);
 }

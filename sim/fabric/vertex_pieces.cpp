@@ -63,7 +63,8 @@ void VertexSystem::balanceFreePieces()
     for (int v : shells_.vertices())
         if (pieceOf_[v] >= 0)
             for (int a = 0; a < 3; ++a) pieceForce_[pieceOf_[v]][a] += residual_[slots(v)[a]];
-    for (std::size_t piece = 0; piece < pieceForce_.size(); ++piece) pieceForce_[piece] = pieceStiffness_[piece].ldlt().solve(pieceForce_[piece]).eval();
+    for (std::size_t piece = 0; piece < pieceForce_.size(); ++piece)
+        pieceForce_[piece] = pieceStiffness_[piece].ldlt().solve(pieceForce_[piece]).eval();
     for (int v : shells_.vertices())
         if (pieceOf_[v] >= 0)
             for (int a = 0; a < 3; ++a) solution_[slots(v)[a]] += pieceForce_[pieceOf_[v]][a];

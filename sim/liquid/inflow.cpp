@@ -30,7 +30,8 @@ void appendShares(const BlockGrid& grid, const LiquidGrid& liquid, const Inflow&
 {
     const Eigen::AlignedBox3d box = inflow.mouth.bounds();
     if (box.isEmpty()) return;
-    const Vec3i low = ((box.min() - grid.origin) / grid.dx).array().floor().cast<int>(), high = ((box.max() - grid.origin) / grid.dx).array().floor().cast<int>();
+    const Vec3i low = ((box.min() - grid.origin) / grid.dx).array().floor().cast<int>(),
+                high = ((box.max() - grid.origin) / grid.dx).array().floor().cast<int>();
     const std::size_t begin = cells.size();
     for (int k = low[2]; k <= high[2]; ++k)
         for (int j = low[1]; j <= high[1]; ++j)
@@ -43,7 +44,9 @@ void appendShares(const BlockGrid& grid, const LiquidGrid& liquid, const Inflow&
         const Vec3 place(c.cell % kBlockEdge, c.cell / kBlockEdge % kBlockEdge, c.cell / (kBlockEdge * kBlockEdge));
         c.rate = shareOf(inflow.mouth, grid.lowerCorner(c.block) + grid.dx * (place + Vec3::Constant(0.5)), grid.dx);
     });
-    cells.erase(std::remove_if(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(), [](const InflowCell& c) { return !(c.rate > 0.0); }), cells.end());
+    cells.erase(std::remove_if(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(),
+                               [](const InflowCell& c) { return !(c.rate > 0.0); }),
+                cells.end());
 }
 
 /// How full a closed piece of the pressure system is, on average [-].
@@ -62,7 +65,8 @@ double fillOf(int piece, const BlockGrid& grid, const LiquidGrid& liquid, const 
 
 }  // namespace
 
-void findInflowCells(const BlockGrid& grid, const LiquidGrid& liquid, const std::vector<Inflow>& inflows, double packing, double dt, std::vector<InflowCell>& cells)
+void findInflowCells(const BlockGrid& grid, const LiquidGrid& liquid, const std::vector<Inflow>& inflows, double packing, double dt,
+                     std::vector<InflowCell>& cells)
 {
     cells.clear();
     const double cellVolume = packing * grid.dx * grid.dx * grid.dx;
@@ -82,7 +86,8 @@ double inflowWork(const BlockGrid& grid, const std::vector<InflowCell>& cells, c
     return power * dt * grid.dx * grid.dx * grid.dx;
 }
 
-bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const BlockGrid& grid, const LiquidGrid& liquid, const ClosedComponents& pieces)
+bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const BlockGrid& grid, const LiquidGrid& liquid,
+              const ClosedComponents& pieces)
 {
     constexpr double kFull = 0.99;  // on average: what is left is the noise of the particles' places
     if (pieces.count() == 0) return false;

@@ -114,7 +114,8 @@ PushedOut stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidPartic
     return {0.5 * mass * towards * (2.0 * velocity.dot(normal) - towards), -mass * towards * wall.dot(normal), Vec3::Zero()};
 }
 
-PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p, LiquidParticles& particles)
+PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p,
+                  LiquidParticles& particles)
 {
     const Vec3 x = particles.position(p);
     Vec3 moved = x, normal = Vec3::Zero();

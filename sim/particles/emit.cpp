@@ -143,7 +143,8 @@ void lay(const Scene& scene, std::size_t source, const Emission& emission, std::
     try {
         if (settings.velocityField) addField(*settings.velocityField, before, state);
     } catch (const VelocityField::Mistake& mistake) {
-        throw InputError(fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formula(mistake.component), mistake.what));
+        throw InputError(fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source),
+                                     settings.velocityField->formula(mistake.component), mistake.what));
     }
     const double sum = static_cast<double>(positions.size()) * volume;
     state.emittedVolume[source] += sum;
@@ -165,15 +166,24 @@ void fillUp(const Scene& scene, std::size_t source, const Emission& emission, do
     lay(scene, source, emission, firstOf(seeds.positions, countUpTo(most, seeds.volume)), seeds.volume, state);
 }
 
-/// One step of a source that flows. What it is asked for, its area times its speed times the step, it owes. Where its pattern finds the room that
-/// moving liquid has left, it lays particles there, a layer at a time; where it is covered by liquid that does not move along, it presses them in, and
-/// the projection makes room for them (Inflow).
+/// One step of a source that flows. What it is asked for, its area times its speed times the step, it owes. Where its pattern finds the
+/// room that moving liquid has left, it lays particles there, a layer at a time; where it is covered by liquid that does not move along, it
+/// presses them in, and the projection makes room for them (Inflow).
 class Flow {
  public:
     Flow(const Scene& scene, std::size_t source, const Emission& emission, double timeFrom, double timeTo, State& state)
-        : scene_(scene), emission_(emission), source_(source), state_(state), memory_(state.memory.sources[source]),
-          plan_(planFor(scene, source, timeFrom, state)), region_(regionOf(plan_)), pitch_(particleSpacing(plan_.fill, plan_.dx)),
-          speed_(emission.velocity.norm()), timeFrom_(timeFrom), time_(std::max(0.0, std::min(timeTo, emission.to) - std::max(timeFrom, emission.from))), isLast_(emission.to <= timeTo)
+        : scene_(scene),
+          emission_(emission),
+          source_(source),
+          state_(state),
+          memory_(state.memory.sources[source]),
+          plan_(planFor(scene, source, timeFrom, state)),
+          region_(regionOf(plan_)),
+          pitch_(particleSpacing(plan_.fill, plan_.dx)),
+          speed_(emission.velocity.norm()),
+          timeFrom_(timeFrom),
+          time_(std::max(0.0, std::min(timeTo, emission.to) - std::max(timeFrom, emission.from))),
+          isLast_(emission.to <= timeTo)
     {
         plan_.velocity = emission.velocity;
         plan_.age = std::max(0.0, timeFrom - emission.from);
@@ -208,8 +218,8 @@ class Flow {
     double layer() const { return packing() * size_.area * pitch_; }
     double left() const { return emission_.maxVolume - state_.emittedVolume[source_]; }
 
-    /// Finds which share of the first layers behind its inlet other liquid takes than what has come there freely and moves along: none in a jet, all of it
-    /// under water, or where what came is held up.
+    /// Finds which share of the first layers behind its inlet other liquid takes than what has come there freely and moves along: none in a
+    /// jet, all of it under water, or where what came is held up.
     void lookWhatCovers()
     {
         const double room = kLayers * layer(), moved = plan_.moved.norm();

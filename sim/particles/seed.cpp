@@ -135,7 +135,8 @@ struct RayLattice {
         alongU = 2.0 * reach(u) / static_cast<double>(countU) * u;
         alongW = 2.0 * reach(w) / static_cast<double>(countW) * w;
         length = 2.0 * reach(unit);
-        first = box.center() - reach(unit) * unit - 0.5 * (static_cast<double>(countU) - 1.0) * alongU - 0.5 * (static_cast<double>(countW) - 1.0) * alongW;
+        first = box.center() - reach(unit) * unit - 0.5 * (static_cast<double>(countU) - 1.0) * alongU -
+                0.5 * (static_cast<double>(countW) - 1.0) * alongW;
     }
     double area() const { return alongU.norm() * alongW.norm(); }
 };
@@ -166,7 +167,8 @@ double areaAcross(const Shape& region, const Vec3& direction, double pitch)
     return rays.area() * parallelSum(rays.countW, [&](std::size_t w) {
         int sum = 0;
         for (std::size_t u = 0; u < rays.countU; ++u)
-            sum += entries(region, rays.first + static_cast<double>(u) * rays.alongU + static_cast<double>(w) * rays.alongW, rays.direction, rays.length, kLeastStep * pitch);
+            sum += entries(region, rays.first + static_cast<double>(u) * rays.alongU + static_cast<double>(w) * rays.alongW, rays.direction,
+                           rays.length, kLeastStep * pitch);
         return static_cast<double>(sum);
     });
 }

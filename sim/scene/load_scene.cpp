@@ -132,9 +132,11 @@ void noteThinWalls(Scene& scene)
     const double cell = scene.settings.cell;
     for (const ObstacleSettings& solid : scene.obstacles)
         if (const double thick = thicknessOf(solid.shape, cell); thick < kCells * cell)
-            scene.notes.push_back(fmt::format("{}: obstacle {} is {:.2g} cm thick, {:.2g} cells: liquid does not pass it, but what flows close to its two sides is as coarse as a cell; "
-                                              "a grid.cell of {:.2g} cm would resolve it",
-                                              solid.where, solid.name, thick, thick / cell, thick / kCells));
+            scene.notes.push_back(
+                fmt::format("{}: obstacle {} is {:.2g} cm thick, {:.2g} cells: liquid does not pass it, but what flows close to its two "
+                            "sides is as coarse as a cell; "
+                            "a grid.cell of {:.2g} cm would resolve it",
+                            solid.where, solid.name, thick, thick / cell, thick / kCells));
 }
 
 Scene readScene(const SceneFile& file)

@@ -249,7 +249,9 @@ std::size_t loneFaces(const FabricGeometry& mesh)
     std::vector<int> faces(mesh.points.size(), 0);
     for (const Vec3i& f : mesh.faces)
         for (const int corner : f) ++faces[corner];
-    return static_cast<std::size_t>(std::ranges::count_if(mesh.faces, [&](const Vec3i& f) { return std::max({faces[f[0]], faces[f[1]], faces[f[2]]}) == 1; }));
+    return static_cast<std::size_t>(std::ranges::count_if(mesh.faces, [&](const Vec3i& f) {
+        return std::max({faces[f[0]], faces[f[1]], faces[f[2]]}) == 1;
+    }));
 }
 
 /// Where the scene does not say: far below any edge, above the rounding of single precision [cm].
@@ -276,7 +278,10 @@ std::vector<std::string> tidy(FabricGeometry& mesh, double distance)
     if (welded > 0)
         notes.push_back(fmt::format("{} of its vertices are welded to others within {:.3g} cm{}; weld: 0 would leave them apart", welded, distance,
                                     gone > 0 ? fmt::format(", and {} faces that are nothing or doubled then are left out", gone) : ""));
-    if (lone > 0) notes.push_back(fmt::format("{} of its {} triangles share no vertex with another and will fall apart; a larger weld would join them", lone, mesh.faces.size()));
+    if (lone > 0)
+        notes.push_back(
+            fmt::format("{} of its {} triangles share no vertex with another and will fall apart; a larger weld would join them", lone,
+                        mesh.faces.size()));
     return notes;
 }
 
@@ -320,7 +325,9 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
         requireNear(name, context.path, x);
     }
     std::vector<std::string> notes = tidy(out, isCloth ? weldDistance : 0.0);
-    if (isCloth && out.faces.empty()) fail(context.node.find("weld") ? context.node.find("weld")->place : name.place, context.path + ".weld: leaves no triangle; ask for less");
+    if (isCloth && out.faces.empty())
+        fail(context.node.find("weld") ? context.node.find("weld")->place : name.place,
+             context.path + ".weld: leaves no triangle; ask for less");
     for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.place.text(), context.path, note);
     requireFew(static_cast<double>(out.points.size()), context);
     if (const std::string problem = orientAlike(out.faces, firstInFile(out)); !problem.empty())

@@ -238,7 +238,9 @@ class PinReader {
         const auto last = static_cast<std::int64_t>(points.empty() ? held_.size() : points.size()) - 1;
         for (const Node& item : value.items) {
             const std::int64_t number = readInteger(item, path, 0, last), point = points.empty() ? number : points[number];
-            if (point < 0) fail(item.place, fmt::format("{}: nothing of the file is at its vertex {}; choose one that a face or a line has", path, number));
+            if (point < 0)
+                fail(item.place,
+                     fmt::format("{}: nothing of the file is at its vertex {}; choose one that a face or a line has", path, number));
             held_[point] = 1;
         }
         return value.flow();

@@ -39,7 +39,8 @@ double largestOf(const std::vector<double>& values)
 }
 
 /// Ax of row r, its tile filled with a sum that began at 0.
-[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal, const FramedTile<double>& tile, int r)
+[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal,
+                                                      const FramedTile<double>& tile, int r)
 {
     const Row<double> v = loadRow(tile.row(r));
     return loadRow(diagonal + r * kBlockEdge) * v - couplings.acrossRows(tile, r) - couplings.alongRow(tile, r, v);

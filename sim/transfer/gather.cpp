@@ -247,8 +247,16 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
             if (settings.reflected != nullptr) loadTile(faces.velocity, grid, block, box, moving);
             if (settings.flipVelocity != nullptr) loadTile(*settings.flipVelocity, grid, block, box, flipTile);
             if (settings.faceDisplacement != nullptr) loadTile(*settings.faceDisplacement, grid, block, box, displacementTile);
-            const Context ctx{settings, particles, scratch, grid.origin, grid.dx, tile, settings.reflected ? moving : tile, settings.flipVelocity ? &flipTile : nullptr,
-                              settings.faceDisplacement ? &displacementTile : nullptr, settings.modes};
+            const Context ctx{settings,
+                              particles,
+                              scratch,
+                              grid.origin,
+                              grid.dx,
+                              tile,
+                              settings.reflected ? moving : tile,
+                              settings.flipVelocity ? &flipTile : nullptr,
+                              settings.faceDisplacement ? &displacementTile : nullptr,
+                              settings.modes};
             if (kModes == 27 && settings.modes == 27)
                 scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(order, block, box, ctx);
             else

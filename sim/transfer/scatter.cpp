@@ -210,7 +210,8 @@ inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& partic
             if (start[0] == start[kBlockEdge]) continue;
             const int corner = tileIndex(i - 1, j - 1, -1);
             scatterColumn<kAxis, Set, kModes>(tables, start, box.low[2], box.high[2], order.begin(block), prepared, mode,
-                                              order.source.data(), tile.v[FaceFields::kMass + kAxis] + corner, tile.v[FaceFields::kMomentum + kAxis] + corner);
+                                              order.source.data(), tile.v[FaceFields::kMass + kAxis] + corner,
+                                              tile.v[FaceFields::kMomentum + kAxis] + corner);
         }
 }
 

@@ -21,7 +21,8 @@ FaceEnergies faceEnergies(const BlockGrid& grid, const BlockArray<double, 3>& tr
         const int b = static_cast<int>(n);
         FaceEnergies sum;
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = faces.sums.block(b, FaceFields::kMass + a), *affine = faces.sums.block(b, FaceFields::kMomentum + a), *p = translated.block(b, a);
+            const double *m = faces.sums.block(b, FaceFields::kMass + a), *affine = faces.sums.block(b, FaceFields::kMomentum + a),
+                         *p = translated.block(b, a);
             for (int c = 0; c < kBlockCells; ++c) {
                 if (!(m[c] > 0.0)) continue;
                 const double half = 0.5 / m[c];

@@ -32,8 +32,9 @@ TEST(ShutSources, AreToldOfOnceEachWithTimeAndVolume)
     state.memory.sources.resize(2);
     EXPECT_TRUE(shut.news(state).empty());
     state.memory.sources[0].isShut = 1.0;
-    EXPECT_EQ(shut.news(state), std::vector<std::string>{"cup.yaml:7: liquid.sources.tap: stops at 1.5 s after 12.25 cm^3: what it flows into is closed "
-                                                         "and full; it goes on as soon as there is room"});
+    EXPECT_EQ(shut.news(state),
+              std::vector<std::string>{"cup.yaml:7: liquid.sources.tap: stops at 1.5 s after 12.25 cm^3: what it flows into is closed "
+                                       "and full; it goes on as soon as there is room"});
     EXPECT_TRUE(shut.news(state).empty());
     state.memory.sources[0].isShut = 0.0;
     EXPECT_TRUE(shut.news(state).empty());
@@ -64,7 +65,8 @@ TEST(ShutSources, AreToldOfByValidate)
     const test::ToySettings toy{.every = 0.05, .shutAtStep = 3};
     SceneSetup setup = setupOf(toy);
     const sim::Scene scene;
-    setup.validation = *readValidation(sim::sceneFileFromText("drench: 1\nvalidate:\n  every: 0.05\n  checks:\n    - {read: liquid_x, at_most: 9}\n", "case.yaml"), scene);
+    setup.validation = *readValidation(
+        sim::sceneFileFromText("drench: 1\nvalidate:\n  every: 0.05\n  checks:\n    - {read: liquid_x, at_most: 9}\n", "case.yaml"), scene);
     const test::Log log;
     EXPECT_TRUE(runCase("cup", setup, test::toyParts(toy), [] { return false; }).passes());
     EXPECT_EQ(timesTold(log.words()), 1) << log.words();

@@ -117,7 +117,8 @@ TEST_P(DropOnCloth, SurfaceTensionMakesNoMomentum)
     EXPECT_GT(end.fabric.y() / start.y(), 0.02);
     // 1e-4 without it; seen are 3e-4: the noise of the curvature on a surface that pulls with 3 % of the drop's momentum in this time.
     EXPECT_LT((end.liquid + end.fabric - start).norm(), 1.0e-3 * start.norm());
-    std::printf("momentum off by %.2e, energy not booked %.2e\n", (end.liquid + end.fabric - start).norm() / start.norm(), (last - energy - booked) / energy);
+    std::printf("momentum off by %.2e, energy not booked %.2e\n", (end.liquid + end.fabric - start).norm() / start.norm(),
+                (last - energy - booked) / energy);
     EXPECT_NEAR(last - energy, booked, 2.0e-3 * energy);  // two Newton iterations of the cloth
 }
 

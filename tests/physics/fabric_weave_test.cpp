@@ -78,7 +78,8 @@ std::vector<Vec3> turnedYarns(const Fabric& fabric, double degrees, double heigh
 TEST(CrossingChecker, TellsYarnsThatTurnFromYarnsThatPass)
 {
     const auto yarn = [](const Vec3& from, const Vec3& to) { return pieceOf(strand(from, to, 9), testing::wool(), {0.02, 0.02}); };
-    const Fabric fabric = assembleFabric(std::vector<FabricPiece>{yarn(Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)), yarn(Vec3(0.0, 0.05, -1.0), Vec3(0.0, 0.05, 1.0))});
+    const Fabric fabric = assembleFabric(
+        std::vector<FabricPiece>{yarn(Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)), yarn(Vec3(0.0, 0.05, -1.0), Vec3(0.0, 0.05, 1.0))});
     Crossings turned(fabric, Vec3::UnitY()), passed(fabric, Vec3::UnitY());
     ASSERT_EQ(turned.size(), 1u);
     for (double angle : {90.0, 40.0, 3.0, -3.0, -40.0, -90.0}) EXPECT_EQ(turned.count(turnedYarns(fabric, angle, 0.05)).flipped, 0) << angle;

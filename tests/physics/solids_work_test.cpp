@@ -96,7 +96,10 @@ std::vector<Stirred> stirrers()
     all.push_back({"paddle", Shape::box({2.4, 2.0, 0.75}, {0.15, 1.5, 0.5}), swing});
     turn.addRotation(0.0, 1.0, Vec3::UnitZ(), 12.0, Vec3(2.9, 1.5, 0.75), Motion::Frame::World, 0.1, 0.1);
     all.push_back({"turning plate", Shape::box({2.9, 1.5, 0.75}, {1.1, 0.13, 0.5}), turn});
-    all.push_back({"slanted plate at rest", Shape::box(Vec3::Zero(), {1.1, 0.13, 0.5}).moved(Eigen::Translation3d(2.4, 1.2, 0.75) * Eigen::AngleAxisd(0.6, Vec3::UnitZ())), {}});
+    all.push_back(
+        {"slanted plate at rest",
+         Shape::box(Vec3::Zero(), {1.1, 0.13, 0.5}).moved(Eigen::Translation3d(2.4, 1.2, 0.75) * Eigen::AngleAxisd(0.6, Vec3::UnitZ())),
+         {}});
     return all;
 }
 
@@ -119,7 +122,8 @@ TEST(SolidsWork, IsAllThatMakesEnergyGrow)
                                 worked.rise / worked.most, worked.most);
                     // With reflection what speeds the liquid up is told half only: the impulse that reflection gives a second time is no part of
                     // the booked work. Of the paddle, which turns back all the time, the missing part has been 20 % of all that moved.
-                    EXPECT_LT(worked.rise, (integrator == TimeIntegrator::Plain ? 1.0e-4 : 0.25) * worked.most) << stirred.name << ' ' << transfer.name << ' ' << friction;
+                    EXPECT_LT(worked.rise, (integrator == TimeIntegrator::Plain ? 1.0e-4 : 0.25) * worked.most)
+                        << stirred.name << ' ' << transfer.name << ' ' << friction;
                 }
 }
 

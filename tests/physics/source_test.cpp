@@ -61,7 +61,9 @@ Jet jetOf(const Vec3& center, const Vec3& half, const Eigen::AngleAxisd& turn, c
     emission.velocity = velocity;
     jet.source.emissions.push_back(emission);
     const Vec3 own = turn.inverse() * velocity;
-    const double flow = packingOf(fill.pattern) * 4.0 * (std::abs(own[0]) * half[1] * half[2] + std::abs(own[1]) * half[2] * half[0] + std::abs(own[2]) * half[0] * half[1]);
+    const double flow =
+        packingOf(fill.pattern) * 4.0 *
+        (std::abs(own[0]) * half[1] * half[2] + std::abs(own[1]) * half[2] * half[0] + std::abs(own[2]) * half[0] * half[1]);
     jet.volume = flow * (to - from);
     jet.layer = flow / velocity.norm() * particleSpacing(fill, kCell);
     return jet;
@@ -113,7 +115,8 @@ TEST(Source, UnderLiquidGivesAreaTimesSpeedTimesTime)
 /// Mouths in the open air, with and without weight, on walls, and partly under water: to within a layer.
 TEST(Source, InAirAtWallsAndAtTheSurfaceGivesAreaTimesSpeedTimesTime)
 {
-    const FillSettings::Pattern patterns[] = {FillSettings::Pattern::Lattice, FillSettings::Pattern::Jittered, FillSettings::Pattern::Poisson, FillSettings::Pattern::Reference};
+    const FillSettings::Pattern patterns[] = {FillSettings::Pattern::Lattice, FillSettings::Pattern::Jittered,
+                                              FillSettings::Pattern::Poisson, FillSettings::Pattern::Reference};
     for (std::uint64_t number = 0; number < 12; ++number) {
         Draw draw(100 + number);
         Scene scene = pool(draw.isTrue() ? 4.0 : 0.0);
@@ -124,13 +127,16 @@ TEST(Source, InAirAtWallsAndAtTheSurfaceGivesAreaTimesSpeedTimesTime)
         const Vec3 half(draw.between(0.4, 0.8), draw.between(0.03, 0.5), draw.between(0.4, 0.8));
         const std::array<Vec3, 4> places = {Vec3(3.0, half[1], 3.0), Vec3(3.0, 4.0, 3.0), Vec3(half[0], 2.0, 3.0), Vec3(3.0, 6.0, 3.0)};
         const int place = draw.below(4);
-        const Vec3 inward = place == 0 ? Vec3(Vec3::UnitY()) : place == 2 ? Vec3(Vec3::UnitX()) : Vec3(draw.inBox(1.0) - Vec3(0.0, 0.5, 0.0)).normalized();
+        const Vec3 inward = place == 0   ? Vec3(Vec3::UnitY())
+                            : place == 2 ? Vec3(Vec3::UnitX())
+                                         : Vec3(draw.inBox(1.0) - Vec3(0.0, 0.5, 0.0)).normalized();
         const Jet jet = jetOf(places[place], half, Eigen::AngleAxisd::Identity(), draw.between(10.0, 60.0) * inward, 0.0, 0.15, fill);
         scene.sources.push_back(jet.source);
         Simulation simulation(scene);
         const double atOnce = simulation.state().emittedVolume.back();
         runUntil(0.16, simulation);
-        EXPECT_NEAR(simulation.state().emittedVolume.back() - atOnce, jet.volume, 0.02 * jet.volume + 1.1 * jet.layer) << "case " << number << " at place " << place;
+        EXPECT_NEAR(simulation.state().emittedVolume.back() - atOnce, jet.volume, 0.02 * jet.volume + 1.1 * jet.layer)
+            << "case " << number << " at place " << place;
         expectLedgerAddsUp(simulation.state());
     }
 }
@@ -143,7 +149,8 @@ TEST(Source, WhatThePressureDoesForItIsBooked)
         Scene scene = pool(8.0);
         FillSettings fill;
         fill.spacing = 0.5;
-        const Jet jet = jetOf(Vec3(3.0, 2.0, 3.0) + draw.inBox(0.3), Vec3(0.6, 0.4, 0.6), Eigen::AngleAxisd::Identity(), draw.between(10.0, 40.0) * draw.inBox(1.0).normalized(), 0.0, 1.0, fill);
+        const Jet jet = jetOf(Vec3(3.0, 2.0, 3.0) + draw.inBox(0.3), Vec3(0.6, 0.4, 0.6), Eigen::AngleAxisd::Identity(),
+                              draw.between(10.0, 40.0) * draw.inBox(1.0).normalized(), 0.0, 1.0, fill);
         scene.sources.push_back(jet.source);
         Simulation simulation(scene);
         simulation.bookEnergy();
@@ -154,7 +161,8 @@ TEST(Source, WhatThePressureDoesForItIsBooked)
             EnergyChanges changes = *report.energyChanges;
             pressed += report.inflowWork;
             kinetic = std::max(kinetic, report.energies.kinetic);
-            EXPECT_LE(changes[EnergyChange::Pressure], 1.0e-3 * std::abs(report.inflowWork) + 1.0e-6 * kinetic) << "case " << number << " at " << simulation.state().time;
+            EXPECT_LE(changes[EnergyChange::Pressure], 1.0e-3 * std::abs(report.inflowWork) + 1.0e-6 * kinetic)
+                << "case " << number << " at " << simulation.state().time;
             const double booked = std::accumulate(changes.of.begin(), changes.of.end(), 0.0), now = report.energies.total();
             unbooked = std::max(unbooked, std::abs(now - last - booked));
             last = now;
@@ -176,7 +184,9 @@ TEST(Source, StopsWhereThereIsNoRoomLeft)
         FillSettings fill;
         fill.spacing = 0.5;
         const Vec3 velocity = draw.between(20.0, 40.0) * draw.inBox(1.0).normalized();
-        scene.sources.push_back(jetOf(Vec3(2.0, 1.5, 2.0) + draw.inBox(0.3), Vec3(0.6, 0.6, 0.6), Eigen::AngleAxisd::Identity(), velocity, 0.0, 10.0, fill).source);
+        scene.sources.push_back(
+            jetOf(Vec3(2.0, 1.5, 2.0) + draw.inBox(0.3), Vec3(0.6, 0.6, 0.6), Eigen::AngleAxisd::Identity(), velocity, 0.0, 10.0, fill)
+                .source);
         Simulation simulation(scene);
         double fastest = 0.0;
         while (simulation.state().time < 0.5) fastest = std::max(fastest, simulation.step(0.5).maxSpeed);

@@ -39,7 +39,8 @@ TEST_P(ResumeIsExact, InStatePicturesAndLogs)
     ASSERT_EQ(end.code, 0) << end.errorText;
     EXPECT_EQ(hash("half"), hash("whole"));
     expectSameFiles("half", "whole");
-    for (const char* figure : {"steps", "frames", "particles", "taken_back", "largest_cfl", "mass_error", "iterations", "energy_ledger", "content_hash"})
+    for (const char* figure :
+         {"steps", "frames", "particles", "taken_back", "largest_cfl", "mass_error", "iterations", "energy_ledger", "content_hash"})
         EXPECT_EQ(report("half").at(figure), report("whole").at(figure)) << figure;
 }
 
@@ -52,7 +53,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_F(Resume, GeometryIsThatOfAWholeRun)
 {
-    const std::vector<std::string> formats = {"--no-frames", "--set", "output.data=[energy, geometry, checkpoint]", "--set", "output.geometry_format=[vtp, ply, obj, usda]", "--set", "output.geometry_surface=true"};
+    const std::vector<std::string> formats = {"--no-frames",
+                                              "--set",
+                                              "output.data=[energy, geometry, checkpoint]",
+                                              "--set",
+                                              "output.geometry_format=[vtp, ply, obj, usda]",
+                                              "--set",
+                                              "output.geometry_surface=true"};
     ASSERT_EQ(run("whole", formats).code, 0);
     std::vector<std::string> half = formats;
     half.insert(half.end(), {"--set", "time.duration=0.041"});
@@ -67,8 +74,10 @@ TEST_F(Resume, GeometryIsThatOfAWholeRun)
     EXPECT_EQ(files, 21u * (2 * 4 + 2) + 4 + 2) << "liquid, its surface, yarns and cloth as .vtp and .ply, all as .obj and .usda; collections";
     ASSERT_EQ(run("stored", {"--no-frames"}).code, 0);
     ASSERT_EQ(drench({"export", "stored", "--to", "vtp,usda", "--set", "output.geometry_surface=true"}).code, 0);
-    for (const char* name : {"liquid.pvd", "liquid_00020.vtp", "surface_00011.vtp", "cloth_00007.vtp", "yarns_00000.vtp", "frame_00013.usda", "animation.usda"})
-        EXPECT_TRUE(contentOf(folder / "stored" / "geometry" / name) == contentOf(folder / "whole" / "geometry" / name)) << name << " afterwards, from stored states";
+    for (const char* name : {"liquid.pvd", "liquid_00020.vtp", "surface_00011.vtp", "cloth_00007.vtp", "yarns_00000.vtp",
+                             "frame_00013.usda", "animation.usda"})
+        EXPECT_TRUE(contentOf(folder / "stored" / "geometry" / name) == contentOf(folder / "whole" / "geometry" / name))
+            << name << " afterwards, from stored states";
 }
 
 TEST_F(Resume, GoesOnFromAnyFrameOfWhichThereIsACheckpoint)
@@ -201,7 +210,9 @@ TEST_F(Resume, AStoppedComparisonGoesOn)
 {
     const std::string script = R"("$0" compare small.yaml --no-video --threads 1 --out both &
         while [ ! -e both/4/frame_00002.png ] && kill -0 $!; do sleep 0.005; done; kill -INT $!; wait $!)";
-    const auto compare = [&](const std::string& command) { return runChild(*findProgram("sh"), {"-c", command, DRENCH_PROGRAM}, {.folder = folder.path()}); };
+    const auto compare = [&](const std::string& command) {
+        return runChild(*findProgram("sh"), {"-c", command, DRENCH_PROGRAM}, {.folder = folder.path()});
+    };
     EXPECT_EQ(compare(script).code, 1);
     ASSERT_EQ(report("both/4").at("status"), "interrupted");
     const auto first = folder / "both" / "4" / "frame_00001.png";
@@ -225,7 +236,8 @@ TEST_F(Resume, AFullDiskIsSurvived)
     EXPECT_EQ(end.code, 1);
     EXPECT_NE(end.lastWords().find("File too large"), std::string::npos) << end.errorText;
     EXPECT_EQ(storedFrames(folder / "run", StateKind::ForGoingOn).back(), 10);
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run")) EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run"))
+        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
     ASSERT_EQ(resume("run", {"--set", "time.duration=0.08"}).code, 0);
     EXPECT_EQ(hash("run"), hash("whole"));
     expectSameFiles("run", "whole");
@@ -235,9 +247,11 @@ TEST_F(Resume, AFullDiskIsSurvived)
 TEST_F(Resume, AFailedRunCanBeGoneOnWithOtherwise)
 {
     // From the tenth step on it falls so fast that its steps would have to be shorter than they may.
-    const ChildExit failed = run("failed", {"--set", "output.data=[energy]", "--set", "time.dt_min=1.0e-3", "--set", "changes=[{step: 10, set: {gravity: [0, -5.0e+7, 0]}}]"});
+    const ChildExit failed = run("failed", {"--set", "output.data=[energy]", "--set", "time.dt_min=1.0e-3", "--set",
+                                            "changes=[{step: 10, set: {gravity: [0, -5.0e+7, 0]}}]"});
     ASSERT_EQ(failed.code, 1) << failed.errorText;
-    EXPECT_NE(failed.errorText.find("go on from the last good state with other settings: drench run --resume failed"), std::string::npos) << failed.errorText;
+    EXPECT_NE(failed.errorText.find("go on from the last good state with other settings: drench run --resume failed"), std::string::npos)
+        << failed.errorText;
     ASSERT_EQ(report("failed").at("status"), "failed");
     ASSERT_EQ(resume("failed", {"--out", "otherwise", "--set", "gravity=[0, -981, 0]"}).code, 0);
     EXPECT_EQ(report("otherwise").at("status"), "done");

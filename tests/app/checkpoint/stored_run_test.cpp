@@ -44,7 +44,8 @@ TEST_F(StoredRuns, PicturesMadeAnewAreThoseOfTheRun)
 TEST_F(StoredRuns, PicturesMadeAnewCanLookOtherwise)
 {
     ASSERT_EQ(run("run").code, 0);
-    const std::vector<std::string> look = {"--set", "render.size=[80, 60]", "--set", "render.liquid.color_by=pressure", "--set", "render.liquid.range=[0, 500]", "--set", "render.cloth.color_by=saturation"};
+    const std::vector<std::string> look = {"--set", "render.size=[80, 60]",         "--set", "render.liquid.color_by=pressure",
+                                           "--set", "render.liquid.range=[0, 500]", "--set", "render.cloth.color_by=saturation"};
     ASSERT_EQ(render("run", look).code, 0);
     std::vector<std::string> sets = look;
     ASSERT_EQ(run("otherwise", sets).code, 0);

@@ -16,7 +16,9 @@ grid: {cell: 0.5}
 liquid: {sources: [{name: pool, shape: {box: {min: [-1.8, 0.1, -1.8], max: [-0.5, 1.0, 1.8]}}}]}
 materials: {wool: {young: 5.0e+5}}
 fabrics:
-  - {name: sheet, cloth_grid: {material: wool, nodes: [5, 5], spacing: 0.3, center: [-1, 2, 0], u: [1, 0, 0], v: [0, 0, 1], radius: 0.02}, pin: {nodes: [0, 1]}}
+  - name: sheet
+    cloth_grid: {material: wool, nodes: [5, 5], spacing: 0.3, center: [-1, 2, 0], u: [1, 0, 0], v: [0, 0, 1], radius: 0.02}
+    pin: {nodes: [0, 1]}
 obstacles:
   - {name: floor, shape: {box: {min: [-3, -1, -3], max: [3, 0, 3]}}}
   - {name: plate, shape: {box: {min: [0, 0, -2], max: [0.1, 3, 2]}}, motion: [{t: [0, 1], translate: [1, 0, 0]}]}

@@ -22,9 +22,13 @@ struct Logs {
     void energy(double total, double suction)
     {
         test::writeFile(folder / "energy_ledger.csv",
-                        fmt::format("time_s,total_erg,kinetic_erg,suction_erg,walls_erg,unbooked_erg\n0,1,0,0,0,0\n1e-3,{},8,{},-3,0\n", total, suction));
+                        fmt::format("time_s,total_erg,kinetic_erg,suction_erg,walls_erg,unbooked_erg\n0,1,0,0,0,0\n1e-3,{},8,{},-3,0\n",
+                                    total, suction));
     }
-    StabilityRow judged() const { return judgeStability({ChildExit{}, 1.0, false}, folder.path(), {.method = "apic", .dt = 1.0e-3, .duration = 0.1, .why = {}}); }
+    StabilityRow judged() const
+    {
+        return judgeStability({ChildExit{}, 1.0, false}, folder.path(), {.method = "apic", .dt = 1.0e-3, .duration = 0.1, .why = {}});
+    }
     std::string word() const { return judged().why.substr(0, judged().why.find(':')); }
 };
 
@@ -63,7 +67,9 @@ TEST(StabilityMap, StepsMustBeAsLongAsTheyWereToBe)
 
 TEST(StabilityMap, TheLargestStableStepHasNoUnstableOneBelow)
 {
-    const auto row = [](double dt, bool isStable) { return StabilityRow{.method = "apic", .dt = dt, .duration = 0.1, .isStable = isStable, .why = {}}; };
+    const auto row = [](double dt, bool isStable) {
+        return StabilityRow{.method = "apic", .dt = dt, .duration = 0.1, .isStable = isStable, .why = {}};
+    };
     EXPECT_EQ(largestStableStep({row(1, true), row(2, true), row(4, false)}, "apic", 0.1), 2.0);
     EXPECT_EQ(largestStableStep({row(1, true), row(2, false), row(4, true)}, "apic", 0.1), 1.0);
     EXPECT_EQ(largestStableStep({row(1, false), row(2, true)}, "apic", 0.1), 0.0);
@@ -73,7 +79,8 @@ TEST(StabilityMap, TheLargestStableStepHasNoUnstableOneBelow)
 TEST(StabilityMap, TablesReadBack)
 {
     const test::TemporaryFolder folder;
-    const std::vector<StabilityRow> rows = {{"apic vertex", 2.0e-4, 0.32, true, "", 0.01, 12.5, 3.5}, {"polypic_27 grid", 4.0e-3, 0.32, false, "energy: gained 7", 7.0, 1.0e5, 0.5}};
+    const std::vector<StabilityRow> rows = {{"apic vertex", 2.0e-4, 0.32, true, "", 0.01, 12.5, 3.5},
+                                            {"polypic_27 grid", 4.0e-3, 0.32, false, "energy: gained 7", 7.0, 1.0e5, 0.5}};
     test::writeFile(folder / "map.csv", stabilityTable(rows));
     EXPECT_EQ(stabilityTable(readStabilityTable(folder / "map.csv")), stabilityTable(rows));
     EXPECT_TRUE(readStabilityTable(folder / "nothing.csv").empty());

@@ -59,7 +59,10 @@ TEST_F(StudyRuns, AProductIsAllCombinations)
     for (const auto& row : rows) {
         EXPECT_EQ(row.at("status"), "done");
         const std::string gravity = row.at("gravity").find("981") != std::string::npos ? "gravity=[0, -981, 0]" : "gravity=[0, -500, 0]";
-        ASSERT_EQ(run("alone", {"--no-frames", "--set", "time.duration=0.012", "--set", "output.frames=none", "--set", gravity, "--set", "transfer.modes=" + row.at("transfer.modes")}).code, 0);
+        ASSERT_EQ(run("alone", {"--no-frames", "--set", "time.duration=0.012", "--set", "output.frames=none", "--set", gravity, "--set",
+                                "transfer.modes=" + row.at("transfer.modes")})
+                      .code,
+                  0);
         EXPECT_EQ(row.at("state_hash"), hash("alone")) << "a run of a study is a run like any other";
         EXPECT_EQ(row.at("steps"), report("alone").at("steps").dump());
         EXPECT_GT(std::stod(row.at("wall_s")), 0.0);
@@ -84,8 +87,10 @@ TEST_F(StudyRuns, WhatIsDoneIsNotDoneAgain)
 /// A listed run that would need shorter steps than it may take: it fails, is tried again, and the others are done.
 TEST_F(StudyRuns, AFailedRunIsTriedAgainAndTold)
 {
-    write("study: list\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\nretries: 2\n"
-          "runs: [{name: good, transfer.modes: 4}, {name: bad, time.dt_min: 2.0e-3, liquid.sources.ball.velocity: [0, -1.0e+5, 0]}, {name: fine, transfer.modes: 8}]\n");
+    write(
+        "study: list\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\nretries: 2\n"
+        "runs: [{name: good, transfer.modes: 4}, {name: bad, time.dt_min: 2.0e-3, liquid.sources.ball.velocity: [0, -1.0e+5, 0]}, {name: "
+        "fine, transfer.modes: 8}]\n");
     const std::string script = "\"$0\" sweep study.yaml --threads 1 > told";
     const ChildExit end = runChild(*findProgram("sh"), {"-c", script, DRENCH_PROGRAM}, {.folder = folder.path()});
     EXPECT_EQ(end.code, 1);
@@ -142,7 +147,8 @@ TEST_F(StudyRuns, MistakesAreToldWithTheirLine)
 
 TEST_F(StudyRuns, WithoutSlurmItSaysSo)
 {
-    const ChildExit end = runChild(*findProgram("env"), {"PATH=/nowhere", DRENCH_PROGRAM, "sweep", "study.yaml", "--on", "slurm"}, {.folder = folder.path()});
+    const ChildExit end =
+        runChild(*findProgram("env"), {"PATH=/nowhere", DRENCH_PROGRAM, "sweep", "study.yaml", "--on", "slurm"}, {.folder = folder.path()});
     EXPECT_EQ(end.code, 2);
     EXPECT_NE(end.errorText.find("no sbatch along PATH"), std::string::npos) << end.errorText;
 }
@@ -150,11 +156,14 @@ TEST_F(StudyRuns, WithoutSlurmItSaysSo)
 /// Twelve runs as an array of jobs of a real Slurm: the same results as here.
 TEST_F(StudyRuns, TwelveRunsOnSlurm)
 {
-    if (!findProgram("slurmctld") || !findProgram("slurmd") || !findProgram("munged")) GTEST_SKIP() << "there is no Slurm: slurmctld, slurmd and munge are missing";
+    if (!findProgram("slurmctld") || !findProgram("slurmd") || !findProgram("munged"))
+        GTEST_SKIP() << "there is no Slurm: slurmctld, slurmd and munge are missing";
     if (geteuid() != 0) GTEST_SKIP() << "slurmd runs as root only";
     write("study: array\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\n"
           "runs: {transfer.modes: [1, 4, 8], time.dt: [1.0e-3, 2.0e-3], gravity: [[0, -981, 0], [0, -500, 0]]}\n");
-    const ChildExit end = runChild(WITH_SLURM, {(folder / "slurm").string(), DRENCH_PROGRAM, "sweep", "study.yaml", "--on", "slurm", "--jobs", "2"}, {.folder = folder.path()});
+    const ChildExit end =
+        runChild(WITH_SLURM, {(folder / "slurm").string(), DRENCH_PROGRAM, "sweep", "study.yaml", "--on", "slurm", "--jobs", "2"},
+                 {.folder = folder.path()});
     ASSERT_EQ(end.code, 0) << end.errorText;
     const auto onSlurm = table("array");
     ASSERT_EQ(onSlurm.size(), 12u);

@@ -80,7 +80,8 @@ TEST(Capture, TakesWholeParticles)
     const Vec3 momentum = bath.momentum();
     Capture capture(bath.fabric, bath.settings, kParticle);
     double captured = 0.0;
-    for (int n = 0; n < 30; ++n) captured += capture.capture(10.0, bath.liquid.grid, bath.liquid.order, bath.vertices, bath.liquid.particles, bath.state);
+    for (int n = 0; n < 30; ++n)
+        captured += capture.capture(10.0, bath.liquid.grid, bath.liquid.order, bath.vertices, bath.liquid.particles, bath.state);
     const std::size_t before = bath.liquid.particles.count;
     EXPECT_NEAR(bath.liquidMass() + captured, mass, 1.0e-13 * mass);
     EXPECT_LT((bath.momentum() - momentum).norm(), 1.0e-12 * momentum.norm());

@@ -17,8 +17,9 @@ struct Spread {
     {
         const Vec3 middle = scene.corner(Vec3i(8, 8, 8)), off(0.05, 0.02, 0.11);
         FabricPiece first = testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.144}, middle}), testing::wool(), {0.017, 0.017});
-        FabricPiece second = hasYarn ? testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03})
-                                     : testing::pieceOf(clothGrid({{7, 9}, {0.144, 0.144}, middle + off}), testing::wool(), {0.017, 0.017});
+        FabricPiece second =
+            hasYarn ? testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03})
+                    : testing::pieceOf(clothGrid({{7, 9}, {0.144, 0.144}, middle + off}), testing::wool(), {0.017, 0.017});
         second.material.density = secondDensity;
         fabric = assembleFabric(std::vector<FabricPiece>{first, second});
         state = restState(fabric);

@@ -21,7 +21,9 @@ ObstacleSettings anySolid(Noise& noise)
     if (kind == 1) solid.shape = Shape::box(Vec3::Zero(), {0.01, size, 0.02});
     if (kind == 2) solid.shape = Shape::capsule({0.0, -size, 0.0}, {0.0, size, 0.0}, 0.03);
     if (kind == 3) solid.shape = Shape::ball(Vec3::Zero(), 0.5 * size);
-    if (kind >= 4) solid.shape = Shape::subtract({Shape::box(Vec3::Zero(), Vec3::Constant(size)), Shape::box({0.0, 0.1, 0.0}, {size - 0.05, size, size - 0.05})});
+    if (kind >= 4)
+        solid.shape = Shape::subtract(
+            {Shape::box(Vec3::Zero(), Vec3::Constant(size)), Shape::box({0.0, 0.1, 0.0}, {size - 0.05, size, size - 0.05})});
     const Vec3 axis = noise.vector().normalized();
     solid.shape = solid.shape.moved(Eigen::Isometry3d(Eigen::AngleAxisd(kPi * noise(), axis)));
     return solid;
@@ -61,7 +63,8 @@ struct Encounter {
         const Vec3 way = noise.vector().normalized();
         moveTo(piece, Vec3::Zero(), turn);
         // Out of the solid along the way, until no vertex or middle is within it.
-        for (double ahead = 0.0; clearance(assembleFabric({&piece, 1}), piece.points, solid.shape) < 0.1; ahead += 0.05) moveTo(piece, ahead * way, turn);
+        for (double ahead = 0.0; clearance(assembleFabric({&piece, 1}), piece.points, solid.shape) < 0.1; ahead += 0.05)
+            moveTo(piece, ahead * way, turn);
         solid.motion.addTranslation(0.0, 1.0, 0.5 * speed * way + 0.1 * speed * noise.vector(), 0.0, 0.0);
         solid.motion.addRotation(0.0, 1.0, noise.vector().normalized(), 20.0 * noise(), Vec3::Zero(), Motion::Frame::Local, 0.0, 0.0);
         piece.velocity = -0.5 * speed * way;
@@ -101,7 +104,8 @@ TEST(SolidGuard, NoMoveGetsThroughASolid)
 
 /// Takes steps with a solver: step(t).
 /// @return crossings, along straight ways from one step to the next where `isStraight`; a solver may go around a corner in parts of a step
-int crossingsOf(const Encounter& scene, const Fabric& fabric, FabricState& state, double h, int steps, bool isStraight, const std::function<void(double)>& step)
+int crossingsOf(const Encounter& scene, const Fabric& fabric, FabricState& state, double h, int steps, bool isStraight,
+                const std::function<void(double)>& step)
 {
     int count = 0;
     double time = 0.0;

@@ -110,9 +110,11 @@ TEST(FabricAtSolids, APinnedSheetIsNotPiercedByWhatSweepsThroughIt)
 {
     for (const FabricSolver kind : kSolvers)
         for (int shape = 0; shape < 3; ++shape) {
-            ObstacleSettings solid = solidOf(shape == 0   ? Shape::capsule({0.13, -0.5, 0.07}, {0.13, -3.0, 0.07}, 0.02)
-                                             : shape == 1 ? Shape::box({0.13, -1.5, 0.07}, {0.01, 1.0, 0.4})
-                                                          : Shape::box(Vec3::Zero(), {0.4, 0.4, 0.4}).moved(Eigen::Translation3d(0.1, -1.3, 0.0) * Eigen::AngleAxisd(0.9, Vec3(1.0, 0.3, 0.8).normalized())));
+            ObstacleSettings solid = solidOf(
+                shape == 0   ? Shape::capsule({0.13, -0.5, 0.07}, {0.13, -3.0, 0.07}, 0.02)
+                : shape == 1 ? Shape::box({0.13, -1.5, 0.07}, {0.01, 1.0, 0.4})
+                             : Shape::box(Vec3::Zero(), {0.4, 0.4, 0.4})
+                                   .moved(Eigen::Translation3d(0.1, -1.3, 0.0) * Eigen::AngleAxisd(0.9, Vec3(1.0, 0.3, 0.8).normalized())));
             solid.motion.addTranslation(0.0, 0.01, Vec3(0.1, 1.2, 0.1), 0.0, 0.0);
             solid.motion.addRotation(0.0, 0.01, Vec3::UnitY(), 1.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
             FabricPiece piece = sheet(9, 2.0, Vec3::Zero());
@@ -130,7 +132,8 @@ TEST(FabricAtSolids, APinnedSheetIsNotPiercedByWhatSweepsThroughIt)
 TEST(FabricAtSolids, APressSqueezesButDoesNotPierce)
 {
     for (const FabricSolver kind : kSolvers) {
-        ObstacleSettings table = solidOf(Shape::box({0.0, -0.05, 0.0}, {2.0, 0.05, 2.0})), press = solidOf(Shape::box({0.0, 1.0, 0.0}, {0.6, 0.1, 0.6}));
+        ObstacleSettings table = solidOf(Shape::box({0.0, -0.05, 0.0}, {2.0, 0.05, 2.0})),
+                         press = solidOf(Shape::box({0.0, 1.0, 0.0}, {0.6, 0.1, 0.6}));
         press.motion.addTranslation(0.0, 0.01, Vec3(0.0, -0.87, 0.0), 0.002, 0.002);  // to 0.03 above the table
         SolidRun run({sheet(11, 2.0, {0.0, 0.05, 0.0})}, {table, press}, kind);
         for (int i = 0; i < 40; ++i) {
@@ -181,7 +184,8 @@ TEST(FabricAtSolids, WhatBeginsInsideIsLetOut)
 TEST(FabricAtSolids, LayersHangOverARodAndLieOnAThinFloor)
 {
     for (const FabricSolver kind : kSolvers) {
-        const ObstacleSettings rod = solidOf(Shape::capsule({-5.0, 0.0, 0.0}, {5.0, 0.0, 0.0}, 0.02)), floor = solidOf(Shape::box({0.0, -1.01, 0.0}, {9.0, 0.01, 9.0}));
+        const ObstacleSettings rod = solidOf(Shape::capsule({-5.0, 0.0, 0.0}, {5.0, 0.0, 0.0}, 0.02)),
+                               floor = solidOf(Shape::box({0.0, -1.01, 0.0}, {9.0, 0.01, 9.0}));
         SolidRun run({sheet(9, 2.0, {0.0, 0.3, 0.0}), sheet(8, 2.0, {0.2, 0.4, 0.3}), sheet(7, 1.0, {0.1, 0.5, 1.5})}, {rod, floor}, kind);
         for (FabricPiece& piece : run.pieces) piece.velocity = Vec3(0.0, -100.0, 0.0);
         run.state = initialState(run.fabric, run.pieces);
@@ -206,7 +210,8 @@ TEST(FabricAtSolids, PinsThatAreLedThroughATableTakeNothingElseThrough)
         SolidRun run({piece}, {table}, kind);
         for (int i = 0; i < 55; ++i) {  // from 71 on the cloth is pulled out of all proportion
             run.step(1.0e-3);
-            for (std::size_t v = 1; v < run.state.x.size(); ++v) ASSERT_GT(run.state.x[v].y(), 0.5 * kRadius) << "step " << i << " solver " << int(kind);
+            for (std::size_t v = 1; v < run.state.x.size(); ++v)
+                ASSERT_GT(run.state.x[v].y(), 0.5 * kRadius) << "step " << i << " solver " << int(kind);
             ASSERT_EQ(run.report.shortened, 0) << "step " << i << " solver " << int(kind);
         }
         EXPECT_LT(run.state.x[0].y(), -0.1);
@@ -222,7 +227,9 @@ TEST(FabricAtSolids, WorkOfAFastPlateIsBooked)
             ObstacleSettings plate = solidOf(Shape::box({0.0, -0.01, 0.0}, {3.0, 0.01, 3.0}));
             plate.motion.addTranslation(0.0, 0.1, Vec3(0.0, 50.0, 0.0), 0.0, 0.0);
             SolidRun run({sheet(9, 2.0, {0.0, 0.1, 0.0}, Eigen::AngleAxisd(0.03, Vec3::UnitX()).toRotationMatrix())}, {plate}, kind);
-            const auto energies = [&] { return run.vertex ? run.vertex->energies(run.state, run.gravity) : run.grid->energies(run.state, run.gravity); };
+            const auto energies = [&] {
+                return run.vertex ? run.vertex->energies(run.state, run.gravity) : run.grid->energies(run.state, run.gravity);
+            };
             run.vertex ? run.vertex->bookEnergy() : run.grid->bookEnergy();
             const double start = energies().total();
             EnergyChanges all;

@@ -63,7 +63,8 @@ TEST(FirstContact, OfMeshesIsFoundFromFarAway)
         obstacles.moveTo(0.0, 0.0);
         int met = 0;
         for (int path = 0; path < 400; ++path) {
-            const Vec3 from = chance.between(1.0, 8.0) * chance.direction(), through = chance.inCube(0.4), to = from + chance.between(1.0, 2.0) * (through - from);
+            const Vec3 from = chance.between(1.0, 8.0) * chance.direction(), through = chance.inCube(0.4),
+                       to = from + chance.between(1.0, 2.0) * (through - from);
             if (obstacles.distance(from) <= 0.0) continue;
             met += expectFirst(obstacles, from, to, obstacles.firstContact(from, to, kResolution));
         }
@@ -112,9 +113,11 @@ TEST(FirstContact, IsTheSameForAMovingSolidAndInAnyFrame)
             turned.moveTo(0.2, 0.7);
             for (int path = 0; path < 50; ++path) {
                 // One half of the particles rest while the solid comes.
-                const Vec3 from = chance.inCube(2.0), to = path % 2 == 0 ? from : chance.inCube(2.0), a = before.inverse() * from, b = now.inverse() * to;
+                const Vec3 from = chance.inCube(2.0), to = path % 2 == 0 ? from : chance.inCube(2.0), a = before.inverse() * from,
+                           b = now.inverse() * to;
                 const auto contact = moving.firstContact(from, to, kResolution), still = resting.firstContact(a, b, kResolution);
-                const auto inFrame = turned.firstContact(frame * a, frame * b, kResolution), atEnd = moving.firstContactAtEnd(now * a, to, kResolution);
+                const auto inFrame = turned.firstContact(frame * a, frame * b, kResolution),
+                           atEnd = moving.firstContactAtEnd(now * a, to, kResolution);
                 ASSERT_EQ(contact.has_value(), still.has_value());
                 ASSERT_EQ(inFrame.has_value(), still.has_value());
                 ASSERT_EQ(atEnd.has_value(), still.has_value());

@@ -46,5 +46,34 @@ TEST(NearSolids, BlocksThatOneReachesKnowIt)
     }
 }
 
+/// Between cells on the two sides of a plate nothing flows, however thin it is and however it is turned; between others it closes nothing that
+/// it does not cut.
+TEST(NearSolids, APlateClosesTheFacesBetweenItsTwoSides)
+{
+    Chance chance(4);
+    int closed = 0, open = 0;
+    for (int n = 0; n < 30; ++n) {
+        GridScene scene({-8, -8, -8}, {8, 8, 8}, 0.2, chance.inCube(0.3));
+        const double half = 0.5 * scene.grid.dx * chance.between(0.03, 0.6);
+        const Eigen::Isometry3d turn = chance.turn(0.5);
+        scene.add(Shape::box(Vec3::Zero(), {half, 20.0, 20.0}).moved(turn));
+        const auto across = [&](const Vec3i& c) { return (turn.inverse() * scene.middle(c)).x(); };
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            if (c[a] == scene.lower[a]) return;
+            const double here = across(c), there = across(c - Vec3i::Unit(a));
+            if (std::min(std::abs(here), std::abs(there)) <= half + 1.0e-9) return;  // one of them is in the plate
+            if (here * there < 0.0) {
+                ASSERT_EQ(scene.open(a, c), 0.0) << "plate of " << 2.0 * half / scene.grid.dx << " cells";
+                ++closed;
+            } else if (std::min(std::abs(here), std::abs(there)) > half + scene.grid.dx) {
+                ASSERT_EQ(scene.open(a, c), 1.0);
+                ++open;
+            }
+        });
+    }
+    EXPECT_GT(closed, 1000);
+    EXPECT_GT(open, 10000);
+}
+
 }  // namespace
 }  // namespace sim::test

@@ -112,7 +112,10 @@ TEST(ObstacleField, FacesAtTheSeamsOfSolidsAreOpenAsFarAsTheirSurfaceLeavesThem)
         const double dx = 0.1 + 0.05 * unit(random), angle = kPi * unit(random);
         GridScene scene({-8, -8, -8}, {8, 8, 8}, dx, Vec3(unit(random), unit(random), unit(random)));
         const Vec3 middle = scene.grid.origin;
-        const auto between = [&](const Vec3& low, const Vec3& high) { return Shape::box(0.5 * (low + high), 0.5 * (high - low)).moved(Eigen::Translation3d(middle) * Eigen::Isometry3d(Eigen::AngleAxisd(angle, Vec3::Unit(across)))); };
+        const auto between = [&](const Vec3& low, const Vec3& high) {
+            return Shape::box(0.5 * (low + high), 0.5 * (high - low))
+                .moved(Eigen::Translation3d(middle) * Eigen::Isometry3d(Eigen::AngleAxisd(angle, Vec3::Unit(across))));
+        };
         Vec3 low = Vec3::Constant(-99.0 * dx), high = -low, seam;
         const int along = (across + 1) % kAxes, up = (across + 2) % kAxes;
         high[up] = dx * unit(random);
@@ -159,7 +162,8 @@ TEST(ObstacleField, FacesAreOpenAsFarAsSamplesOfThemAre)
         GridScene scene({-8, -8, -8}, {8, 8, 8}, 0.2, Vec3(unit(random), unit(random), unit(random)));
         const auto turned = [&](const Shape& shape) {
             const Vec3 axis(unit(random), unit(random), unit(random));
-            return shape.moved(Eigen::Translation3d(scene.grid.origin + 0.4 * Vec3(unit(random), unit(random), unit(random))) * Eigen::Isometry3d(Eigen::AngleAxisd(kPi * unit(random), axis.normalized())));
+            return shape.moved(Eigen::Translation3d(scene.grid.origin + 0.4 * Vec3(unit(random), unit(random), unit(random))) *
+                               Eigen::Isometry3d(Eigen::AngleAxisd(kPi * unit(random), axis.normalized())));
         };
         const double thickness = 0.2 * (0.15 + 0.1 * (unit(random) + 1.0));  // of a plate, 0.15 to 0.35 cells
         scene.add(turned(Shape::box(Vec3::Zero(), {0.5 * thickness, 0.6, 0.7})));

@@ -85,7 +85,8 @@ struct Divided {
         for (std::size_t p = 0; p < gone.from.size(); ++p) {
             if (atStart.distance(gone.from[p]) <= 1.0e-9) continue;
             const double side = (before.inverse() * gone.from[p]).x(), end = (now.inverse() * gone.after[p]).x();
-            EXPECT_GT(side * end, 0.0) << "went through the plate, of " << 2.0 * half / kCell << " cells, from " << side / kCell << " to " << end / kCell;
+            EXPECT_GT(side * end, 0.0) << "went through the plate, of " << 2.0 * half / kCell << " cells, from " << side / kCell << " to "
+                                       << end / kCell;
             if (left(side) < 0.1 * kCell) continue;
             EXPECT_GT(obstacles.distance(gone.after[p]), -1.0e-9) << left(side) / kCell << " cells are left";
             met += std::abs(end) < half + 2.0 * kPushedInFront * kCell;

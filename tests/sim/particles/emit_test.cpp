@@ -65,7 +65,8 @@ TEST(Emit, ABodyMovesByItsFormulas)
             const Vec3 expected(1.0 + 3.0 * x.y() - x.x(), 2.0 + std::sin(kPi * x.x()) * x.z(), 3.0 + (x.x() > 0.0 ? 2.0 : -1.0));
             EXPECT_LT((s.liquid.velocity(p) - expected).norm(), 1e-12);
             if (modes < 4 || std::abs(x.x()) < 1.0e-3) continue;
-            const Mat3 gradient = (Mat3() << -1.0, 3.0, 0.0, kPi * std::cos(kPi * x.x()) * x.z(), 0.0, std::sin(kPi * x.x()), 0.0, 0.0, 0.0).finished();
+            const Mat3 gradient =
+                (Mat3() << -1.0, 3.0, 0.0, kPi * std::cos(kPi * x.x()) * x.z(), 0.0, std::sin(kPi * x.x()), 0.0, 0.0, 0.0).finished();
             for (int a = 0; a < kAxes; ++a)
                 for (int b = 0; b < kAxes; ++b) EXPECT_NEAR(s.liquid.mode(a, 1 + b)[p], s.grid.dx * gradient(a, b), 1e-7);
         }

@@ -52,7 +52,8 @@ TEST(Seed, AreaAcrossIsThatOfTheShadow)
                 const Eigen::Isometry3d place = turned(angle, axis, to);
                 const Vec3 d = (place.linear().transpose() * velocity).normalized().cwiseAbs();
                 const double shadow = 4.0 * (d[0] * half[1] * half[2] + d[1] * half[2] * half[0] + d[2] * half[0] * half[1]);
-                EXPECT_NEAR(areaAcross(Shape::box(Vec3::Zero(), half).moved(place), velocity, 0.1152) / shadow, 1.0, 0.01) << angle << ' ' << half.transpose() << ", " << velocity.transpose();
+                EXPECT_NEAR(areaAcross(Shape::box(Vec3::Zero(), half).moved(place), velocity, 0.1152) / shadow, 1.0, 0.01)
+                    << angle << ' ' << half.transpose() << ", " << velocity.transpose();
             }
     EXPECT_NEAR(areaAcross(Shape::ball(to, 0.5), axis, 0.1152) / (kPi * 0.25), 1.0, 0.01);
     EXPECT_NEAR(areaAcross(Shape::cylinder(to, axis.normalized(), 0.5, 0.2, 0.0), axis, 0.1152) / (kPi * 0.25), 1.0, 0.01);

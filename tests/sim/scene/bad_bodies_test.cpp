@@ -64,7 +64,8 @@ liquid:
   sources:
     - shape: {translate: [1, 0, 0]}
 )",
-     "bad.yaml:4: liquid.sources.0.shape: names no body; it takes one of box, rounded_box, ball, capsule, cylinder, mesh, union, intersect, subtract, invert"},
+     "bad.yaml:4: liquid.sources.0.shape: names no body; it takes one of box, rounded_box, ball, capsule, cylinder, mesh, union, "
+     "intersect, subtract, invert"},
     {"ShapeWithTwoBodies", R"(grid: {cell: 0.1}
 liquid:
   sources:
@@ -307,7 +308,8 @@ obstacles:
     shape: {ball: {center: [9, 0, 0], radius: 1}}
     motion: {t: [0, 1], oscillate: {frequency: 2}}
 )",
-     "bad.yaml:6: obstacles.paddle.motion.oscillate.amplitude is missing; it is how far it swings to each side, a length (with axis: an angle)"},
+     "bad.yaml:6: obstacles.paddle.motion.oscillate.amplitude is missing; it is how far it swings to each side, a length (with axis: an "
+     "angle)"},
     {"MotionOfNobody", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 motion: [{obstacle: paddel, t: [0, 1], translate: [0, 1, 0]}]

@@ -34,7 +34,8 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {colour: 1}
 )",
-     "bad.yaml:3: unknown key \"colour\" in render (there is size, background, camera, liquid, cloth, yarns, obstacles, hud, colorbar, samples)"},
+     "bad.yaml:3: unknown key \"colour\" in render (there is size, background, camera, liquid, cloth, yarns, obstacles, hud, colorbar, "
+     "samples)"},
     {"RenderSurface", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 render: {liquid: {style: surfaces}}
@@ -238,50 +239,83 @@ compare:
     - {label: Gone, liquid.sources.column.fill: lattice}
 )",
      "bad.yaml:8: liquid.sources has no element \"column\"; it has 1, counted from 0", "gone"},
-    {"SetWithoutEquals", R"(grid: {cell: 0.1}
+    {"SetWithoutEquals",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set time.dt: an override reads key.key=value, like transfer.method=apic", "", {"time.dt"}},
-    {"SetWithoutKey", R"(grid: {cell: 0.1}
+     "--set time.dt: an override reads key.key=value, like transfer.method=apic",
+     "",
+     {"time.dt"}},
+    {"SetWithoutKey",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set =3: an override reads key.key=value, like transfer.method=apic", "", {"=3"}},
-    {"SetWithoutValue", R"(grid: {cell: 0.1}
+     "--set =3: an override reads key.key=value, like transfer.method=apic",
+     "",
+     {"=3"}},
+    {"SetWithoutValue",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set time.dt=: no value after the = sign", "", {"time.dt="}},
-    {"SetEmptyPart", R"(grid: {cell: 0.1}
+     "--set time.dt=: no value after the = sign",
+     "",
+     {"time.dt="}},
+    {"SetEmptyPart",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set time..dt=3: \"time..dt\" is no path of keys; write key.key, like transfer.method", "", {"time..dt=3"}},
-    {"SetBadYaml", R"(grid: {cell: 0.1}
+     "--set time..dt=3: \"time..dt\" is no path of keys; write key.key, like transfer.method",
+     "",
+     {"time..dt=3"}},
+    {"SetBadYaml",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set time.dt=[1: not valid YAML: end of sequence flow not found", "", {"time.dt=[1"}},
-    {"SetUnknownKey", R"(grid: {cell: 0.1}
+     "--set time.dt=[1: not valid YAML: end of sequence flow not found",
+     "",
+     {"time.dt=[1"}},
+    {"SetUnknownKey",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set time.dtt=3: unknown key \"dtt\" in time (did you mean \"dt\"?)", "", {"time.dtt=3"}},
-    {"SetBadValue", R"(grid: {cell: 0.1}
+     "--set time.dtt=3: unknown key \"dtt\" in time (did you mean \"dt\"?)",
+     "",
+     {"time.dtt=3"}},
+    {"SetBadValue",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set time.dt=-3: time.dt: \"-3\" is out of range; must be above 0 s", "", {"time.dt=-3"}},
-    {"SetThroughNumber", R"(grid: {cell: 0.1}
+     "--set time.dt=-3: time.dt: \"-3\" is out of range; must be above 0 s",
+     "",
+     {"time.dt=-3"}},
+    {"SetThroughNumber",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set grid.cell.size=3: grid.cell is \"0.1\", it has no key \"size\"", "", {"grid.cell.size=3"}},
-    {"SetElementOutOfRange", R"(grid: {cell: 0.1}
+     "--set grid.cell.size=3: grid.cell is \"0.1\", it has no key \"size\"",
+     "",
+     {"grid.cell.size=3"}},
+    {"SetElementOutOfRange",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set liquid.sources.1.fill=lattice: liquid.sources has no element \"1\"; it has 1, counted from 0", "", {"liquid.sources.1.fill=lattice"}},
-    {"SetElementNamed", R"(grid: {cell: 0.1}
+     "--set liquid.sources.1.fill=lattice: liquid.sources has no element \"1\"; it has 1, counted from 0",
+     "",
+     {"liquid.sources.1.fill=lattice"}},
+    {"SetElementNamed",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{name: column, shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set liquid.sources.colum.fill=lattice: liquid.sources has no element \"colum\" (did you mean \"column\"?)", "", {"liquid.sources.colum.fill=lattice"}},
-    {"SetUnits", R"(grid: {cell: 0.1}
+     "--set liquid.sources.colum.fill=lattice: liquid.sources has no element \"colum\" (did you mean \"column\"?)",
+     "",
+     {"liquid.sources.colum.fill=lattice"}},
+    {"SetUnits",
+     R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "--set units=si: units belongs to a file and cannot be overridden", "", {"units=si"}},
+     "--set units=si: units belongs to a file and cannot be overridden",
+     "",
+     {"units=si"}},
 };
 
 class BadVariants : public testing::TestWithParam<BadScene> {};

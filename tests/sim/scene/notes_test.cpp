@@ -14,7 +14,9 @@ constexpr const char* kPool = "liquid: {sources: [{name: pool, shape: {box: {min
 /// What a scene says of walls: a plate or a mesh of this thickness [cm], with or without liquid, in cells of 0.25 cm.
 std::vector<std::string> notesOf(const std::string& obstacles, bool hasLiquid = true)
 {
-    return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\n" + std::string(hasLiquid ? kPool : "") + "obstacles:\n" + obstacles, "thin.yaml")).notes;
+    return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\n" + std::string(hasLiquid ? kPool : "") + "obstacles:\n" + obstacles,
+                                                 "thin.yaml"))
+        .notes;
 }
 
 std::string plate(const std::string& name, double thickness, const std::string& more = "")
@@ -52,8 +54,10 @@ TEST(Notes, SayNothingOfThickWallsVesselsAndScenesWithoutLiquid)
 TEST(Notes, ASourceThatIsAskedForNothingSaysSo)
 {
     const auto notes = [](const std::string& source) {
-        return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\ntime: {duration: 2}\nliquid:\n  sources:\n    - {name: jet, shape: {ball: {center: [0, 5, 0], radius: 1}}, " + source + "}\n",
-                                                        "good.yaml"))
+        return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\ntime: {duration: 2}\nliquid:\n  sources:\n    - {name: jet, "
+                                                     "shape: {ball: {center: [0, 5, 0], radius: 1}}, " +
+                                                         source + "}\n",
+                                                     "good.yaml"))
             .notes;
     };
     EXPECT_TRUE(notes("velocity: [0, 1, 0], emit: [{from: 0, to: 1}]").empty());

@@ -8,6 +8,7 @@
 namespace {
 
 using sim::Scene;
+using sim::Vec3;
 
 const std::string kGrid = "grid: {cell: 0.1}\n";
 const std::string kSource = "liquid: {sources: [{name: drop, shape: {ball: {center: [0, 0, 0], radius: 1}}}]}\n";

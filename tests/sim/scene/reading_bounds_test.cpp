@@ -44,10 +44,14 @@ TEST(ReadingBounds, TextsAskForNoMoreThanTheyMay)
 {
     const TemporaryFolder folder;
     const sim::ReadingBounds bounds{.values = 60, .vertices = 20};
-    const std::string cloth = kScene + "materials: {m: {young: 1e7}}\nfabrics: [{cloth_grid: {material: m, nodes: [5, 4], spacing: 1, radius: 0.1}}]\n";
+    const std::string cloth =
+        kScene + "materials: {m: {young: 1e7}}\nfabrics: [{cloth_grid: {material: m, nodes: [5, 4], spacing: 1, radius: 0.1}}]\n";
     EXPECT_EQ(complaint(folder, cloth, bounds), "");
     EXPECT_NE(complaint(folder, cloth, {.vertices = 19}).find("at most"), std::string::npos);
-    EXPECT_NE(complaint(folder, kScene + "scene: {tags: &a [x, x, x, x, x, x, x, x, x, x, x, x], title: *a}\n" + "x: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]\n", bounds)
+    EXPECT_NE(complaint(folder,
+                        kScene + "scene: {tags: &a [x, x, x, x, x, x, x, x, x, x, x, x], title: *a}\n" +
+                            "x: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]\n",
+                        bounds)
                   .find("more than 60 values"),
               std::string::npos);
 }

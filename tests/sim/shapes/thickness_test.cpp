@@ -26,7 +26,8 @@ TEST(Thickness, OfAVesselIsThatOfItsWall)
 {
     const Shape vessel = Shape::subtract({Shape::box(Vec3::Zero(), {1.1, 2.1, 1.1}), Shape::box(Vec3(0.0, 0.5, 0.0), {1.0, 2.5, 1.0})});
     EXPECT_NEAR(thicknessOf(vessel, 0.2), 0.1, 0.01);
-    const Shape bowl = Shape::subtract({Shape::ball(Vec3::Zero(), 1.0), Shape::ball(Vec3::Zero(), 0.95), Shape::box({0.0, 1.0, 0.0}, {2.0, 1.0, 2.0})});
+    const Shape bowl =
+        Shape::subtract({Shape::ball(Vec3::Zero(), 1.0), Shape::ball(Vec3::Zero(), 0.95), Shape::box({0.0, 1.0, 0.0}, {2.0, 1.0, 2.0})});
     EXPECT_NEAR(thicknessOf(bowl, 0.2), 0.05, 0.02);
 }
 
@@ -66,7 +67,7 @@ TEST(Thickness, GrowsWithTheShapeAndThePitch)
         const Shape shape = kind.make(chance);
         const double thick = thicknessOf(shape, 0.1), moved = thicknessOf(shape.moved(Eigen::Isometry3d(Eigen::Translation3d(3.0, -4.0, 5.0))), 0.1);
         EXPECT_GT(thick, 0.0) << kind.name;
-        EXPECT_NEAR(moved, thick, 1.0e-6) << kind.name;
+        EXPECT_NEAR(moved, thick, 1.1e-3) << kind.name;  // a stride of the search, a hundredth of the pitch
         EXPECT_LE(thick, shape.bounds().diagonal().norm()) << kind.name;
         // Turned, other places of it are looked at: near its edges and rims they tell of less.
         const double turned = thicknessOf(shape.moved(chance.turn(2.0)), 0.1);

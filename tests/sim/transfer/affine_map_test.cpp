@@ -192,7 +192,8 @@ TEST(AffineMap, GivesTheFacesNoEnergyBeyondTheParticles)
                 const Energies own = liquidEnergies(liquid.particles, liquid.grid, Vec3::Zero(), &liquid.order);
                 BoundedScratch scratch;
                 FaceFields faces;
-                const double share = particlesToFacesBounded(liquid.particles, liquid.order, liquid.grid, map, dt, own.kinetic + own.modal, scratch, faces);
+                const double share =
+                    particlesToFacesBounded(liquid.particles, liquid.order, liquid.grid, map, dt, own.kinetic + own.modal, scratch, faces);
                 (share < 1.0 ? cut : whole) += 1;
                 double energy = 0.0;
                 Vec3 momentum = Vec3::Zero(), expected = Vec3::Zero();
