@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/liquid/energy.h"
+#include "sim/liquid/inflow.h"
 
 namespace sim {
 
@@ -98,7 +99,7 @@ void EnergyBook::pressedIn(double work)
     book(EnergyChange::Sources, work);
 }
 
-double EnergyBook::workAgainstPressure(double dt) const
+double EnergyBook::workAgainst(const BlockArray<double>& pressure, double dt) const
 {
     if (!work_.obstacles.anyMoving()) return 0.0;
     const BlockGrid& grid = state_.grid;
@@ -116,7 +117,7 @@ double EnergyBook::workAgainstPressure(double dt) const
                     at[a] += side;
                     const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
                     const double swept = (1.0 - field.open(face.block, a)[face.cell]) * field.wallVelocity(face.block, a)[face.cell];
-                    work += (side == 0 ? 1.0 : -1.0) * swept * dt * area * state_.pressure.block(b)[c];
+                    work += (side == 0 ? 1.0 : -1.0) * swept * dt * area * pressure.block(b)[c];
                 }
         }
         return work;
@@ -163,10 +164,20 @@ void EnergyBook::solved(bool isMixed, double dt, const FabricReport& fabric)
     }
     const double tension = workOfSurfaceTension();
     book(EnergyChange::SurfaceTension, tension);
-    const double solids = workAgainstPressure(dt);
+    const double solids = workAgainst(state_.pressure, dt);
     book(EnergyChange::Solids, solids);
     book(EnergyChange::Pressure, alone - tension - solids - pressedIn_);
     last_ = now;
+}
+
+void EnergyBook::reflected(double dt)
+{
+    if (!changes_) return;
+    const BlockArray<double>& again = work_.reflection.potential;
+    const double solids = workAgainst(again, dt), sources = inflowWork(state_.grid, work_.inflow, again, dt);
+    book(EnergyChange::Solids, solids);
+    book(EnergyChange::Sources, sources);
+    book(EnergyChange::ToParticles, -(solids + sources));
 }
 
 void EnergyBook::toParticles(double dt, const PushedOut& pushed)

@@ -22,6 +22,8 @@ class EnergyBook {
     void surfaceTension(bool isMixed);
     /// The pressure has done this work on liquid that sources pressed into liquid [erg].
     void pressedIn(double work);
+    /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids and sources.
+    void reflected(double dt);
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt, const PushedOut& pushed);
     /// All that has changed since the last look.
@@ -45,7 +47,7 @@ class EnergyBook {
     /// no work on it [erg].
     double workOfSurfaceTension() const;
     /// Of moving solids against the liquid's pressure on them over dt: what flows out of cells through what is closed of their faces [erg].
-    double workAgainstPressure(double dt) const;
+    double workAgainst(const BlockArray<double>& pressure, double dt) const;
     /// Of moving solids on the faces behind them, which get their velocity: impulse times velocity [erg].
     double workOnFollowers() const;
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }

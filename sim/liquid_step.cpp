@@ -246,6 +246,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (plan.reflects) {
         clock.start(Stage::Reflection);
         report.reflection = reflect(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, work.reflection);
+        energy.reflected(dt);
     }
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
