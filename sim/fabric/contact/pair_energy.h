@@ -51,7 +51,7 @@ inline double pairStiffness(double young, double touching, double mass, double h
 
 /// Stiffness of a pair's friction [dyn/cm]: of what holds the masses within a few steps, and no less than that of what presses it, so that
 /// pressed hard it gives no further than it is pressed before it slides. A stiffer spring would hold no better, as forces are remembered;
-/// but it ties strands together so firmly that the linear solve, whose preconditioner sees each by itself, takes three times as long.
+/// but it ties strands together so firmly that the linear solve, whose preconditioner sees each by itself, takes twice the iterations.
 /// @param normalForce  [dyn]
 /// @param pressed      how far the pair is below its reach [cm]
 /// @param perStep      mean mass of the four vertices over h² [dyn/cm]
