@@ -5,6 +5,7 @@
 #include "sim/fabric/energies.h"
 #include "sim/fabric/held.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace sim {
@@ -114,7 +115,9 @@ void GridFabricSolver::moveVertices(double h, const Vec3& gravity, FabricState& 
         move_.swap(wanted_);
         const Mechanical wanted = energyAfter(1.0, h, gravity, state);
         move_.swap(wanted_);
-        const double part = guard_.anyMoves() ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
+        // Solids and pins that move may give energy; and pins must get to where they are led.
+        const bool isDriven = guard_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
+        const double part = isDriven ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
         parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
             move_[v] *= part;
             state.v[v] = move_[v] / h;
