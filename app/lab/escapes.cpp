@@ -17,7 +17,7 @@ namespace {
 /// Deeper in a solid nothing may be [cells].
 constexpr double kDeep = 0.02;
 
-/// Counts the places that are inside of a solid or out of the vessel.
+/// Counts the places that are inside of a solid, or out of the vessel: what is no number is nowhere in it.
 struct Escapes {
     const sim::Obstacles& obstacles;
     const std::optional<Eigen::AlignedBox3d>& vessel;
@@ -27,6 +27,10 @@ struct Escapes {
 
     void look(const sim::Vec3& x)
     {
+        if (!x.allFinite()) {
+            ++outside;
+            return;
+        }
         const double depth = -obstacles.distance(x);
         inside += depth > tolerance;
         deepest = std::max(deepest, depth);
