@@ -43,16 +43,23 @@ FabricMaterial stiff(Random& random)
     return material;
 }
 
-/// Yarns that swing about a pinned end, and a drop that falls into them.
-Scene yarnsInDrop(unsigned seed, FabricSolver solver)
+/// An empty scene with steps of 1 to 3 ms, in which stiff fabric moves by more than it can stretch.
+Scene longSteps(const char* name, Random& random, FabricSolver solver)
 {
-    Random random(seed);
     Scene scene;
-    scene.name = "swinging yarns";
+    scene.name = name;
     scene.settings.cell = 0.25;
     scene.settings.time.mode = TimeMode::Fixed;
     scene.settings.time.dt = random(1.0e-3, 3.0e-3);
     scene.settings.fabric.solver = solver;
+    return scene;
+}
+
+/// Yarns that swing about a pinned end, and a drop that falls into them.
+Scene yarnsInDrop(unsigned seed, FabricSolver solver)
+{
+    Random random(seed);
+    Scene scene = longSteps("swinging yarns", random, solver);
     scene.settings.coupling.pressureOnFabric = seed % 3 != 0;
     scene.settings.coupling.capillary = false;  // whose work is no loss of anything else
     SourceSettings source;
@@ -80,12 +87,7 @@ Scene yarnsInDrop(unsigned seed, FabricSolver solver)
 Scene clothAtSolids(unsigned seed, FabricSolver solver)
 {
     Random random(seed);
-    Scene scene;
-    scene.name = "thrown cloth";
-    scene.settings.cell = 0.25;
-    scene.settings.time.mode = TimeMode::Fixed;
-    scene.settings.time.dt = random(1.0e-3, 3.0e-3);
-    scene.settings.fabric.solver = solver;
+    Scene scene = longSteps("thrown cloth", random, solver);
     ClothGrid grid;
     grid.nodes = Vec2i(9, 7);
     grid.spacing = {0.12, 0.12};
