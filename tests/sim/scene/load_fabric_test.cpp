@@ -2,6 +2,7 @@
 #include "sim/core/units.h"
 #include "sim/fabric/fabric.h"
 #include "sim/scene/load_scene.h"
+#include "tests/sim/scene/fabric_scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,18 +21,7 @@ using sim::FabricPiece;
 using sim::Scene;
 using sim::Vec3;
 
-Scene load(const std::string& text, const std::vector<std::string>& set = {})
-{
-    return sim::readScene(sim::sceneFileFromText(text, "good.yaml", {"", set}));
-}
-
-const std::string kBegin =
-    "grid: {cell: 0.1}\nmaterials: {wool: {young: 6.6e+7, density: 1.32, volume_fraction: 0.4}}\n";
-
-FabricPiece piece(const std::string& text)
-{
-    return load(kBegin + "fabrics: [{name: it, " + text + "}]\n").fabrics.at(0);
-}
+using sim::test::kBegin, sim::test::load, sim::test::piece;
 
 const std::string kSheet = "cloth_grid: {material: wool, nodes: [5, 4], spacing: 1, radius: 0.1}";
 
