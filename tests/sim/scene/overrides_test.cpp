@@ -1,5 +1,6 @@
 // What variants and --set change of a scene.
 #include "sim/scene/load_scene.h"
+#include "tests/sim/scene/liquid_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +11,7 @@ namespace {
 using sim::Scene;
 using sim::Vec3;
 
-const std::string kGrid = "grid: {cell: 0.1}\n";
-const std::string kSource = "liquid: {sources: [{name: drop, shape: {ball: {center: [0, 0, 0], radius: 1}}}]}\n";
-const std::string kSmallest = kGrid + kSource;
-
-Scene load(const std::string& text, const std::string& variant = "", const std::vector<std::string>& set = {})
-{
-    return sim::readScene(sim::sceneFileFromText(text, "good.yaml", {variant, set}));
-}
+using sim::test::kGrid, sim::test::kSmallest, sim::test::load;
 
 TEST(Overrides, OverridesComeAfterVariantAfterFile)
 {
