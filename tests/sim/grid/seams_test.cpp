@@ -32,14 +32,21 @@ struct Cut {
             seam = kCell * std::round(seam / kCell);
             for (double& h : half) h = kCell * std::round(h / kCell);
         }
-        whole.add(Shape::box(Vec3::Zero(), half).moved(turn));
+        whole.obstacles.add(Shape::box(Vec3::Zero(), half).moved(turn), {});
         Vec3 lowHalf = half, low = Vec3::Zero(), highHalf = half, high = Vec3::Zero();
         lowHalf[axis] = 0.5 * (seam + half[axis]);
         low[axis] = 0.5 * (seam - half[axis]);
         highHalf[axis] = 0.5 * (half[axis] - seam);
         high[axis] = 0.5 * (half[axis] + seam);
-        parts.add(Shape::box(low, lowHalf).moved(turn));
-        parts.add(Shape::box(high, highHalf).moved(turn));
+        parts.obstacles.add(Shape::box(low, lowHalf).moved(turn), {});
+        parts.obstacles.add(Shape::box(high, highHalf).moved(turn), {});
+        for (GridScene* scene : {&whole, &parts}) scene->obstacles.moveTo(0.0, 0.0);
+    }
+
+    void findFields()
+    {
+        whole.updateObstacles();
+        parts.updateObstacles();
     }
 };
 
@@ -47,7 +54,8 @@ TEST(Seams, OfTouchingBoxesLeaveRoomOpenFractionsAndDistancesAlone)
 {
     Chance chance(1);
     for (int n = 0; n < 16; ++n) {
-        const Cut cut(chance, n % 2 == 0);
+        Cut cut(chance, n % 2 == 0);
+        cut.findFields();
         SCOPED_TRACE(n);
         double room = 0.0, open = 0.0, distance = 0.0;
         for (int b = 0; b < cut.whole.grid.count(); ++b) {
