@@ -44,7 +44,8 @@ Json fabricJson(const sim::StepReport& step)
               {"bending", e.bending},
               {"twisting", e.twisting},
               {"membrane", e.membrane},
-              {"shell_bending", e.shellBending}}}};
+              {"shell_bending", e.shellBending},
+              {"contact", e.contact}}}};
 }
 
 /// Seconds of the stages that ran in this step.
@@ -89,7 +90,7 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
 
 constexpr std::string_view kEnergyHeader =
     "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg,"
-    "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg,published_erg";
+    "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg,fabric_contact_erg,published_erg";
 
 /// What the published program sums up as energy: without the liquid's motion, elasticity and what fabric has absorbed [erg].
 double publishedEnergy(const sim::FabricState& fabric, const sim::Energies& e, const sim::Vec3& gravity)
@@ -103,9 +104,9 @@ double publishedEnergy(const sim::FabricState& fabric, const sim::Energies& e, c
 std::string energyRow(double time, const sim::Energies& e, std::size_t particles, double liquidMass, double published)
 {
     const double perParticle = particles > 0 ? e.total() / static_cast<double>(particles) : 0.0;
-    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
+    return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
                        e.potential, e.total(), particles, liquidMass, perParticle, e.fabric.kinetic, e.fabric.potential,
-                       e.fabric.elastic(), published);
+                       e.fabric.elastic(), e.fabric.contact, published);
 }
 
 double since(std::chrono::steady_clock::time_point begin)

@@ -19,9 +19,9 @@ enum class EnergyChange {
     Drag,              ///< between liquid and fabric
     Implicit,          ///< backward Euler: ½ m Δv² of the fabric and of liquid under drag, and what elastic forces did beyond their energy
     Damping,           ///< of the fabric's material
-    Contact,           ///< of fabric with itself; its energy counts as given away. Solver grid: with friction
+    Contact,           ///< of fabric with itself, beyond the energy that it holds (FabricState::stored). Solver grid: with friction
     Friction,          ///< of fabric on fabric
-    Obstacles,         ///< on fabric, with friction
+    Obstacles,         ///< on fabric, with friction, and on what contact with them holds
     Solids,            ///< moving ones on the liquid: by its pressure on them, by what follows them at walls, by contact
     Pins,
     FabricToGrid,      ///< solver grid: from vertices to faces …

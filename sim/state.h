@@ -28,7 +28,7 @@ struct StepMemory {
     /// Of motion and elasticity at the ends of the last steps [erg]: what contact took in them it may give back.
     std::array<double, 8> energies{};
     int next = 0;           ///< element of them to be overwritten
-    double elastic = 0.0;   ///< at the end of the last step [erg]
+    double internal = 0.0;  ///< of fabric, at the end of the last step [erg]
     double deepest = std::numeric_limits<double>::infinity();  ///< that fabric was in an obstacle then; before the first step it may be anywhere [cm]
     std::vector<SourceMemory> sources;  ///< as many as the scene has, once any was looked at
 };

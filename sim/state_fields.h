@@ -75,6 +75,10 @@ void visitFabric(V& v, Fabric& fabric)
     v.list("fabric/acceleration", "cm/s^2", fabric.acceleration);
     v.list("fabric/held", "-", fabric.held);
     visitGrips(v, "fabric/friction_on_obstacles", fabric.onObstacles);
+    v.number("fabric/energy_of_pressed_fabric", "erg", fabric.stored.pressed);
+    v.number("fabric/energy_of_friction", "erg", fabric.stored.gripped);
+    v.number("fabric/energy_at_obstacles", "erg", fabric.stored.solids);
+    v.number("fabric/spring_step", "s", fabric.springStep);
     v.number("fabric/taken_fraction", "-", fabric.lastFraction);
     visitGrips(v, "fabric/friction_on_fabric", fabric.onFabric);
     v.list("fabric/across", "-", fabric.across);
@@ -91,7 +95,7 @@ void visitMemory(V& v, Memory& memory)
     v.number("memory/longest_step", "s", memory.longest);
     v.rows("memory/energies", "erg", 1, memory.energies.size(), [&](std::size_t) { return memory.energies.data(); });
     v.number("memory/next_energy", "-", memory.next);
-    v.number("memory/elastic", "erg", memory.elastic);
+    v.number("memory/internal", "erg", memory.internal);
     v.number("memory/deepest", "cm", memory.deepest);
     std::size_t sources = memory.sources.size();
     v.number("memory/sources/count", "-", sources);

@@ -23,7 +23,7 @@ constexpr double kDepth = 0.25;          ///< how far the middle of fabric may g
 /// Of motion and elasticity [erg].
 double activeEnergy(const Energies& e)
 {
-    return e.kinetic + e.modal + e.fabric.kinetic + e.fabric.elastic();
+    return e.kinetic + e.modal + e.fabric.kinetic + e.fabric.internal();
 }
 
 struct Fastest {
@@ -75,7 +75,7 @@ StepCheck::StepCheck(const Scene& scene, const Fabric& fabric)
 void StepCheck::start(const Energies& energies, StepMemory& memory)
 {
     memory.energies.fill(activeEnergy(energies));
-    memory.elastic = energies.fabric.elastic();
+    memory.internal = energies.fabric.internal();
     memory.deepest = StepMemory().deepest;
 }
 
@@ -83,7 +83,7 @@ void StepCheck::accept(const StepReport& report, StepMemory& memory)
 {
     memory.energies[memory.next] = activeEnergy(report.energies);
     memory.next = (memory.next + 1) % static_cast<int>(memory.energies.size());
-    memory.elastic = report.energies.fabric.elastic();
+    memory.internal = report.energies.fabric.internal();
     memory.deepest = report.fabric.deepest;
 }
 
@@ -190,7 +190,7 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
     const double kinetic = e.kinetic + e.modal + e.fabric.kinetic;
     double given = report.dt * settings.gravity.norm() * std::sqrt(2.0 * kinetic * mass);  // Cauchy and Schwarz
     const double speed = drivingSpeed(state, report);
-    if (speed > 0.0) given += 2.0 * mass * speed * speed + std::max(0.0, e.fabric.elastic() - state.memory.elastic);  // thrown off at twice the speed
+    if (speed > 0.0) given += 2.0 * mass * speed * speed + std::max(0.0, e.fabric.internal() - state.memory.internal);  // thrown off at twice the speed
     if (feelsSurfaceTension(settings.liquid))
         given += settings.liquid.surfaceTension * settings.cell * settings.cell * static_cast<double>(report.liquidCells);
     const double quiet = kQuiet * settings.cell / report.dt;
@@ -203,7 +203,7 @@ std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport
     const double energy = activeEnergy(report.energies), allowed = energyAllowed(state, report);
     if (energy <= allowed) return std::nullopt;
     const Energies& e = report.energies;
-    const bool isFabrics = e.fabric.kinetic + e.fabric.elastic() > e.kinetic + e.modal;
+    const bool isFabrics = e.fabric.kinetic + e.fabric.internal() > e.kinetic + e.modal;
     return Fault{isFabrics ? Stage::FabricSolve : Stage::GridToParticles,
                  fmt::format("energy of motion and elasticity came to {:.4g} erg, {:.3g} erg more than there was and was given: {}", energy,
                              energy - allowed, isFabrics ? fastestVertex(state) : fastestParticle(state)),

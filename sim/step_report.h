@@ -82,8 +82,10 @@ struct FabricEnergies {
     double kinetic = 0.0, potential = 0.0;
     double stretching = 0.0, bending = 0.0, twisting = 0.0;   ///< of yarns
     double membrane = 0.0, shellBending = 0.0;                ///< of cloth
+    double contact = 0.0;                                     ///< FabricState::stored
     double elastic() const { return stretching + bending + twisting + membrane + shellBending; }
-    double total() const { return kinetic + potential + elastic(); }
+    double internal() const { return elastic() + contact; }
+    double total() const { return kinetic + potential + internal(); }
 };
 
 /// Energies of the liquid (model-fluid 4.7) and the fabric [erg].

@@ -184,8 +184,7 @@ void Measures::addFabric(Names& names)
     names.push_back({"fabric_speed", 0, [state](Arguments) { return largest(state().v); }});
     names.push_back({"fabric_kinetic", 0, [this](Arguments) { return simulation_->energies().fabric.kinetic; }});
     names.push_back({"elastic", 0, [this](Arguments) {
-                         const sim::FabricEnergies of = simulation_->energies().fabric;
-                         return of.total() - of.kinetic - of.potential;
+                         return simulation_->energies().fabric.elastic();
                      }});
 }
 

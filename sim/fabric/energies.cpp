@@ -18,6 +18,7 @@ FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, co
     const auto [membrane, shellBending] = shells.energies(state.x);
     e.stretching = stretching, e.bending = bending, e.twisting = twisting;
     e.membrane = membrane, e.shellBending = shellBending;
+    e.contact = state.stored.sum();
     return e;
 }
 

@@ -9,7 +9,7 @@
 
 namespace sim {
 
-/// Kinetic, potential and elastic energies (model-fabric 6.6); what contact and pins hold is not among them.
+/// Kinetic, potential and elastic energies (model-fabric 6.6) and that of contact; what pins hold is not among them.
 FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const Rods& rods, const Shells& shells,
                               const Vec3& gravity);
 

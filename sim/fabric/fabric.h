@@ -65,6 +65,15 @@ struct Fabric {
     std::size_t vertexCount() const { return rest.size(); }
 };
 
+/// What contact holds and gives back when it ends [erg].
+struct ContactEnergy {
+    double pressed = 0.0;  ///< where fabric presses on itself
+    double gripped = 0.0;  ///< by friction of fabric on fabric that has not slid; solver vertex only
+    double solids = 0.0;   ///< where fabric presses on solids and holds on to them
+
+    double sum() const { return pressed + gripped + solids; }
+};
+
 /// What evolves of the fabric.
 struct FabricState {
     std::vector<Vec3> x;                  ///< of each vertex [cm]
@@ -79,6 +88,8 @@ struct FabricState {
     std::vector<Vec3> acceleration;       ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
     std::vector<Vec3> held;               ///< of each vertex and axis: how far the fabric's own forces held it in the last step (heldShare) [0..1]
     Grips onObstacles;                    ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
+    ContactEnergy stored;                 ///< at the end of the last step, with the stiffnesses that contact had in it …
+    double springStep = 0.0;              ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
 
     // Of solver vertex only.
     double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step [-]

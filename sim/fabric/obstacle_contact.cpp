@@ -90,7 +90,7 @@ FabricObstacles::Point FabricObstacles::nearestPoint(const Fabric& fabric, const
 /// Of the penalty on a point [dyn/cm].
 double FabricObstacles::stiffnessOf(const Point& point, const Start& start)
 {
-    return kStiffness * point.mass / (start.h * start.h);
+    return kStiffness * point.mass / (start.springStep * start.springStep);
 }
 
 std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point, int obstacle, const Start& start) const
@@ -107,7 +107,7 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
     if (start.moves.empty()) return Touch{n, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
     const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
     const GripSpring spring{held, stiffness, coefficient * pressed};
-    return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), kStiffness)};
+    return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
 }
 
 FabricObstacles::Point FabricObstacles::pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x,
@@ -188,10 +188,12 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
     return contacts_;
 }
 
-void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const
+void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held)
 {
-    std::vector<std::optional<Vec3>> force(contacts_.size());
+    std::vector<std::optional<Vec3>>& force = keptForce_;
+    force.resize(contacts_.size());
     parallelFor(contacts_.size(), 256, [&](std::size_t i) {
+        force[i].reset();
         const ObstacleContact& c = contacts_[i];
         const Point point = pointOf(fabric, c, x, start);
         const Body& body = bodies_[c.between[1]];
@@ -204,6 +206,16 @@ void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x
     held.clear();
     for (std::size_t i = 0; i < contacts_.size(); ++i)
         if (force[i]) held.add(contacts_[i].between, *force[i]);
+}
+
+double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const Grips& held) const
+{
+    return parallelSum(contacts_.size(), [&](std::size_t i) {
+        const ObstacleContact& c = contacts_[i];
+        const Point point = pointOf(fabric, c, x, start);
+        const double overlap = std::max(0.0, point.reach - bodies_[c.between[1]].pose.distance(point.x)), stiffness = stiffnessOf(point, start);
+        return 0.5 * stiffness * overlap * overlap + 0.5 * held.at(c.between).squaredNorm() / stiffness;
+    });
 }
 
 double FabricObstacles::deepest(const Fabric& fabric, std::span<const Vec3> x) const

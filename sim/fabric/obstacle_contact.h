@@ -53,7 +53,7 @@ class FabricObstacles {
         std::span<const Vec3> x;             ///< [cm]
         std::span<const double> mass;        ///< [g]
         const Grips& held;            ///< FabricState::onObstacles
-        double h;
+        double h, springStep;         ///< (springStepFor) [s]
         /// Given where contacts are looked for at a prediction, a step of free fall ahead, which presses far too hard and slides too fast:
         /// force and slip of friction then follow from what presses at the start, and from where these moves [cm] and the friction that
         /// is held take the vertices.
@@ -63,7 +63,9 @@ class FabricObstacles {
     const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start, std::span<const NearestPoint> nearest = {});
     /// What of the friction is held at the end of the step, at x, where the contacts found last still touch: what acted there according to
     /// their gradients and stiffnesses.
-    void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held) const;
+    void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held);
+    /// Energy that the contacts found last hold at x, in their penalty and in the friction that is held there [erg].
+    double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const Grips& held) const;
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
     double deepest(const Fabric& fabric, std::span<const Vec3> x) const;
 
@@ -107,6 +109,7 @@ class FabricObstacles {
     std::vector<Vec3> pushedOut_;           ///< of each vertex: how far it is pushed out of obstacles [cm]
     std::vector<std::vector<ObstacleContact>> ofChunk_;
     std::vector<ObstacleContact> contacts_;
+    std::vector<std::optional<Vec3>> keptForce_;  ///< of friction at them, at the end of the step [dyn]
 };
 
 }  // namespace sim

@@ -84,6 +84,9 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     changes[EnergyChange::Damping] = elastic - along(gradient);
     changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - energies(start_, gravity).elastic() - elastic;
     bookContacts(state, changes, gradient.byPosition);
+    changes[EnergyChange::Contact] += state.stored.pressed - start_.stored.pressed;
+    changes[EnergyChange::Friction] += state.stored.gripped - start_.stored.gripped;
+    changes[EnergyChange::Obstacles] += state.stored.solids - start_.stored.solids;
 
     const double part = h / wholeStep_;
     const std::vector<char> isHeld = heldBySolids();

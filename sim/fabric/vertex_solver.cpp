@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
+#include "sim/fabric/contact/spring_step.h"
 #include "sim/fabric/energies.h"
 #include "sim/fabric/held.h"
 #include "sim/fabric/pins.h"
@@ -31,6 +32,8 @@ constexpr double kFractionTwice = 0.95;       ///< less than this of the moves t
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 1000;
+constexpr double kNoGain = 1.0e-3;            ///< energy from nothing that a step may leave, relative to that of its motion: more asks for iterations …
+constexpr double kMuchGain = 0.1;             ///< … and this, when there are no more of them, for halves [-]
 constexpr int kMostTurns = 8;                 ///< of solids and of pairs in limiting a move
 
 }  // namespace
@@ -176,6 +179,9 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
 void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
     start_ = state;
+    startEnergies_ = energies(start_, gravity);
+    springStep_ = springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
+    state.springStep = springStep_;
     limits_ = {};
     guarded_ = {};
     clock.start(Stage::FabricElastic);
@@ -184,7 +190,7 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     predict(t, h, gravity, state);
     obstacles_.moveTo(t, t + h);
     guard_.moveTo(t, t + h);
-    if (contact_) contact_->beginStep(state.x, mass_, h, start_.onFabric);
+    if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
 
     limit(state, report, clock);
     commit(state, clock);
@@ -259,40 +265,96 @@ void VertexSolver::findRates(double h, FabricState& state) const
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
 }
 
-/// Energy that the fabric may have at the end of a step [erg]: that of the start, and the liquid's work. Infinite where pins or solids move, whose
-/// work is known only of steps that are solved for.
-double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
+/// What a step leaves behind when the fabric is where it ends: rates, what friction holds, and the energy of contact.
+void VertexSolver::finish(double h, FabricState& state)
 {
-    const bool pinsMove = std::ranges::any_of(fabric_.pins.vertex, [&](int v) { return state.x[v] != start_.x[v]; });
-    if (pinsMove || guard_.anyMoves()) return std::numeric_limits<double>::infinity();
-    double byLiquid = 0.0;
-    for (std::size_t v = 0; loads_ && v < state.x.size(); ++v)
-        byLiquid += h / wholeStep_ * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
-    return energies(start_, gravity).total() + byLiquid;
+    findRates(h, state);
+    state.stored = {};
+    state.onFabric.clear();
+    if (contacts_) {
+        contact_->keepFriction(state.x, state.onFabric);
+        state.stored = contact_->storedEnergy(state.x, state.onFabric);
+    }
+    obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
+    state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h), state.onObstacles);
 }
 
-/// Where Newton did not settle in the last attempt the state is no solution: as much of the way there as does not take more energy than there is.
+bool VertexSolver::isDriven(const FabricState& state) const
+{
+    return guard_.anyMoves() || std::ranges::any_of(fabric_.pins.vertex, [&](int v) { return state.x[v] != start_.x[v]; });
+}
+
+/// Energy that the fabric may have at the end of a step [erg]: that of the start, the liquid's work, and that of pins that move. Infinite where
+/// solids move: what they carried ahead before Newton began is in no booking.
+double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
+{
+    if (guard_.anyMoves()) return std::numeric_limits<double>::infinity();
+    if (isDriven(state)) {
+        EnergyChanges changes = energyChanges(h, gravity, state);
+        return startEnergies_.total() + changes[EnergyChange::Drag] + changes[EnergyChange::Pins] + changes[EnergyChange::Obstacles];
+    }
+    if (!loads_) return startEnergies_.total();
+    return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
+        return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
+    });
+}
+
+/// Kinetic energy of a motion, or of one that is not felt [erg].
+double VertexSolver::felt(double kinetic, double h) const
+{
+    const double unfelt = kAccelerationTolerance * feltAcceleration_ * h;
+    return kinetic + 0.5 * totalMass_ * unfelt * unfelt;
+}
+
+/// Energy that a step gained from nothing, relative to that of its motion; less than what is not felt counts as none.
+double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state) const
+{
+    const FabricEnergies now = energies(state, gravity);
+    const double scale = felt(now.kinetic, h);
+    if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
+    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state)) / scale;
+}
+
+/// Where Newton has not come to a solution: as much of the way there as does not take more energy than there is. Pins have to arrive, and
+/// solids push.
 void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
+    if (isDriven(state)) return;
     const double allowed = allowedEnergy(h, gravity, state);
-    if (energies(state, gravity).total() <= allowed) return;
     std::vector<Vec3> way(state.x.size());
     std::vector<double> turn(state.theta.size());
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
     for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
     const double lastFraction = state.lastFraction;
-    for (const double part : {0.5, 0.25, 0.125, 0.0}) {
+    for (const double part : {0.999, 0.99, 0.95, 0.8, 0.5, 0.25, 0.125, 0.0}) {
         state = start_;
         state.lastFraction = lastFraction;
+        state.springStep = springStep_;
         guard_.moveTo(t, t + h);
-        if (contact_) contact_->beginStep(state.x, mass_, h, start_.onFabric);
+        if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
         for (std::size_t v = 0; v < way.size(); ++v) move_[v] = part * way[v];
         limit(state, report, clock);
         commit(state, clock);
         guard_.rest();
         for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += part * turn[e];
-        findRates(h, state);
+        finish(h, state);
         if (energies(state, gravity).total() <= allowed) return;
+    }
+}
+
+/// Newton's iterations until nothing moves that matters, and no energy comes from what is left.
+/// @return  gain() at the end
+double VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
+{
+    const int most = std::max(settings_.newton, kMostNewton);
+    for (;;) {
+        solve(h, newton, state, report, clock);
+        judge(h, newton);
+        take(t + h, newton, state, report, clock);
+        if (!newton.isQuiet && newton.count < (newton.isNear ? settings_.newton : most)) continue;
+        finish(h, state);
+        const double gained = gain(h, gravity, state);
+        if (gained <= kNoGain || newton.count >= most) return gained;
     }
 }
 
@@ -300,32 +362,18 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 {
     begin(t, h, gravity, state, report, clock);
     Newton newton;
-    const auto isDone = [&] {
-        const int most = newton.isNear ? settings_.newton : std::max(settings_.newton, kMostNewton);
-        return newton.isQuiet || newton.count >= most;
-    };
-    while (!isDone()) {
-        solve(h, newton, state, report, clock);
-        judge(h, newton);
-        take(t + h, newton, state, report, clock);
-    }
+    const double gained = iterate(t, h, gravity, newton, state, report, clock);
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled;
+                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled || gained > kMuchGain;
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
-    findRates(h, state);
-    if (isShort) {
-        ++report.shortened;
-        giveNoEnergy(t, h, gravity, state, report, clock);
-    }
+    if (isShort || gained > kNoGain) ++report.shortened;
+    if (gained > kNoGain) giveNoEnergy(t, h, gravity, state, report, clock);
     if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
-    if (contacts_) contact_->keepFriction(state.x, state.onFabric);
-    else state.onFabric.clear();
-    obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
     return true;
 }
 

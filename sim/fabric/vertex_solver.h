@@ -56,11 +56,16 @@ class VertexSolver {
     void limitInTurn(const FabricState& state, StageClock& clock);
     void turnHeldEdges(double t, FabricState& state) const;
     void findRates(double h, FabricState& state) const;
+    void finish(double h, FabricState& state);
+    bool isDriven(const FabricState& state) const;
+    double felt(double kinetic, double h) const;
+    double gain(double h, const Vec3& gravity, const FabricState& state) const;
+    double iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     std::vector<char> heldBySolids() const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
-    FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h}; }
+    FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
 
     const Fabric& fabric_;
@@ -81,6 +86,8 @@ class VertexSolver {
     double wholeStep_ = 0.0;                     ///< its length [s]
     double feltAcceleration_ = 0.0;              ///< by which errors are measured: gravity, or the earth's where there is none [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
+    FabricEnergies startEnergies_;               ///< … and its energies
+    double springStep_ = 0.0;                    ///< of the attempt (springStepFor) [s]
     std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
     std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]
     std::vector<Vec3> free_, move_;              ///< of each vertex [cm]

@@ -73,7 +73,7 @@ struct Driven {
     {
         const std::vector<Vec3> start = x;
         if (hit) ball.y() -= kSpeed * kStep;
-        charge([&] { contact.beginStep(x, fabric.mass, kStep); });
+        charge([&] { contact.beginStep(x, fabric.mass, kStep, kStep); });
         for (std::size_t i = 0; i < x.size(); ++i) u[i] = fabric.pinned[i] ? Vec3::Zero().eval() : Vec3(kStep * v[i]);
         charge([&] { contact.limit(x, u, report, clock); });
         move(std::vector<Vec3>(x));

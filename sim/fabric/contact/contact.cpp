@@ -21,7 +21,7 @@ struct FabricContact::Parts {
         PairRange range;
         Vec3 apart;          ///< separation where it was looked at last [cm]
         double stiffness;    ///< of the pair [dyn/cm]
-        double perStep;      ///< mean mass of its vertices over h² [dyn/cm]
+        double perStep;      ///< mean mass of its vertices over springStep² [dyn/cm]
         double coefficient;  ///< Coulomb's [-]
         double perMass;      ///< h² over the mass that its separation has [cm/dyn]
     };
@@ -37,23 +37,25 @@ struct FabricContact::Parts {
     Limiter limiter;
     std::vector<Vec3> start;                  ///< of the step [cm]
     std::vector<double> mass, inverseMass;    ///< [g, 1/g]
-    double h = 0.0;                           ///< [s]
+    double h = 0.0, springStep = 0.0;         ///< [s]
     std::vector<PairPlace> acting;            ///< by chunks
     std::vector<PairPlace> edgePairs, facePairs;  ///< that act, sorted
     PairSorter sorter;
     ActiveContacts active;
     std::vector<Grip> grips;                  ///< of the active pairs
     Grips held;                               ///< at the start of the step
+    std::vector<Vec3> keptForce;              ///< of friction on the active pairs, at the end of the step [dyn]
 };
 
 FabricContact::FabricContact(const Fabric& fabric) : parts_(std::make_unique<Parts>(fabric)) {}
 FabricContact::~FabricContact() = default;
 
-void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, const Grips& held)
+void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const Grips& held)
 {
     Parts& p = *parts_;
     p.held = held;
     p.h = h;
+    p.springStep = springStep;
     p.mass.assign(mass.begin(), mass.end());
     p.inverseMass.resize(mass.size());
     p.start.assign(x.begin(), x.end());
@@ -139,7 +141,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     const Vec3 normal = distance > 0.0 ? Vec3(apart / distance) : Vec3::UnitX().eval();
 
     const double young = std::min(primitives.young[a], primitives.young[b]);
-    const double stiffness = pairStiffness(young, primitives.radius[a] + primitives.radius[b], meanMass, h);
+    const double stiffness = pairStiffness(young, primitives.radius[a] + primitives.radius[b], meanMass, springStep);
     const PairEnergy energy = pairEnergy(distance, pairs.range(place), stiffness);
 
     active.vertices[slot] = v;
@@ -147,7 +149,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.weights[slot] = c;
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
-    grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (h * h), primitives.friction2(a, b), h * h * mobility};
+    grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b), h * h * mobility};
     const Friction sideways = friction(x, expected, energy, distance, slot);
     active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
@@ -179,11 +181,13 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
 }
 
-void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held) const
+void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held)
 {
-    const Parts& p = *parts_;
-    std::vector<Vec3> force(p.active.size(), Vec3::Zero());
+    Parts& p = *parts_;
+    std::vector<Vec3>& force = p.keptForce;
+    force.resize(p.active.size());
     parallelFor(force.size(), 512, [&](std::size_t i) {
+        force[i].setZero();
         const Vec3& n = p.active.normal[i];
         Vec3 apart = Vec3::Zero();
         for (std::size_t k = 0; k < 4; ++k) apart += p.active.weights[i][k] * x[p.active.vertices[i][k]];
@@ -195,6 +199,27 @@ void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held) const
     held.clear();
     for (std::size_t i = 0; i < force.size(); ++i)
         if (!force[i].isZero(0.0)) held.add(p.active.between[i], force[i]);
+}
+
+ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& held) const
+{
+    const Parts& p = *parts_;
+    const auto sumOver = [&](auto&& of) {
+        return parallelSum(p.active.size(), [&](std::size_t i) {
+            Vec3 apart = Vec3::Zero();
+            for (std::size_t k = 0; k < 4; ++k) apart += p.active.weights[i][k] * x[p.active.vertices[i][k]];
+            return of(i, apart.norm());
+        });
+    };
+    const auto press = [&](std::size_t i, double distance) { return pairEnergy(distance, p.grips[i].range, p.grips[i].stiffness); };
+    ContactEnergy stored;
+    stored.pressed = sumOver([&](std::size_t i, double distance) { return press(i, distance).energy; });
+    stored.gripped = sumOver([&](std::size_t i, double distance) {
+        const double pressed = p.grips[i].range.reach - distance;
+        if (!(pressed > 0.0)) return 0.0;
+        return 0.5 * held.at(p.active.between[i]).squaredNorm() / gripStiffness(-press(i, distance).slope, pressed, p.grips[i].perStep);
+    });
+    return stored;
 }
 
 std::size_t FabricContact::candidates() const

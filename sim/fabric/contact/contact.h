@@ -43,9 +43,9 @@ class FabricContact {
     explicit FabricContact(const Fabric& fabric);
     ~FabricContact();
 
-    /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and h, friction acts against the
-    /// motion since these positions and goes on from what is held.
-    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, const Grips& held = {});
+    /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and springStep [s] (springStepFor), friction
+    /// acts against the motion since these positions and goes on from what is held.
+    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const Grips& held = {});
     /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
     /// unless everything has to be scaled.
     void limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
@@ -56,7 +56,10 @@ class FabricContact {
     const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});
     /// What of the friction of the pairs found last is held at the end of the step, at x: what acted there according to their forces and
     /// stiffnesses.
-    void keepFriction(std::span<const Vec3> x, Grips& held) const;
+    void keepFriction(std::span<const Vec3> x, Grips& held);
+
+    /// Energy that the pairs found last hold at x, in what presses and in the friction that is held there.
+    ContactEnergy storedEnergy(std::span<const Vec3> x, const Grips& held) const;
 
     std::size_t candidates() const;                ///< pairs in the list
     double leastDistance() const;                  ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]

@@ -38,14 +38,15 @@ inline PairEnergy pairEnergy(double distance, const PairRange& range, double sti
 
 inline constexpr double kFirmPerStep = 4.0;  ///< stiffness relative to mass/h² that stops the mass within a few steps [-]
 
-/// Stiffness of a pair [dyn/cm]: of the fibres where they are soft; what a step of h [s] can resolve where they are hard, and no less than it
+/// Stiffness of a pair [dyn/cm]: of the fibres where they are soft; what a step can resolve where they are hard, and no less than it
 /// takes to stop the masses within a few steps.
 /// @param young     E χ of the softer side [dyn/cm^2]
 /// @param touching  sum of the radii [cm]
 /// @param mass      mean of the four vertices [g]
-inline double pairStiffness(double young, double touching, double mass, double h)
+/// @param step      springStepFor the step [s]
+inline double pairStiffness(double young, double touching, double mass, double step)
 {
-    const double perStep = mass / (h * h);
+    const double perStep = mass / (step * step);
     return std::max(std::min(0.1 * young * touching, 100.0 * perStep), kFirmPerStep * perStep);
 }
 
@@ -54,7 +55,7 @@ inline double pairStiffness(double young, double touching, double mass, double h
 /// but it ties strands together so firmly that the linear solve, whose preconditioner sees each by itself, takes twice the iterations.
 /// @param normalForce  [dyn]
 /// @param pressed      how far the pair is below its reach [cm]
-/// @param perStep      mean mass of the four vertices over h² [dyn/cm]
+/// @param perStep      mean mass of the four vertices over step² [dyn/cm]
 inline double gripStiffness(double normalForce, double pressed, double perStep)
 {
     return std::max(kFirmPerStep * perStep, normalForce / pressed);

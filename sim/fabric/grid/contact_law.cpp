@@ -45,11 +45,11 @@ Vec3 stress(const ContactModuli& m, const Vec3& r)
     return {m.shear * r[0], m.shear * r[1], -m.normal() * pressed * pressed};
 }
 
-Vec3 stiffness(const ContactModuli& m, const Vec3& r)
+Vec3 stiffness(const ContactModuli& m, const Vec3& r, const Vec3& last)
 {
-    const double pressed = 1.0 - r[2];
+    const double first = std::max(1.0 - r[2], 0.0), pressed = std::max(first, 1.0 - std::max(last[2], kLeastThickness));
     if (pressed < kLeastCompression) return Vec3::Zero();
-    return {m.shear, m.shear, 2.0 * m.normal() * pressed};
+    return {m.shear, m.shear, m.normal() * (first + pressed)};
 }
 
 double held(const ContactModuli& m, const Vec3& r)
@@ -173,6 +173,14 @@ bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness&
     add((p[0] + p[1]) / (sigma[0] + sigma[1]), half * twist);
     add(difference > kEqual * sigma[0] ? (p[0] - p[1]) / difference : a - c, half * flip);
     return true;
+}
+
+Section touching(const Section& section, const Section& last)
+{
+    Section touching = section;
+    touching.log.setConstant(last.log.sum() > -kLeastCompression ? 0.0 : -kLeastCompression);
+    touching.sigma = touching.log.array().exp();
+    return touching;
 }
 
 Section slid(const Section& section, double across)

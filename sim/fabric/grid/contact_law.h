@@ -41,8 +41,9 @@ Mat3 frameOf(const Vec3& t0, const Vec3& t1);
 double energy(const ContactModuli& m, const Vec3& r);
 /// ∂ψ/∂r [dyn/cm^2].
 Vec3 stress(const ContactModuli& m, const Vec3& r);
-/// Diagonal of ∂²ψ/∂r², which has nothing beside it and nothing negative [dyn/cm^2].
-Vec3 stiffness(const ContactModuli& m, const Vec3& r);
+/// Diagonal of ∂²ψ/∂r², which has nothing beside it and nothing negative; where it is pressed harder at `last`, of the chord to there, as what
+/// only comes to touch would else be pressed for a step without any resistance [dyn/cm^2].
+Vec3 stiffness(const ContactModuli& m, const Vec3& r, const Vec3& last);
 /// Share of the shear stress at r that friction holds [0..1].
 double held(const ContactModuli& m, const Vec3& r);
 /// r after separation and friction.
@@ -84,6 +85,8 @@ struct Held {
     double along = 1.0, across = 1.0;
 };
 Held held(const ContactModuli& m, const Strain& r, const Section& section);
+/// An unpressed section when it comes to touch, if it does on its way to the last; else one that does not.
+Section touching(const Section& section, const Section& last);
 /// The section with `across` of the difference of its log σ.
 Section slid(const Section& section, double across);
 /// Leaves `across` of what K has beside the answer to scaling the whole section.

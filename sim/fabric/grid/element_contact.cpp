@@ -113,7 +113,7 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3 along = state.x[corners_[e][1]] - state.x[corners_[e][0]];
     at.d = {state.across[direction(e)], state.across[direction(e) + 1]};
-    const Mat3 q = yarn::frameOf(along, at.d[0]);
+    const Mat3 q = at.frame = yarn::frameOf(along, at.d[0]);
     at.reciprocal = {q.col(0) / along.norm(), Vec3::Zero()};
     at.normal.setZero();
     for (Mat3& k : at.stiffness) k.setZero();
@@ -121,7 +121,8 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
     yarn::Strain r = yarnStrain(q, at.d);
     yarn::Section section = yarn::sectionOf(r);
     yarn::SectionStiffness k;
-    if (!yarn::stiffness(m, section, k)) return found;
+    const bool isPressed = yarn::stiffness(m, section, k);
+    if (!isPressed && !outlook) return found;
     found.energy = volume_[e] * yarn::energy(m, r, section);
 
     std::array<Vec3, 2> moves;
@@ -130,11 +131,12 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
         moves = expectedMoves(e, at, *outlook);
         const yarn::Strain expected = r + yarnStrain(q, moves);
         const yarn::Section last = yarn::sectionOf(expected);
+        if (!isPressed && !yarn::stiffness(m, yarn::touching(section, last), k)) return found;
         held = yarn::held(m, expected, last);
         yarn::slide(section, held.across, k);
         // What parts takes its stress along no further than to 0.
         const double sum = section.log.sum(), change = last.log.sum() - sum;
-        if (change > -sum) k *= -sum / change;
+        if (isPressed && change > -sum) k *= -sum / change;
         section = yarn::slid(section, held.across);
         r.row(0) *= held.along;
     }
@@ -159,7 +161,7 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3& x0 = state.x[corners_[e][0]];
     const Vec3 t0 = state.x[corners_[e][1]] - x0, t1 = state.x[corners_[e][2]] - x0;
-    const Mat3 q = sheet::frameOf(t0, t1);
+    const Mat3 q = at.frame = sheet::frameOf(t0, t1);
     const double area = t0.cross(t1).norm();
     at.d = {state.across[direction(e)], Vec3::Zero()};
     at.normal = q.col(2);
@@ -167,17 +169,17 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     for (Mat3& k : at.stiffness) k.setZero();
     Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
     const Vec3 r = q.transpose() * at.d[0];
-    if (1.0 - r[2] < kLeastCompression) return found;
-    found.energy = volume_[e] * sheet::energy(m, r);
-
     std::array<Vec3, 2> moves;
-    Vec3 held = Vec3::Ones();
+    Vec3 last = r, held = Vec3::Ones();
     if (outlook) {
         moves = expectedMoves(e, at, *outlook);
-        held.head<2>().setConstant(sheet::held(m, r + q.transpose() * moves[0]));
+        last += q.transpose() * moves[0];
+        held.head<2>().setConstant(sheet::held(m, last));
     }
+    if (1.0 - std::min(r[2], last[2]) < kLeastCompression) return found;
+    found.energy = volume_[e] * sheet::energy(m, r);
     found.stress[0] = volume_[e] * (q * held.cwiseProduct(sheet::stress(m, r)));
-    at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r)).asDiagonal() * q.transpose());
+    at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r, last)).asDiagonal() * q.transpose());
     found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
     return found;
 }
@@ -185,12 +187,40 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
 void ElementContact::assemble(const FabricState& state, const StepOutlook* outlook)
 {
     parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
-        stress_[e] =
-            isEdge(e) ? assembleEdge(e, state, outlook, local_[e]) : assembleFace(e, state, outlook, local_[e]);
+        stress_[e] = assembleElement(e, state, outlook, local_[e]);
     });
+    listActive();
+}
+
+void ElementContact::listActive()
+{
     active_.clear();
     for (std::size_t e = 0; e < size(); ++e)
         if (stress_[e].isActive) active_.push_back(static_cast<int>(e));
+}
+
+/// What an element gains by the moves of its directions, which an inactive one makes freely [erg].
+double ElementContact::energyAfter(std::size_t e, const StepOutlook& outlook) const
+{
+    const ContactModuli& m = moduli_[material_[e]];
+    const Local& at = local_[e];
+    const std::array<Vec3, 2> moves = expectedMoves(e, at, outlook);
+    if (!isEdge(e)) return volume_[e] * sheet::energy(m, at.frame.transpose() * (at.d[0] + moves[0])) - stress_[e].energy;
+    const yarn::Strain r = yarnStrain(at.frame, {at.d[0] + moves[0], at.d[1] + moves[1]});
+    return volume_[e] * yarn::energy(m, r, yarn::sectionOf(r)) - stress_[e].energy;
+}
+
+double ElementContact::unforeseen(const StepOutlook& outlook) const
+{
+    return parallelSum(size(), [&](std::size_t e) { return stress_[e].isActive ? 0.0 : std::max(0.0, energyAfter(e, outlook)); });
+}
+
+void ElementContact::takeIn(const FabricState& state, const StepOutlook& outlook)
+{
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
+        if (!stress_[e].isActive) stress_[e] = assembleElement(e, state, &outlook, local_[e]);
+    });
+    listActive();
 }
 
 double ElementContact::energy() const
@@ -200,9 +230,9 @@ double ElementContact::energy() const
     return sum;
 }
 
-void ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const
+double ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const
 {
-    parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
+    return parallelSum(size(), [&](std::size_t e) {
         const ContactModuli& m = moduli_[material_[e]];
         const Mat3 step = h * g[e], carried = Mat3::Identity() + step + 0.5 * (step * step);
         const Vec3& x0 = state.x[corners_[e][0]];
@@ -213,10 +243,12 @@ void ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state
             const Mat3 q = yarn::frameOf(t0, moved[0]);
             const yarn::Strain r = yarn::returned(m, yarnStrain(q, moved));
             for (int k = 0; k < 2; ++k) d[k] = q * r.col(k);
-        } else {
-            const Mat3 q = sheet::frameOf(t0, state.x[corners_[e][2]] - x0);
-            d[0] = q * sheet::returned(m, q.transpose() * (carried * d[0]));
+            return volume_[e] * yarn::energy(m, r, yarn::sectionOf(r));
         }
+        const Mat3 q = sheet::frameOf(t0, state.x[corners_[e][2]] - x0);
+        const Vec3 r = sheet::returned(m, q.transpose() * (carried * d[0]));
+        d[0] = q * r;
+        return volume_[e] * sheet::energy(m, r);
     });
 }
 

@@ -42,12 +42,18 @@ class ElementContact {
     /// secant of what friction holds in the end, and elements that would accelerate nothing are left out: an elastic
     /// tangent makes what is barely pressed stick, where the return after the step lets it slide.
     void assemble(const FabricState& state, const StepOutlook* outlook = nullptr);
+    /// Energy that elements would hold after this outlook which assemble() left out, as they were not expected to be pressed [erg]: they would
+    /// be pressed without resistance.
+    double unforeseen(const StepOutlook& outlook) const;
+    /// Takes them in, with this outlook.
+    void takeIn(const FabricState& state, const StepOutlook& outlook);
     /// Elements that are pressed so that it is felt, ascending.
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble
 
     /// An element at one place: directions, how turning the mesh shows, and stiffness.
     struct Local {
+        Mat3 frame;                      ///< Q
         std::array<Vec3, 2> d;           ///< the second of yarns only
         std::array<Vec3, 2> reciprocal;  ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
         Vec3 normal;                     ///< of faces
@@ -62,7 +68,8 @@ class ElementContact {
     const Stress& stress(std::size_t e) const { return stress_[e]; }
     /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (model-fabric 3.3, 3.5).
     /// @param g  velocity gradient of each element [1/s]; x of the state is already that of the end of the step
-    void carry(std::span<const Mat3> g, double h, FabricState& state) const;
+    /// @return   energy of contact with these directions [erg]
+    double carry(std::span<const Mat3> g, double h, FabricState& state) const;
 
     /// Corners of an element; −1 for the third of an edge.
     const std::array<int, 3>& corners(std::size_t e) const { return corners_[e]; }
@@ -84,6 +91,12 @@ class ElementContact {
  private:
     /// First of an element's directions in FabricState::across.
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
+    void listActive();
+    double energyAfter(std::size_t e, const StepOutlook& outlook) const;
+    Stress assembleElement(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
+    {
+        return isEdge(e) ? assembleEdge(e, state, outlook, at) : assembleFace(e, state, outlook, at);
+    }
     Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;

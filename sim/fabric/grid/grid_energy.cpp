@@ -57,8 +57,10 @@ void GridFabricSolver::bookSolve(double h, const Vec3& gravity, const FabricStat
 }
 
 /// The rest, when the vertices have moved.
-void GridFabricSolver::bookVertices(const Vec3& gravity, const FabricState& state, EnergyChanges& changes) const
+void GridFabricSolver::bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const
 {
+    changes[EnergyChange::Contact] += state.stored.pressed - before.pressed;
+    changes[EnergyChange::Obstacles] += state.stored.solids - before.solids;
     const FabricEnergies after = energies(state, gravity);
     changes[EnergyChange::Implicit] += after.elastic();
     changes[EnergyChange::FabricToVertices] += after.kinetic + after.potential;

@@ -48,7 +48,7 @@ class GridFabricSolver {
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     FabricObstacles::Start obstacleStart(double h, const FabricState& state) const
     {
-        return {from_, mass_, state.onObstacles, h};
+        return {from_, mass_, state.onObstacles, h, state.springStep};
     }
     /// Of the fabric [erg].
     struct Mechanical {
@@ -59,12 +59,14 @@ class GridFabricSolver {
     double partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state);
     void moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
+    void solve(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
+    void meetUnforeseen(double h, double bearable, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void keepChange(FabricState& state) const;
     void keepAccelerations(double h, FabricState& state);
     void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads,
                    EnergyChanges& changes);
-    void bookVertices(const Vec3& gravity, const FabricState& state, EnergyChanges& changes) const;
+    void bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const;
     double facesKinetic(const BlockArray<double, 3>& velocity) const;
 
     const Fabric& fabric_;

@@ -146,7 +146,7 @@ TEST_F(CheckpointFile, EveryFieldOfAStateComesBack)
     EXPECT_EQ(read.state.memory.longest, state.memory.longest);
     EXPECT_EQ(read.state.memory.energies, state.memory.energies);
     EXPECT_EQ(read.state.memory.next, state.memory.next);
-    EXPECT_EQ(read.state.memory.elastic, state.memory.elastic);
+    EXPECT_EQ(read.state.memory.internal, state.memory.internal);
     EXPECT_EQ(read.state.memory.deepest, state.memory.deepest);
     EXPECT_EQ(read.origin.scene, origin.scene);
     EXPECT_EQ(read.origin.variant, "");

@@ -190,7 +190,7 @@ TEST(ContactLimit, PairsUnderTheCoreMaySeparate)
 std::vector<Vec3> stirred(ContactRun& run, unsigned from, unsigned to)
 {
     for (unsigned step = from; step < to; ++step) {
-        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep);
+        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep, ContactRun::kStep);
         // Wild in one place, which wanders, hardly at all elsewhere: the list is mended, not built anew.
         std::vector<Vec3> u = randomMoves(run.fabric, 1.0, step);
         const Vec3 middle(0.5 + 0.1 * step, 0.0, 1.0);

@@ -211,7 +211,7 @@ inline std::vector<Vec3> randomMoves(const Fabric& fabric, double size, unsigned
 struct ContactRun {
     static constexpr double kStep = 1.0e-3;
 
-    explicit ContactRun(const Fabric& f) : fabric(f), contact(f), x(f.rest) { contact.beginStep(x, fabric.mass, kStep); }
+    explicit ContactRun(const Fabric& f) : fabric(f), contact(f), x(f.rest) { contact.beginStep(x, fabric.mass, kStep, kStep); }
 
     /// Moves as far along u as is safe, and returns how far that was.
     std::vector<Vec3> moveSafely(std::vector<Vec3> u)

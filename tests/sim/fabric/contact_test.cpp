@@ -27,7 +27,7 @@ struct Pressed : ContactRun {
     explicit Pressed(double gap) : ContactRun(crossing(0.5))
     {
         for (int v : {2, 3}) x[v].y() = gap;
-        contact.beginStep(x, fabric.mass, kStep);
+        contact.beginStep(x, fabric.mass, kStep, kStep);
     }
 };
 
@@ -109,7 +109,7 @@ TEST(FabricContact, GradientIsThatOfTheEnergy)
     for (double gap : {0.11, 0.1, 0.085, 0.075, 0.065}) {
         Pressed run(gap);
         for (Vec3& x : run.x) x += Vec3(0.01, 0.003, -0.02).cwiseProduct(x);  // not so symmetric
-        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep);
+        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep, ContactRun::kStep);
         const ActiveContacts contacts = run.active();
         ASSERT_EQ(contacts.size(), 1u);
         const NearPair pair = allPairs(run.fabric).at(0);

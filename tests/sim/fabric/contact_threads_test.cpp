@@ -65,7 +65,7 @@ namespace {
 void shake(ContactRun& run, std::vector<Vec3>& u, int steps)
 {
     for (int step = 0; step < steps; ++step) {
-        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep);
+        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep, ContactRun::kStep);
         StageClock clock(run.step);
         for (std::size_t v = 0; v < u.size(); ++v) {
             const double share = std::exp(-(run.fabric.rest[v] - Vec3(2.0, 0.0, 2.0)).squaredNorm());

@@ -114,13 +114,25 @@ TEST(GridContactLaw, SheetStiffnessIsTheSlopeOfTheStress)
     const ContactModuli m(material());
     Noise noise(4);
     for (int n = 0; n < 100; ++n) {
-        const Vec3 r(0.3 * noise(), 0.3 * noise(), 0.5 + 0.45 * noise()), k = sheet::stiffness(m, r);
+        const Vec3 r(0.3 * noise(), 0.3 * noise(), 0.5 + 0.45 * noise()), k = sheet::stiffness(m, r, r);
         for (int i = 0; i < 3; ++i) {
             const Vec3 by = kStep * Vec3::Unit(i);
             const Vec3 slope = (sheet::stress(m, r + by) - sheet::stress(m, r - by)) / (2.0 * kStep);
             EXPECT_NEAR((slope - k[i] * Vec3::Unit(i)).norm(), 0.0, 1e-8);
             EXPECT_GE(k[i], 0.0);
         }
+    }
+}
+
+/// What comes to touch, or is pressed harder, meets at the end the stress that it has there.
+TEST(GridContactLaw, SheetStiffnessLeadsToTheStressAtTheEnd)
+{
+    const ContactModuli m(material());
+    Noise noise(14);
+    for (int n = 0; n < 100; ++n) {
+        const Vec3 r(0.0, 0.0, n % 2 == 0 ? 1.0 : 0.75 + 0.2 * noise()), last = r - (0.3 + 0.2 * noise()) * Vec3::UnitZ();
+        const double change = sheet::stiffness(m, r, last)[2] * (last - r)[2];
+        EXPECT_NEAR(sheet::stress(m, r)[2] + change, sheet::stress(m, last)[2], 1e-12 * m.normal());
     }
 }
 

@@ -59,7 +59,7 @@ TEST(VertexSystem, NewtonMoveTakesTheForcesAway)
         const std::vector<double> freeAngles(fabric.edges.size(), 0.0);
         const std::vector<Vec3> inertia = inertiaOf(fabric);
         constexpr double kStep = 1.0e-3;
-        contact.beginStep(fabric.rest, fabric.mass, kStep);
+        contact.beginStep(fabric.rest, fabric.mass, kStep, kStep);
         StepReport report;
         StageClock clock(report);
         const NewtonPoint point{state, fabric.rest, freeAngles, inertia, kStep};
