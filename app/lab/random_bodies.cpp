@@ -233,8 +233,9 @@ std::string randomSources(Dice& dice, RandomPile& pile, bool withPool)
                             half, 0.5 * depth, half);
     }
     if (withPool && dice.chance(0.3)) {
-        const Vec3 mouth = pile.cell * Vec3{dice.between(-1.0, 1.0), dice.between(0.4, 1.0), dice.between(-1.0, 1.0)};
+        Vec3 mouth = pile.cell * Vec3{dice.between(-1.0, 1.0), dice.between(0.4, 1.0), dice.between(-1.0, 1.0)};
         const double half = dice.between(0.4, 1.0) * pile.cell, end = pile.duration * dice.between(0.3, 1.2), speed = randomSpeed(dice, pile);
+        mouth.y() = std::max(mouth.y(), half);  // a mouth that reached through the floor would give liquid below it
         text += fmt::format(
             "    - name: spring\n      shape: {{box: {{center: {}, half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n      emit: [{{to: {:.4g}, "
             "velocity: {}}}]\n",

@@ -19,8 +19,10 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 5> kFromOutside = {"sources_erg", "suction_erg", "obstacles_erg", "solids_erg", "pins_erg"};
-/// What only gives, counted where it does: what a surface takes is not lost, and its energy is in no sum; viscosity gives where walls move.
-constexpr std::array<std::string_view, 2> kGivesOnly = {"surface_tension_erg", "viscosity_erg"};
+/// What only gives, counted where it does: it gives where walls move.
+constexpr std::string_view kGivesOnly = "viscosity_erg";
+/// The energy of a surface is in no sum. It gives by its own work and by that of the pressure that it makes; what it takes is not lost.
+constexpr std::string_view kSurface = "surface_tension_erg", kPressure = "pressure_erg";
 
 struct Energy {
     double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
@@ -37,14 +39,17 @@ Energy energyOf(const std::filesystem::path& csv)
     std::optional<double> start;
     while (std::getline(in, line)) {
         const std::vector<std::string> cells = csvCells(line);
-        double paid = 0.0, total = 0.0;
+        double paid = 0.0, total = 0.0, surface = 0.0, pressure = 0.0;
         for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
             const double value = std::strtod(cells[i].c_str(), nullptr);
             if (names[i] == "total_erg") total = value;
             if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
             if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
-            if (std::ranges::find(kGivesOnly, names[i]) != kGivesOnly.end()) paid += std::max(0.0, value);
+            if (names[i] == kGivesOnly) paid += std::max(0.0, value);
+            if (names[i] == kSurface) surface = value;
+            if (names[i] == kPressure) pressure = value;
         }
+        if (surface != 0.0) paid += std::max(0.0, surface + std::max(0.0, pressure));
         if (!start) start = total - paid;
         energy.gain = std::max(energy.gain, total - paid - *start);
     }

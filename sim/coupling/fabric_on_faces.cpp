@@ -134,7 +134,7 @@ void FabricOnFaces::spread(const FabricState& state)
 void FabricOnFaces::findHeld(const FabricState& state)
 {
     held.resize(grid().count());
-    scatter([&](int v) { return Vec3(massOf_[v] * (fabric_.pinned[v] ? Vec3(Vec3::Ones()) : state.held[v])); }, held);
+    scatter([&](int v) { return Vec3(massOf_[v] * state.held[v]); }, held);
     divideByMass(held);
 }
 

@@ -194,6 +194,7 @@ FabricState restState(const Fabric& fabric)
     state.absorbed.assign(fabric.vertexCount(), 0.0);
     state.acceleration.assign(fabric.vertexCount(), Vec3::Zero());
     state.held.assign(fabric.vertexCount(), Vec3::Zero());
+    for (int v : fabric.pins.vertex) state.held[v] = Vec3::Ones();
     const std::size_t edges = fabric.edges.size();
     state.theta.assign(edges, 0.0);
     state.omega.assign(edges, 0.0);

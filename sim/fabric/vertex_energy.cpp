@@ -12,7 +12,7 @@ namespace sim {
 void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const
 {
     const auto move = [&](int v) -> Vec3 { return state.x[v] - start_.x[v]; };
-    const auto solved = [&](int v) { return system_.move(v); };
+    const auto solved = [&](int v) -> Vec3 { return hasMovedSinceLook_ ? system_.move(v) : Vec3::Zero().eval(); };
     for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) {
         const std::array<int, 4>& v = contacts_->vertices[i];
         const std::array<double, 4>& weight = contacts_->weights[i];

@@ -180,6 +180,8 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
 {
     start_ = state;
     startEnergies_ = energies(start_, gravity);
+    startIsLookedAt_ = false;
+    unseenAtStart_ = 0.0;
     springStep_ = springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
@@ -201,18 +203,24 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     turnHeldEdges(t + h, state);
 }
 
+/// What touches at x.
+/// @param expected  ActiveContacts, FabricObstacles::Start
+void VertexSolver::look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock)
+{
+    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(x, clock, expected) : nullptr;
+    touching_ = {};
+    if (obstacles_.empty()) return;
+    clock.start(Stage::FabricContact);
+    FabricObstacles::Start start = obstacleStart(h);
+    start.moves = expected;
+    touching_ = obstacles_.at(fabric_, x, start, guard_.nearestPoints(x));
+}
+
 /// Newton's move from where the state is, into move_.
 void VertexSolver::solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock)
 {
-    const std::span<const Vec3> expected = newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>();
-    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(state.x, clock, expected) : nullptr;
-    touching_ = {};
-    if (!obstacles_.empty()) {
-        clock.start(Stage::FabricContact);
-        FabricObstacles::Start start = obstacleStart(h);
-        start.moves = expected;
-        touching_ = obstacles_.at(fabric_, state.x, start, guard_.nearestPoints(state.x));
-    }
+    look(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), clock);
+    hasMovedSinceLook_ = true;
     clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
     clock.start(Stage::FabricSolve);
@@ -260,7 +268,7 @@ void VertexSolver::findRates(double h, FabricState& state) const
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
         state.v[v] = (state.x[v] - start_.x[v]) / h;
         state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
-        state.held[v] = heldShare(state.acceleration[v], (state.v[v] - start_.v[v]) / h);
+        state.held[v] = fabric_.pinned[v] ? Vec3(Vec3::Ones()) : heldShare(state.acceleration[v], (state.v[v] - start_.v[v]) / h);
     });
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
 }
@@ -269,14 +277,19 @@ void VertexSolver::findRates(double h, FabricState& state) const
 void VertexSolver::finish(double h, FabricState& state)
 {
     findRates(h, state);
-    state.stored = {};
-    state.onFabric.clear();
-    if (contacts_) {
-        contact_->keepFriction(state.x, state.onFabric);
-        state.stored = contact_->storedEnergy(state.x, state.onFabric);
-    }
+    if (contacts_) contact_->keepFriction(state.x, state.onFabric);
+    else state.onFabric.clear();
     obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
-    state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h), state.onObstacles);
+    state.stored = contactEnergy(h, state.x, state);
+}
+
+/// At x, of what touched at the last look, with the friction that is held.
+ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const
+{
+    ContactEnergy stored;
+    if (contacts_) stored = contact_->storedEnergy(x, held.onFabric);
+    stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
+    return stored;
 }
 
 bool VertexSolver::isDriven(const FabricState& state) const
@@ -306,27 +319,33 @@ double VertexSolver::felt(double kinetic, double h) const
     return kinetic + 0.5 * totalMass_ * unfelt * unfelt;
 }
 
-/// Energy that a step gained from nothing, relative to that of its motion; less than what is not felt counts as none.
+/// Energy that a step gained from nothing, relative to that of its motion, beyond that of contact which was not seen at its start; less than
+/// what is not felt counts as none.
 double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state) const
 {
     const FabricEnergies now = energies(state, gravity);
     const double scale = felt(now.kinetic, h);
     if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
-    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state)) / scale;
+    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - unseenAtStart_) / scale;
 }
 
-/// Where Newton has not come to a solution: as much of the way there as does not take more energy than there is. Pins have to arrive, and
-/// solids push.
+/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion.
 void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
-    if (isDriven(state)) return;
     const double allowed = allowedEnergy(h, gravity, state);
+    const auto resting = [&] {
+        const FabricEnergies now = energies(state, gravity);
+        return now.total() - now.kinetic;
+    };
+    if (isDriven(state) || resting() <= allowed) return slowDown(energies(state, gravity).total() - allowed, state);
     std::vector<Vec3> way(state.x.size());
     std::vector<double> turn(state.theta.size());
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
     for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
     const double lastFraction = state.lastFraction;
-    for (const double part : {0.999, 0.99, 0.95, 0.8, 0.5, 0.25, 0.125, 0.0}) {
+    // Where all of the motion does not pay for it, only a part of the way can be.
+    for (const double part : {0.5, 0.25, 0.125, 0.0}) {
+        if (resting() <= allowed) break;
         state = start_;
         state.lastFraction = lastFraction;
         state.springStep = springStep_;
@@ -338,13 +357,41 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
         guard_.rest();
         for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += part * turn[e];
         finish(h, state);
-        if (energies(state, gravity).total() <= allowed) return;
     }
+    slowDown(energies(state, gravity).total() - allowed, state);
+}
+
+/// Takes energy [erg] from the motion of what is not pinned, as far as there is any.
+void VertexSolver::slowDown(double energy, FabricState& state) const
+{
+    double kinetic = 0.0;
+    for (std::size_t v = 0; v < state.v.size(); ++v)
+        if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * state.v[v].squaredNorm();
+    for (std::size_t e = 0; e < state.omega.size(); ++e)
+        if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * fabric_.edges.twistInertia[e] * state.omega[e] * state.omega[e];
+    if (!(energy > 0.0 && kinetic > 0.0)) return;
+    const double slower = std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
+    for (std::size_t v = 0; v < state.v.size(); ++v)
+        if (!fabric_.pinned[v]) state.v[v] *= slower;
+    for (std::size_t e = 0; e < state.omega.size(); ++e)
+        if (!fabric_.edges.twistHeld[e]) state.omega[e] *= slower;
+}
+
+/// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.
+void VertexSolver::lookAgain(double h, FabricState& state, StageClock& clock)
+{
+    if (!startIsLookedAt_) {
+        look(h, start_.x, {}, clock);
+        unseenAtStart_ = std::max(0.0, contactEnergy(h, start_.x, start_).sum() - start_.stored.sum());
+        startIsLookedAt_ = true;
+    }
+    look(h, state.x, {}, clock);
+    hasMovedSinceLook_ = false;
+    finish(h, state);
 }
 
 /// Newton's iterations until nothing moves that matters, and no energy comes from what is left.
-/// @return  gain() at the end
-double VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
 {
     const int most = std::max(settings_.newton, kMostNewton);
     for (;;) {
@@ -353,8 +400,10 @@ double VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& ne
         take(t + h, newton, state, report, clock);
         if (!newton.isQuiet && newton.count < (newton.isNear ? settings_.newton : most)) continue;
         finish(h, state);
-        const double gained = gain(h, gravity, state);
-        if (gained <= kNoGain || newton.count >= most) return gained;
+        if (gain(h, gravity, state) <= kNoGain) return;
+        lookAgain(h, state, clock);
+        newton.gain = gain(h, gravity, state);
+        if (newton.gain <= kNoGain || newton.count >= most) return;
     }
 }
 
@@ -362,17 +411,17 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 {
     begin(t, h, gravity, state, report, clock);
     Newton newton;
-    const double gained = iterate(t, h, gravity, newton, state, report, clock);
+    iterate(t, h, gravity, newton, state, report, clock);
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled || gained > kMuchGain;
+                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled || newton.gain > kMuchGain;
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
-    if (isShort || gained > kNoGain) ++report.shortened;
-    if (gained > kNoGain) giveNoEnergy(t, h, gravity, state, report, clock);
+    if (isShort) ++report.shortened;
+    if (startIsLookedAt_) giveNoEnergy(t, h, gravity, state, report, clock);
     if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
     return true;
 }

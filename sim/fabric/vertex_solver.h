@@ -39,6 +39,7 @@ class VertexSolver {
         double firstEnergy = 0.0;                ///< LinearReport::firstEnergy of the first [erg]
         double lastMove = 0.0;                   ///< rms [radii]
         double wanted = 0.0, taken = 0.0;        ///< moves squared, and what the limiter left of them, by mass [g cm^2]
+        double gain = 0.0;                       ///< where it ended [-]
         bool isSettled = false, isNear = false, isQuiet = false;
     };
 
@@ -47,6 +48,8 @@ class VertexSolver {
     void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void predict(double t, double h, const Vec3& gravity, const FabricState& state);
+    void look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
+    void lookAgain(double h, FabricState& state, StageClock& clock);
     void solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock);
     void judge(double h, Newton& newton) const;
     void take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
@@ -57,12 +60,14 @@ class VertexSolver {
     void turnHeldEdges(double t, FabricState& state) const;
     void findRates(double h, FabricState& state) const;
     void finish(double h, FabricState& state);
+    ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
     bool isDriven(const FabricState& state) const;
     double felt(double kinetic, double h) const;
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
-    double iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
+    void iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    void slowDown(double energy, FabricState& state) const;
     std::vector<char> heldBySolids() const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
@@ -87,6 +92,9 @@ class VertexSolver {
     double feltAcceleration_ = 0.0;              ///< by which errors are measured: gravity, or the earth's where there is none [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
     FabricEnergies startEnergies_;               ///< … and its energies
+    double unseenAtStart_ = 0.0;                 ///< energy of contact there that the step before has not seen [erg] …
+    bool startIsLookedAt_ = false;               ///< … once it was looked for
+    bool hasMovedSinceLook_ = false;             ///< along system_'s last move
     double springStep_ = 0.0;                    ///< of the attempt (springStepFor) [s]
     std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
     std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]

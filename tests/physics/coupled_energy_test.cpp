@@ -162,11 +162,47 @@ Scene hardWeave(unsigned seed, FabricSolver solver)
     return scene;
 }
 
+/// Light threads on soft pins, that a lot of thick liquid falls on.
+Scene liquidOnSoftPins(unsigned seed, FabricSolver solver)
+{
+    Random random(seed);
+    Scene scene = longSteps("liquid on soft pins", random, solver);
+    scene.settings.liquid.viscosity = std::pow(10.0, random(0.0, 3.5));
+    scene.settings.liquid.solveViscosity = true;
+    scene.settings.coupling.capillary = false;
+    SourceSettings source;
+    source.name = "drop";
+    source.shape = Shape::ball(Vec3(0.0, 0.8, 0.0), 0.5);
+    Emission emission;
+    emission.velocity = {0.0, -random(10.0, 100.0), 0.0};
+    source.emissions.push_back(emission);
+    scene.sources.push_back(source);
+    FabricMaterial light = testing::wool();
+    light.young = std::pow(10.0, random(6.0, 9.0));
+    light.density = 0.1;
+    light.pinStiffness = std::pow(10.0, random(-2.0, 0.0));
+    for (int n = 0; n < 2; ++n) {
+        Vec3 half = random.direction();
+        half.y() *= 0.3;
+        FabricPiece thread = testing::pieceOf(strand(Vec3(0.1, 0.2 * n, 0.0) - 0.6 * half, Vec3(0.1, 0.2 * n, 0.0) + 0.6 * half, 4), light, {0.03, 0.02});
+        PinGroup hold;
+        hold.vertices = {0, 1};
+        thread.pins.push_back(hold);
+        scene.fabrics.push_back(thread);
+    }
+    return scene;
+}
+
 class CoupledSolvers : public ::testing::TestWithParam<FabricSolver> {};
 
 TEST_P(CoupledSolvers, StiffYarnsThatSwingGiveLiquidNone)
 {
     for (unsigned seed = 1; seed <= 12; ++seed) EXPECT_LT(gainOf(yarnsInDrop(seed, GetParam()), 0.06), 1.0e-2) << seed;
+}
+
+TEST_P(CoupledSolvers, PinsGiveLiquidNone)
+{
+    for (unsigned seed = 1; seed <= 8; ++seed) EXPECT_LT(gainOf(liquidOnSoftPins(seed, GetParam()), 0.04), 1.0e-2) << seed;
 }
 
 TEST_P(CoupledSolvers, SolidsAtRestGiveFabricNone)

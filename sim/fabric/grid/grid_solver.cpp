@@ -4,7 +4,6 @@
 #include "sim/core/units.h"
 #include "sim/fabric/contact/spring_step.h"
 #include "sim/fabric/energies.h"
-#include "sim/fabric/held.h"
 
 #include <algorithm>
 #include <limits>
@@ -54,7 +53,9 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
 /// Gives a state that comes from elsewhere what this solver keeps in it.
 void GridFabricSolver::begin(FabricState& state)
 {
-    if (state.across.empty()) state.across = contact_.unstrained(state);
+    if (!state.across.empty()) return;
+    state.across = contact_.unstrained(state);
+    std::ranges::fill(state.held, Vec3::Zero());  // a face may give way where others keep the vertex in its place
 }
 
 /// v0: what P2G gave, fallen for h and moved by the liquid; the twist goes on as it did.
@@ -283,15 +284,10 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::GridToFabric);
     keepChange(state);
     if (meetsLiquid_ || !obstacles_.empty()) keepAccelerations(h, state);
-    if (meetsLiquid_) before_ = state.v;
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
     moveVertices(h, gravity, state, report);
-    if (meetsLiquid_)
-        parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-            state.held[v] = heldShare(state.acceleration[v], (state.v[v] - before_[v]) / h);
-        });
     state.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
     else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);

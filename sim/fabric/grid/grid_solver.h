@@ -87,7 +87,6 @@ class GridFabricSolver {
     std::vector<Vec3> from_, expectedMove_;  ///< of each vertex: position at the start of the step, its move if forces act on as they did [cm]
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
-    std::vector<Vec3> before_;         ///< velocity of each vertex at the start of the step [cm/s]
     std::vector<Vec3> move_, wanted_;  ///< of each vertex in the step, and but for solids [cm]
     FabricState trial_;                ///< places and frames where a move would take the fabric
     FabricMotion motion_;
