@@ -46,6 +46,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
         obstacles_ = FabricObstacles(fabric, obstacles);
         guard_ = SolidGuard(fabric, obstacles);
     }
+    solidsMove_ = std::ranges::any_of(obstacles, [](const ObstacleSettings& obstacle) { return !obstacle.motion.isStatic(); });
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
     mass_.resize(fabric.vertexCount());
@@ -182,7 +183,9 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     startEnergies_ = energies(start_, gravity);
     startIsLookedAt_ = false;
     unseenAtStart_ = 0.0;
-    springStep_ = springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
+    isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
+    // What drives fabric onto solids in shorter and shorter steps gets stiffer springs, and gives what they take.
+    springStep_ = isDriven_ ? h : springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
     guarded_ = {};
@@ -292,20 +295,9 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
     return stored;
 }
 
-bool VertexSolver::isDriven(const FabricState& state) const
+/// Energy that the fabric may have at the end of a step in which no pin and no solid moves [erg]: that of the start, and the liquid's work.
+double VertexSolver::allowedEnergy(double h, const FabricState& state) const
 {
-    return guard_.anyMoves() || std::ranges::any_of(fabric_.pins.vertex, [&](int v) { return state.x[v] != start_.x[v]; });
-}
-
-/// Energy that the fabric may have at the end of a step [erg]: that of the start, the liquid's work, and that of pins that move. Infinite where
-/// solids move: what they carried ahead before Newton began is in no booking.
-double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
-{
-    if (guard_.anyMoves()) return std::numeric_limits<double>::infinity();
-    if (isDriven(state)) {
-        EnergyChanges changes = energyChanges(h, gravity, state);
-        return startEnergies_.total() + changes[EnergyChange::Drag] + changes[EnergyChange::Pins] + changes[EnergyChange::Obstacles];
-    }
     if (!loads_) return startEnergies_.total();
     return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
         return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
@@ -326,18 +318,19 @@ double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& stat
     const FabricEnergies now = energies(state, gravity);
     const double scale = felt(now.kinetic, h);
     if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
-    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - unseenAtStart_) / scale;
+    return std::max(0.0, now.total() - allowedEnergy(h, state) - unseenAtStart_) / scale;
 }
 
-/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion.
+/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion. Where pins
+/// or solids move, whose work is not known so well, nothing is.
 void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
-    const double allowed = allowedEnergy(h, gravity, state);
+    const double allowed = allowedEnergy(h, state);
     const auto resting = [&] {
         const FabricEnergies now = energies(state, gravity);
         return now.total() - now.kinetic;
     };
-    if (isDriven(state) || resting() <= allowed) return slowDown(energies(state, gravity).total() - allowed, state);
+    if (resting() <= allowed) return slowDown(energies(state, gravity).total() - allowed, state);
     std::vector<Vec3> way(state.x.size());
     std::vector<double> turn(state.theta.size());
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
@@ -394,13 +387,16 @@ void VertexSolver::lookAgain(double h, FabricState& state, StageClock& clock)
 void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
 {
     const int most = std::max(settings_.newton, kMostNewton);
+    std::optional<Newton> settled;  // before iterations for the energy's sake, which tell nothing of how far a step could be taken
     for (;;) {
         solve(h, newton, state, report, clock);
         judge(h, newton);
         take(t + h, newton, state, report, clock);
         if (!newton.isQuiet && newton.count < (newton.isNear ? settings_.newton : most)) continue;
         finish(h, state);
-        if (gain(h, gravity, state) <= kNoGain) return;
+        if (!settled) settled = newton;
+        newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
+        if (isDriven_ || gain(h, gravity, state) <= kNoGain) return;
         lookAgain(h, state, clock);
         newton.gain = gain(h, gravity, state);
         if (newton.gain <= kNoGain || newton.count >= most) return;
@@ -415,13 +411,14 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled || newton.gain > kMuchGain;
+                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled ||
+                         (newton.gain > kMuchGain && !newton.isQuiet);
     state.lastFraction = fraction;
     if (isShort && !isLast) return false;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
     if (isShort) ++report.shortened;
-    if (startIsLookedAt_) giveNoEnergy(t, h, gravity, state, report, clock);
+    if (startIsLookedAt_ || (isShort && !isDriven_)) giveNoEnergy(t, h, gravity, state, report, clock);
     if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
     return true;
 }

@@ -61,11 +61,10 @@ class VertexSolver {
     void findRates(double h, FabricState& state) const;
     void finish(double h, FabricState& state);
     ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
-    bool isDriven(const FabricState& state) const;
     double felt(double kinetic, double h) const;
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
     void iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
-    double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
+    double allowedEnergy(double h, const FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void slowDown(double energy, FabricState& state) const;
     std::vector<char> heldBySolids() const;
@@ -94,6 +93,8 @@ class VertexSolver {
     FabricEnergies startEnergies_;               ///< … and its energies
     double unseenAtStart_ = 0.0;                 ///< energy of contact there that the step before has not seen [erg] …
     bool startIsLookedAt_ = false;               ///< … once it was looked for
+    bool solidsMove_ = false;                    ///< some of them, at some time
+    bool isDriven_ = false;                      ///< by solids, or pins that move in the attempt under way
     bool hasMovedSinceLook_ = false;             ///< along system_'s last move
     double springStep_ = 0.0;                    ///< of the attempt (springStepFor) [s]
     std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]

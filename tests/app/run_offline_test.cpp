@@ -97,7 +97,7 @@ TEST(RunOffline, EnergyTableBeginsWithTheInitialState)
     const auto lines = test::linesOf(folder / "energy.csv");
     EXPECT_EQ(lines[0], "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg,"
                         "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg,fabric_contact_erg,published_erg");
-    EXPECT_EQ(lines[1], "0,1,0,-0,1,1,2,1,0,0,0,0");
+    EXPECT_EQ(lines[1], "0,1,0,-0,1,1,2,1,0,0,0,0,0");
 }
 
 TEST(RunOffline, ReportHasWhatScriptsMeasure)

@@ -201,8 +201,8 @@ TEST(StaticFriction, IsTheSameInStepsOfAnyLength)
     forEachKind([&](Slope slope) {
         for (double h : {5.0e-4, 4.0e-3}) {
             slope.h = h;
-            // Solver grid looks at friction once per step, where it expects to be: 4 % more than Coulomb's in long steps.
-            expectCoulomb(slope, 0.95, 1.3, kLeastCreep, slope.solver == FabricSolver::Grid ? 0.05 : 0.03);
+            // Solver grid looks at friction once per step, where it expects to be: 5 % more than Coulomb's in long steps.
+            expectCoulomb(slope, 0.95, 1.3, kLeastCreep, slope.solver == FabricSolver::Grid ? 0.06 : 0.03);
         }
     });
 }

@@ -3,7 +3,7 @@
 namespace sim {
 
 /// What stiffer springs may give, relative to the energy of the fabric's motion: none [-].
-inline constexpr double kStiffeningGain = 1.0e-4;
+inline constexpr double kStiffeningGain = 1.0e-2;
 
 /// Springs of contact go by mass over the square of a time: the length of the step, for whose sake they are as stiff as they are. Where shorter
 /// steps made springs that are pressed stiffer, they would hold more energy than was put into them; then they stay as they are.
