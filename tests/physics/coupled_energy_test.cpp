@@ -207,12 +207,12 @@ TEST_P(CoupledSolvers, PinsGiveLiquidNone)
 
 TEST_P(CoupledSolvers, SolidsAtRestGiveFabricNone)
 {
-    for (unsigned seed = 1; seed <= 12; ++seed) EXPECT_LT(gainOf(clothAtSolids(seed, GetParam()), 0.03), 1.0e-2) << seed;
+    for (unsigned seed = 1; seed <= 6; ++seed) EXPECT_LT(gainOf(clothAtSolids(seed, GetParam()), 0.03), 1.0e-2) << seed;
 }
 
 TEST_P(CoupledSolvers, FabricGivesItselfNone)
 {
-    for (unsigned seed = 1; seed <= 5; ++seed) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
         EXPECT_LT(gainOf(knockedAbout(seed, GetParam()), 0.03), 1.0e-2) << seed;
         EXPECT_LT(gainOf(hardWeave(seed, GetParam()), 0.03), 1.0e-2) << seed;
     }
