@@ -184,8 +184,8 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     startIsLookedAt_ = false;
     unseenAtStart_ = 0.0;
     isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
-    // What drives fabric onto solids in shorter and shorter steps gets stiffer springs, and gives what they take.
-    springStep_ = isDriven_ ? h : springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
+    // Where something drives the fabric, a step is halved for the sake of stiffer springs; what drives it gives what they take.
+    springStep_ = isDriven_ && h < wholeStep_ ? h : springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
     guarded_ = {};
