@@ -17,7 +17,6 @@ namespace sim {
 namespace {
 
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
-constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough [gravity]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
 constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [gravity]
 constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [gravity]
@@ -32,8 +31,7 @@ constexpr double kFractionTwice = 0.95;       ///< less than this of the moves t
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 1000;
-constexpr double kNoGain = 1.0e-3;            ///< energy from nothing that a step may leave, relative to that of its motion: more asks for iterations …
-constexpr double kMuchGain = 0.1;             ///< … and this, when there are no more of them, for halves [-]
+constexpr double kMuchGain = 0.1;             ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
 constexpr int kMostTurns = 8;                 ///< of solids and of pairs in limiting a move
 
 }  // namespace
@@ -284,103 +282,6 @@ void VertexSolver::finish(double h, FabricState& state)
     else state.onFabric.clear();
     obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
     state.stored = contactEnergy(h, state.x, state);
-}
-
-/// At x, of what touched at the last look, with the friction that is held.
-ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const
-{
-    ContactEnergy stored;
-    if (contacts_) stored = contact_->storedEnergy(x, held.onFabric);
-    stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
-    return stored;
-}
-
-/// Energy that the fabric may have at the end of a step in which no pin and no solid moves [erg]: that of the start, and the liquid's work.
-double VertexSolver::allowedEnergy(double h, const FabricState& state) const
-{
-    if (!loads_) return startEnergies_.total();
-    return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
-        return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
-    });
-}
-
-/// Kinetic energy of a motion, or of one that is not felt [erg].
-double VertexSolver::felt(double kinetic, double h) const
-{
-    const double unfelt = kAccelerationTolerance * feltAcceleration_ * h;
-    return kinetic + 0.5 * totalMass_ * unfelt * unfelt;
-}
-
-/// Energy that a step gained from nothing, relative to that of its motion, beyond that of contact which was not seen at its start; less than
-/// what is not felt counts as none.
-double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state) const
-{
-    const FabricEnergies now = energies(state, gravity);
-    const double scale = felt(now.kinetic, h);
-    if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
-    return std::max(0.0, now.total() - allowedEnergy(h, state) - unseenAtStart_) / scale;
-}
-
-/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion. Where pins
-/// or solids move, whose work is not known so well, nothing is.
-void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
-{
-    const double allowed = allowedEnergy(h, state);
-    const auto resting = [&] {
-        const FabricEnergies now = energies(state, gravity);
-        return now.total() - now.kinetic;
-    };
-    if (resting() <= allowed) return slowDown(energies(state, gravity).total() - allowed, state);
-    std::vector<Vec3> way(state.x.size());
-    std::vector<double> turn(state.theta.size());
-    for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
-    for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
-    const double lastFraction = state.lastFraction;
-    // Where all of the motion does not pay for it, only a part of the way can be.
-    for (const double part : {0.5, 0.25, 0.125, 0.0}) {
-        if (resting() <= allowed) break;
-        state = start_;
-        state.lastFraction = lastFraction;
-        state.springStep = springStep_;
-        guard_.moveTo(t, t + h);
-        if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
-        for (std::size_t v = 0; v < way.size(); ++v) move_[v] = part * way[v];
-        limit(state, report, clock);
-        commit(state, clock);
-        guard_.rest();
-        for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += part * turn[e];
-        finish(h, state);
-    }
-    slowDown(energies(state, gravity).total() - allowed, state);
-}
-
-/// Takes energy [erg] from the motion of what is not pinned, as far as there is any.
-void VertexSolver::slowDown(double energy, FabricState& state) const
-{
-    double kinetic = 0.0;
-    for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * state.v[v].squaredNorm();
-    for (std::size_t e = 0; e < state.omega.size(); ++e)
-        if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * fabric_.edges.twistInertia[e] * state.omega[e] * state.omega[e];
-    if (!(energy > 0.0 && kinetic > 0.0)) return;
-    const double slower = std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
-    for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric_.pinned[v]) state.v[v] *= slower;
-    for (std::size_t e = 0; e < state.omega.size(); ++e)
-        if (!fabric_.edges.twistHeld[e]) state.omega[e] *= slower;
-}
-
-/// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.
-void VertexSolver::lookAgain(double h, FabricState& state, StageClock& clock)
-{
-    if (!startIsLookedAt_) {
-        look(h, start_.x, {}, clock);
-        unseenAtStart_ = std::max(0.0, contactEnergy(h, start_.x, start_).sum() - start_.stored.sum());
-        startIsLookedAt_ = true;
-    }
-    look(h, state.x, {}, clock);
-    hasMovedSinceLook_ = false;
-    finish(h, state);
 }
 
 /// Newton's iterations until nothing moves that matters, and no energy comes from what is left.

@@ -33,6 +33,9 @@ class VertexSolver {
     const ActiveContacts* contacts() const { return contacts_; }
 
  private:
+    static constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough: less is not felt [gravity]
+    static constexpr double kNoGain = 1.0e-3;  ///< energy from nothing that a step may leave, relative to that of its motion: more asks for iterations [-]
+
     /// The Newton iterations of one attempt so far.
     struct Newton {
         int count = 0;
