@@ -32,5 +32,6 @@ void watchForInterrupt()
 }
 
 int interruptsSeen() { return interrupts.load(); }
+bool stopWanted() { return interruptsSeen() > 0; }
 
 }  // namespace app

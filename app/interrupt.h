@@ -8,5 +8,6 @@ void watchForInterrupt();
 
 /// How many times the user asked to stop since watchForInterrupt().
 int interruptsSeen();
+bool stopWanted();
 
 }  // namespace app

@@ -1,5 +1,7 @@
 #include "app/progress.h"
 
+#include "app/stopwatch.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,11 +15,6 @@ namespace {
 constexpr double kSecondsBetweenRedraws = 0.2;
 constexpr double kSecondsBetweenLines = 5.0;
 constexpr double kStepSmoothing = 0.1;  ///< weight of the newest step in s/step [-]
-
-double since(std::chrono::steady_clock::time_point begin)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// "1.9e-4": one digit of exponent where one is enough.
 std::string shortNumber(double value)
@@ -71,13 +68,13 @@ void Progress::stepDone(double time, double dt, double stepSeconds)
     state_.dt = dt;
     state_.secondsPerStep =
         state_.secondsPerStep > 0.0 ? std::lerp(state_.secondsPerStep, stepSeconds, kStepSmoothing) : stepSeconds;
-    if (since(shown_) >= (terminal_ ? kSecondsBetweenRedraws : kSecondsBetweenLines)) show();
+    if (secondsSince(shown_) >= (terminal_ ? kSecondsBetweenRedraws : kSecondsBetweenLines)) show();
 }
 
 void Progress::show()
 {
     shown_ = std::chrono::steady_clock::now();
-    state_.secondsLeft = secondsLeft(begin_, state_.time, end_, since(start_));
+    state_.secondsLeft = secondsLeft(begin_, state_.time, end_, secondsSince(start_));
     const std::string line = (label_.empty() ? "" : label_ + "  ") + progressLine(state_);
     // \033[K wipes what an earlier, longer line left behind.
     if (terminal_)

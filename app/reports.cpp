@@ -2,6 +2,7 @@
 
 #include "app/peak_memory.h"
 #include "app/statistics.h"
+#include "app/stopwatch.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -107,11 +108,6 @@ std::string energyRow(double time, const sim::Energies& e, std::size_t particles
     return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
                        e.potential, e.total(), particles, liquidMass, perParticle, e.fabric.kinetic, e.fabric.potential,
                        e.fabric.elastic(), e.fabric.contact, published);
-}
-
-double since(std::chrono::steady_clock::time_point begin)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 Json secondsPerStepJson(const StageTimes& times)
@@ -260,7 +256,7 @@ void Reports::describe(const SceneSetup& setup, std::string contentHash, int thr
     writeReport();
 }
 
-double Reports::wallSeconds() const { return before_ + since(start_); }
+double Reports::wallSeconds() const { return before_ + secondsSince(start_); }
 
 LogsSoFar Reports::soFar() const
 {

@@ -39,11 +39,6 @@ render::ObstacleStyle obstacleStyleOf(ObstacleStyle style, const SceneContents& 
     }
 }
 
-std::array<float, 2> toFloat(const std::array<double, 2>& range)
-{
-    return {static_cast<float>(range[0]), static_cast<float>(range[1])};
-}
-
 void fillIn(const FabricLookSettings& settings, render::FabricLook& look)
 {
     look.byValue = settings.colorBy != FabricColorBy::Material;
@@ -55,6 +50,11 @@ void fillIn(const FabricLookSettings& settings, render::FabricLook& look)
 }
 
 }  // namespace
+
+std::array<float, 2> toFloat(const std::array<double, 2>& range)
+{
+    return {static_cast<float>(range[0]), static_cast<float>(range[1])};
+}
 
 const char* titleOf(ColorBy colorBy)
 {

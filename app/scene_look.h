@@ -5,6 +5,7 @@
 #include "render/compose.h"
 #include "render/look.h"
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,9 @@ namespace app {
 /// Of colour bars: what the colours show, with its unit.
 const char* titleOf(ColorBy colorBy);
 const char* titleOf(FabricColorBy colorBy);
+
+/// Both ends of a range of values, as the renderer takes them.
+std::array<float, 2> toFloat(const std::array<double, 2>& range);
 
 render::LiquidStyle liquidStyleOf(LiquidStyle style);
 

@@ -5,6 +5,9 @@
 
 namespace app {
 
+/// As YAML has it.
+inline const char* yesOrNo(bool holds) { return holds ? "true" : "false"; }
+
 /// The lines of a scene file that is being written, each with the line of the XML that it comes from.
 class SceneLines {
  public:

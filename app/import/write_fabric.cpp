@@ -16,11 +16,6 @@ namespace {
 
 constexpr double kSteepestFriction = 89.0;  // of scene files [deg]
 
-const char* yes(bool holds)
-{
-    return holds ? "true" : "false";
-}
-
 std::string radiusText(const std::array<double, 2>& radius)
 {
     return radius[0] == radius[1] ? formatPlain(radius[0])
@@ -38,8 +33,8 @@ void writeCoupling(const reference::LiquidInfo& l, SceneLines& out)
                            !l.drag           ? "off"
                            : l.nonlinearDrag ? "nonlinear"
                                              : "linear",
-                           formatPlain(l.yazdchiPower), yes(l.pressureOnFabric), formatPlain(l.captureRate),
-                           yes(l.pressureInFabric)));
+                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric), formatPlain(l.captureRate),
+                           yesOrNo(l.pressureInFabric)));
 }
 
 void writeSolver(const ImportedScene& scene, SceneLines& out)
@@ -52,7 +47,7 @@ void writeSolver(const ImportedScene& scene, SceneLines& out)
         scene.vertexSolver
             ? ""
             : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
-    out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yes(l.twist), published));
+    out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yesOrNo(l.twist), published));
     if (scene.vertexSolver) return;
     out.add(0, fmt::format("contact: {{obstacle_young: {}, obstacle_thickness: {}}}", formatPlain(l.levelsetYoung),
                            formatPlain(l.levelsetThickness)));
@@ -63,7 +58,7 @@ void writeMaterial(const reference::Material& m, int number, SceneLines& out)
     std::string fields =
         fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}",
                     formatPlain(m.young), formatPlain(m.poisson), formatPlain(m.density), formatPlain(m.viscosity),
-                    yes(m.damps), yes(m.damps && !m.dampsOnlyBending));
+                    yesOrNo(m.damps), yesOrNo(m.damps && !m.dampsOnlyBending));
     const auto add = [&](const char* key, const std::string& value) { fields += fmt::format(", {}: {}", key, value); };
     if (m.stretchingMultiplier != 1.0) add("stretch_factor", formatPlain(m.stretchingMultiplier));
     add("contact_stiffness", formatPlain(m.collisionMultiplier));

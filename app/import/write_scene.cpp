@@ -23,11 +23,6 @@ std::string quoted(const std::string& text)
     return sim::Node::scalar(text, {}).flow();
 }
 
-const char* yes(bool holds)
-{
-    return holds ? "true" : "false";
-}
-
 void writeHead(const ImportedScene& scene, SceneLines& out)
 {
     const reference::Scene& r = scene.reference;
@@ -87,8 +82,8 @@ void writeObstacles(const ImportedScene& scene, SceneLines& out)
         out.add(2, "shape: " + o.shape);
         if (o.inside) out.add(2, "inside: true");
         if (scene.hasFabric()) {
-            out.add(2, fmt::format("collide: {}", yes(scene.reference.liquid.levelSetForce)));
-            out.add(2, fmt::format("cohesive: {}", yes(o.sampled)));
+            out.add(2, fmt::format("collide: {}", yesOrNo(scene.reference.liquid.levelSetForce)));
+            out.add(2, fmt::format("cohesive: {}", yesOrNo(o.sampled)));
         }
         if (!o.motion.empty()) out.add(2, "motion: " + o.motion);
     }

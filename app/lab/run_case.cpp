@@ -1,6 +1,7 @@
 #include "app/lab/run_case.h"
 
 #include "app/lab/follow.h"
+#include "app/stopwatch.h"
 #include "sim/core/check.h"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts
     } catch (const sim::FormulaError& error) {
         result.failure = error.what();
     }
-    result.wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.wallSeconds = secondsSince(begin);
     return result;
 }
 

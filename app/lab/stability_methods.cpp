@@ -26,7 +26,7 @@ const std::vector<Transfer>& transfers()
     return all;
 }
 
-void requireKnown(const std::string& name)
+void requireMethod(const std::string& name)
 {
     std::vector<std::string> known;
     for (const Transfer& transfer : transfers()) known.push_back(transfer.name);
@@ -54,7 +54,7 @@ std::vector<std::string> knobSets(const SceneSetup& setup, const std::string& kn
 
 std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std::vector<std::string>& names)
 {
-    std::ranges::for_each(names, requireKnown);
+    std::ranges::for_each(names, requireMethod);
     std::vector<StabilityMethod> methods;
     for (const Transfer& transfer : transfers()) {
         if (!names.empty() && std::ranges::find(names, transfer.name) == names.end()) continue;

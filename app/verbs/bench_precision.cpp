@@ -69,7 +69,6 @@ const PrecisionRun* nextToRepeat(const std::vector<PrecisionRun>& runs, const Pr
 PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& runs, const Options& options,
                       const Parts& parts, const fs::path& folder, PrecisionTable& table)
 {
-    const auto stopWanted = [] { return interruptsSeen() > 0; };
     const auto isMissing = [&](const PrecisionRun& run) { return !table.find(run, options.threads, 1); };
     PrecisionCase of = caseOf(runs, options, table);
     std::vector<std::vector<Reading>> converged;

@@ -10,15 +10,13 @@ namespace app {
 
 namespace {
 
-bool isStopped() { return interruptsSeen() > 0; }
-
 /// Runs that are there already.
 int compareFolders(const Options& options, const Parts& parts)
 {
     const std::vector<ComparedRun> runs = storedRuns(options.from, options.sets, parts);
     makeFolder(options.out);
-    makeProducts(runs, runs.front().setup.pictures, parts, true, options.video, options.out, isStopped);
-    return isStopped() ? 1 : 0;
+    makeProducts(runs, runs.front().setup.pictures, parts, true, options.video, options.out, stopWanted);
+    return stopWanted() ? 1 : 0;
 }
 
 }  // namespace
@@ -34,10 +32,10 @@ int runVerbCompare(const Options& options, const Parts& parts)
     const bool withFrames = options.frames && asWritten.pictures.output.frames;
     makeFolder(folder);
 
-    const auto done = runAll(runs, options, withFrames, isStopped);
-    if (isStopped()) return 1;
-    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, isStopped);
-    if (isStopped()) return 1;
+    const auto done = runAll(runs, options, withFrames, stopWanted);
+    if (stopWanted()) return 1;
+    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, stopWanted);
+    if (stopWanted()) return 1;
     if (done.size() == runs.size()) return 0;
     spdlog::error("{} of {} variants did not get to their end", runs.size() - done.size(), runs.size());
     return 1;

@@ -21,7 +21,7 @@ int runVerbExport(const Options& options, const Parts& parts)
     forgetGeometryLaterThan(-1, out);
     GeometrySink sink(run.setup, parts, out);
     const bool ended = withThreads(options.threads, [&] {
-        return forEachState(run, [] { return interruptsSeen() > 0; },
+        return forEachState(run, stopWanted,
                             [&](const sim::State& state, std::int64_t frame) { sink.take(state, fabric, frame); });
     });
     if (!ended) {

@@ -31,7 +31,6 @@ int runVerbPaper(const Options& options, const Parts& parts)
 {
     const auto folder = options.out.empty() ? std::filesystem::path("out") / (options.quick ? "paper_quick" : "paper") : options.out;
     makeFolder(folder);
-    const auto stopWanted = [] { return interruptsSeen() > 0; };
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::vector<ComparedRun>> wanted;
     for (const PaperScene& scene : paperScenes()) wanted.push_back(comparedRuns(optionsOf(scene, options), parts, folder / scene.name));

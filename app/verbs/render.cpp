@@ -22,7 +22,6 @@ int runVerbRender(const Options& options, const Parts& parts)
     // Whose pictures they are, so that they can be made anew and compared.
     writeWhole(out / "report.json", readWhole(run.folder / "report.json"));
     writeWhole(out / "resolved.yaml", run.setup.resolved);
-    const auto stopWanted = [] { return interruptsSeen() > 0; };
     const bool ended = withThreads(options.threads, [&] { return drawStoredRun(run, out, options.asPanel, parts, stopWanted); });
     if (!ended) {
         spdlog::error("stopped by the user; what was drawn is in {}", out.string());

@@ -31,7 +31,7 @@ RunOptions runOptions(const Options& options, const SceneSetup& setup)
             .threads = options.threads,
             .frames = options.frames && setup.pictures.output.frames,
             .asPanel = options.asPanel,
-            .stopWanted = [] { return interruptsSeen() > 0; }};
+            .stopWanted = stopWanted};
 }
 
 /// A run that fails says where its last good state is, if it has kept one.

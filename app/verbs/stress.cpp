@@ -18,8 +18,6 @@ namespace app {
 
 namespace {
 
-bool stopWanted() { return interruptsSeen() > 0; }
-
 int stressRandomScenes(const Options& options)
 {
     const auto folder = options.out.empty() ? std::filesystem::path("out/stress") / fmt::format("random_{}", options.seed) : options.out;

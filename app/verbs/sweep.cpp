@@ -15,8 +15,6 @@ namespace app {
 
 namespace {
 
-bool stopWanted() { return interruptsSeen() > 0; }
-
 std::vector<std::size_t> notDone(const Study& study, const StudyPlaces& places, bool all)
 {
     std::vector<std::size_t> left;

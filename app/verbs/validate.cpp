@@ -51,7 +51,6 @@ int runVerbValidate(const Options& options, const Parts& parts)
     for (const auto& file : caseFiles("validation", options.cases))
         cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
     makeFolder(folder);
-    const auto stopWanted = [] { return interruptsSeen() > 0; };
     std::vector<CaseResult> results;
     for (const auto& [name, setup] : cases) {
         results.push_back(withThreads(options.threads, [&] { return runCase(name, setup, parts, stopWanted); }));

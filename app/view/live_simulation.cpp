@@ -1,6 +1,7 @@
 #include "app/view/live_simulation.h"
 
 #include "app/frame_view_from_state.h"
+#include "app/stopwatch.h"
 #include "sim/core/check.h"
 
 #include <algorithm>
@@ -214,7 +215,7 @@ void LiveSimulation::advance()
     step.step = state.step;
     step.time = state.time;
     step.ledger = state.ledger;
-    step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    step.seconds = secondsSince(begin);
     {
         const std::lock_guard lock(mutex_);
         if (steps_.size() < kMostSteps) steps_.push_back(std::move(step));

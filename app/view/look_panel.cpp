@@ -13,11 +13,6 @@ namespace app {
 
 namespace {
 
-std::array<float, 2> toFloat(const std::array<double, 2>& range)
-{
-    return {static_cast<float>(range[0]), static_cast<float>(range[1])};
-}
-
 ColorBy liquidColorBy(const SnapshotExtras& extras)
 {
     return extras.pressure ? ColorBy::Pressure : ColorBy::Speed;

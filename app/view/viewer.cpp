@@ -3,6 +3,7 @@
 #include "app/interrupt.h"
 #include "app/output_files.h"
 #include "app/scene_look.h"
+#include "app/stopwatch.h"
 #include "app/view/live_panel.h"
 #include "app/view/look_panel.h"
 #include "app/view/parameter_panel.h"
@@ -230,7 +231,7 @@ void Viewer::Inner::drawScenes()
         renderer.show(side->shown->view(), camera->camera(), look, part);
         part.x += part.width;
     }
-    if (!isFast) fullSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (!isFast) fullSeconds = secondsSince(begin);
 }
 
 /// Is the next picture likely to be another one?

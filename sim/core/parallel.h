@@ -26,6 +26,9 @@ namespace sim {
 inline constexpr int kPlainThreads = 4;
 #endif
 
+/// Indices that one task takes where the body does little.
+inline constexpr std::size_t kGrain = 1024;
+
 /// How many workers may run loop bodies at once: the size of scratch memory that is indexed by worker.
 inline int workerCount()
 {

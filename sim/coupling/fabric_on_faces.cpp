@@ -9,7 +9,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;
 constexpr double kRoundOff = 1.0e-12;  ///< relative [-]
 
 /// Numbers of the elements at each vertex.

@@ -11,7 +11,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;
 
 bool isAtLiquid(const BlockGrid& liquid, const Vec3i& block)
 {

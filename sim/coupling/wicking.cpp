@@ -13,7 +13,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;
 constexpr double kStable = 0.4;  ///< of h²/(2D): explicit steps are safe (model-fluid 9.2) [-]
 
 /// At rest: the length of an edge, or the least height of a face [cm].

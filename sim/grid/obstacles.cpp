@@ -83,7 +83,7 @@ Vec3 Obstacles::normal(const Vec3& x) const
 }
 
 constexpr double kLeastStride = 1.0e-4;  ///< of a search along a path, whose length stays finite in steps that fail [lengths of the path]
-constexpr double kOnSurface = 1.0e-3;    ///< as little in a solid is on its surface [resolutions]
+constexpr double kBarelyInside = 1.0e-3;    ///< as little in a solid is on its surface [resolutions]
 
 /// start(body): where the path starts, in the space of the body's shape.
 template <class Start>
@@ -96,7 +96,7 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
         const double length = way.norm(), least = std::max(resolution, kLeastStride * length), steepest = std::max(1.0, body.shape.steepest());
         if (!std::isfinite(length)) continue;
         double distance = body.shape.distance(a);
-        if (distance < -kOnSurface * resolution || distance > steepest * length) continue;
+        if (distance < -kBarelyInside * resolution || distance > steepest * length) continue;
         // So far it is safe: the distance never changes faster than the point moves, or, of a mesh, than at its steepest.
         for (double gone = 0.0; gone < earliest * length;) {
             gone = std::min(gone + std::max(distance / steepest, least), length);

@@ -6,7 +6,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-3;  ///< of the solve: it moves second-order errors only
+constexpr double kReflectionTolerance = 1.0e-3;  ///< of the solve: it moves second-order errors only
 
 }  // namespace
 
@@ -18,7 +18,7 @@ SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const
     parallelFor(grid.count(), 8,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     const SolveReport report =
-        pressure.solver.solveAgain(grid, pressure.matrix, work.rhs, kTolerance, solver.maxIterations, work.potential);
+        pressure.solver.solveAgain(grid, pressure.matrix, work.rhs, kReflectionTolerance, solver.maxIterations, work.potential);
 
     work.velocity = liquid.faces.velocity;
     parallelFor(grid.count(), 2, [&](std::size_t n) {

@@ -9,7 +9,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-2;  ///< of the solve: what is left is corrected next time
+constexpr double kVolumeTolerance = 1.0e-2;  ///< of the solve: what is left is corrected next time
 constexpr double kFillBelowSurface =
     0.8;  ///< of cells beside surface cells, at least, while the liquid is in one piece
 constexpr double kLargestError =
@@ -64,7 +64,7 @@ SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     findSources(grid, liquid, strength, pressure.rhs);
     const SolveReport report =
-        pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kTolerance, maxIterations, work.potential);
+        pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kVolumeTolerance, maxIterations, work.potential);
     displaceFaces(grid, obstacles, pressure, work);
     return report;
 }

@@ -16,7 +16,7 @@ namespace sim {
 namespace {
 
 // Bounds of the classes of mass relative to the nominal one: S | s | o | l | L.
-constexpr double kTiny = 0.5, kLight = 0.9, kHeavy = 1.1, kHuge = 2.0;
+constexpr double kSmallest = 0.5, kLight = 0.9, kHeavy = 1.1, kHuge = 2.0;
 constexpr int kMostChildren = 8;
 constexpr double kSpread = 0.75;  ///< of the room that the children have
 
@@ -139,13 +139,13 @@ void give(double dx, double given, std::size_t from, std::size_t to, LiquidParti
 std::vector<std::size_t> takers(const ResampleSettings& settings, const PointBins& bins,
                                 const std::vector<Vec3>& places, std::size_t giver, const LiquidParticles& particles)
 {
-    const bool tiny = particles.mass[giver] < kTiny * settings.nominalMass;
+    const bool tiny = particles.mass[giver] < kSmallest * settings.nominalMass;
     const double reach = 2.0 * settings.nominalRadius;
     std::vector<std::size_t> found;
     bins.anyNear(places[giver], [&](std::size_t p) {
         const double relative = particles.mass[p] / settings.nominalMass;
         const bool takes =
-            p != giver && relative > 0.0 && (tiny ? relative <= 1.0 : relative >= kTiny && relative < kLight);
+            p != giver && relative > 0.0 && (tiny ? relative <= 1.0 : relative >= kSmallest && relative < kLight);
         if (takes && (places[p] - places[giver]).squaredNorm() < reach * reach) found.push_back(p);
         return false;
     });
@@ -160,7 +160,7 @@ std::vector<std::size_t> givers(const ResampleSettings& settings, const CounterR
 {
     return inOrderOfIds(particles, [&](std::size_t p) {
         const double relative = particles.mass[p] / settings.nominalMass;
-        const bool gives = relative < kTiny || (relative > kHeavy && relative <= kHuge);
+        const bool gives = relative < kSmallest || (relative > kHeavy && relative <= kHuge);
         return gives && random.uniform(particles.id[p], kMerges) * settings.mergeInterval < 1.0;
     });
 }
@@ -173,7 +173,7 @@ void merge(const ResampleSettings& settings, const CounterRandom& random, Liquid
     for (std::size_t p = 0; p < particles.count; ++p) places[p] = particles.position(p);
     const PointBins bins(places, 2.0 * settings.nominalRadius);
     for (std::size_t p : turn) {
-        const bool tiny = particles.mass[p] < kTiny * settings.nominalMass;
+        const bool tiny = particles.mass[p] < kSmallest * settings.nominalMass;
         // One that has taken in the meantime may be neither any more.
         const double surplus = tiny ? particles.mass[p] : particles.mass[p] - settings.nominalMass;
         const std::vector<std::size_t> to = takers(settings, bins, places, p, particles);

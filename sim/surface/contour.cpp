@@ -11,7 +11,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;
 
 float valueNear(const BlockGrid& grid, const BlockArray<float>& values, int block, const Vec3i& node)
 {

@@ -11,7 +11,7 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kParticlesPerTask = 4096;
 
 Vec3i stepTo(int neighbour)
 {
@@ -31,7 +31,7 @@ void findPlaces(const LiquidParticles& liquid, const BlockGrid& grid, SurfacePar
 {
     out.blockOf.resize(liquid.count);
     out.inside.resize(liquid.count);
-    parallelFor(liquid.count, kGrain, [&](std::size_t p) {
+    parallelFor(liquid.count, kParticlesPerTask, [&](std::size_t p) {
         const Vec3 inCells = (liquid.position(p) - grid.origin) / grid.dx,
                    inBlocks = (inCells / kBlockEdge).array().floor();
         if (!(inBlocks.cwiseAbs().maxCoeff() < BlockGrid::kMaxCoordinate - 2))
@@ -133,7 +133,7 @@ void sortForSurface(const LiquidParticles& liquid, double density, double reach,
     const std::size_t padded = liquid.count + kFloatLanes;  // packs are loaded whole
     for (int a = 0; a < kAxes; ++a) particles.x[a].resize(padded), particles.velocity[a].resize(padded);
     particles.radius.resize(padded);
-    parallelFor(liquid.count, kGrain, [&](std::size_t p) {
+    parallelFor(liquid.count, kParticlesPerTask, [&](std::size_t p) {
         const int s = particles.slot[p];
         if (s < 0) return;
         const Vec3 v = liquid.velocity(p);

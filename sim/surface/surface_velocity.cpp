@@ -11,7 +11,7 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kVerticesPerTask = 256;
 
 /// Sums over particles around one place, y from there to the particle [cells], v its velocity.
 struct Moments {
@@ -104,7 +104,7 @@ void surfaceVelocities(const BlockGrid& grid, const SurfaceParticles& particles,
                        const std::vector<Crossing>& crossings, std::vector<Vec3>& velocities)
 {
     velocities.resize(crossings.size());
-    parallelFor(crossings.size(), kGrain, [&](std::size_t c) {
+    parallelFor(crossings.size(), kVerticesPerTask, [&](std::size_t c) {
         const Crossing& crossing = crossings[c];
         const Eigen::Vector3f place = crossing.place();
         const auto x = binsInReach(place.x(), reach), y = binsInReach(place.y(), reach),

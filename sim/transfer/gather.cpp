@@ -118,7 +118,7 @@ template <int kAxis>
 }
 
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
-constexpr int kPrefetchAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
+constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
 template <class Set, int kModes, bool kFold, class Rows>
 [[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, int s, int n, Rows& rows, LaneSums& sums)
@@ -126,7 +126,7 @@ template <class Set, int kModes, bool kFold, class Rows>
     LiquidParticles& particles = ctx.particles;
     if constexpr (std::is_same_v<Rows, DirectModes>)
         for (int a = 0; a < kAxes; ++a)
-            for (int r = 0; r < kModes; ++r) __builtin_prefetch(rows.at(a, r, s + kPrefetchAhead), 1);
+            for (int r = 0; r < kModes; ++r) __builtin_prefetch(rows.at(a, r, s + kRowsAhead), 1);
 
     Operators<Set::kFactors> op[3];
     Pack x[3];

@@ -9,7 +9,6 @@ namespace sim::contact {
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;
 /// With more dirty vertices than this all are searched for: it is not worth keeping the rest [-].
 constexpr double kMostDirty = 0.6;
 /// How far ahead pairs are searched: as many steps, and the fastest vertex goes no farther than so many times what it

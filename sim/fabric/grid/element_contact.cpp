@@ -11,7 +11,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kElementsPerTask = 256;
 
 /// Interior angle at `at` over π.
 double angleShare(const Vec3& at, const Vec3& b, const Vec3& c)

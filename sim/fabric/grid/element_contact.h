@@ -9,6 +9,8 @@
 
 namespace sim {
 
+inline constexpr std::size_t kElementsPerTask = 256;
+
 /// What a velocity field does to the fabric.
 struct FabricMotion {
     std::vector<Mat3> gradient;  ///< ∇u of each element [1/s]

@@ -8,7 +8,6 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kElementsPerTask = 256;
 
 }  // namespace
 
