@@ -16,7 +16,8 @@ enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Valid
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
-    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; for render and export a folder; for sweep a study
+    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; …
+                                         ///< for render and export a folder; for sweep a study
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>

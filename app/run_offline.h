@@ -20,8 +20,8 @@ struct RunOptions {
     std::function<bool()> stopWanted = [] { return false; };  ///< looked at after every frame
 };
 
-/// Run a scene to its end without a window: step, draw, write; a run that is stopped leaves a checkpoint. Returns what report.json says at the end: done or
-/// interrupted. What goes wrong is thrown after report.json says "failed" and why; frames before it are kept.
+/// Run a scene to its end without a window: step, draw, write; a run that is stopped leaves a checkpoint. Returns what report.json says at the end:
+/// done or interrupted. What goes wrong is thrown after report.json says "failed" and why; frames before it are kept.
 RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOptions& options);
 
 }  // namespace app

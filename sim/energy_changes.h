@@ -35,14 +35,15 @@ enum class EnergyChange {
 };
 inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
 inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources", "capture", "to_grid", "gravity", "viscosity", "surface_tension", "pressure", "suction", "drag", "implicit", "damping", "contact", "friction", "obstacles", "solids", "pins",
-    "fabric_to_grid", "fabric_to_vertices", "walls", "to_particles", "places", "drip", "wicking"};
+    "sources", "capture", "to_grid", "gravity", "viscosity", "surface_tension", "pressure", "suction", "drag", "implicit", "damping", "contact",
+    "friction", "obstacles", "solids", "pins", "fabric_to_grid", "fabric_to_vertices", "walls", "to_particles", "places", "drip", "wicking"};
 
 /// Energy that each gave, or took if negative [erg].
 struct EnergyChanges {
     std::array<double, kEnergyChanges> of{};
 
     double& operator[](EnergyChange change) { return of[static_cast<int>(change)]; }
+    double operator[](EnergyChange change) const { return of[static_cast<int>(change)]; }
     EnergyChanges& operator+=(const EnergyChanges& other)
     {
         for (int i = 0; i < kEnergyChanges; ++i) of[i] += other.of[i];

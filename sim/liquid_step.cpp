@@ -7,6 +7,7 @@
 #include "sim/liquid/face_velocity.h"
 #include "sim/liquid/inflow.h"
 #include "sim/liquid/push_out.h"
+#include "sim/liquid/relax_at_walls.h"
 #include "sim/liquid/walls.h"
 #include "sim/transfer/scatter_bounded.h"
 
@@ -110,7 +111,8 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
     clock.start(Stage::ParticlesToGrid);
     if (differsFromTranslation(settings.transfer.xi, settings.transfer.modeCount())) {
         const Energies own = liquidEnergies(state.liquid, grid, settings.gravity, &work.order);
-        particlesToFacesBounded(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, own.kinetic + own.modal, work.bounded, work.grid.faces);
+        particlesToFacesBounded(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, own.kinetic + own.modal, work.bounded,
+                                work.grid.faces);
     } else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
     const bool mirrors = wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty();
     if (mirrors) foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
@@ -175,7 +177,8 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
 
 }  // namespace
 
-LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock, EnergyBook& energy)
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock,
+                       EnergyBook& energy)
 {
     const Settings& settings = scene.settings;
     LiquidPlan plan;
@@ -219,6 +222,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         clock.start(Stage::Relax);
         relaxationDisplacements(particles, work.order, grid, settings.liquid.relax.rate, work.relaxReach, state.unrelaxed, work.relax,
                                 work.displacement);
+        keepRelaxationFromLifting(work.order, grid, work.obstacleField, work.obstacles, settings.gravity, work.relaxReach, particles,
+                                  work.displacement);
         state.unrelaxed = 0.0;
     }
 
@@ -230,7 +235,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         const std::optional<FabricFaces> faces = facesOf(work);
         // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (time-splitting 2).
         plan.reflects = false;
-        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
+        plan.isMixed =
+            work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
     }
 
     press(state, settings, work, dt, plan, report, clock, energy);

@@ -15,7 +15,8 @@ struct LiquidPlan {
 };
 
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
-LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock, EnergyBook& energy);
+LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock,
+                       EnergyBook& energy);
 
 /// The rest, when the fabric has done what it does.
 void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,

@@ -100,7 +100,8 @@ void visitMemory(V& v, Memory& memory)
     std::size_t sources = memory.sources.size();
     v.number("memory/sources/count", "-", sources);
     if constexpr (V::kFills) memory.sources.resize(sources);
-    v.rows("memory/sources/owed_press_freely_covered_at_shut", "cm^3, s", sources, 6, [&](std::size_t source) { return &memory.sources[source].owed; });
+    v.rows("memory/sources/owed_press_freely_covered_at_shut", "cm^3, s", sources, 6,
+           [&](std::size_t source) { return &memory.sources[source].owed; });
 }
 
 /// Liquid, fabric and what belongs to them, always in this order.

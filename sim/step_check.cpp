@@ -190,7 +190,8 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
     const double kinetic = e.kinetic + e.modal + e.fabric.kinetic;
     double given = report.dt * settings.gravity.norm() * std::sqrt(2.0 * kinetic * mass);  // Cauchy and Schwarz
     const double speed = drivingSpeed(state, report);
-    if (speed > 0.0) given += 2.0 * mass * speed * speed + std::max(0.0, e.fabric.internal() - state.memory.internal);  // thrown off at twice the speed
+    if (speed > 0.0)
+        given += 2.0 * mass * speed * speed + std::max(0.0, e.fabric.internal() - state.memory.internal);  // thrown off at twice the speed
     if (feelsSurfaceTension(settings.liquid))
         given += settings.liquid.surfaceTension * settings.cell * settings.cell * static_cast<double>(report.liquidCells);
     const double quiet = kQuiet * settings.cell / report.dt;

@@ -43,7 +43,8 @@ enum class Stage {
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "keep", "taken_back", "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension", "pressure", "volume", "reflection", "walls", "grid_to_particles",
+    "keep", "taken_back", "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension",
+    "pressure", "volume", "reflection", "walls", "grid_to_particles",
     "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
 
 /// What an iterative solve did.

@@ -20,7 +20,8 @@ struct RandomScene {
 
 /// A scene of liquid, fabric and moving obstacles: some hundred to some thousand particles
 /// and vertices for some tens of steps, with any of the program's methods and numbers far outside of what one would
-/// choose: also on edges, thin plates and fast solids, and with sources under water. The same for the same seed and number, on any machine; always one that `drench check` accepts.
+/// choose: also on edges, thin plates and fast solids, and with sources under water. The same for the same seed and number, on any machine; always
+/// one that `drench check` accepts.
 RandomScene randomScene(std::uint64_t seed, int number);
 
 }  // namespace app

@@ -144,7 +144,8 @@ void FabricOnFaces::findShapes()
         divideByMass(shape);
         return;
     }
-    parallelFor(grid().count(), 8, [&](std::size_t b) { std::fill_n(shape.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, shapeOf_[0]); });
+    parallelFor(grid().count(), 8,
+                [&](std::size_t b) { std::fill_n(shape.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, shapeOf_[0]); });
 }
 
 /// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.

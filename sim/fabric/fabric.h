@@ -86,7 +86,8 @@ struct FabricState {
     std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 
     std::vector<Vec3> acceleration;       ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
-    std::vector<Vec3> held;               ///< of each vertex and axis: how far the fabric's own forces held it in the last step (heldShare), and pins do; solver grid: 0 [0..1]
+    std::vector<Vec3> held;               ///< of each vertex and axis: how far the fabric's own forces held it in the last step …
+                                          ///< (heldShare), and pins do; solver grid: 0 [0..1]
     Grips onObstacles;                    ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
     ContactEnergy stored;                 ///< at the end of the last step, with the stiffnesses that contact had in it …
     double springStep = 0.0;              ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
@@ -97,7 +98,7 @@ struct FabricState {
 
     // Of solver grid only; empty until its first step.
     std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
-    std::vector<double> modes;            ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as LiquidParticles has them [cm/s]
+    std::vector<double> modes;            ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
     double sinceGather = 0.0;             ///< for how long the vertices have moved since their modes were gathered [s]
     BlockGrid faceBlocks;                 ///< of the grid in the last step, and …
     BlockArray<double, 3> faceChange;     ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]

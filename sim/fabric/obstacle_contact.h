@@ -60,7 +60,8 @@ class FabricObstacles {
         std::span<const Vec3> moves = {};
     };
     /// Contacts at x, of the vertices, then of the edges, then of the points of edges and faces that touch besides.
-    const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start, std::span<const NearestPoint> nearest = {});
+    const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
+                                           std::span<const NearestPoint> nearest = {});
     /// What of the friction is held at the end of the step, at x, where the contacts found last still touch: what acted there according to
     /// their gradients and stiffnesses.
     void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held);

@@ -52,7 +52,7 @@ struct FabricPiece {
     std::vector<Vec3> points;               ///< [cm]
     std::vector<std::vector<int>> strands;  ///< points in order, at least 2 each
     std::vector<Vec3i> faces;               ///< consistently oriented
-    std::vector<int> inFile;                ///< of each point the first vertex of its file that is there, counted from 0; empty where they are the same
+    std::vector<int> inFile;                ///< of each point the first vertex of its file that is there, from 0; empty where they are the same
     Vec3 velocity = Vec3::Zero();           ///< [cm/s]
     double wetness = 0.0;                   ///< share of the pores that liquid fills at the start [-]
     std::vector<PinGroup> pins;

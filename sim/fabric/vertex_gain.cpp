@@ -18,9 +18,21 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
     return stored;
 }
 
-/// Energy that the fabric may have at the end of a step in which no pin and no solid moves [erg]: that of the start, and the liquid's work.
-double VertexSolver::allowedEnergy(double h, const FabricState& state) const
+namespace {
+
+/// What pins, solids and the liquid did for the fabric [erg].
+double given(const EnergyChanges& changes)
 {
+    return changes[EnergyChange::Pins] + changes[EnergyChange::Obstacles] + changes[EnergyChange::Drag];
+}
+
+}  // namespace
+
+/// Energy that the fabric may have at the end of a step [erg]: that of the start, and what was given. Where nothing moves this is the
+/// liquid's work alone, and the rest need not be known.
+double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
+{
+    if (isDriven_) return startEnergies_.total() + given(energyChanges(h, gravity, state));
     if (!loads_) return startEnergies_.total();
     return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
         return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
@@ -41,14 +53,25 @@ double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& stat
     const FabricEnergies now = energies(state, gravity);
     const double scale = felt(now.kinetic, h);
     if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
-    return std::max(0.0, now.total() - allowedEnergy(h, state) - unseenAtStart_) / scale;
+    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - unseenAtStart_) / scale;
 }
 
-/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion. Where pins
-/// or solids move, whose work is not known so well, nothing is.
+/// Where pins or solids drive the fabric, what it has at the end of a step beyond what they gave is taken from its motion. Returns the book of
+/// the step.
+EnergyChanges VertexSolver::slowDriven(double h, const Vec3& gravity, FabricState& state) const
+{
+    EnergyChanges changes = energyChanges(h, gravity, state);
+    const FabricEnergies now = energies(state, gravity);
+    slowDown(now.total() - startEnergies_.total() - given(changes), state);
+    changes[EnergyChange::Implicit] += energies(state, gravity).kinetic - now.kinetic;
+    return changes;
+}
+
+/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of
+/// fabric that nothing drives.
 void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
-    const double allowed = allowedEnergy(h, state);
+    const double allowed = allowedEnergy(h, gravity, state);
     const auto resting = [&] {
         const FabricEnergies now = energies(state, gravity);
         return now.total() - now.kinetic;

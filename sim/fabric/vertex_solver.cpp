@@ -31,7 +31,7 @@ constexpr double kFractionTwice = 0.95;       ///< less than this of the moves t
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 1000;
-constexpr double kMuchGain = 0.1;             ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
+constexpr double kMuchGain = 0.1;  ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
 constexpr int kMostTurns = 8;                 ///< of solids and of pairs in limiting a move
 
 }  // namespace
@@ -183,7 +183,9 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     unseenAtStart_ = 0.0;
     isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
     // Where something drives the fabric, a step is halved for the sake of stiffer springs; what drives it gives what they take.
-    springStep_ = isDriven_ && h < wholeStep_ ? h : springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids, kStiffeningGain * felt(startEnergies_.kinetic, h));
+    springStep_ = isDriven_ && h < wholeStep_ ? h
+                                              : springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids,
+                                                              kStiffeningGain * felt(startEnergies_.kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
     guarded_ = {};
@@ -297,7 +299,7 @@ void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newt
         finish(h, state);
         if (!settled) settled = newton;
         newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
-        if (isDriven_ || gain(h, gravity, state) <= kNoGain) return;
+        if (gain(h, gravity, state) <= kNoGain) return;
         lookAgain(h, state, clock);
         newton.gain = gain(h, gravity, state);
         if (newton.gain <= kNoGain || newton.count >= most) return;
@@ -319,8 +321,11 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     report.takenFraction = std::min(report.takenFraction, fraction);
 
     if (isShort) ++report.shortened;
-    if (startIsLookedAt_ || (isShort && !isDriven_)) giveNoEnergy(t, h, gravity, state, report, clock);
-    if (booksEnergy_) *report.energyChanges += energyChanges(h, gravity, state);
+    const bool mayHaveGained = startIsLookedAt_ || isShort;
+    if (mayHaveGained && !isDriven_) giveNoEnergy(t, h, gravity, state, report, clock);
+    std::optional<EnergyChanges> changes;
+    if (mayHaveGained && isDriven_) changes = slowDriven(h, gravity, state);
+    if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, gravity, state);
     return true;
 }
 

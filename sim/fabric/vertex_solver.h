@@ -34,7 +34,7 @@ class VertexSolver {
 
  private:
     static constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough: less is not felt [gravity]
-    static constexpr double kNoGain = 1.0e-3;  ///< energy from nothing that a step may leave, relative to that of its motion: more asks for iterations [-]
+    static constexpr double kNoGain = 1.0e-3;  ///< energy from nothing that a step may leave, relative to its motion's: more asks for iterations [-]
 
     /// The Newton iterations of one attempt so far.
     struct Newton {
@@ -67,7 +67,8 @@ class VertexSolver {
     double felt(double kinetic, double h) const;
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
     void iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
-    double allowedEnergy(double h, const FabricState& state) const;
+    double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
+    EnergyChanges slowDriven(double h, const Vec3& gravity, FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void slowDown(double energy, FabricState& state) const;
     std::vector<char> heldBySolids() const;

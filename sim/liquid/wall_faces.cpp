@@ -141,7 +141,8 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
         const int b = blocks_[n];
         for (const Follower& f : followers_[n]) {
             if (f.share == 0.0) continue;
-            double &mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face], &momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face];
+            double &mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face],
+                   &momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face];
             give({b, f.face}, f.axis, f.share * mass, f.share * momentum, f.share * field.room(b, f.axis)[f.face]);
             mass = momentum = 0.0;
         }

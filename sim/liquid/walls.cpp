@@ -23,8 +23,8 @@ void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
 }
 
 /// The velocity of a closed face that goes on straight from those of the open ones beside it; the wall's own where there are none.
-double straightOn(const BlockGrid& grid, const ObstacleField& field, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b, int axis,
-                  int face)
+double straightOn(const BlockGrid& grid, const ObstacleField& field, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b,
+                  int axis, int face)
 {
     constexpr double kFarthest = 1.0;  // the mirror image's speed: more would blow up rounding next to walls that almost touch a face
     const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);

@@ -72,8 +72,10 @@ std::vector<SceneVariant> product(const Node& map, const std::string& path)
                 if (value.isNull() || label(value).empty())
                     fail(value.place, fmt::format("{}.{} has an empty value", path, map.keys[k]));
                 SceneVariant& variant = next.emplace_back(base);
-                variant.name += (base.name.empty() ? "" : "_") + asName(label(value));
-                variant.label += (base.label.empty() ? "" : ", ") + label(value);
+                if (!base.name.empty()) variant.name += '_';
+                variant.name += asName(label(value));
+                if (!base.label.empty()) variant.label += ", ";
+                variant.label += label(value);
                 variant.overrides.push_back({map.keys[k], value});
             }
         }

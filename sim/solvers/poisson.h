@@ -20,8 +20,8 @@ class PoissonSolver {
  public:
     /// @param matrix, rhs   on the blocks of the grid; what rhs has in cells that are no unknowns is ignored
     /// @param tolerance     largest residual relative to the largest right-hand side [-]
-    /// @param p             in: a guess (dropped if its residual is larger than the right-hand side), out: the solution; 0 in cells that are no unknowns. If it has not the size of
-    ///                      the grid, it is resized and the guess is 0.
+    /// @param p             in: a guess (dropped if its residual is larger than the right-hand side), out: the solution; 0 in cells
+    ///                      that are no unknowns. If it has not the size of the grid, it is resized and the guess is 0.
     /// Not converged after maxIterations, or numbers that are not finite: told by the report.
     SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
                       double tolerance, int maxIterations, BlockArray<double>& p);

@@ -63,7 +63,8 @@ Scene sceneOf(const Slope& slope)
     grid.spacing = {kSize * s / (slope.nodes - 1), kSize * s / (slope.nodes - 1)};
     grid.origin = Vec3(-half, above, -half);
     const Vec3 end(0.8 * half, above, 0.6 * half);
-    FabricPiece piece = testing::pieceOf(slope.isYarn ? strand(-end + 2.0 * above * Vec3::UnitY(), end, slope.nodes + 1) : clothGrid(grid), testing::wool(), {radius, radius});
+    FabricPiece piece = testing::pieceOf(slope.isYarn ? strand(-end + 2.0 * above * Vec3::UnitY(), end, slope.nodes + 1) : clothGrid(grid),
+                                         testing::wool(), {radius, radius});
     piece.material.frictionAngle = std::atan(kFriction);
     piece.material.young *= s * s;
     const Eigen::AngleAxisd tilt(slope.tilt, Vec3::UnitX());

@@ -21,7 +21,7 @@ struct ActiveContacts {
     std::vector<Vec3> normal;                      ///< unit, from the second side to the first
     std::vector<Vec3> force;                       ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]
     std::vector<double> stiffness;                 ///< along the normal, k_n [dyn/cm]
-    std::vector<double> frictionStiffness;         ///< across it, k_t: the block of vertices a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
+    std::vector<double> frictionStiffness;         ///< across it, k_t: the block of a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
     std::vector<Vec2i> between;                    ///< the two, as contact/primitives.h counts them: ascending
 
     std::size_t size() const { return vertices.size(); }

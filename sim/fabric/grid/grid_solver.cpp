@@ -258,7 +258,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
-    const double kinetic = parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * (state.v[v].squaredNorm() + felt * felt * h * h); });
+    const double kinetic =
+        parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * (state.v[v].squaredNorm() + felt * felt * h * h); });
     state.springStep = springStepFor(state.springStep, h, state.stored.solids, kStiffeningGain * kinetic);
     std::span<const ObstacleContact> touching;
     if (settings_.contact) {

@@ -94,7 +94,7 @@ void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pac
 {
     const Pack* band = packs(band_, group.firstRow * kBand);
     const int n = group.rows();
-    constexpr int kReach = kBand - 1;
+    constexpr int kWidest = kBand - 1;
     // A row has its lower part itself; its upper part is in the rows that follow.
     const auto row = [&](int r, int before, int after) __attribute__((always_inline)) {
         Pack lower = band[r * kBand] * x[r], upper{};
@@ -102,10 +102,10 @@ void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pac
         for (int k = 1; k <= after; ++k) upper += band[(r + k) * kBand + k] * x[r + k];
         y[r] = lower + upper;
     };
-    const int middleEnd = std::max(kReach, n - kReach);
-    for (int r = 0; r < std::min(n, kReach); ++r) row(r, r, std::min(n - 1 - r, kReach));
-    for (int r = kReach; r < middleEnd; ++r) row(r, kReach, kReach);
-    for (int r = middleEnd; r < n; ++r) row(r, kReach, n - 1 - r);
+    const int middleEnd = std::max(kWidest, n - kWidest);
+    for (int r = 0; r < std::min(n, kWidest); ++r) row(r, r, std::min(n - 1 - r, kWidest));
+    for (int r = kWidest; r < middleEnd; ++r) row(r, kWidest, kWidest);
+    for (int r = middleEnd; r < n; ++r) row(r, kWidest, n - 1 - r);
 }
 
 }  // namespace sim

@@ -21,7 +21,8 @@ void fillAndApply(GridScene& scene, double friction, U&& u)
         scene.velocity(a, c) = u(scene.faceMiddle(a, c))[a];
         scene.setValid(a, c);
     });
-    scene.forEachFace([&](int a, const Vec3i& c) { scene.liquid.faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = 1.0; });
+    scene.forEachFace(
+        [&](int a, const Vec3i& c) { scene.liquid.faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = 1.0; });
     WallFaces followers;
     followers.find(scene.grid, scene.field, scene.obstacles, friction, scene.liquid.faces);
     applyWalls(scene.grid, scene.field, scene.obstacles, friction, false, followers, scene.liquid.faces.valid, scene.liquid.faces.velocity);
@@ -263,7 +264,8 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
         scene.forEachFace([&](int a, const Vec3i& c) {
             // Of a tank those that particles in it reach.
             if (isTank && ((c.array() < -1).any() || (c.array() > size.array() + Vec3i::Unit(a).array()).any())) return;
-            faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = unit(random) > 0.0 ? std::pow(10.0, 2.0 * unit(random)) : 0.0;
+            faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] =
+                unit(random) > 0.0 ? std::pow(10.0, 2.0 * unit(random)) : 0.0;
         });
         const auto given = faces.sums;
         const double friction = seed % 3 == 0 ? 0.4 : 0.0, dt = 0.01;
@@ -272,7 +274,9 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
         foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
         divideAndAddGravity(scene.grid, gravity, dt, false, scene.liquid);
         withholdWeightOfImages(scene.grid, scene.obstacles, friction, gravity, dt, scene.liquid);
-        const auto mass = [&](const auto& sums, int a, const Vec3i& c) { return sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell]; };
+        const auto mass = [&](const auto& sums, int a, const Vec3i& c) {
+            return sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell];
+        };
         const BlockArray<double, 3> fallen = faces.velocity;
         scene.forEachFace([&](int a, const Vec3i& c) {
             scene.velocity(a, c) = 10.0 * unit(random);
