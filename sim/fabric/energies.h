@@ -9,9 +9,11 @@
 
 namespace sim {
 
-/// Kinetic, potential and elastic energies (model-fabric 6.6) and that of contact; what pins hold is not among them.
-FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const Rods& rods, const Shells& shells,
-                              const Vec3& gravity);
+/// Elastic energies (model-fabric 6.6); the others are 0.
+FabricEnergies elasticEnergies(const FabricState& state, const Rods& rods, const Shells& shells);
+
+/// With kinetic and potential energy and that of contact; what pins hold is not among them.
+FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const FabricEnergies& elastic, const Vec3& gravity);
 
 /// Gradient of the elastic and viscous energy by positions [dyn] and twist angles [dyn cm].
 struct InnerGradient {

@@ -98,7 +98,10 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
         changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
         if (!fabric_.pinned[v] && !isHeld[v]) continue;
         const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
-        changes[fabric_.pinned[v] ? EnergyChange::Pins : EnergyChange::Obstacles] += byHolder.dot(state.v[v]);
+        const double work = byHolder.dot(state.v[v]);
+        // Solids at rest only take: what Newton has left of the balance where they hold is the step's own.
+        const EnergyChange holder = fabric_.pinned[v] ? EnergyChange::Pins : work > 0.0 && !solidsMove_ ? EnergyChange::Implicit : EnergyChange::Obstacles;
+        changes[holder] += work;
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double inertia = fabric_.edges.twistInertia[e], faster = state.omega[e] - start_.omega[e];

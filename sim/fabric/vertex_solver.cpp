@@ -331,7 +331,14 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
 FabricEnergies VertexSolver::energies(const FabricState& state, const Vec3& gravity) const
 {
-    return fabricEnergies(fabric_, state, system_.rods(), system_.shells(), gravity);
+    if (state.x != known_.x || state.theta != known_.theta || state.reference != known_.reference || state.referenceTwist != known_.referenceTwist) {
+        known_.x = state.x;
+        known_.reference = state.reference;
+        known_.theta = state.theta;
+        known_.referenceTwist = state.referenceTwist;
+        known_.energies = elasticEnergies(state, system_.rods(), system_.shells());
+    }
+    return fabricEnergies(fabric_, state, known_.energies, gravity);
 }
 
 double VertexSolver::leastDistance() const { return contact_ ? contact_->leastDistance() : std::numeric_limits<double>::infinity(); }

@@ -25,6 +25,7 @@ class VertexSolver {
     FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads = nullptr);
     /// From now on reports tell where energy goes: takes as long as a Newton iteration.
     void bookEnergy() { booksEnergy_ = true; }
+    /// Not by two threads at once: it remembers the state that it was asked for last.
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
     double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
@@ -83,6 +84,14 @@ class VertexSolver {
     FabricObstacles obstacles_;
     SolidGuard guard_;
     std::vector<Vec3> restReference_;            ///< of each yarn edge
+
+    /// The last state whose elastic energies were asked for: a step begins where the one before has ended.
+    struct Known {
+        std::vector<Vec3> x, reference;
+        std::vector<double> theta, referenceTwist;
+        FabricEnergies energies;
+    };
+    mutable Known known_;
 
     bool booksEnergy_ = false;
     const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …

@@ -16,10 +16,10 @@ Vec3 Shape::normal(const Vec3& x) const
     return body_ ? body_->normal(x) : Vec3(Vec3::UnitX());
 }
 
-Shape::Look Shape::over(std::span<const Vec3> corners) const
+Shape::Look Shape::over(std::span<const Vec3> corners, double enough) const
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return body_ ? body_->over(corners) : Look{kInfinity, kInfinity};
+    return body_ ? body_->over(corners, enough) : Look{kInfinity, kInfinity};
 }
 
 /// Where the distance, a convex function that falls at a, is lowest on the way from a to b: from where it rises if b is not it.
@@ -44,7 +44,7 @@ double Shape::steepest() const
 /// The tangent plane in the middle, and then, while it bounds far less than the distance where it touches, those at the lowest points on the
 /// ways from there to the corner that lies deepest below each plane (Frank and Wolfe 1956). An edge of the body that runs along a hull is
 /// found by the second of them.
-Shape::Look Shape::Body::over(std::span<const Vec3> corners) const
+Shape::Look Shape::Body::over(std::span<const Vec3> corners, double enough) const
 {
     constexpr int kPlanes = 5;
     constexpr double kNear = 0.05;
@@ -58,7 +58,7 @@ Shape::Look Shape::Body::over(std::span<const Vec3> corners) const
         for (const Vec3& corner : corners)
             if (const double s = n.dot(corner - x); s < slope) slope = s, deepest = corner;
         look.least = std::max(look.least, at + slope);
-        if (at <= 0.0 || look.least >= (1.0 - kNear) * at) break;
+        if (at <= 0.0 || look.least >= std::min(enough, (1.0 - kNear) * at)) break;
         x = lowestBetween(*this, x, deepest);
         at = distance(x);
     }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -58,7 +59,8 @@ class Shape {
     };
     /// At up to kMostCorners points. The bound is exact for a flat surface and for a point; its error falls with the square of the hull's
     /// size where the surface is smooth, and by halving the hull it comes as near as one likes anywhere.
-    Look over(std::span<const Vec3> corners) const;
+    /// @param enough  how much larger the bound could be is not looked for [cm]
+    Look over(std::span<const Vec3> corners, double enough = std::numeric_limits<double>::infinity()) const;
     static constexpr std::size_t kMostCorners = 6;
     /// The distance changes by no more than this times the way [-]: 1, but for meshes, between whose samples it may be steeper.
     double steepest() const;

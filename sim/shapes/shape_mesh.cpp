@@ -138,7 +138,7 @@ struct SampledBody final : Shape::Body {
         return s;
     }
     double steepest() const override { return kSteepest; }
-    Shape::Look over(std::span<const Vec3> corners) const override
+    Shape::Look over(std::span<const Vec3> corners, double) const override
     {
         const Straying s = straying(corners);
         return {s.at + s.down + s.below, s.at};

@@ -19,9 +19,9 @@ struct Placed final : Shape::Body {
 
     double distance(const Vec3& x) const override { return body->distance(toBody * x); }
     Vec3 normal(const Vec3& x) const override { return toWorld.linear() * body->normal(toBody * x); }
-    Shape::Look over(std::span<const Vec3> corners) const override
+    Shape::Look over(std::span<const Vec3> corners, double enough) const override
     {
-        return body->over(std::span(inBody(corners).data(), corners.size()));
+        return body->over(std::span(inBody(corners).data(), corners.size()), enough);
     }
     double mostOver(std::span<const Vec3> corners) const override
     {
@@ -46,13 +46,13 @@ struct Outside final : Shape::Body {
 
     double distance(const Vec3& x) const override { return body ? -body->distance(x) : -kInfinity; }
     Vec3 normal(const Vec3& x) const override { return body ? Vec3(-body->normal(x)) : Vec3(Vec3::UnitX()); }
-    Shape::Look over(std::span<const Vec3> corners) const override
+    Shape::Look over(std::span<const Vec3> corners, double) const override
     {
         return {body ? -body->mostOver(corners) : -kInfinity, distance(meanOf(corners))};
     }
     double mostOver(std::span<const Vec3> corners) const override
     {
-        return body ? -body->over(corners).least : -kInfinity;
+        return body ? -body->over(corners, kInfinity).least : -kInfinity;
     }
     double steepest() const override { return body ? body->steepest() : 0.0; }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d&) const override { return unboundedBox(); }
@@ -104,11 +104,11 @@ struct Union final : Shape::Body {
             if (const double d = b->distance(x); d < nearest) nearest = d, active = b.get();
         return active->normal(x);
     }
-    Shape::Look over(std::span<const Vec3> corners) const override
+    Shape::Look over(std::span<const Vec3> corners, double enough) const override
     {
         Shape::Look look{kInfinity, kInfinity};
         for (const BodyPointer& b : parts) {
-            const Shape::Look part = b->over(corners);
+            const Shape::Look part = b->over(corners, enough);
             look = {std::min(look.least, part.least), std::min(look.middle, part.middle)};
         }
         return look;
@@ -151,11 +151,11 @@ struct Intersection final : Shape::Body {
             if (const double d = b->distance(x); d > farthest) farthest = d, active = b.get();
         return active->normal(x);
     }
-    Shape::Look over(std::span<const Vec3> corners) const override
+    Shape::Look over(std::span<const Vec3> corners, double enough) const override
     {
         Shape::Look look{-kInfinity, -kInfinity};
         for (const BodyPointer& b : parts) {
-            const Shape::Look part = b->over(corners);
+            const Shape::Look part = b->over(corners, enough);
             look = {std::max(look.least, part.least), std::max(look.middle, part.middle)};
         }
         return look;

@@ -128,6 +128,20 @@ Scene clothAtSolids(unsigned seed, FabricSolver solver)
     return scene;
 }
 
+/// Largest sum of the work that solids have been booked to do on fabric, relative to the largest kinetic energy until then [-].
+double workOfSolids(const Scene& scene, double duration)
+{
+    Simulation run(scene);
+    run.bookEnergy();
+    double kinetic = 0.0, sum = 0.0, most = 0.0;
+    while (run.state().time < duration) {
+        const StepReport report = run.step(duration);
+        kinetic = std::max(kinetic, report.energies.fabric.kinetic);
+        most = std::max(most, sum += std::as_const(*report.energyChanges)[EnergyChange::Obstacles]);
+    }
+    return most / kinetic;
+}
+
 /// Stiff threads and a cloth that meet at once, without anything else.
 Scene knockedAbout(unsigned seed, FabricSolver solver)
 {
@@ -243,6 +257,11 @@ TEST_P(CoupledSolvers, PinsGiveLiquidNone)
 TEST_P(CoupledSolvers, SolidsAtRestGiveFabricNone)
 {
     for (unsigned seed = 1; seed <= 6; ++seed) EXPECT_LT(gainOf(clothAtSolids(seed, GetParam()), 0.03), 1.0e-2) << seed;
+}
+
+TEST_P(CoupledSolvers, NoWorkOfSolidsAtRestIsBooked)
+{
+    for (unsigned seed = 1; seed <= 6; ++seed) EXPECT_LT(workOfSolids(clothAtSolids(seed, GetParam()), 0.03), 1.0e-2) << seed;
 }
 
 TEST_P(CoupledSolvers, FabricGivesItselfNone)

@@ -97,6 +97,29 @@ TEST(FlyingFabric, KeepsItsMomentumThroughContact)
     RecordProperty("angular", std::to_string((run.angularMomentum() - spin).norm() / spin.norm()));
 }
 
+/// The solver remembers those of the last state: any other is found anew.
+TEST(FlyingFabric, EnergiesAreThoseOfTheStateThatIsAskedAbout)
+{
+    FabricRun run(Collision().pieces, {});
+    std::vector<FabricState> states = {run.state};
+    for (int i = 0; i < 5; ++i) {
+        run.step(2.0e-3);
+        states.push_back(run.state);
+        FabricState twisted = run.state;
+        twisted.theta[i] += 0.3;
+        states.push_back(twisted);
+        twisted.v[i] *= 2.0;
+        states.push_back(twisted);
+    }
+    for (const std::size_t n : {3u, 3u, 4u, 5u, 0u, 4u, 9u, 1u, 2u}) {
+        const FabricEnergies found = run.solver.energies(states[n], run.gravity);
+        const FabricEnergies fresh = VertexSolver(run.fabric, {}, {}).energies(states[n], run.gravity);
+        EXPECT_EQ(found.total(), fresh.total()) << n;
+        EXPECT_EQ(found.elastic(), fresh.elastic()) << n;
+    }
+    EXPECT_NE(run.solver.energies(states[1], run.gravity).twisting, run.solver.energies(states[2], run.gravity).twisting);
+}
+
 /// What the book names is what the energy changes by (model-fluid 9.5), up to how well the steps are solved.
 TEST(FlyingFabric, EnergyGoesWhereTheBookSays)
 {

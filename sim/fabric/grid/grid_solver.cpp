@@ -311,7 +311,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 
 FabricEnergies GridFabricSolver::energies(const FabricState& state, const Vec3& gravity) const
 {
-    return fabricEnergies(fabric_, state, stiffness_.rods(), stiffness_.shells(), gravity);
+    return fabricEnergies(fabric_, state, elasticEnergies(state, stiffness_.rods(), stiffness_.shells()), gravity);
 }
 
 }  // namespace sim

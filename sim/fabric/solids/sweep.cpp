@@ -82,7 +82,7 @@ bool staysAway(const Shape& solid, const SweptElement& element, double begin, do
             way = std::max(way, (hull[n + c] - hull[c]).squaredNorm());
             size = std::max(size, (first[c] - first[0]).squaredNorm());
         }
-        const Shape::Look look = solid.over({hull.data(), static_cast<std::size_t>(2 * n)});
+        const Shape::Look look = solid.over({hull.data(), static_cast<std::size_t>(2 * n)}, separation);
         if (look.least >= separation) continue;
         // What is larger than its way is cut; of what is smaller a part of the way is tried.
         if (look.middle < separation || way >= size || looks >= kMostLooks || waiting.full()) {
@@ -125,7 +125,7 @@ Nearest nearestTo(const Shape& solid, std::span<const Vec3> corners, double enou
         const Part part = waiting.pop();
         std::array<Vec3, 3> at;
         for (int c = 0; c < n; ++c) at[c] = combine(part.corners[c], x, n);
-        const Shape::Look look = solid.over({at.data(), corners.size()});
+        const Shape::Look look = solid.over({at.data(), corners.size()}, enough);
         if (look.middle < nearest.reached) {
             nearest.reached = look.middle;
             nearest.weights = middleOf(part, n);

@@ -91,6 +91,25 @@ TEST(ShapeOver, BoundsTheDistanceAllOverTheHull)
     }
 }
 
+TEST(ShapeOver, BoundsAsWellAsItIsAskedTo)
+{
+    for (unsigned seed = 1; seed <= 150; ++seed) {
+        Numbers random(seed);
+        const Shape shape = anyShape(random);
+        if (shape.empty()) continue;
+        for (int n = 0; n < 20; ++n) {
+            const std::vector<Vec3> corners = anyHull(random);
+            const Shape::Look best = shape.over(corners);
+            for (const double enough : {best.least - 0.3, best.least - 1.0e-3, best.least + 1.0e-3}) {
+                const Shape::Look look = shape.over(corners, enough);
+                EXPECT_LE(look.least, best.least + 1.0e-12) << "seed " << seed;
+                EXPECT_GE(look.least, std::min(enough, best.least) - 1.0e-12) << "seed " << seed;
+                EXPECT_EQ(look.middle, best.middle) << "seed " << seed;
+            }
+        }
+    }
+}
+
 /// A hull on or along a flat surface is seen as it is, and inside of what is convex.
 TEST(ShapeOver, IsExactAtPlanesAndInsideConvexWalls)
 {
