@@ -33,7 +33,7 @@ TEST(Reflection, AThirdOfTheErrorInAnEighthOfTheSteps)
 /// one time it differs by half a percent between any two runs.
 double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integrator)
 {
-    Scene scene = tankScene(transfer, 1.0, {64.0, 60.0, 4.0}, {0.0, 0.0, 0.0}, {24.0, 32.0, 4.0});
+    Scene scene = tankScene(transfer, 2.0, {32.0, 30.0, 2.0}, {0.0, 0.0, 0.0}, {12.0, 16.0, 2.0});
     scene.settings.time.cfl = cfl;
     scene.settings.time.integrator = integrator;
     const double kept = energyKept(scene, 15);
