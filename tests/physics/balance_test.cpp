@@ -58,7 +58,7 @@ TEST(Energy, DoesNotGrowBetweenWallsAtRest)
         for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
             constexpr double kCell = 0.625;
             Scene scene =
-                tankScene(transfer, kCell, Vec3(24.0, 30.0, 5.0) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 5.0) / kCell);
+                tankScene(transfer, kCell, Vec3(24.0, 30.0, 2.5) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 2.5) / kCell);
             scene.sources[0].fill.spacing = 0.5;
             scene.settings.time.cfl = 0.5;
             scene.settings.time.integrator = integrator;
