@@ -100,8 +100,8 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
         const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
         const double work = byHolder.dot(state.v[v]);
         // Solids at rest only take: what Newton has left of the balance where they hold is the step's own.
-        const EnergyChange holder = fabric_.pinned[v] ? EnergyChange::Pins : work > 0.0 && !solidsMove_ ? EnergyChange::Implicit : EnergyChange::Obstacles;
-        changes[holder] += work;
+        const EnergyChange bySolid = work > 0.0 && !solidsMove_ ? EnergyChange::Implicit : EnergyChange::Obstacles;
+        changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += work;
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double inertia = fabric_.edges.twistInertia[e], faster = state.omega[e] - start_.omega[e];

@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 
+#include <cmath>
 #include <functional>
 
 namespace sim {
