@@ -143,6 +143,19 @@ void project(State& state, const Settings& settings, Workspace& work, double dt,
     }
 }
 
+/// Bring the liquid back to its volume.
+void correct(State& state, const Settings& settings, Workspace& work, bool isMixed, StepReport& report)
+{
+    const BlockGrid& grid = state.grid;
+    const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
+    report.volume = correctVolume(grid, work.obstacleField, work.pressure, settings.gravity, work.grid, strength, settings.solver.maxIterations,
+                                  work.volume);
+    state.uncorrected = 0.0;
+    findUnheldFaces(grid, work.obstacleField, work.centres);
+    if (isMixed) work.coupling->mixture.clearShared(work.centres.unheld);
+    keepCentresOfMass(grid, work.pressure, work.grid, work.centres, work.volume.displacement);
+}
+
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
 void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
            EnergyBook& energy)
@@ -169,9 +182,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
 
     if (plan.corrects) {
         clock.start(Stage::Volume);
-        const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
-        report.volume = correctVolume(grid, work.obstacleField, work.pressure, work.grid, strength, settings.solver.maxIterations, work.volume);
-        state.uncorrected = 0.0;
+        correct(state, settings, work, plan.isMixed, report);
     }
 }
 

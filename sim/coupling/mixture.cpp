@@ -200,6 +200,11 @@ void Mixture::clearShared(BlockArray<double, 3>& values) const
     forEachShared([&](int, int m, int a, int c) { values.block(m, a)[c] = 0.0; });
 }
 
+void Mixture::clearShared(BlockBits<3>& faces) const
+{
+    forEachShared([&](int, int m, int a, int c) { faces.block(m, a)[c >> 6] &= ~(std::uint64_t{1} << (c & 63)); });
+}
+
 const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
 {
     applyPressure(liquid);

@@ -36,6 +36,7 @@ class Mixture {
 
     /// Set what the liquid has on these faces to 0.
     void clearShared(BlockArray<double, 3>& values) const;
+    void clearShared(BlockBits<3>& faces) const;
 
     /// Momentum of the liquid on the shared faces [g cm/s].
     Vec3 liquidMomentum(const LiquidGrid& liquid) const;

@@ -50,7 +50,7 @@ void appendShares(const BlockGrid& grid, const LiquidGrid& liquid, const Inflow&
 }
 
 /// How full a closed piece of the pressure system is, on average [-].
-double fillOf(int piece, const BlockGrid& grid, const LiquidGrid& liquid, const ClosedComponents& pieces)
+double fillOf(int piece, const BlockGrid& grid, const LiquidGrid& liquid, const ConnectedComponents& pieces)
 {
     const auto sumOver = [&](auto&& value) {
         return parallelSum(grid.count(), [&](std::size_t b) {
@@ -87,7 +87,7 @@ double inflowWork(const BlockGrid& grid, const std::vector<InflowCell>& cells, c
 }
 
 bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const BlockGrid& grid, const LiquidGrid& liquid,
-              const ClosedComponents& pieces)
+              const ConnectedComponents& pieces)
 {
     constexpr double kFull = 0.99;  // on average: what is left is the noise of the particles' places
     if (pieces.count() == 0) return false;

@@ -17,6 +17,6 @@ double inflowWork(const BlockGrid& grid, const std::vector<InflowCell>& cells, c
 /// Has the liquid in a source's mouth nowhere to go? So it is if all cells of the mouth belong to pieces of the pressure system without air that are
 /// as full as they can be. Of a mouth without such cells: no.
 bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const BlockGrid& grid, const LiquidGrid& liquid,
-              const ClosedComponents& pieces);
+              const ConnectedComponents& pieces);
 
 }  // namespace sim

@@ -15,24 +15,42 @@ constexpr double kFillBelowSurface =
 constexpr double kLargestError =
     1.0;  ///< a cell that holds more than twice its volume expands like one that holds twice
 
-/// Volume that a cell lacks (negative) or has too much, relative to its own. Cells at the surface may hold as little as
-/// they like.
-double volumeError(double fill, bool atSurface, bool deep)
+/// Does a solid close a face of the cell, if only in part, on a side that is up?
+bool isUnderSolid(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, int b, int c)
 {
-    const double least = atSurface ? 0.0 : deep ? 1.0 : kFillBelowSurface;
-    return fill > 1.0 ? std::min(fill - 1.0, kLargestError) : std::min(fill - least, 0.0);
+    for (int a = 0; a < kAxes; ++a) {
+        if (gravity[a] == 0.0) continue;
+        Vec3i at(c & 7, c >> 3 & 7, c >> 6);
+        if (gravity[a] < 0.0) ++at[a];
+        const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
+        if (obstacles.open(face.block, a)[face.cell] < 1.0) return true;
+    }
+    return false;
 }
 
-void findSources(const BlockGrid& grid, const LiquidGrid& liquid, double strength, BlockArray<double>& source)
+/// Least that a cell holds where there is no hole. Cells at the surface may hold as little as they like, and so may those under a solid: what falls
+/// off a ceiling is not pulled back to it, for nothing would pay for that.
+double leastFill(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
+{
+    if (liquid.surface.test(b, c) || (obstacles.nearSolid(b) && isUnderSolid(grid, obstacles, gravity, b, c))) return 0.0;
+    return liquid.deep.test(b, c) ? 1.0 : kFillBelowSurface;
+}
+
+/// Volume that a cell lacks (negative) or has too much, relative to its own.
+double volumeError(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
+{
+    const double fill = liquid.fill.block(b)[c];
+    if (fill > 1.0) return std::min(fill - 1.0, kLargestError);
+    return fill < 1.0 ? std::min(fill - leastFill(grid, obstacles, gravity, liquid, b, c), 0.0) : 0.0;
+}
+
+void findSources(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, double strength,
+                 BlockArray<double>& source)
 {
     parallelFor(grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        for (int c = 0; c < kBlockCells; ++c) {
-            const bool inside = liquid.inside.test(b, c);
-            source.block(b)[c] = inside ? strength * volumeError(liquid.fill.block(b)[c], liquid.surface.test(b, c),
-                                                                 liquid.deep.test(b, c))
-                                        : 0.0;
-        }
+        for (int c = 0; c < kBlockCells; ++c)
+            source.block(b)[c] = liquid.inside.test(b, c) ? strength * volumeError(grid, obstacles, gravity, liquid, b, c) : 0.0;
     });
 }
 
@@ -55,14 +73,14 @@ void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const 
 
 }  // namespace
 
-SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure,
+SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const Vec3& gravity,
                           const LiquidGrid& liquid, double strength, int maxIterations, VolumeWorkspace& work)
 {
     work.potential.resize(grid.count());
     work.displacement.resize(grid.count());
     parallelFor(grid.count(), 8,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
-    findSources(grid, liquid, strength, pressure.rhs);
+    findSources(grid, obstacles, gravity, liquid, strength, pressure.rhs);
     const SolveReport report =
         pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kVolumeTolerance, maxIterations, work.potential);
     displaceFaces(grid, obstacles, pressure, work);

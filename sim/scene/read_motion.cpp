@@ -1,3 +1,4 @@
+#include "sim/scene/read_place.h"
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/section_writer.h"
@@ -16,7 +17,6 @@ static std::span<const Choice<Motion::Frame>> choicesOf(Motion::Frame)
 
 namespace {
 
-constexpr double kFarthest = 1.0e7;  // [cm]
 constexpr double kFastest = 1.0e6;   // [1/s]
 const Range kTime = Range::between(-1.0e9, 1.0e9);
 

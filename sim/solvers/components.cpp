@@ -3,6 +3,8 @@
 #include "sim/core/parallel.h"
 #include "sim/solvers/block_rows.h"
 
+#include <algorithm>
+
 namespace sim {
 
 namespace {
@@ -108,7 +110,7 @@ CellSet oneOf(CellSet set)
 
 }  // namespace
 
-int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
+int ConnectedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
 {
     const BlockBonds bonds = bondsOf(b, grid, matrix);
     std::uint16_t* label = label_.block(b);
@@ -130,20 +132,20 @@ int ClosedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonMatr
     return pieces;
 }
 
-int ClosedComponents::root(int piece)
+int ConnectedComponents::root(int piece)
 {
     while (parent_[piece] != piece) piece = parent_[piece] = parent_[parent_[piece]];
     return piece;
 }
 
-void ClosedComponents::join(int a, int b)
+void ConnectedComponents::join(int a, int b)
 {
     const int ra = root(a), rb = root(b), first = std::min(ra, rb);
     parent_[ra] = parent_[rb] = first;
     isOpen_[first] = isOpen_[ra] | isOpen_[rb];
 }
 
-void ClosedComponents::joinBlocks(const BlockGrid& grid, const PoissonMatrix& matrix)
+void ConnectedComponents::joinBlocks(const BlockGrid& grid, const PoissonMatrix& matrix)
 {
     constexpr std::array<int, kAxes> kStep = {1, kBlockEdge, kBlockRows};
     for (int b = 0; b < grid.count(); ++b)
@@ -163,9 +165,9 @@ void ClosedComponents::joinBlocks(const BlockGrid& grid, const PoissonMatrix& ma
         }
 }
 
-void ClosedComponents::countClosed()
+void ConnectedComponents::countClosed()
 {
-    closed_ = 0;
+    closed_ = all_ = 0;
     blocks_.clear();
     const int blocks = static_cast<int>(first_.size()) - 1;
     for (int b = 0; b < blocks; ++b) {
@@ -173,6 +175,7 @@ void ClosedComponents::countClosed()
         for (int p = first_[b]; p < first_[b + 1]; ++p) {
             const int r = root(p);  // the smallest number of its component: met before all others
             component_[p] = isOpen_[r] ? -1 : r == p ? closed_++ : component_[r];
+            number_[p] = r == p ? all_++ : number_[r];
             any = any || component_[p] >= 0;
         }
         if (any) blocks_.push_back(b);
@@ -181,7 +184,14 @@ void ClosedComponents::countClosed()
     cells_.resize(closed_);
 }
 
-void ClosedComponents::find(const BlockGrid& grid, const PoissonMatrix& matrix)
+int ConnectedComponents::ofBlock(int b) const
+{
+    const auto begin = number_.begin() + first_[b], end = number_.begin() + first_[b + 1];
+    if (begin == end) return -1;
+    return std::all_of(begin, end, [&](int number) { return number == *begin; }) ? *begin : kSeveral;
+}
+
+void ConnectedComponents::find(const BlockGrid& grid, const PoissonMatrix& matrix)
 {
     const int n = grid.count();
     label_.resize(n);
@@ -194,6 +204,7 @@ void ClosedComponents::find(const BlockGrid& grid, const PoissonMatrix& matrix)
     parent_.resize(first_[n]);
     isOpen_.resize(first_[n]);
     component_.resize(first_[n]);
+    number_.resize(first_[n]);
     pieceSum_.resize(first_[n]);
     pieceCells_.resize(first_[n]);
     for (int b = 0; b < n; ++b)
@@ -206,7 +217,7 @@ void ClosedComponents::find(const BlockGrid& grid, const PoissonMatrix& matrix)
 }
 
 template <class T>
-void ClosedComponents::removeMeans(BlockArray<T>& v)
+void ConnectedComponents::removeMeans(BlockArray<T>& v)
 {
     if (closed_ == 0) return;
     forEachBlock(static_cast<int>(blocks_.size()), [&](int n) {
@@ -239,7 +250,7 @@ void ClosedComponents::removeMeans(BlockArray<T>& v)
     });
 }
 
-template void ClosedComponents::removeMeans(BlockArray<float>&);
-template void ClosedComponents::removeMeans(BlockArray<double>&);
+template void ConnectedComponents::removeMeans(BlockArray<float>&);
+template void ConnectedComponents::removeMeans(BlockArray<double>&);
 
 }  // namespace sim

@@ -7,20 +7,22 @@
 
 namespace sim {
 
-/// The connected pieces of a PoissonMatrix that are closed: no row of them has a Dirichlet part, so that the matrix
+/// The connected components of a PoissonMatrix, and which of them are closed: no row of them has a Dirichlet part, so that the matrix
 /// leaves a constant undetermined on each.
-class ClosedComponents {
+class ConnectedComponents {
  public:
     void find(const BlockGrid& grid, const PoissonMatrix& matrix);
 
     int count() const { return closed_; }
+    int countAll() const { return all_; }
 
     /// Number of the closed component that a cell belongs to, or −1.
-    int of(int block, int cell) const
-    {
-        const std::uint16_t label = label_.block(block)[cell];
-        return label == kNoLabel ? -1 : component_[first_[block] + label];
-    }
+    int of(int block, int cell) const { return lookUp(component_, block, cell); }
+    /// Number of its component among all, or −1.
+    int ofAll(int block, int cell) const { return lookUp(number_, block, cell); }
+    /// The one component among all that cells of a block belong to; kSeveral if not all belong to the same, −1 if none belongs to any.
+    int ofBlock(int block) const;
+    static constexpr int kSeveral = -2;
 
     /// Subtract from v, on each closed component, its mean over it.
     template <class T>
@@ -29,6 +31,11 @@ class ClosedComponents {
  private:
     static constexpr std::uint16_t kNoLabel = 0xffff;
 
+    int lookUp(const std::vector<int>& numbers, int block, int cell) const
+    {
+        const std::uint16_t label = label_.block(block)[cell];
+        return label == kNoLabel ? -1 : numbers[first_[block] + label];
+    }
     int labelBlock(int block, const BlockGrid& grid, const PoissonMatrix& matrix);
     void joinBlocks(const BlockGrid& grid, const PoissonMatrix& matrix);
     void countClosed();
@@ -41,9 +48,10 @@ class ClosedComponents {
     std::vector<int> first_, parent_;
     std::vector<std::uint8_t> isOpen_;      ///< of each piece that is the root of its component
     std::vector<int> component_;            ///< of each piece: number of its closed component or −1
+    std::vector<int> number_;               ///< of each piece: number of its component among all
     std::vector<int> blocks_;               ///< those that hold closed pieces
     std::vector<double> pieceSum_, pieceCells_, sum_, cells_;
-    int closed_ = 0;
+    int closed_ = 0, all_ = 0;
 };
 
 }  // namespace sim

@@ -34,7 +34,7 @@ class PoissonSolver {
     Multigrid& multigrid() { return multigrid_; }
     /// Components without a Dirichlet part in the last solve.
     int closedComponents() const { return components_.count(); }
-    const ClosedComponents& components() const { return components_; }
+    const ConnectedComponents& components() const { return components_; }
 
  private:
     struct Problem {
@@ -55,7 +55,7 @@ class PoissonSolver {
     double largestResidual() const;
 
     Multigrid multigrid_;
-    ClosedComponents components_;
+    ConnectedComponents components_;
     BlockArray<double> residual_, direction_, nextDirection_, applied_;
     AlignedArray<double> rightCoupling_;        ///< of each row, 64 per block: beyond its right end
     std::vector<double> dot_;                   ///< direction · A direction of each block

@@ -35,7 +35,7 @@ std::array<double, 4> meansOf(const PoissonScene& scene, const BlockArray<double
     return sum;
 }
 
-TEST(ClosedComponents, LoseTheirMeansAndOthersKeepThem)
+TEST(ConnectedComponents, LoseTheirMeansAndOthersKeepThem)
 {
     PoissonScene scene = rooms();
     PoissonSolver solver;
@@ -56,7 +56,7 @@ TEST(ClosedComponents, LoseTheirMeansAndOthersKeepThem)
     EXPECT_LE(relativeResidual(scene, p), 1.1e-8);
 }
 
-TEST(ClosedComponents, AreFoundAcrossBlocksAndInTheSameBlock)
+TEST(ConnectedComponents, AreFoundAcrossBlocksAndInTheSameBlock)
 {
     // A closed pipe that winds through many blocks, and chequered lone pairs of cells, half of them closed.
     const auto isPipe = [](const Vec3i& c) {
@@ -82,7 +82,7 @@ TEST(ClosedComponents, AreFoundAcrossBlocksAndInTheSameBlock)
     EXPECT_EQ(solver.closedComponents(), 1 + 3 * pairsPerLayer);  // layers 2, 6 and 10 are closed, 4 and 8 open
 }
 
-TEST(ClosedComponents, ConstantRightHandSideOfAFullBoxIsNothing)
+TEST(ConnectedComponents, ConstantRightHandSideOfAFullBoxIsNothing)
 {
     PoissonScene scene = fullBox({20, 12, 9});
     for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(scene.rhs.block(b), kBlockCells, 0.7);
@@ -94,7 +94,7 @@ TEST(ClosedComponents, ConstantRightHandSideOfAFullBoxIsNothing)
     EXPECT_TRUE(sameBits(p, zeroPressure(scene)));
 }
 
-TEST(ClosedComponents, TightToleranceIsReached)
+TEST(ConnectedComponents, TightToleranceIsReached)
 {
     const PoissonScene scene = fullBox({40, 40, 40});
     PoissonSolver solver;

@@ -1,0 +1,177 @@
+#include "sim/liquid/centre_of_mass.h"
+
+#include "sim/core/parallel.h"
+#include "sim/grid/rows.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sim {
+
+namespace {
+
+using Body = CentreWorkspace::Body;
+
+constexpr int kBlocksPerTask = 4;
+
+/// The fields that bodies are made of.
+struct Fields {
+    const BlockGrid& grid;
+    const PressureWorkspace& pressure;
+    const LiquidGrid& liquid;
+    const CentreWorkspace& work;
+    BlockArray<double, 3>& displacement;
+
+    const ConnectedComponents& components() const { return pressure.solver.components(); }
+    PackMask moving(int b, int a, int row) const { return loadPack(pressure.coefficient.block(b, a) + row) > 0.0; }
+
+    /// The one body that the lower faces of a block's cells belong to; kSeveral, or −1 if none.
+    int bodyOf(int b) const
+    {
+        int body = components().ofBlock(b);
+        for (int below : {neighbourIndex(-1, 0, 0), neighbourIndex(0, -1, 0), neighbourIndex(0, 0, -1)}) {
+            const int n = grid.neighbours(b)[below], other = n == grid.count() ? -1 : components().ofBlock(n);
+            if (body == -1) body = other;
+            else if (other != -1 && other != body) body = ConnectedComponents::kSeveral;
+        }
+        return body;
+    }
+    /// The bodies of the cells above and below the lower face of a cell; −1 for none.
+    std::array<int, 2> bodiesOf(int b, int a, int c) const
+    {
+        Vec3i below(c & 7, c >> 3 & 7, c >> 6);
+        --below[a];
+        const CellRef other = cellNear(grid, b, below.x(), below.y(), below.z());
+        return {components().ofAll(b, c), other.block == grid.count() ? -1 : components().ofAll(other.block, other.cell)};
+    }
+};
+
+/// Is there anything on a lower face of a block's cells that has a cell with a pressure beside it?
+bool isHeld(const Fields& fields, int b)
+{
+    const BitAccess access(fields.grid, b);
+    for (int a = 0; a < kAxes; ++a)
+        for (int k = 0; k < kBlockEdge; ++k) {
+            const std::uint64_t inside = fields.liquid.inside.block(b)[k] | access.below(fields.liquid.inside, 0, a, k);
+            if ((inside & ~fields.work.unheld.block(b, a)[k]) != 0) return true;
+        }
+    return false;
+}
+
+/// Sums over the lower faces of a block that belongs to one body.
+Body sumOverBlock(const Fields& fields, int b)
+{
+    Body sum;
+    for (int a = 0; a < kAxes; ++a) {
+        const double *mass = fields.liquid.faces.sums.block(b, FaceFields::kMass + a), *displacement = fields.displacement.block(b, a);
+        Pack masses = broadcast(0.0), moved = masses;
+        for (int row = 0; row < kBlockCells; row += kLanes) {
+            const Pack m = select(fields.moving(b, a, row), loadPack(mass + row), broadcast(0.0));
+            masses += m;
+            moved += m * loadPack(displacement + row);
+        }
+        sum.mass[a] = sumLanes(masses);
+        sum.moved[a] = sumLanes(moved);
+    }
+    sum.isHeld = isHeld(fields, b);
+    return sum;
+}
+
+void add(const Body& part, Body& sum)
+{
+    sum.mass += part.mass;
+    sum.moved += part.moved;
+    sum.isHeld = sum.isHeld || part.isHeld;
+}
+
+/// Add the lower faces of a block's cells to the several bodies that they belong to.
+void addByFaces(const Fields& fields, int b, std::vector<Body>& bodies)
+{
+    for (int a = 0; a < kAxes; ++a)
+        for (int c = 0; c < kBlockCells; ++c) {
+            const double displacement = fields.displacement.block(b, a)[c];
+            const bool moves = fields.pressure.coefficient.block(b, a)[c] > 0.0;
+            const bool isHeld = !fields.work.unheld.test(b, c, a);
+            if (!moves && !isHeld) continue;
+            const double mass = moves ? fields.liquid.faces.sums.block(b, FaceFields::kMass + a)[c] : 0.0;
+            const std::array<int, 2> both = fields.bodiesOf(b, a, c);
+            for (int body : both)
+                if (body >= 0) bodies[body].isHeld = bodies[body].isHeld || isHeld;
+            const int body = std::max(both[0], both[1]);  // the same, where both are, as the face moves
+            if (body < 0) continue;
+            bodies[body].mass[a] += mass;
+            bodies[body].moved[a] += mass * displacement;
+        }
+}
+
+void findBodies(const Fields& fields, std::vector<Body>& ofBlock, std::vector<Body>& bodies)
+{
+    const int blocks = fields.grid.count();
+    ofBlock.resize(blocks);
+    parallelFor(blocks, kBlocksPerTask, [&](std::size_t b) {
+        if (fields.bodyOf(static_cast<int>(b)) >= 0) ofBlock[b] = sumOverBlock(fields, static_cast<int>(b));
+    });
+    bodies.assign(fields.components().countAll(), {});
+    for (int b = 0; b < blocks; ++b) {
+        const int body = fields.bodyOf(b);
+        if (body >= 0) add(ofBlock[b], bodies[body]);
+        else if (body == ConnectedComponents::kSeveral) addByFaces(fields, b, bodies);
+    }
+}
+
+/// Mean displacement of a body that nothing holds; 0 of others.
+Vec3 driftOf(const Body& body)
+{
+    if (body.isHeld) return Vec3::Zero();
+    return body.moved.cwiseQuotient(body.mass.cwiseMax(std::numeric_limits<double>::min()));
+}
+
+void shiftBlock(const Fields& fields, int b)
+{
+    const int one = fields.bodyOf(b);
+    if (one == -1) return;
+    const Vec3 drift = one >= 0 ? driftOf(fields.work.bodies[one]) : Vec3::Zero();
+    if (one >= 0 && drift.isZero(0.0)) return;
+    for (int a = 0; a < kAxes; ++a) {
+        double* displacement = fields.displacement.block(b, a);
+        for (int row = 0; row < kBlockCells; row += kLanes) {
+            Pack shift = broadcast(drift[a]);
+            const unsigned moving = maskBits(fields.moving(b, a, row));
+            if (one < 0)
+                for (int i = 0; i < kLanes; ++i) {
+                    const std::array<int, 2> both = (moving >> i & 1) != 0 ? fields.bodiesOf(b, a, row + i) : std::array{-1, -1};
+                    const int body = std::max(both[0], both[1]);
+                    shift[i] = body >= 0 ? driftOf(fields.work.bodies[body])[a] : 0.0;
+                }
+            storePack(displacement + row, loadPack(displacement + row) - select(maskOfBits(moving), shift, broadcast(0.0)));
+        }
+    }
+}
+
+}  // namespace
+
+void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, CentreWorkspace& work)
+{
+    work.unheld.resize(grid.count());
+    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        for (int a = 0; a < kAxes; ++a)
+            for (int k = 0; k < kBlockEdge; ++k) {
+                std::uint64_t& word = work.unheld.block(b, a)[k];
+                word = 0;
+                for (int j = 0; j < kBlockEdge; ++j)
+                    word |= std::uint64_t{maskBits(loadPack(obstacles.open(b, a) + cellInBlock(0, j, k)) >= 1.0)} << (j * kBlockEdge);
+            }
+    });
+}
+
+void keepCentresOfMass(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, CentreWorkspace& work,
+                       BlockArray<double, 3>& displacement)
+{
+    const Fields fields{grid, pressure, liquid, work, displacement};
+    findBodies(fields, work.ofBlock, work.bodies);
+    if (std::ranges::all_of(work.bodies, [](const Body& body) { return body.isHeld; })) return;
+    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t b) { shiftBlock(fields, static_cast<int>(b)); });
+}
+
+}  // namespace sim
