@@ -251,11 +251,10 @@ LinearReport VertexSystem::solve(const LinearTolerance& tolerance, double stepEn
     const double share = tolerance.share * tolerance.share, speed = totalMass_ * tolerance.speed * tolerance.speed;
     const double most = totalMass_ * tolerance.most * tolerance.most;
     const double enough = std::min(std::max({share * energy, 0.09 * share * stepEnergy, speed}), most);
-    // What is small enough becomes smaller still from step to step, down to round-off: as steps begin with the forces of the last, it would
-    // stay for good, and shake what friction holds just so loose.
-    constexpr double kRoundOff = 1.0e-16, kKept = 0.1;
-    const double last = std::max(std::min(enough, kKept * energy), kRoundOff * speed);
-    while (report.iterations < maxIterations && energy > last) {
+    // One iteration at least, above round-off: as steps begin with the forces of the last, errors too small for one would stay for good.
+    constexpr double kRoundOff = 1.0e-16;
+    const double last = std::max(std::min(enough, tolerance.left * tolerance.left * energy), kRoundOff * speed);
+    while (report.iterations < maxIterations && energy > (report.iterations == 0 ? kRoundOff * speed : last)) {
         const double curvature = multiply();
         if (!(curvature > 0.0)) break;
         const double next = precondition(energy / curvature);

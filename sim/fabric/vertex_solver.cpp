@@ -19,6 +19,7 @@ namespace {
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
 constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [gravity]
+constexpr double kLeftAtContact = 0.3;        ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
 constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [gravity]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
@@ -229,8 +230,9 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
     const double fall = feltAcceleration_ * h;
+    const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
     const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
-                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall)};
+                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0};
     const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
     if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });

@@ -22,10 +22,11 @@ struct NewtonPoint {
 };
 
 /// When a linear solve is good enough: √(rᵀz / total mass), the rms error of speeds, below `share` of what it was at first, 0.3 of
-/// that in the step's first iteration, or `speed`; and below `most` in any case.
+/// that in the step's first iteration, or `speed`; and below `most` in any case. Of what is small enough from the start `left` remains at most.
 struct LinearTolerance {
     double share;                            ///< [-]
     double speed, most;                      ///< [cm/s]
+    double left = 1.0;                       ///< [-]
 };
 
 /// Linear solve of one Newton iteration.
