@@ -155,6 +155,8 @@ void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, Cent
     work.unheld.resize(grid.count());
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
         const int b = static_cast<int>(n);
+        std::fill_n(work.unheld.block(b), kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+        if (!obstacles.nearSolid(b)) return;
         for (int a = 0; a < kAxes; ++a)
             for (int k = 0; k < kBlockEdge; ++k) {
                 std::uint64_t& word = work.unheld.block(b, a)[k];
