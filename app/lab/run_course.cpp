@@ -18,7 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 5> kFromOutside = {"sources_erg", "suction_erg", "obstacles_erg", "solids_erg", "pins_erg"};
+constexpr std::array<std::string_view, 4> kFromOutside = {"sources_erg", "suction_erg", "solids_erg", "pins_erg"};
+/// With friction, which takes. Where a solve was cut short its forces are booked with more than they took: what is not gone was not taken.
+constexpr std::string_view kObstacles = "obstacles_erg";
 /// What only gives, counted where it does: it gives where walls move.
 constexpr std::string_view kGivesOnly = "viscosity_erg";
 /// The energy of a surface is in no sum. It gives by its own work and by that of the pressure that it makes; what it takes is not lost.
@@ -37,21 +39,27 @@ Energy energyOf(const std::filesystem::path& csv)
     const std::vector<std::string> names = csvCells(line);
     Energy energy;
     std::optional<double> start;
+    double lastObstacles = 0.0, lastOwn = 0.0, byObstacles = 0.0;
     while (std::getline(in, line)) {
         const std::vector<std::string> cells = csvCells(line);
-        double paid = 0.0, total = 0.0, surface = 0.0, pressure = 0.0;
+        double paid = 0.0, total = 0.0, surface = 0.0, pressure = 0.0, obstacles = 0.0;
         for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
             const double value = std::strtod(cells[i].c_str(), nullptr);
             if (names[i] == "total_erg") total = value;
             if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
             if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
             if (names[i] == kGivesOnly) paid += std::max(0.0, value);
+            if (names[i] == kObstacles) obstacles = value;
             if (names[i] == kSurface) surface = value;
             if (names[i] == kPressure) pressure = value;
         }
         if (surface != 0.0) paid += std::max(0.0, surface + std::max(0.0, pressure));
-        if (!start) start = total - paid;
-        energy.gain = std::max(energy.gain, total - paid - *start);
+        const double own = total - paid;  // and what obstacles gave or took
+        if (!start) start = own;
+        else byObstacles += std::max(obstacles - lastObstacles, std::min(own - lastOwn, 0.0));
+        lastObstacles = obstacles;
+        lastOwn = own;
+        energy.gain = std::max(energy.gain, own - byObstacles - *start);
     }
     return energy;
 }

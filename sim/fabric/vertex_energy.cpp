@@ -44,42 +44,26 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
     }
 }
 
-/// Vertices on which solids act beyond the book of their contacts: those named, and what hangs on them by edges, faces and contacts, whose forces
-/// are out of balance by as much.
-std::vector<char> VertexSolver::withNeighbours(const std::vector<char>& named) const
-{
-    std::vector<char> all = named;
-    const auto reach = [&](const auto& vertices) {
-        if (std::ranges::none_of(vertices, [&](int v) { return named[v] != 0; })) return;
-        for (int v : vertices) all[v] = 1;
-    };
-    for (int s = 0; s < fabric_.strands.count(); ++s)  // bending reaches over two edges
-        for (int j = 0; j + 2 < fabric_.strands.size(s); ++j)
-            reach(std::array<int, 3>{fabric_.strands.vertex(s, j), fabric_.strands.vertex(s, j + 1), fabric_.strands.vertex(s, j + 2)});
-    for (const Vec2i& edge : fabric_.edges.vertices) reach(edge);
-    for (const Vec3i& face : fabric_.faces.vertices) reach(face);
-    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) reach(contacts_->vertices[i]);
-    for (const ObstacleContact& contact : touching_) reach(contact.vertices());
-    return all;
-}
-
-/// Vertices that the guard of solids holds, as pins do: what the limiter made of Newton's last move where they took a hand in it.
+/// Vertices that solids hold, as pins do: what the limiter made of Newton's last move where they took a hand in it, and what hangs on those by
+/// edges, faces and contacts, whose forces are out of balance by as much.
 std::vector<char> VertexSolver::heldBySolids() const
 {
     std::vector<char> stopped(fabric_.vertexCount(), 0);
     if (!guardActed_) return stopped;
     for (std::size_t v = 0; v < stopped.size(); ++v) stopped[v] = move_[v] != system_.move(static_cast<int>(v));
-    return withNeighbours(stopped);
-}
-
-/// Vertices that touch solids.
-std::vector<char> VertexSolver::touchingSolids() const
-{
-    std::vector<char> touching(fabric_.vertexCount(), 0);
-    if (touching_.empty()) return touching;
-    for (const ObstacleContact& contact : touching_)
-        for (int v : contact.vertices()) touching[v] = 1;
-    return withNeighbours(touching);
+    std::vector<char> held = stopped;
+    const auto hold = [&](const auto& vertices) {
+        if (std::ranges::none_of(vertices, [&](int v) { return stopped[v] != 0; })) return;
+        for (int v : vertices) held[v] = 1;
+    };
+    for (int s = 0; s < fabric_.strands.count(); ++s)  // bending reaches over two edges
+        for (int j = 0; j + 2 < fabric_.strands.size(s); ++j)
+            hold(std::array<int, 3>{fabric_.strands.vertex(s, j), fabric_.strands.vertex(s, j + 1), fabric_.strands.vertex(s, j + 2)});
+    for (const Vec2i& edge : fabric_.edges.vertices) hold(edge);
+    for (const Vec3i& face : fabric_.faces.vertices) hold(face);
+    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) hold(contacts_->vertices[i]);
+    for (const ObstacleContact& contact : touching_) hold(contact.vertices());
+    return held;
 }
 
 /// Work of what acted from start_ to the state, by the forces at the state: backward Euler's are those at the end of a step.
@@ -100,40 +84,29 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     changes[EnergyChange::Damping] = elastic - along(gradient);
     changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - energies(start_, gravity).elastic() - elastic;
     bookContacts(state, changes, gradient.byPosition);
-    const double byContact = changes[EnergyChange::Obstacles];
     changes[EnergyChange::Contact] += state.stored.pressed - start_.stored.pressed;
     changes[EnergyChange::Friction] += state.stored.gripped - start_.stored.gripped;
     changes[EnergyChange::Obstacles] += state.stored.solids - start_.stored.solids;
 
     const double part = h / wholeStep_;
-    const std::vector<char> isHeld = heldBySolids(), isTouching = touchingSolids();
-    double outOfBalance = 0.0;  // where solids are touched
+    const std::vector<char> isHeld = heldBySolids();
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         const Vec3 faster = state.v[v] - start_.v[v];
         Vec3 byLiquid = Vec3::Zero();
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
         changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
-        if (!fabric_.pinned[v] && !isHeld[v] && !isTouching[v]) continue;
+        if (!fabric_.pinned[v] && !isHeld[v]) continue;
         const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
         const double work = byHolder.dot(state.v[v]);
-        if (fabric_.pinned[v]) changes[EnergyChange::Pins] += work;
-        else if (isHeld[v]) changes[EnergyChange::Obstacles] += work;
-        else outOfBalance += work;
+        // Solids at rest only take: what Newton has left of the balance where they hold is the step's own.
+        const EnergyChange bySolid = work > 0.0 && !solidsMove_ ? EnergyChange::Implicit : EnergyChange::Obstacles;
+        changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += work;
     }
-    // Forces of contact that Newton has not brought into balance with what they act on have not done their work: it is less by the imbalance.
-    changes[EnergyChange::Obstacles] += byContact < 0.0 ? std::clamp(outOfBalance, 0.0, -byContact) : std::clamp(outOfBalance, -byContact, 0.0);
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double inertia = fabric_.edges.twistInertia[e], faster = state.omega[e] - start_.omega[e];
         changes[EnergyChange::Implicit] -= 0.5 * inertia * faster * faster;
         if (fabric_.edges.twistHeld[e]) changes[EnergyChange::Pins] += (inertia * faster + h * gradient.byAngle[e]) * state.omega[e];
-    }
-    // Solids at rest only take, and no more than is lost: the rest is the step's own.
-    if (!solidsMove_) {
-        const double left = energies(state, gravity).total() - startEnergies_.total() - changes[EnergyChange::Pins] - changes[EnergyChange::Drag];
-        const double taken = std::clamp(changes[EnergyChange::Obstacles], std::min(left, 0.0), 0.0);
-        changes[EnergyChange::Implicit] += changes[EnergyChange::Obstacles] - taken;
-        changes[EnergyChange::Obstacles] = taken;
     }
     return changes;
 }

@@ -72,9 +72,7 @@ class VertexSolver {
     EnergyChanges slowDriven(double h, const Vec3& gravity, FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void slowDown(double energy, FabricState& state) const;
-    std::vector<char> withNeighbours(const std::vector<char>& named) const;
     std::vector<char> heldBySolids() const;
-    std::vector<char> touchingSolids() const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace app {
 namespace {
 
@@ -24,6 +26,13 @@ struct Logs {
         test::writeFile(folder / "energy_ledger.csv",
                         fmt::format("time_s,total_erg,kinetic_erg,suction_erg,walls_erg,unbooked_erg\n0,1,0,0,0,0\n1e-3,{},8,{},-3,0\n",
                                     total, suction));
+    }
+    /// Rows of total energy and of the work of obstacles [erg].
+    void courseAtObstacles(std::initializer_list<std::array<double, 2>> rows)
+    {
+        std::string text = "time_s,total_erg,kinetic_erg,obstacles_erg\n";
+        for (const auto& [total, obstacles] : rows) text += fmt::format("0,{},8,{}\n", total, obstacles);
+        test::writeFile(folder / "energy_ledger.csv", text);
     }
     StabilityRow judged() const
     {
@@ -43,6 +52,20 @@ TEST(StabilityMap, EnergyMayRiseOnlyByWhatIsDoneFromOutside)
     EXPECT_NEAR(logs.judged().energyGain, 1.0 / 8.0, 1.0e-12);
     logs.energy(2.0, 0.95);
     EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
+}
+
+TEST(StabilityMap, WhatObstaclesTookIsGone)
+{
+    Logs logs;
+    logs.steps(1.0e-3, 4.0);
+    logs.courseAtObstacles({{10.0, 0.0}, {9.9, -30.0}, {9.9, -30.0}});
+    EXPECT_NEAR(logs.judged().energyGain, 0.0, 1.0e-12) << "booked with more than was lost";
+    logs.courseAtObstacles({{10.0, 0.0}, {6.0, -4.0}, {8.0, -4.0}});
+    EXPECT_NEAR(logs.judged().energyGain, 2.0 / 8.0, 1.0e-12) << "what they took does not come back";
+    logs.courseAtObstacles({{10.0, 0.0}, {13.0, 3.0}, {12.0, 2.0}});
+    EXPECT_NEAR(logs.judged().energyGain, 0.0, 1.0e-12) << "moving ones give";
+    logs.courseAtObstacles({{10.0, 0.0}, {12.0, -1.0}});
+    EXPECT_NEAR(logs.judged().energyGain, 2.0 / 8.0, 1.0e-12) << "a rise is one whatever is booked";
 }
 
 TEST(StabilityMap, NoParticleMayBeMuchFasterThanTheEnergyAllows)
