@@ -15,7 +15,7 @@ struct RunCourse {
 };
 
 /// A run is sound if its energy is never above that of the start plus the work of sources, suction, surface tension, obstacles, moving solids
-/// and pins by more than this share of its largest kinetic energy …
+/// and pins by more than this share of its largest kinetic energy (what obstacles took counts as far as the energy fell with it) …
 inline constexpr double kAllowedGain = 0.01;
 /// … and no particle faster than so many times the speed of all liquid, had it all that kinetic energy.
 inline constexpr double kAllowedSpeed = 10.0;
