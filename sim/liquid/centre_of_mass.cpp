@@ -42,7 +42,7 @@ struct Fields {
         Vec3i below(c & 7, c >> 3 & 7, c >> 6);
         --below[a];
         const CellRef other = cellNear(grid, b, below.x(), below.y(), below.z());
-        return {components().ofAll(b, c), other.block == grid.count() ? -1 : components().ofAll(other.block, other.cell)};
+        return {components().of(b, c), other.block == grid.count() ? -1 : components().of(other.block, other.cell)};
     }
 };
 
@@ -111,7 +111,7 @@ void findBodies(const Fields& fields, std::vector<Body>& ofBlock, std::vector<Bo
     parallelFor(blocks, kBlocksPerTask, [&](std::size_t b) {
         if (fields.bodyOf(static_cast<int>(b)) >= 0) ofBlock[b] = sumOverBlock(fields, static_cast<int>(b));
     });
-    bodies.assign(fields.components().countAll(), {});
+    bodies.assign(fields.components().count(), {});
     for (int b = 0; b < blocks; ++b) {
         const int body = fields.bodyOf(b);
         if (body >= 0) add(ofBlock[b], bodies[body]);

@@ -56,7 +56,7 @@ double fillOf(int piece, const BlockGrid& grid, const LiquidGrid& liquid, const 
         return parallelSum(grid.count(), [&](std::size_t b) {
             double sum = 0.0;
             for (int c = 0; c < kBlockCells; ++c)
-                if (pieces.of(static_cast<int>(b), c) == piece) sum += value(liquid.fill.block(static_cast<int>(b))[c]);
+                if (pieces.closedOf(static_cast<int>(b), c) == piece) sum += value(liquid.fill.block(static_cast<int>(b))[c]);
             return sum;
         });
     };
@@ -90,13 +90,13 @@ bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const Bl
               const ConnectedComponents& pieces)
 {
     constexpr double kFull = 0.99;  // on average: what is left is the noise of the particles' places
-    if (pieces.count() == 0) return false;
+    if (pieces.closedCount() == 0) return false;
     int last = -1;
     bool isAny = false;
     for (const InflowCell& c : cells) {
         if (c.source != source) continue;
         isAny = true;
-        const int piece = pieces.of(c.block, c.cell);
+        const int piece = pieces.closedOf(c.block, c.cell);
         if (piece == last && piece >= 0) continue;
         if (piece < 0 || fillOf(piece, grid, liquid, pieces) < kFull) return false;
         last = piece;

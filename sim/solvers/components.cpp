@@ -165,7 +165,7 @@ void ConnectedComponents::joinBlocks(const BlockGrid& grid, const PoissonMatrix&
         }
 }
 
-void ConnectedComponents::countClosed()
+void ConnectedComponents::numberComponents()
 {
     closed_ = all_ = 0;
     blocks_.clear();
@@ -213,7 +213,7 @@ void ConnectedComponents::find(const BlockGrid& grid, const PoissonMatrix& matri
             isOpen_[p] = isOpenLocal_.block(b)[p - first_[b]];
         }
     joinBlocks(grid, matrix);
-    countClosed();
+    numberComponents();
 }
 
 template <class T>

@@ -13,13 +13,13 @@ class ConnectedComponents {
  public:
     void find(const BlockGrid& grid, const PoissonMatrix& matrix);
 
-    int count() const { return closed_; }
-    int countAll() const { return all_; }
+    int closedCount() const { return closed_; }
+    int count() const { return all_; }
 
     /// Number of the closed component that a cell belongs to, or −1.
-    int of(int block, int cell) const { return lookUp(component_, block, cell); }
+    int closedOf(int block, int cell) const { return lookUp(component_, block, cell); }
     /// Number of its component among all, or −1.
-    int ofAll(int block, int cell) const { return lookUp(number_, block, cell); }
+    int of(int block, int cell) const { return lookUp(number_, block, cell); }
     /// The one component among all that cells of a block belong to; kSeveral if not all belong to the same, −1 if none belongs to any.
     int ofBlock(int block) const;
     static constexpr int kSeveral = -2;
@@ -38,7 +38,7 @@ class ConnectedComponents {
     }
     int labelBlock(int block, const BlockGrid& grid, const PoissonMatrix& matrix);
     void joinBlocks(const BlockGrid& grid, const PoissonMatrix& matrix);
-    void countClosed();
+    void numberComponents();
     int root(int piece);
     void join(int a, int b);
 

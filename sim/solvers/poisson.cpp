@@ -129,7 +129,7 @@ void PoissonSolver::start(const Problem& problem)
         forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
         findResidual(true);
     }
-    if (components_.count() == 0) return;
+    if (components_.closedCount() == 0) return;
 
     components_.removeMeans(residual_);
     forEachBlock(n, [&](int b) {

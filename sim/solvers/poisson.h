@@ -33,7 +33,7 @@ class PoissonSolver {
     /// The preconditioner, as the last solve left it.
     Multigrid& multigrid() { return multigrid_; }
     /// Components without a Dirichlet part in the last solve.
-    int closedComponents() const { return components_.count(); }
+    int closedComponents() const { return components_.closedCount(); }
     const ConnectedComponents& components() const { return components_; }
 
  private:
