@@ -18,11 +18,11 @@ struct Grips {
 
     void clear() { between.clear(), force.clear(); }
     void add(const Vec2i& pair, const Vec3& f) { between.push_back(pair), force.push_back(f); }
+    static bool isBefore(const Vec2i& a, const Vec2i& b) { return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]); }
     /// 0 for what did not touch.
     Vec3 at(const Vec2i& pair) const
     {
-        const auto before = [](const Vec2i& a, const Vec2i& b) { return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]); };
-        const auto found = std::ranges::lower_bound(between, pair, before);
+        const auto found = std::ranges::lower_bound(between, pair, isBefore);
         return found != between.end() && *found == pair ? force[found - between.begin()] : Vec3::Zero().eval();
     }
 };

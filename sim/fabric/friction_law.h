@@ -19,6 +19,7 @@ struct Friction {
     double stiffness = 0.0;      ///< [dyn/cm] …
     double along = 0.0;          ///< … but for slip along `direction` [dyn/cm]
     Vec3 direction = Vec3::Zero();  ///< unit; 0 where both are the same
+    bool slides = false;         ///< it is at its bound
 
     Mat3 matrix(const Vec3& normal) const
     {
@@ -45,7 +46,7 @@ struct GripSpring {
     {
         const Vec3 force = trial(slip);
         const double size = force.norm(), share = size > bound ? bound / size : 1.0;
-        return {share * force, share * stiffness, share * stiffness};
+        return {share * force, share * stiffness, share * stiffness, Vec3::Zero(), size > bound};
     }
     /// Friction at a slip that is not yet that of the end of the step; there it is expected to be another. A mass m that `expected` takes
     /// forward with the friction held so far would, without friction, come to where the spring has E = trial(expected) + κ held with
@@ -65,7 +66,8 @@ inline Friction GripSpring::expected(const Vec3& slip, const Vec3& expectedSlip,
     const double share = bound / last, along = stiffness * bound / (last + perMass * bound);
     const Vec3 further = slip - (last * direction - held) / stiffness;
     const double ahead = direction.dot(further);
-    return {(bound + (along - share * stiffness) * ahead) * direction + share * stiffness * further, share * stiffness, along, direction};
+    return {(bound + (along - share * stiffness) * ahead) * direction + share * stiffness * further, share * stiffness, along, direction,
+            true};
 }
 
 }  // namespace sim

@@ -28,6 +28,8 @@ constexpr double kSettledMove = 0.25;         ///< rms move of one after which a
 constexpr double kSmallMove = 0.03;           ///< … or this small, where moves do not become smaller [radii]
 constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
 constexpr int kMostNewton = 6;                ///< iterations to get there; more ask for halves
+constexpr double kFrictionError = 0.05;       ///< with which a step may end: more sticks where it should slide [-] …
+constexpr double kFeltFriction = 0.2;         ///< … and below which friction is too little to matter [gravity]
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
@@ -297,7 +299,10 @@ void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newt
         solve(h, newton, state, report, clock);
         judge(h, newton);
         take(t + h, newton, state, report, clock);
-        if (!newton.isQuiet && newton.count < (newton.isNear ? settings_.newton : most)) continue;
+        const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
+        const bool isFrictionFound = isLastMove && (!contacts_ || contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) <= kFrictionError);
+        if (!isFrictionFound && newton.count < most) continue;
+        newton.isSettled = newton.isSettled && isFrictionFound;
         finish(h, state);
         if (!settled) settled = newton;
         newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;

@@ -24,6 +24,13 @@ struct FabricContact::Parts {
         double perStep;      ///< mean mass of its vertices over springStep² [dyn/cm]
         double coefficient;  ///< Coulomb's [-]
         double perMass;      ///< h² over the mass that its separation has [cm/dyn]
+        bool slides;         ///< friction is at its bound
+    };
+    /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
+    struct Acted {
+        Vec3 apart;          ///< its separation [cm]
+        Vec3 friction;       ///< [dyn]
+        double bound;        ///< of friction [dyn]
     };
 
     void findActive(const CandidatePool& pairs, std::vector<PairPlace>& found);
@@ -32,6 +39,9 @@ struct FabricContact::Parts {
     void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::size_t place, std::size_t slot);
     Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance, std::size_t slot) const;
     void resizeActive(std::size_t n);
+    void findHeld();
+    Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
+    double touchingMass();
 
     CandidateList list;
     Limiter limiter;
@@ -44,6 +54,8 @@ struct FabricContact::Parts {
     ActiveContacts active;
     std::vector<Grip> grips;                  ///< of the active pairs
     Grips held;                               ///< at the start of the step
+    std::vector<Vec3> heldForce;              ///< of it on the active pairs [dyn]
+    std::vector<char> isTouching;             ///< of each vertex
     std::vector<Vec3> keptForce;              ///< of friction on the active pairs, at the end of the step [dyn]
 };
 
@@ -88,6 +100,7 @@ const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageCloc
     p.findActive(p.list.edgePairs(), p.edgePairs);
     p.findActive(p.list.facePairs(), p.facePairs);
     p.resizeActive(p.edgePairs.size() + p.facePairs.size());
+    p.findHeld();
     p.describe(x, expected, p.list.edgePairs(), p.edgePairs, 0);
     p.describe(x, expected, p.list.facePairs(), p.facePairs, p.edgePairs.size());
     return p.active;
@@ -119,6 +132,22 @@ void FabricContact::Parts::resizeActive(std::size_t n)
 {
     active.vertices.resize(n), active.firstSide.resize(n), active.weights.resize(n), active.normal.resize(n), active.force.resize(n);
     active.stiffness.resize(n), active.frictionStiffness.resize(n), active.between.resize(n), grips.resize(n);
+    heldForce.resize(n);
+}
+
+/// What friction holds on each of the active pairs: both lie in the same order.
+void FabricContact::Parts::findHeld()
+{
+    std::size_t next = 0;
+    const auto find = [&](std::span<const PairPlace> places, std::size_t first) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Vec2i pair(places[i].a, places[i].b);
+            while (next < held.between.size() && Grips::isBefore(held.between[next], pair)) ++next;
+            heldForce[first + i] = next < held.between.size() && held.between[next] == pair ? held.force[next] : Vec3::Zero().eval();
+        }
+    };
+    find(edgePairs, 0);
+    find(facePairs, edgePairs.size());
 }
 
 /// Pair `place` of the pool as number `slot` of the active ones.
@@ -149,8 +178,9 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.weights[slot] = c;
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
-    grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b), h * h * mobility};
+    grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b), h * h * mobility, false};
     const Friction sideways = friction(x, expected, energy, distance, slot);
+    grips[slot].slides = sideways.slides;
     active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
     active.frictionStiffness[slot] = sideways.along;
@@ -175,10 +205,44 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
-    const GripSpring spring{along(turn * held.at(active.between[slot])), gripStiffness(-energy.slope, pressed, grip.perStep),
+    const GripSpring spring{along(turn * heldForce[slot]), gripStiffness(-energy.slope, pressed, grip.perStep),
                             grip.coefficient * -energy.slope};
     if (expected.empty()) return spring.at(along(apart - carried));
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
+}
+
+FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::span<const Vec3> x) const
+{
+    const Vec3& n = active.normal[i];
+    Vec3 apart = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) apart += active.weights[i][k] * x[active.vertices[i][k]];
+    const Vec3 moved = apart - grips[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
+    const double normalForce = -(active.force[i] + active.stiffness[i] * moved).dot(n);
+    return {apart, acted - acted.dot(n) * n, grips[i].coefficient * std::max(normalForce, 0.0)};
+}
+
+/// Mass of the vertices of the active pairs that are not pinned [g].
+double FabricContact::Parts::touchingMass()
+{
+    isTouching.assign(mass.size(), 0);
+    for (const std::array<int, 4>& pair : active.vertices)
+        for (int v : pair) isTouching[v] = 1;
+    return parallelSum(mass.size(), [&](std::size_t v) { return isTouching[v] && inverseMass[v] > 0.0 ? mass[v] : 0.0; });
+}
+
+double FabricContact::frictionError(std::span<const Vec3> x, double acceleration)
+{
+    Parts& p = *parts_;
+    using Sums = std::array<double, 2>;
+    const auto [wrong, bound] = parallelReduce(
+        p.active.size(), Sums{},
+        [&](std::size_t i) {
+            const Parts::Acted acted = p.actedOn(i, x);
+            const double beyond = acted.friction.norm() - acted.bound;
+            return Sums{p.grips[i].slides ? std::abs(beyond) : std::max(beyond, 0.0), acted.bound};
+        },
+        [](const Sums& a, const Sums& b) { return Sums{a[0] + b[0], a[1] + b[1]}; });
+    return wrong > 0.0 ? wrong / std::max(bound, acceleration * p.touchingMass()) : 0.0;
 }
 
 void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held)
@@ -187,14 +251,9 @@ void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held)
     std::vector<Vec3>& force = p.keptForce;
     force.resize(p.active.size());
     parallelFor(force.size(), 512, [&](std::size_t i) {
-        force[i].setZero();
-        const Vec3& n = p.active.normal[i];
-        Vec3 apart = Vec3::Zero();
-        for (std::size_t k = 0; k < 4; ++k) apart += p.active.weights[i][k] * x[p.active.vertices[i][k]];
-        if (apart.dot(n) >= p.grips[i].range.reach) return;
-        const Vec3 moved = apart - p.grips[i].apart, acted = p.active.force[i] + p.active.frictionStiffness[i] * moved;
-        const double normalForce = -(p.active.force[i] + p.active.stiffness[i] * moved).dot(n);
-        force[i] = atMost(p.grips[i].coefficient * std::max(normalForce, 0.0), acted - acted.dot(n) * n);
+        const Parts::Acted acted = p.actedOn(i, x);
+        const bool touches = acted.apart.dot(p.active.normal[i]) < p.grips[i].range.reach;
+        force[i] = touches ? atMost(acted.bound, acted.friction) : Vec3::Zero().eval();
     });
     held.clear();
     for (std::size_t i = 0; i < force.size(); ++i)

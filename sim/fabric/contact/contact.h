@@ -54,6 +54,10 @@ class FabricContact {
     /// Pairs that act at x, with force and stiffness.
     /// @param expected  moves of the vertices since the start of the step if forces act on as they did [cm], where x is a prediction
     const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});
+    /// How far friction that acted between the pairs found last, up to x, is from what the normal forces that acted there have it, both
+    /// according to their forces and stiffnesses: over all pairs, relative to what they can hold, and no less than to what gives their
+    /// vertices an acceleration [cm/s^2]. Forces at x hardly tell: a small move changes what presses by as much as the load [-].
+    double frictionError(std::span<const Vec3> x, double acceleration);
     /// What of the friction of the pairs found last is held at the end of the step, at x: what acted there according to their forces and
     /// stiffnesses.
     void keepFriction(std::span<const Vec3> x, Grips& held);
