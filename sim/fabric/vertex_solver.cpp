@@ -300,9 +300,10 @@ void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newt
         judge(h, newton);
         take(t + h, newton, state, report, clock);
         const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
-        const bool isFrictionFound = isLastMove && (!contacts_ || contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) <= kFrictionError);
-        if (!isFrictionFound && newton.count < most) continue;
-        newton.isSettled = newton.isSettled && isFrictionFound;
+        if (!isLastMove) continue;
+        const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
+        if (frictionError > kFrictionError && newton.count < most) continue;
+        newton.isSettled = newton.isSettled && frictionError <= kFrictionError;
         finish(h, state);
         if (!settled) settled = newton;
         newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
