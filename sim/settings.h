@@ -107,7 +107,7 @@ struct FabricSettings {
     TorsionModel torsion = TorsionModel::Ellipse;  ///< Ellipse: St-Venant; Polar: G times the polar moment, as published
     bool twist = true;                ///< yarns resist twisting
     int newton = 2;                   ///< Newton iterations per step, vertex only
-    double tolerance = 0.0;           ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5 cm/s^2 times the step
+    double tolerance = 0.0;           ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5e-3 of gravity times the step
     bool contact = true;              ///< fabric touches itself and obstacles
     int maxHalvings = 4;              ///< of a step that could not be taken, vertex only
 };
@@ -140,7 +140,7 @@ struct CouplingSettings {
     double dragExponent = 1.6;          ///< of the speed, nonlinear only; 1 = Forchheimer [-]
     bool pressureOnFabric = true;       ///< the liquid's pressure pushes fabric: buoyancy
     bool capillary = true;              ///< suction of empty pores draws the liquid around
-    bool capillaryReaction = false;     ///< and the liquid the fabric; not in the published model
+    bool capillaryReaction = true;      ///< and the liquid the fabric; not in the published model
     CaptureSettings capture;
     WickingSettings wicking;
     bool drip = true;                   ///< fabric lets go of what its pores cannot hold

@@ -36,7 +36,7 @@ PorousLaw::PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid,
       viscosity_(liquid.viscosity),
       law_(coupling.drag),
       exponent_(coupling.dragExponent),
-      inertial_(kErgun * std::pow(fibreDiameter_, exponent_ - 1.0) * std::pow(viscosity_, 1.0 - exponent_) * std::pow(density_, exponent_))
+      speedOfOne_(viscosity_ / (density_ * fibreDiameter_))
 {
 }
 
@@ -55,7 +55,8 @@ double PorousLaw::captureRate(double fraction, double cell) const
 double PorousLaw::inertialDrag(double fraction, double speed) const
 {
     if (law_ != DragLaw::Nonlinear || !(speed > 0.0)) return 0.0;
-    return inertial_ * std::pow(speed, exponent_) / ((1.0 - fraction) * std::sqrt(1.0 - fraction));
+    const double reynolds = speed / speedOfOne_;
+    return kErgun * density_ * speed * std::pow(reynolds, exponent_ - 1.0) / ((1.0 - fraction) * std::sqrt(1.0 - fraction));
 }
 
 double PorousLaw::dragOf(double k, double fraction, double inertial) const
@@ -71,10 +72,10 @@ double PorousLaw::speedUnder(double force, double k, double fraction) const
     const double linear = drag(k, fraction, 0.0);
     if (!(linear > 0.0 && force > 0.0)) return 0.0;
     double u = force / linear;
-    const double atOne = law_ == DragLaw::Nonlinear ? drag(k, fraction, 1.0) - linear : 0.0;
+    const double atOne = law_ == DragLaw::Nonlinear ? drag(k, fraction, speedOfOne_) - linear : 0.0;
     if (!(atOne > 0.0)) return u;
     // Newton from above, where the force of drag, which grows faster than the speed, leads it down to the root.
-    u = std::min(u, std::pow(force / atOne, 1.0 / (1.0 + exponent_)));
+    u = std::min(u, speedOfOne_ * std::pow(force / (atOne * speedOfOne_), 1.0 / (1.0 + exponent_)));
     for (int n = 0; n < kMostIterations; ++n) {
         const double c = drag(k, fraction, u), change = (c * u - force) / (linear + (1.0 + exponent_) * (c - linear));
         u -= change;

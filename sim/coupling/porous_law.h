@@ -44,7 +44,7 @@ class PorousLaw {
     double density_, viscosity_;                     ///< of the liquid [g/cm^3, P]
     DragLaw law_;
     double exponent_;                                ///< b, of the speed where drag is not linear [-]
-    double inertial_;                                ///< 1.75/√150 d^(b−1) μ^(1−b) ρ^b: of that part of drag [g s^(b−1)/cm^(b+2)]
+    double speedOfOne_;                              ///< μ/(ρ d): at which the Reynolds number of a fibre is 1 [cm/s]
 
     double inertialDrag(double fraction, double speed) const;
     double dragOf(double permeability, double fraction, double inertial) const;

@@ -1,9 +1,9 @@
 #include "sim/fabric/vertex_solver.h"
 
 #include "sim/core/parallel.h"
-#include "sim/core/units.h"
 #include "sim/fabric/contact/spring_step.h"
 #include "sim/fabric/energies.h"
+#include "sim/fabric/felt_acceleration.h"
 #include "sim/fabric/held.h"
 #include "sim/fabric/pins.h"
 
@@ -18,9 +18,9 @@ namespace {
 
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
-constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [gravity]
+constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
 constexpr double kLeftAtContact = 0.3;        ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
-constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [gravity]
+constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
 constexpr double kLastMove = 0.1;             ///< rms move of a Newton iteration that may be the last [radii]
@@ -29,7 +29,7 @@ constexpr double kSmallMove = 0.03;           ///< … or this small, where move
 constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
 constexpr int kMostNewton = 6;                ///< iterations to get there; more ask for halves
 constexpr double kFrictionError = 0.05;       ///< with which a step may end: more sticks where it should slide [-] …
-constexpr double kFeltFriction = 0.2;         ///< … and below which friction is too little to matter [gravity]
+constexpr double kFeltFriction = 0.2;         ///< … and below which friction is too little to matter [feltAcceleration]
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
@@ -64,8 +64,8 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     if (booksEnergy_) report.energyChanges.emplace();
     loads_ = loads;
     wholeStep_ = h;
-    feltAcceleration_ = gravity.isZero(0.0) ? kEarthGravity : gravity.norm();
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
+    feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, h);
     advance(t, h, 0, gravity, state, report, clock);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;

@@ -34,7 +34,7 @@ class VertexSolver {
     const ActiveContacts* contacts() const { return contacts_; }
 
  private:
-    static constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough: less is not felt [gravity]
+    static constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough: less is not felt [feltAcceleration]
     static constexpr double kNoGain = 1.0e-3;  ///< energy from nothing that a step may leave, relative to its motion's: more asks for iterations [-]
 
     /// The Newton iterations of one attempt so far.
@@ -101,7 +101,7 @@ class VertexSolver {
     bool guardActed_ = false;                    ///< in the last move: solids took a hand in it
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
-    double feltAcceleration_ = 0.0;              ///< by which errors are measured: gravity, or the earth's where there is none [cm/s^2]
+    double feltAcceleration_ = 0.0;              ///< feltAcceleration of the step under way [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
     FabricEnergies startEnergies_;               ///< … and its energies
     double unseenAtStart_ = 0.0;                 ///< energy of contact there that the step before has not seen [erg] …

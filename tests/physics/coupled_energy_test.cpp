@@ -300,7 +300,6 @@ TEST_P(CoupledSolvers, SuctionMovesHardlyAnythingButTheWaterThatItDraws)
     Scene scene;
     scene.settings.cell = 0.125;
     scene.settings.gravity.setZero();
-    scene.settings.coupling.capillaryReaction = true;
     scene.settings.fabric.solver = GetParam();
     scene.settings.time.mode = TimeMode::Fixed;
     scene.settings.time.dt = 3.0e-4;

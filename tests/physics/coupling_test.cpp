@@ -20,7 +20,6 @@ Scene dropAndCloth(DragLaw drag, FabricSolver solver)
     scene.settings.cell = 0.25;
     scene.settings.gravity.setZero();
     scene.settings.coupling.drag = drag;
-    scene.settings.coupling.capillaryReaction = true;  // without it suction makes momentum
     scene.settings.fabric.solver = solver;
     scene.settings.fabric.tolerance = 1.0e-8;  // what the linear solve leaves is momentum lost
     SourceSettings source;

@@ -1,9 +1,9 @@
 #include "sim/fabric/grid/grid_solver.h"
 
 #include "sim/core/parallel.h"
-#include "sim/core/units.h"
 #include "sim/fabric/contact/spring_step.h"
 #include "sim/fabric/energies.h"
+#include "sim/fabric/felt_acceleration.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,13 +12,13 @@ namespace sim {
 
 namespace {
 
-/// Rms error of accelerations at which the linear solve is good enough, relative to gravity, or to the earth's where there is none. In
-/// steps of 2e-4 s that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
+/// Rms error of accelerations at which the linear solve is good enough, relative to feltAcceleration. In steps of 2e-4 s under the earth's
+/// gravity that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
 constexpr double kAccelerationTolerance = 0.005;
-/// Beyond so many iterations errors are borne up to a share of gravity; larger ones would push liquid with forces that no fabric has, and make
+/// Beyond so many iterations errors are borne up to another share of it; larger ones would push liquid with forces that no fabric has, and make
 /// energy, so that the solve goes on however long it takes.
 constexpr int kMaxIterations = 200, kMostIterations = 20000;
-constexpr double kBearable = 0.1;  ///< [gravity]
+constexpr double kBearable = 0.1;  ///< of feltAcceleration [-]
 /// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
 /// Energy that contact may come to hold without having been solved for, relative to that of the motion and of a step's fall [-].
@@ -253,7 +253,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
                                        const FaceLoads* loads)
 {
     FabricReport report;
-    const double felt = gravity.isZero(0.0) ? kEarthGravity : gravity.norm();
+    const double felt = feltAcceleration(gravity, mass_, state.v, fabric_.radius, h);
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
