@@ -36,7 +36,6 @@ GatherSettings gatherSettings(const Scene& scene, const Workspace& work, double 
         settings.flipRatio = keptOver(transfer.flipRatio, transfer, dt);
         settings.flipVelocity = &work.grid.advected;
     }
-    settings.atMidpoint = scene.settings.time.advectsAtMidpoint();
     if (settings.modes > kModesAtSurface) settings.manyModes = &work.grid.deep;
     return settings;
 }
@@ -126,6 +125,7 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
         report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
         energy.onFaces(EnergyChange::Viscosity);
     }
+    work.grid.unpressed = work.grid.faces.velocity;
 }
 
 /// The pressure, which moves aside what is where sources have pressed liquid in.
@@ -151,9 +151,28 @@ void correct(State& state, const Settings& settings, Workspace& work, bool isMix
     report.volume = correctVolume(grid, work.obstacleField, work.pressure, settings.gravity, work.grid, strength, settings.solver.maxIterations,
                                   work.volume);
     state.uncorrected = 0.0;
-    findUnheldFaces(grid, work.obstacleField, work.centres);
-    if (isMixed) work.coupling->mixture.clearShared(work.centres.unheld);
-    keepCentresOfMass(grid, work.pressure, work.grid, work.centres, work.volume.displacement);
+    findUnheldFaces(grid, work.obstacleField, work.free);
+    if (isMixed) work.coupling->mixture.clearShared(work.free.unheld);
+    takeMeans(grid, work.pressure, work.grid, work.volume.displacement, work.free, work.volume.displacement);
+}
+
+/// Pressure and surface tension leave free liquid the momentum that it has; what liquid and fabric do to each other
+/// cancels on their faces.
+/// @param velocity  of the faces, after all of these
+void keepMomentum(const Settings& settings, const BlockGrid& grid, bool isMixed, Workspace& work, BlockArray<double, 3>& velocity)
+{
+    BlockArray<double, 3>& change = work.free.change;
+    change.resize(grid.count());
+    parallelFor(grid.count(), 4, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        const double *now = velocity.block(b), *before = work.grid.unpressed.block(b);
+        double* by = change.block(b);
+        for (std::size_t i = 0; i < BlockArray<double, 3>::kStride; ++i) by[i] = now[i] - before[i];
+    });
+    findUnheldFaces(grid, work.obstacleField, work.free);
+    if (isMixed && settings.coupling.pressureOnFabric) work.coupling->mixture.pairChange(change);
+    else if (isMixed) work.coupling->mixture.clearShared(work.free.unheld);
+    takeMeans(grid, work.pressure, work.grid, change, work.free, velocity);
 }
 
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
@@ -260,9 +279,13 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     const Settings& settings = scene.settings;
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
+    clock.start(Stage::Pressure);
+    if (plan.isMixed) work.coupling->mixture.takeDisplaced(work.grid);
+    keepMomentum(settings, grid, plan.isMixed, work, work.grid.faces.velocity);
     if (plan.reflects) {
         clock.start(Stage::Reflection);
         report.reflection = reflect(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, work.reflection);
+        keepMomentum(settings, grid, plan.isMixed, work, work.reflection.velocity);
         energy.reflected(dt);
     }
     if (!work.obstacles.empty()) {
@@ -273,17 +296,16 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
 
     clock.start(Stage::GridToParticles);
     GatherSettings gather = gatherSettings(scene, work, dt);
-    if (plan.reflects) gather.reflected = &work.reflection.velocity;
     if (plan.relaxes) gather.displacement = work.displacement.data();
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     if (work.kept) work.kept->keepModes(particles, plan.flips);
     if (!work.obstacles.empty()) keepPlaces(particles, work.places);
-    GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
+    const BlockArray<double, 3>& velocity = plan.reflects ? work.reflection.velocity : work.grid.faces.velocity;
+    GatherSums sums = facesToParticles(velocity, work.order, grid, gather, work.gather, particles);
     PushedOut pushed;
-    const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
-    report.maxSpeed = plan.reflects ? along : held;
+    report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
     if (!work.obstacles.empty()) {
-        const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
+        const double farthest = report.maxSpeed * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushed = pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles);
         sums.kinetic -= pushed.lost;
@@ -296,7 +318,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     report.particles = particles.count;
     report.blocks = grid.count();
     report.liquidCells = countLiquidCells(grid, work.grid);
-    if (!std::isfinite(held) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
+    if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
 }
 
 }  // namespace sim

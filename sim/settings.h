@@ -12,7 +12,6 @@ namespace sim {
 
 enum class TimeMode { Fixed, Cfl, Adaptive };
 enum class TimeIntegrator { Plain, Reflected };
-enum class Advection { ByIntegrator, Euler, Midpoint };
 enum class TransferMethod { Pic, Flip, Apic, PolyPic };
 enum class XiMap { Translation, Affine, AffineConservative };
 
@@ -26,13 +25,8 @@ struct TimeSettings {
     double maxCflFabric = 1.0 / 3.0;  ///< The fabric's bound, read by fabric.solver grid only [-]
     double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]
     TimeIntegrator integrator = TimeIntegrator::Reflected;  ///< Reflected: of two steps the first reflects (time-splitting 2)
-    Advection advection = Advection::ByIntegrator;      ///< Euler with plain, midpoint with reflected
 
     bool reflects() const { return integrator == TimeIntegrator::Reflected; }
-    bool advectsAtMidpoint() const
-    {
-        return advection == Advection::Midpoint || (advection == Advection::ByIntegrator && reflects());
-    }
 };
 
 /// How one phase's velocities go to the grid and back.

@@ -4,7 +4,7 @@
 #include "sim/fabric/grid/grid_solver.h"
 #include "sim/fabric/vertex_solver.h"
 #include "sim/kept_state.h"
-#include "sim/liquid/centre_of_mass.h"
+#include "sim/liquid/free_liquid.h"
 #include "sim/liquid/walls.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/pressure.h"
@@ -39,7 +39,7 @@ struct Workspace {
     WallFaces wallFaces;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;
-    CentreWorkspace centres;
+    FreeLiquid free;
     SurfaceTensionWorkspace surfaceTension;
     std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
     std::array<AlignedArray<double>, kAxes> places;        ///< of the particles before they move, where there are obstacles [cm]

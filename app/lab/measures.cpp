@@ -142,8 +142,19 @@ void Measures::addLiquid(Names& names)
     names.push_back({"pressure", 3, [this](Arguments x) { return pressureAt({x[0], x[1], x[2]}); }});
 }
 
+/// Of the liquid, and of the fabric with what it has absorbed [g cm/s].
+double Measures::momentum(int axis) const
+{
+    double sum = 0.0;
+    for (std::size_t p = 0; p < liquid().count; ++p) sum += liquid().mass[p] * liquid().velocity(p)[axis];
+    const sim::FabricState& fabric = simulation_->state().fabric;
+    for (std::size_t v = 0; v < fabric.v.size(); ++v) sum += (simulation_->fabric().mass[v] + fabric.absorbed[v]) * fabric.v[v][axis];
+    return sum;
+}
+
 void Measures::addLiquidAlong(int a, Names& names)
 {
+    names.push_back({along("momentum_", a), 0, [this, a](Arguments) { return momentum(a); }});
     names.push_back({along("liquid_", a), 0, [this, a](Arguments) {
                          return meanOf(liquid(), [this, a](std::size_t p) { return liquid().x[a][p]; });
                      }});

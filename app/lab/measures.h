@@ -16,7 +16,7 @@ class Steppable;
 
 /// What a formula of a validation can read of a simulation as it is, in cgs. With a for x, y, z:
 ///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va, spin_a (angular
-///    momentum about it), speed (largest), rms_speed, kinetic, potential, energy (of everything), wave_a(k) (mean of
+///    momentum about it), speed (largest), rms_speed, kinetic, potential, energy and momentum_a (of everything), wave_a(k) (mean of
 ///    cos k a), mass_a(from, to) (of liquid between two planes);
 ///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
 ///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
@@ -44,6 +44,7 @@ class Measures {
     void addFlow(Names& names);
     void addFabric(Names& names);
     void addFabricAlong(int axis, Names& names);
+    double momentum(int axis) const;
     const sim::LiquidParticles& liquid() const;
     std::size_t vertex(double number) const;
     sim::Vec3 flowAt(const sim::Vec3& x) const;

@@ -29,12 +29,11 @@ std::string randomTime(Dice& dice, const RandomPile& pile, double dt)
 {
     const std::string_view mode = dice.oneOf({"fixed", "cfl", "adaptive"});
     const std::string_view integrator = dice.oneOf({"plain", "plain", "reflected"});
-    const std::string_view advection = dice.oneOf({"auto", "euler", "midpoint"});
     const double cfl = dice.acrossScales(0.2, 3.0);
     const std::string lifted = dice.chance(0.3) ? ", max_cfl: {liquid: 30, fabric: 30}" : "";
     return fmt::format(
-        "time: {{dt: {:.4g}, duration: {:.4g}, mode: {}, cfl: {:.3g}, dt_min: {:.3g}, integrator: {}, advection: {}{}}}\n",
-        dt, pile.duration, mode, cfl, dt / 300.0, integrator, advection, lifted);
+        "time: {{dt: {:.4g}, duration: {:.4g}, mode: {}, cfl: {:.3g}, dt_min: {:.3g}, integrator: {}{}}}\n",
+        dt, pile.duration, mode, cfl, dt / 300.0, integrator, lifted);
 }
 
 std::string randomGravity(Dice& dice)

@@ -166,6 +166,19 @@ void Mixture::addDisplaced(LiquidGrid& liquid) const
     });
 }
 
+void Mixture::takeDisplaced(LiquidGrid& liquid) const
+{
+    forEachShared([&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] = liquidMass_.block(b, a)[c]; });
+}
+
+void Mixture::pairChange(BlockArray<double, 3>& change) const
+{
+    forEachShared([&](int b, int m, int a, int c) {
+        const double pushed = liquidVolume_.block(b, a)[c] + onFaces_.solid.block(b, a)[c];
+        change.block(m, a)[c] = -pushed * push_.block(b, a)[c] / liquidMass_.block(b, a)[c];
+    });
+}
+
 void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient)
 {
     const double scale = dt_ / (onFaces_.grid().dx * onFaces_.grid().dx);

@@ -34,6 +34,11 @@ class Mixture {
     void separate(const FabricState& state, LiquidGrid& liquid);
     void separate(const FabricFaces& faces, LiquidGrid& liquid);
 
+    /// The mass of the liquid's faces is that of the liquid alone again, where room that fabric takes up counted as full.
+    void takeDisplaced(LiquidGrid& liquid) const;
+    /// What pressure and surface tension did to liquid and fabric together on these faces, as a change of the liquid's velocity alone [cm/s].
+    void pairChange(BlockArray<double, 3>& change) const;
+
     /// Set what the liquid has on these faces to 0.
     void clearShared(BlockArray<double, 3>& values) const;
     void clearShared(BlockBits<3>& faces) const;

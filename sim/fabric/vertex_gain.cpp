@@ -100,20 +100,22 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
     slowDown(energies(state, gravity).total() - allowed, state);
 }
 
-/// Takes energy [erg] from the motion of what is not pinned, as far as there is any.
+/// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift.
 void VertexSolver::slowDown(double energy, FabricState& state) const
 {
+    const std::vector<Vec3> drift = driftOfPieces(state);
+    const auto relative = [&](std::size_t v) { return Vec3(state.v[v] - drift[groups_.pieceOf(static_cast<int>(v))]); };
     double kinetic = 0.0;
     for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * state.v[v].squaredNorm();
+        if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * relative(v).squaredNorm();
     for (std::size_t e = 0; e < state.omega.size(); ++e)
         if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * fabric_.edges.twistInertia[e] * state.omega[e] * state.omega[e];
     if (!(energy > 0.0 && kinetic > 0.0)) return;
-    const double slower = std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
+    const double lost = 1.0 - std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
     for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric_.pinned[v]) state.v[v] *= slower;
+        if (!fabric_.pinned[v]) state.v[v] -= lost * relative(v);
     for (std::size_t e = 0; e < state.omega.size(); ++e)
-        if (!fabric_.edges.twistHeld[e]) state.omega[e] *= slower;
+        if (!fabric_.edges.twistHeld[e]) state.omega[e] *= 1.0 - lost;
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.

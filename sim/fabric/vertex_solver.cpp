@@ -40,7 +40,7 @@ constexpr int kMostTurns = 8;                 ///< of solids and of pairs in lim
 }  // namespace
 
 VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles)
-    : fabric_(fabric), settings_(settings), system_(fabric, settings), restReference_(restState(fabric).reference)
+    : fabric_(fabric), settings_(settings), system_(fabric, settings), groups_(fabric), restReference_(restState(fabric).reference)
 {
     if (settings.contact) {
         contact_.emplace(fabric);
@@ -65,8 +65,11 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     loads_ = loads;
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
-    feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, h);
+    feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
+    groups_.begin();
+    findMomenta(state);
     advance(t, h, 0, gravity, state, report, clock);
+    keepMomentum(h, gravity, state);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
 }
@@ -329,6 +332,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     report.takenFraction = std::min(report.takenFraction, fraction);
 
     if (isShort) ++report.shortened;
+    findGroups();
     const bool mayHaveGained = startIsLookedAt_ || isShort;
     if (mayHaveGained && !isDriven_) giveNoEnergy(t, h, gravity, state, report, clock);
     std::optional<EnergyChanges> changes;

@@ -2,6 +2,7 @@
 
 #include "sim/fabric/contact/contact.h"
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/groups.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
@@ -72,6 +73,10 @@ class VertexSolver {
     EnergyChanges slowDriven(double h, const Vec3& gravity, FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void slowDown(double energy, FabricState& state) const;
+    void findGroups();
+    void findMomenta(const FabricState& state);
+    std::vector<Vec3> driftOfPieces(const FabricState& state) const;
+    void keepMomentum(double h, const Vec3& gravity, FabricState& state);
     std::vector<char> heldBySolids() const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
@@ -83,6 +88,9 @@ class VertexSolver {
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
     SolidGuard guard_;
+    FabricGroups groups_;                        ///< of the step under way …
+    std::vector<Vec3> momentum_;                 ///< … and of each piece, at its start [g cm/s]
+    std::vector<Vec3> missing_, groupInertia_;   ///< of each group, at its end [g cm/s, g]
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
     /// The last state whose elastic energies were asked for: a step begins where the one before has ended.

@@ -29,13 +29,6 @@ inline std::span<const Choice<TimeIntegrator>> choicesOf(TimeIntegrator)
     return kAll;
 }
 
-inline std::span<const Choice<Advection>> choicesOf(Advection)
-{
-    static constexpr Choice<Advection> kAll[] = {
-        {"auto", Advection::ByIntegrator}, {"euler", Advection::Euler}, {"midpoint", Advection::Midpoint}};
-    return kAll;
-}
-
 inline std::span<const Choice<TransferMethod>> choicesOf(TransferMethod)
 {
     static constexpr Choice<TransferMethod> kAll[] = {{"pic", TransferMethod::Pic},
@@ -79,7 +72,6 @@ void describe(V& v, TimeSettings& t)
              "A run that needs smaller steps stops with a message");
     v.require(t.dtMin <= t.dt, "dt_min", "must not be above time.dt");
     v.choice("integrator", t.integrator, "How advection and pressure take turns");
-    v.choice("advection", t.advection, "How particles follow the velocity; auto: midpoint with reflected, else euler");
 }
 
 template <class V>

@@ -182,7 +182,7 @@ void apply(const ReadTransform& transform, const char* key, ReadShape& body)
 }
 
 /// The one key of the shape that says what body it is.
-std::string kindOf(const Node& node, const std::string& path)
+std::string shapeKind(const Node& node, const std::string& path)
 {
     static const std::vector<std::string> kKinds = {"box",  "rounded_box", "ball",      "capsule",  "cylinder",
                                                     "mesh", "union",       "intersect", "subtract", "invert"};
@@ -207,7 +207,7 @@ std::string kindOf(const Node& node, const std::string& path)
 
 ReadShape readShape(const Node& node, const std::string& path, double cell)
 {
-    const std::string kind = kindOf(node, path);
+    const std::string kind = shapeKind(node, path);
     const Node& given = *node.find(kind);
     ReadShape body = readBody(given, {joinPath(path, kind), cell}, kind);
     body.text = kind + ": " + body.text;

@@ -31,15 +31,14 @@ struct Context {
     GatherScratch& scratch;
     Vec3 origin;
     double dx;
-    const GatherTile& tile;      ///< of the velocities whose modes are gathered
-    const GatherTile& moving;    ///< of those that the particles move with
+    const GatherTile& tile;      ///< of the velocities
     const GatherTile* flipTile;  ///< of the old velocities, or null
     const GatherTile* displacementTile;  ///< or null
     int modes;                   ///< N_r
 };
 
 struct LaneSums {
-    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
+    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0);
 };
 
 /// Gather one component of n ≤ 8 particles starting at s: monomials, in c and in the particles' rows.
@@ -97,26 +96,6 @@ template <int kAxis>
     });
 }
 
-/// Velocities along the paths of 8 particles at x that move with other velocities than those they get, or by the midpoint
-/// rule: out of line, for the others pay nothing.
-[[gnu::noinline]] void findPaths(const Context& ctx, int node, int n, const Pack (&x)[3], Pack (&path)[3], Pack& maxSquared)
-{
-    Operators<2> op[3];
-    for (int a = 0; a < kAxes; ++a) {
-        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
-        setOperators<2, false>(inCells - floorPack(inCells), op[a]);
-    }
-    Coefficients<2> c[3];
-    unroll<3>([&](auto a) { contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c[a]); });
-    const double half = ctx.settings.atMidpoint ? 0.5 * ctx.settings.dt / ctx.dx : 0.0;
-    Pack squared = broadcast(0.0);
-    for (int a = 0; a < kAxes; ++a) {
-        path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * c[0][0][0][0] + c[a][0][1][0] * c[1][0][0][0] + c[a][0][0][1] * c[2][0][0][0]);
-        squared += path[a] * path[a];
-    }
-    maxSquared = maxPack(maxSquared, select(firstLanes(n), squared, broadcast(0.0)));
-}
-
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
 constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
@@ -143,9 +122,7 @@ template <class Set, int kModes, bool kFold, class Rows>
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
     Pack path[3];
-    if (ctx.settings.reflected != nullptr || ctx.settings.atMidpoint) findPaths(ctx, node, n, x, path, sums.maxPathSquared);
-    else
-        for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
+    for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
     if (ctx.displacementTile != nullptr) displace(ctx, node, x);
     Pack speedSquared = zero, xi[3];
     for (int a = 0; a < kAxes; ++a) {
@@ -217,7 +194,6 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
     sums.modal += 0.5 * sumLanes(lanes.modal);
     for (int l = 0; l < kLanes; ++l) {
         sums.maxSpeedSquared = larger(lanes.maxSpeedSquared[l], sums.maxSpeedSquared);
-        sums.maxPathSquared = larger(lanes.maxPathSquared[l], sums.maxPathSquared);
     }
     return sums;
 }
@@ -233,7 +209,7 @@ void sortOldVelocities(const LiquidParticles& particles, const ParticleOrder& or
 
 }  // namespace
 
-GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
+GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
                             GatherScratch& scratch, LiquidParticles& particles)
 {
     if (settings.flipVelocity != nullptr) sortOldVelocities(particles, order, scratch);
@@ -242,9 +218,8 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
         parallelFor(order.occupied.size(), [&](std::size_t n) {
             const int block = order.occupied[n];
             const OccupiedBox box(order.cells(block));
-            GatherTile tile, moving, flipTile, displacementTile;
-            loadTile(settings.reflected ? *settings.reflected : faces.velocity, grid, block, box, tile);
-            if (settings.reflected != nullptr) loadTile(faces.velocity, grid, block, box, moving);
+            GatherTile tile, flipTile, displacementTile;
+            loadTile(velocity, grid, block, box, tile);
             if (settings.flipVelocity != nullptr) loadTile(*settings.flipVelocity, grid, block, box, flipTile);
             if (settings.faceDisplacement != nullptr) loadTile(*settings.faceDisplacement, grid, block, box, displacementTile);
             const Context ctx{settings,
@@ -253,7 +228,6 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
                               grid.origin,
                               grid.dx,
                               tile,
-                              settings.reflected ? moving : tile,
                               settings.flipVelocity ? &flipTile : nullptr,
                               settings.faceDisplacement ? &displacementTile : nullptr,
                               settings.modes};
@@ -268,7 +242,6 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
         total.kinetic += s.kinetic;
         total.modal += s.modal;
         total.maxSpeedSquared = larger(s.maxSpeedSquared, total.maxSpeedSquared);
-        total.maxPathSquared = larger(s.maxPathSquared, total.maxPathSquared);
     }
     return total;
 }

@@ -18,10 +18,6 @@ struct GatherSettings {
 
     /// FLIP: the face velocities straight after P2G, before any force; else null.
     const BlockArray<double, 3>* flipVelocity = nullptr;
-    /// Velocities of the faces whose modes the particles get, where these are not those that they move with; else null.
-    const BlockArray<double, 3>* reflected = nullptr;
-    /// Particles move with their velocity where it will have taken them in half the step, by the linear modes.
-    bool atMidpoint = false;
     /// Displacements of the particles to add to the positions [cm], one array per axis; null where there are none.
     const AlignedArray<double>* displacement = nullptr;
     /// Displacements on the faces [cm], interpolated at the old positions and added to the new ones; null where there are none.
@@ -39,7 +35,6 @@ inline constexpr int kModesAtSurface = 8;
 /// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speeds [cm²/s²].
 struct GatherSums {
     double kinetic = 0.0, modal = 0.0, maxSpeedSquared = 0.0;
-    double maxPathSquared = 0.0;  ///< along paths other than those of the velocities gathered; else 0
 };
 
 struct GatherScratch {
@@ -49,8 +44,9 @@ struct GatherScratch {
 
 /// G2P: gather the modes of every particle into its own row and move it (model-fluid 4, 10). Same as
 /// facesToParticlesReference to round-off. Lanes = particles of one cell (kernel-design 6).
+/// @param velocity  of the faces, with those behind walls that particles read [cm/s]
 /// @return the sums over all particles, in the order of the blocks
-GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
+GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
                             GatherScratch& scratch, LiquidParticles& particles);
 
 }  // namespace sim

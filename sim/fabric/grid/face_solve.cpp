@@ -95,4 +95,29 @@ FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v,
     return report;
 }
 
+void FaceSystem::balance(std::span<const int> groupOfBlock, int groups, FaceVector& v)
+{
+    left_.assign(groups, Vec3::Zero());
+    moving_.assign(groups, Vec3::Zero());
+    for (int b = 0; b < blocks(); ++b) {
+        const int group = groupOfBlock[b];
+        if (group < 0) continue;
+        for (int a = 0; a < kAxes; ++a) {
+            const double *m = mass_.block(b, a), *r = residual_.faces.block(b, a);
+            for (int c = 0; c < kBlockCells; ++c)
+                if (m[c] > 0.0) left_[group][a] += r[c], moving_[group][a] += m[c];
+        }
+    }
+    parallelFor(blocks(), 8, [&](std::size_t n) {
+        const int b = static_cast<int>(n), group = groupOfBlock[b];
+        if (group < 0) return;
+        for (int a = 0; a < kAxes; ++a) {
+            const double *m = mass_.block(b, a), change = left_[group][a] / moving_[group][a];
+            double* u = v.faces.block(b, a);
+            for (int c = 0; c < kBlockCells; ++c)
+                if (m[c] > 0.0) u[c] += change;
+        }
+    });
+}
+
 }  // namespace sim

@@ -77,6 +77,11 @@ class FaceSystem {
     ///                  nearest to the solution in A's norm; or null
     FaceSolveReport solve(const FaceTolerance& tolerance, FaceVector& v, const BlockArray<double, 3>* expected = nullptr);
 
+    /// Moves the faces of each group of blocks alike, so that what the last solve has left of the balance of forces sums to nothing over them:
+    /// the fabric's own forces do not answer to moving all of it.
+    /// @param groupOfBlock  below `groups`; −1 for blocks that are left alone
+    void balance(std::span<const int> groupOfBlock, int groups, FaceVector& v);
+
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
     AlignedArray<double>& onVertices(const FaceVector& u);
     /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness
@@ -144,6 +149,7 @@ class FaceSystem {
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
     FaceVector residual_, p_, q_;  ///< of the solve
+    std::vector<Vec3> left_, moving_;  ///< of each group: its sum of residuals [g cm/s] and of masses [g]
 };
 
 /// Sum over body(isFace, i, sum) for the packs at i of faces with mass, and of twist.

@@ -35,6 +35,7 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
       contact_(fabric),
       particles_(fabric, settings),
       system_(fabric, stiffness_, contact_),
+      groups_(fabric),
       meetsLiquid_(meetsLiquid),
       mass_(fabric.mass)
 {
@@ -253,7 +254,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
                                        const FaceLoads* loads)
 {
     FabricReport report;
-    const double felt = feltAcceleration(gravity, mass_, state.v, fabric_.radius, h);
+    const double felt = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
@@ -278,6 +279,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     const FaceTolerance until{tolerance, kMaxIterations, kBearable * felt * h, kMostIterations};
     solve(until, expectedChange(state), report);
     if (settings_.contact) meetUnforeseen(h, kUnforeseen * kinetic, until, state, report);
+    keepMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
     if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/grid/face_system.h"
+#include "sim/fabric/groups.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
@@ -61,6 +62,8 @@ class GridFabricSolver {
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     void solve(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void meetUnforeseen(double h, double bearable, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    void findGroups(std::span<const ObstacleContact> touching);
+    void keepMomentum(std::span<const ObstacleContact> touching);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void keepChange(FabricState& state) const;
     void keepAccelerations(double h, FabricState& state);
@@ -77,6 +80,8 @@ class GridFabricSolver {
     FaceSystem system_;
     FabricObstacles obstacles_;
     SolidGuard guard_;
+    FabricGroups groups_;                           ///< of the step under way …
+    std::vector<int> groupOfBlock_, nearBlock_;     ///< … and of blocks (findGroups)
     FaceVector velocity_;
     bool meetsLiquid_, booksEnergy_ = false;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]

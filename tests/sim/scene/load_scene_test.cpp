@@ -61,7 +61,7 @@ TEST(LoadScene, EverySettingOfAFileArrives)
     const Scene scene = load(R"(
 drench: 1
 scene: {name: all, title: All of it, description: Every key, tags: [a, b]}
-time: {dt: 1.0e-2, duration: 2, start: 1, mode: cfl, cfl: 0.5, max_cfl: {liquid: 2, fabric: 0.25}, dt_min: 1.0e-9, integrator: reflected, advection: euler}
+time: {dt: 1.0e-2, duration: 2, start: 1, mode: cfl, cfl: 0.5, max_cfl: {liquid: 2, fabric: 0.25}, dt_min: 1.0e-9, integrator: reflected}
 grid: {cell: 0.2}
 gravity: [1, 2, 3]
 transfer:
@@ -102,7 +102,6 @@ domain: {box: {min: [-9, -9, -9], max: [9, 9, 9]}}
     EXPECT_EQ(0.5, s.time.cfl);
     EXPECT_EQ(2.0, s.time.maxCflLiquid);
     EXPECT_TRUE(s.time.reflects());
-    EXPECT_FALSE(s.time.advectsAtMidpoint());
     EXPECT_EQ(0.25, s.time.maxCflFabric);
     EXPECT_EQ(1.0e-9, s.time.dtMin);
     EXPECT_EQ(Vec3(1, 2, 3), s.gravity);

@@ -73,63 +73,6 @@ TEST(Flip, IsPicWithRatioZeroAndMovesAsPicWithAny)
     EXPECT_GT(largest, 0.1);
 }
 
-Vec3 affine(const Vec3& x)
-{
-    return {0.3 - x.x() + 2.0 * x.y() + 0.5 * x.z(), 1.0 - 2.0 * x.x() - 0.4 * x.z(), -0.7 + 0.3 * x.y() + x.z()};
-}
-
-/// x + dt u(x + dt/2 u(x)), which linear modes know exactly, whatever the particle keeps of the field.
-TEST(Midpoint, IsExactInAffineFields)
-{
-    const double dt = 0.05;
-    for (const int modes : {1, 4, 8, 11, 27}) {
-        SCOPED_TRACE(modes);
-        for (const bool reflects : {false, true}) {
-            Transfers t(randomLiquid(2000, modes));
-            t.setVelocities([&](int axis, int b, int c) { return affine(faceMiddle(t.grid(), axis, b, c))[axis]; });
-            const LiquidParticles before = t.liquid.particles;
-            FaceFields other;
-            fillRandomVelocities(t.grid(), other);
-            GatherSettings settings;
-            settings.modes = modes;
-            settings.dt = dt;
-            settings.atMidpoint = true;
-            if (reflects) settings.reflected = &other.velocity;
-            t.toParticles(settings);
-            for (std::size_t s = 0; s < before.count; ++s) {
-                const Vec3 x = before.position(s), end = x + dt * affine(x + 0.5 * dt * affine(x));
-                EXPECT_LT((t.liquid.particles.position(s) - end).norm(), 1e-13);
-            }
-        }
-    }
-}
-
-/// Particles get the modes of one field and move with another.
-TEST(Reflected, GathersOneFieldAndMovesWithAnother)
-{
-    for (const int modes : {1, 4, 8, 11, 27}) {
-        SCOPED_TRACE(modes);
-        Transfers moved(randomLiquid(2000, modes)), given(randomLiquid(2000, modes)), both(randomLiquid(2000, modes));
-        fillRandomVelocities(moved.grid(), moved.faces);
-        fillRandomVelocities(given.grid(), given.faces);
-        given.setVelocities([&](int axis, int b, int c) { return -0.3 * given.velocity(axis, b, c) + 0.1 * axis; });
-        both.faces = moved.faces;
-        GatherSettings settings;
-        settings.modes = modes;
-        settings.dt = 0.05;
-        moved.toParticles(settings);
-        given.toParticles(settings);
-        settings.reflected = &given.faces.velocity;
-        both.toParticles(settings);
-        const LiquidParticles &p = both.liquid.particles, &q = given.liquid.particles;
-        for (std::size_t s = 0; s < p.count; ++s) {
-            EXPECT_LT((p.position(s) - moved.liquid.particles.position(s)).norm(), 1e-14);
-            for (int a = 0; a < kAxes; ++a)
-                for (int r = 0; r < modes; ++r) EXPECT_EQ(p.mode(a, r)[s], q.mode(a, r)[s]);
-        }
-    }
-}
-
 TEST(Damping, ScalesAllModesButTheMean)
 {
     const double keep = 0.37;

@@ -1,4 +1,4 @@
-#include "sim/liquid/centre_of_mass.h"
+#include "sim/liquid/free_liquid.h"
 
 #include "sim/liquid/cells.h"
 #include "sim/liquid/volume.h"
@@ -42,9 +42,9 @@ struct Pieces {
         scene.project(1.0e-3);
         correctVolume(scene.grid, scene.field, scene.work, Vec3(0.0, -981.0, 0.0), scene.liquid, 0.5, 200, volume);
         asFound = volume.displacement;
-        CentreWorkspace work;
+        FreeLiquid work;
         findUnheldFaces(scene.grid, scene.field, work);
-        keepCentresOfMass(scene.grid, scene.work, scene.liquid, work, volume.displacement);
+        takeMeans(scene.grid, scene.work, scene.liquid, volume.displacement, work, volume.displacement);
     }
 
     /// Mean displacement of one ball, and of the pool after them [cm].

@@ -1,16 +1,17 @@
-#include "sim/liquid/centre_of_mass.h"
+#include "sim/liquid/free_liquid.h"
 
 #include "sim/core/parallel.h"
 #include "sim/grid/rows.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace sim {
 
 namespace {
 
-using Body = CentreWorkspace::Body;
+using Body = FreeLiquid::Body;
 
 constexpr int kBlocksPerTask = 4;
 
@@ -19,8 +20,9 @@ struct Fields {
     const BlockGrid& grid;
     const PressureWorkspace& pressure;
     const LiquidGrid& liquid;
-    const CentreWorkspace& work;
-    BlockArray<double, 3>& displacement;
+    const BlockArray<double, 3>& others;
+    const FreeLiquid& work;
+    BlockArray<double, 3>& values;
 
     const ConnectedComponents& components() const { return pressure.solver.components(); }
     PackMask moving(int b, int a, int row) const { return loadPack(pressure.coefficient.block(b, a) + row) > 0.0; }
@@ -58,30 +60,50 @@ bool isHeld(const Fields& fields, int b)
     return false;
 }
 
-/// Sums over the lower faces of a block that belongs to one body.
-Body sumOverBlock(const Fields& fields, int b)
+/// Marks the bodies that something holds on a lower face of a cell of a block that several belong to.
+void holdByFaces(const Fields& fields, int b, std::vector<Body>& bodies)
 {
-    Body sum;
-    for (int a = 0; a < kAxes; ++a) {
-        const double *mass = fields.liquid.faces.sums.block(b, FaceFields::kMass + a), *displacement = fields.displacement.block(b, a);
-        Pack masses = broadcast(0.0), moved = masses;
-        for (int row = 0; row < kBlockCells; row += kLanes) {
-            const Pack m = select(fields.moving(b, a, row), loadPack(mass + row), broadcast(0.0));
-            masses += m;
-            moved += m * loadPack(displacement + row);
+    const BitAccess access(fields.grid, b);
+    for (int a = 0; a < kAxes; ++a)
+        for (int k = 0; k < kBlockEdge; ++k) {
+            const std::uint64_t inside = fields.liquid.inside.block(b)[k] | access.below(fields.liquid.inside, 0, a, k);
+            for (std::uint64_t held = inside & ~fields.work.unheld.block(b, a)[k]; held != 0; held &= held - 1)
+                for (int body : fields.bodiesOf(b, a, 64 * k + std::countr_zero(held)))
+                    if (body >= 0) bodies[body].isHeld = true;
         }
-        sum.mass[a] = sumLanes(masses);
-        sum.moved[a] = sumLanes(moved);
-    }
-    sum.isHeld = isHeld(fields, b);
-    return sum;
 }
 
-void add(const Body& part, Body& sum)
+void findHeld(const Fields& fields, std::vector<Body>& ofBlock, std::vector<Body>& bodies)
 {
-    sum.mass += part.mass;
-    sum.moved += part.moved;
-    sum.isHeld = sum.isHeld || part.isHeld;
+    const int blocks = fields.grid.count();
+    ofBlock.resize(blocks);
+    parallelFor(blocks, kBlocksPerTask, [&](std::size_t b) {
+        ofBlock[b] = {};
+        if (fields.bodyOf(static_cast<int>(b)) >= 0) ofBlock[b].isHeld = isHeld(fields, static_cast<int>(b));
+    });
+    bodies.assign(fields.components().count(), {});
+    for (int b = 0; b < blocks; ++b) {
+        const int body = fields.bodyOf(b);
+        if (body >= 0) bodies[body].isHeld = bodies[body].isHeld || ofBlock[b].isHeld;
+        else if (body == ConnectedComponents::kSeveral) holdByFaces(fields, b, bodies);
+    }
+}
+
+/// Sums over the lower faces of a block that belongs to one body.
+void sumOverBlock(const Fields& fields, int b, Body& sum)
+{
+    for (int a = 0; a < kAxes; ++a) {
+        const double *mass = fields.liquid.faces.sums.block(b, FaceFields::kMass + a), *value = fields.others.block(b, a);
+        Pack masses = broadcast(0.0), values = masses;
+        for (int row = 0; row < kBlockCells; row += kLanes) {
+            const PackMask moving = fields.moving(b, a, row);
+            const Pack m = select(moving, loadPack(mass + row), broadcast(0.0));
+            masses += m;
+            values += select(moving, m * loadPack(value + row), broadcast(0.0));
+        }
+        sum.mass[a] = sumLanes(masses);
+        sum.sum[a] = sumLanes(values);
+    }
 }
 
 /// Add the lower faces of a block's cells to the several bodies that they belong to.
@@ -89,68 +111,65 @@ void addByFaces(const Fields& fields, int b, std::vector<Body>& bodies)
 {
     for (int a = 0; a < kAxes; ++a)
         for (int c = 0; c < kBlockCells; ++c) {
-            const double displacement = fields.displacement.block(b, a)[c];
-            const bool moves = fields.pressure.coefficient.block(b, a)[c] > 0.0;
-            const bool isHeld = !fields.work.unheld.test(b, c, a);
-            if (!moves && !isHeld) continue;
-            const double mass = moves ? fields.liquid.faces.sums.block(b, FaceFields::kMass + a)[c] : 0.0;
+            if (!(fields.pressure.coefficient.block(b, a)[c] > 0.0)) continue;
             const std::array<int, 2> both = fields.bodiesOf(b, a, c);
-            for (int body : both)
-                if (body >= 0) bodies[body].isHeld = bodies[body].isHeld || isHeld;
             const int body = std::max(both[0], both[1]);  // the same, where both are, as the face moves
-            if (body < 0) continue;
+            if (body < 0 || bodies[body].isHeld) continue;
+            const double mass = fields.liquid.faces.sums.block(b, FaceFields::kMass + a)[c];
             bodies[body].mass[a] += mass;
-            bodies[body].moved[a] += mass * displacement;
+            bodies[body].sum[a] += mass * fields.others.block(b, a)[c];
         }
 }
 
-void findBodies(const Fields& fields, std::vector<Body>& ofBlock, std::vector<Body>& bodies)
+/// Of the free bodies.
+void findSums(const Fields& fields, std::vector<Body>& ofBlock, std::vector<Body>& bodies)
 {
     const int blocks = fields.grid.count();
-    ofBlock.resize(blocks);
     parallelFor(blocks, kBlocksPerTask, [&](std::size_t b) {
-        if (fields.bodyOf(static_cast<int>(b)) >= 0) ofBlock[b] = sumOverBlock(fields, static_cast<int>(b));
+        const int body = fields.bodyOf(static_cast<int>(b));
+        if (body >= 0 && !bodies[body].isHeld) sumOverBlock(fields, static_cast<int>(b), ofBlock[b]);
     });
-    bodies.assign(fields.components().count(), {});
     for (int b = 0; b < blocks; ++b) {
         const int body = fields.bodyOf(b);
-        if (body >= 0) add(ofBlock[b], bodies[body]);
-        else if (body == ConnectedComponents::kSeveral) addByFaces(fields, b, bodies);
+        if (body == ConnectedComponents::kSeveral) addByFaces(fields, b, bodies);
+        if (body < 0 || bodies[body].isHeld) continue;
+        bodies[body].mass += ofBlock[b].mass;
+        bodies[body].sum += ofBlock[b].sum;
     }
 }
 
-/// Mean displacement of a body that nothing holds; 0 of others.
-Vec3 driftOf(const Body& body)
+/// Of a body that nothing holds; 0 of others.
+Vec3 meanOf(const Body& body)
 {
     if (body.isHeld) return Vec3::Zero();
-    return body.moved.cwiseQuotient(body.mass.cwiseMax(std::numeric_limits<double>::min()));
+    return body.sum.cwiseQuotient(body.mass.cwiseMax(std::numeric_limits<double>::min()));
 }
 
 void shiftBlock(const Fields& fields, int b)
 {
     const int one = fields.bodyOf(b);
     if (one == -1) return;
-    const Vec3 drift = one >= 0 ? driftOf(fields.work.bodies[one]) : Vec3::Zero();
-    if (one >= 0 && drift.isZero(0.0)) return;
+    const Vec3 mean = one >= 0 ? meanOf(fields.work.bodies[one]) : Vec3::Zero();
+    if (one >= 0 && mean.isZero(0.0)) return;
     for (int a = 0; a < kAxes; ++a) {
-        double* displacement = fields.displacement.block(b, a);
+        double* values = fields.values.block(b, a);
         for (int row = 0; row < kBlockCells; row += kLanes) {
-            Pack shift = broadcast(drift[a]);
+            Pack shift = broadcast(mean[a]);
             const unsigned moving = maskBits(fields.moving(b, a, row));
             if (one < 0)
                 for (int i = 0; i < kLanes; ++i) {
                     const std::array<int, 2> both = (moving >> i & 1) != 0 ? fields.bodiesOf(b, a, row + i) : std::array{-1, -1};
                     const int body = std::max(both[0], both[1]);
-                    shift[i] = body >= 0 ? driftOf(fields.work.bodies[body])[a] : 0.0;
+                    shift[i] = body >= 0 ? meanOf(fields.work.bodies[body])[a] : 0.0;
                 }
-            storePack(displacement + row, loadPack(displacement + row) - select(maskOfBits(moving), shift, broadcast(0.0)));
+            storePack(values + row, loadPack(values + row) - select(maskOfBits(moving), shift, broadcast(0.0)));
         }
     }
 }
 
 }  // namespace
 
-void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, CentreWorkspace& work)
+void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, FreeLiquid& work)
 {
     work.unheld.resize(grid.count());
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
@@ -167,12 +186,13 @@ void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, Cent
     });
 }
 
-void keepCentresOfMass(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, CentreWorkspace& work,
-                       BlockArray<double, 3>& displacement)
+void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
+               FreeLiquid& work, BlockArray<double, 3>& values)
 {
-    const Fields fields{grid, pressure, liquid, work, displacement};
-    findBodies(fields, work.ofBlock, work.bodies);
+    const Fields fields{grid, pressure, liquid, others, work, values};
+    findHeld(fields, work.ofBlock, work.bodies);
     if (std::ranges::all_of(work.bodies, [](const Body& body) { return body.isHeld; })) return;
+    findSums(fields, work.ofBlock, work.bodies);
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t b) { shiftBlock(fields, static_cast<int>(b)); });
 }
 

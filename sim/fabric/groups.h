@@ -1,0 +1,43 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// Pieces of fabric that act on each other form a group. What nothing outside of it holds keeps its momentum, but for weight and liquid.
+class FabricGroups {
+ public:
+    explicit FabricGroups(const Fabric& fabric);
+
+    /// Every piece is a group of its own, held where it has pins.
+    void begin();
+    /// Two pieces, or those of these vertices, act on each other.
+    void join(int first, int second);
+    void joinVertices(std::span<const int> vertices);
+    /// Something outside the fabric acts on the vertex, or on all of it.
+    void hold(int vertex) { isHeld_[rootOf(pieceOf_[vertex])] = 1; }
+    void holdAll();
+
+    int pieces() const { return static_cast<int>(root_.size()); }
+    int pieceOf(int vertex) const { return pieceOf_[vertex]; }
+    /// The piece that stands for the group of a piece, or −1 where it is held.
+    int freeGroupOf(int piece) const
+    {
+        const int root = rootOf(piece);
+        return isHeld_[root] != 0 ? -1 : root;
+    }
+    bool anyFree() const;
+
+ private:
+    int rootOf(int piece) const;
+
+    std::vector<int> pieceOf_;       ///< of each vertex: its mesh or strand
+    std::vector<char> isPinned_;     ///< of each piece
+    mutable std::vector<int> root_;  ///< of each piece, one nearer to that of its group
+    std::vector<char> isHeld_;       ///< of each group, at its root
+};
+
+}  // namespace sim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "sim/liquid/pressure.h"
+
+#include <vector>
+
+namespace sim {
+
+/// Pieces of liquid that nothing holds: what acts within them moves neither their centre of mass nor changes their momentum.
+struct FreeLiquid {
+    /// Liquid that is one component of the pressure system.
+    struct Body {
+        Vec3 mass = Vec3::Zero();  ///< of its faces, by axes [g]
+        Vec3 sum = Vec3::Zero();   ///< of mass and value of the faces [g times the value's unit]
+        bool isHeld = false;       ///< a solid is on one of its faces, or what else was told
+    };
+    BlockBits<3> unheld;            ///< faces on which there is nothing that holds liquid
+    std::vector<Body> bodies;       ///< by their number among all components
+    std::vector<Body> ofBlock;      ///< sums over blocks that belong to one body
+    BlockArray<double, 3> change;   ///< of velocities, by what acts within the liquid [cm/s]
+};
+
+/// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.
+void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, FreeLiquid& work);
+
+/// From values on the faces of each free piece take the mean, by mass, of others: in sum over the piece, these then did nothing. What gradients
+/// of a potential that is 0 around the piece do sums up to nothing by itself; of shortened ones, of those on faces that are taken to be fuller
+/// than they are, and of the jumps of surface tension something is left.
+/// @param others  on the faces, of values' unit; may be the values
+void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
+               FreeLiquid& work, BlockArray<double, 3>& values);
+
+}  // namespace sim
