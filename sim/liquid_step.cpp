@@ -173,6 +173,7 @@ void keepMomentum(const Settings& settings, const BlockGrid& grid, bool isMixed,
     if (isMixed && settings.coupling.pressureOnFabric) work.coupling->mixture.pairChange(change);
     else if (isMixed) work.coupling->mixture.clearShared(work.free.unheld);
     takeMeans(grid, work.pressure, work.grid, change, work.free, velocity);
+    if (settings.time.reflects()) findHeldCells(grid, work.pressure, work.grid, work.free);
 }
 
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
@@ -300,12 +301,14 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     if (work.kept) work.kept->keepModes(particles, plan.flips);
     if (!work.obstacles.empty()) keepPlaces(particles, work.places);
-    const BlockArray<double, 3>& velocity = plan.reflects ? work.reflection.velocity : work.grid.faces.velocity;
-    GatherSums sums = facesToParticles(velocity, work.order, grid, gather, work.gather, particles);
+    if (plan.reflects) gather.reflected = &work.reflection.velocity;
+    if (settings.time.reflects()) gather.atMidpoint = &work.free.held;
+    GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     PushedOut pushed;
-    report.maxSpeed = std::sqrt(sums.maxSpeedSquared);
+    const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
+    report.maxSpeed = plan.reflects ? along : held;
     if (!work.obstacles.empty()) {
-        const double farthest = report.maxSpeed * dt + (plan.relaxes ? work.relaxReach : 0.0) +
+        const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushed = pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles);
         sums.kinetic -= pushed.lost;
@@ -318,7 +321,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     report.particles = particles.count;
     report.blocks = grid.count();
     report.liquidCells = countLiquidCells(grid, work.grid);
-    if (!std::isfinite(report.maxSpeed) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
+    if (!std::isfinite(held) || !std::isfinite(report.energies.total())) report.failure = "velocities are not finite";
 }
 
 }  // namespace sim

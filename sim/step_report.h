@@ -104,7 +104,7 @@ struct StepReport {
     std::array<bool, kStages> stageRan{};        ///< … which is told here
     double dt = 0.0;                             ///< [s]
     double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
-    double maxSpeed = 0.0;                       ///< of the particles at the end of the step [cm/s]
+    double maxSpeed = 0.0;                       ///< of the particles at the end of the step; where it reflects, along their paths [cm/s]
     SolveReport viscosity;                       ///< if it was solved for
     SolveReport pressure;
     SolveReport reflection;

@@ -1,4 +1,7 @@
+#include "sim/core/parallel.h"
 #include "sim/fabric/vertex_solver.h"
+
+#include <limits>
 
 // What iterations have left of the balance of forces, what the limiter takes from moves, and halves of a step that each feel the liquid at another
 // speed than it will be told: all of them are small, and all of them change the momentum of fabric that nothing holds.
@@ -60,8 +63,16 @@ void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& stat
         missing_[group] += loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]);
         groupInertia_[group] += loads_->drag[v];
     }
+    // Velocities come from places: what these are rounded by is no motion, and fabric at rest stays so.
+    const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
+    const double rounding = std::numeric_limits<double>::epsilon() * farthest / h;
+    for (Vec3& missing : missing_) {
+        const auto group = static_cast<std::size_t>(&missing - missing_.data());
+        missing = missing.cwiseQuotient(groupInertia_[group].cwiseMax(std::numeric_limits<double>::min()));
+        if (missing.cwiseAbs().maxCoeff() < rounding) missing.setZero();
+    }
     for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (const int group = groupOf(v); group >= 0) state.v[v] += missing_[group].cwiseQuotient(groupInertia_[group]);
+        if (const int group = groupOf(v); group >= 0) state.v[v] += missing_[group];
 }
 
 }  // namespace sim

@@ -90,7 +90,7 @@ class VertexSolver {
     SolidGuard guard_;
     FabricGroups groups_;                        ///< of the step under way …
     std::vector<Vec3> momentum_;                 ///< … and of each piece, at its start [g cm/s]
-    std::vector<Vec3> missing_, groupInertia_;   ///< of each group, at its end [g cm/s, g]
+    std::vector<Vec3> missing_, groupInertia_;   ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
     /// The last state whose elastic energies were asked for: a step begins where the one before has ended.

@@ -196,4 +196,31 @@ void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const L
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t b) { shiftBlock(fields, static_cast<int>(b)); });
 }
 
+void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work)
+{
+    const ConnectedComponents& components = pressure.solver.components();
+    for (BlockBits<>* bits : {&work.inHeld, &work.inFree, &work.held}) bits->resize(grid.count());
+    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
+        const int b = static_cast<int>(n), one = components.ofBlock(b);
+        for (int k = 0; k < kBlockEdge; ++k) {
+            std::uint64_t inside = one == -1 ? 0 : liquid.inside.block(b)[k], held = one >= 0 && work.bodies[one].isHeld ? inside : 0;
+            for (std::uint64_t left = one == ConnectedComponents::kSeveral ? inside : 0; left != 0; left &= left - 1) {
+                const int body = components.of(b, 64 * k + std::countr_zero(left));
+                if (body >= 0 && work.bodies[body].isHeld) held |= left & -left;
+            }
+            work.inHeld.block(b)[k] = held;
+            work.inFree.block(b)[k] = inside & ~held;
+        }
+    });
+    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        const BitAccess access(grid, b);
+        for (int k = 0; k < kBlockEdge; ++k) {
+            std::uint64_t near = work.inHeld.block(b)[k];
+            for (int a = 0; a < kAxes; ++a) near |= access.below(work.inHeld, 0, a, k) | access.above(work.inHeld, 0, a, k);
+            work.held.block(b)[k] = near & ~work.inFree.block(b)[k];
+        }
+    });
+}
+
 }  // namespace sim

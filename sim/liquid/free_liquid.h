@@ -17,6 +17,8 @@ struct FreeLiquid {
     BlockBits<3> unheld;            ///< faces on which there is nothing that holds liquid
     std::vector<Body> bodies;       ///< by their number among all components
     std::vector<Body> ofBlock;      ///< sums over blocks that belong to one body
+    BlockBits<> inHeld, inFree;     ///< cells of bodies that something holds, and of others
+    BlockBits<> held;               ///< cells in and beside those that something holds, but not in others
     BlockArray<double, 3> change;   ///< of velocities, by what acts within the liquid [cm/s]
 };
 
@@ -29,5 +31,8 @@ void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, Free
 /// @param others  on the faces, of values' unit; may be the values
 void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
                FreeLiquid& work, BlockArray<double, 3>& values);
+
+/// Once it is known what holds which body: the cells of those that are held.
+void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);
 
 }  // namespace sim

@@ -31,14 +31,15 @@ struct Context {
     GatherScratch& scratch;
     Vec3 origin;
     double dx;
-    const GatherTile& tile;      ///< of the velocities
+    const GatherTile& tile;      ///< of the velocities whose modes are gathered
+    const GatherTile& moving;    ///< of those that the particles move with
     const GatherTile* flipTile;  ///< of the old velocities, or null
     const GatherTile* displacementTile;  ///< or null
     int modes;                   ///< N_r
 };
 
 struct LaneSums {
-    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0);
+    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
 };
 
 /// Gather one component of n ≤ 8 particles starting at s: monomials, in c and in the particles' rows.
@@ -96,11 +97,26 @@ template <int kAxis>
     });
 }
 
+/// Velocities along the paths of 8 particles at x by the midpoint rule: out of line, for the others pay nothing.
+[[gnu::noinline]] void findPaths(const Context& ctx, int node, const Pack (&x)[3], Pack (&path)[3])
+{
+    Operators<2> op[3];
+    for (int a = 0; a < kAxes; ++a) {
+        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        setOperators<2, false>(inCells - floorPack(inCells), op[a]);
+    }
+    Coefficients<2> c[3];
+    unroll<3>([&](auto a) { contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c[a]); });
+    const double half = 0.5 * ctx.settings.dt / ctx.dx;
+    for (int a = 0; a < kAxes; ++a)
+        path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * c[0][0][0][0] + c[a][0][1][0] * c[1][0][0][0] + c[a][0][0][1] * c[2][0][0][0]);
+}
+
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
 constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
 
 template <class Set, int kModes, bool kFold, class Rows>
-[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, int s, int n, Rows& rows, LaneSums& sums)
+[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, bool atMidpoint, int s, int n, Rows& rows, LaneSums& sums)
 {
     LiquidParticles& particles = ctx.particles;
     if constexpr (std::is_same_v<Rows, DirectModes>)
@@ -122,7 +138,13 @@ template <class Set, int kModes, bool kFold, class Rows>
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
     Pack path[3];
-    for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
+    if (atMidpoint) findPaths(ctx, node, x, path);
+    else
+        for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
+    if (ctx.settings.atMidpoint != nullptr) {
+        const Pack squared = path[0] * path[0] + path[1] * path[1] + path[2] * path[2];
+        sums.maxPathSquared = maxPack(sums.maxPathSquared, select(lanes, squared, zero));
+    }
     if (ctx.displacementTile != nullptr) displace(ctx, node, x);
     Pack speedSquared = zero, xi[3];
     for (int a = 0; a < kAxes; ++a) {
@@ -172,13 +194,14 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
             for (int k = box.low[2]; k <= box.high[2]; ++k) {
                 const int* start = order.cells(block) + cellRank(i, j, k);
                 if (start[0] == start[1]) continue;
-                const int node = tileIndex(i - 1, j - 1, k - 1);
+                const int node = tileIndex(i - 1, j - 1, k - 1), cell = cellInBlock(i, j, k);
+                const bool atMidpoint = ctx.settings.atMidpoint != nullptr && ctx.settings.atMidpoint->test(block, cell);
                 if constexpr (kModes > kModesAtSurface)
-                    if (ctx.settings.manyModes != nullptr && !ctx.settings.manyModes->test(block, cellInBlock(i, j, k))) {
+                    if (ctx.settings.manyModes != nullptr && !ctx.settings.manyModes->test(block, cell)) {
                         for (int s = start[0]; s < start[1]; s += kLanes) {
                             const int n = std::min(kLanes, start[1] - s);
                             rows.advanceTo(s);
-                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, node, s, n, rows, lanes);
+                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, node, atMidpoint, s, n, rows, lanes);
                             for (int a = 0; a < kAxes; ++a)
                                 for (int r = kModesAtSurface; r < kModes; ++r) storeFirst(rows.at(a, r, s), broadcast(0.0), n);
                         }
@@ -186,7 +209,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
                     }
                 for (int s = start[0]; s < start[1]; s += kLanes) {
                     rows.advanceTo(s);
-                    gatherPack<Set, kModes, kFold>(ctx, node, s, std::min(kLanes, start[1] - s), rows, lanes);
+                    gatherPack<Set, kModes, kFold>(ctx, node, atMidpoint, s, std::min(kLanes, start[1] - s), rows, lanes);
                 }
             }
     rows.finish(order.end(block));
@@ -194,6 +217,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
     sums.modal += 0.5 * sumLanes(lanes.modal);
     for (int l = 0; l < kLanes; ++l) {
         sums.maxSpeedSquared = larger(lanes.maxSpeedSquared[l], sums.maxSpeedSquared);
+        sums.maxPathSquared = larger(lanes.maxPathSquared[l], sums.maxPathSquared);
     }
     return sums;
 }
@@ -209,7 +233,7 @@ void sortOldVelocities(const LiquidParticles& particles, const ParticleOrder& or
 
 }  // namespace
 
-GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
+GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
                             GatherScratch& scratch, LiquidParticles& particles)
 {
     if (settings.flipVelocity != nullptr) sortOldVelocities(particles, order, scratch);
@@ -218,8 +242,9 @@ GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const Particl
         parallelFor(order.occupied.size(), [&](std::size_t n) {
             const int block = order.occupied[n];
             const OccupiedBox box(order.cells(block));
-            GatherTile tile, flipTile, displacementTile;
-            loadTile(velocity, grid, block, box, tile);
+            GatherTile tile, moving, flipTile, displacementTile;
+            loadTile(settings.reflected ? *settings.reflected : faces.velocity, grid, block, box, tile);
+            if (settings.reflected != nullptr) loadTile(faces.velocity, grid, block, box, moving);
             if (settings.flipVelocity != nullptr) loadTile(*settings.flipVelocity, grid, block, box, flipTile);
             if (settings.faceDisplacement != nullptr) loadTile(*settings.faceDisplacement, grid, block, box, displacementTile);
             const Context ctx{settings,
@@ -228,6 +253,7 @@ GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const Particl
                               grid.origin,
                               grid.dx,
                               tile,
+                              settings.reflected ? moving : tile,
                               settings.flipVelocity ? &flipTile : nullptr,
                               settings.faceDisplacement ? &displacementTile : nullptr,
                               settings.modes};
@@ -242,6 +268,7 @@ GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const Particl
         total.kinetic += s.kinetic;
         total.modal += s.modal;
         total.maxSpeedSquared = larger(s.maxSpeedSquared, total.maxSpeedSquared);
+        total.maxPathSquared = larger(s.maxPathSquared, total.maxPathSquared);
     }
     return total;
 }

@@ -18,6 +18,11 @@ struct GatherSettings {
 
     /// FLIP: the face velocities straight after P2G, before any force; else null.
     const BlockArray<double, 3>* flipVelocity = nullptr;
+    /// Velocities of the faces whose modes the particles get, where these are the reflected ones; else null.
+    const BlockArray<double, 3>* reflected = nullptr;
+    /// Cells whose particles move by the midpoint rule, with the velocity, not reflected, that they will find where it takes them in half the step;
+    /// others move with the velocity that they get. Null if none do.
+    const BlockBits<>* atMidpoint = nullptr;
     /// Displacements of the particles to add to the positions [cm], one array per axis; null where there are none.
     const AlignedArray<double>* displacement = nullptr;
     /// Displacements on the faces [cm], interpolated at the old positions and added to the new ones; null where there are none.
@@ -35,6 +40,7 @@ inline constexpr int kModesAtSurface = 8;
 /// Sums that fall out of G2P, per block: kinetic and modal energy [erg] and the largest squared speeds [cm²/s²].
 struct GatherSums {
     double kinetic = 0.0, modal = 0.0, maxSpeedSquared = 0.0;
+    double maxPathSquared = 0.0;  ///< the same along their paths, where any move by the midpoint rule; else 0
 };
 
 struct GatherScratch {
@@ -44,9 +50,8 @@ struct GatherScratch {
 
 /// G2P: gather the modes of every particle into its own row and move it (model-fluid 4, 10). Same as
 /// facesToParticlesReference to round-off. Lanes = particles of one cell (kernel-design 6).
-/// @param velocity  of the faces, with those behind walls that particles read [cm/s]
 /// @return the sums over all particles, in the order of the blocks
-GatherSums facesToParticles(const BlockArray<double, 3>& velocity, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
+GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
                             GatherScratch& scratch, LiquidParticles& particles);
 
 }  // namespace sim

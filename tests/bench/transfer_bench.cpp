@@ -48,7 +48,7 @@ void gather(benchmark::State& state)
     GatherScratch scratch;
     GatherSettings settings;
     settings.modes = static_cast<int>(state.range(0));
-    for (auto _ : state) facesToParticles(faces.velocity, liquid.order, liquid.grid, settings, scratch, liquid.particles);
+    for (auto _ : state) facesToParticles(faces, liquid.order, liquid.grid, settings, scratch, liquid.particles);
     state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);
 }
 
@@ -64,7 +64,7 @@ void transferBoth(benchmark::State& state)
     settings.modes = static_cast<int>(state.range(0));
     for (auto _ : state) {
         particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
-        facesToParticles(faces.velocity, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles);
+        facesToParticles(faces, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles);
     }
     state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);
 }

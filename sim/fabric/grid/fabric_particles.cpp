@@ -109,7 +109,7 @@ void FabricParticles::toVertices(double h, FabricState& state)
 {
     GatherSettings settings;
     settings.modes = modes_;
-    facesToParticles(faces_.velocity, order_, grid_, settings, gather_, particles_);
+    facesToParticles(faces_, order_, grid_, settings, gather_, particles_);
     parallelFor(particles_.count, 1024, [&](std::size_t s) {
         const std::size_t v = particles_.id[s];
         if (v >= state.x.size()) return;

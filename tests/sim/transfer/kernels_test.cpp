@@ -47,7 +47,7 @@ TEST_P(FastKernels, GatherAgreesWithReference)
     GatherScratch scratch;
     GatherSettings settings;
     settings.modes = GetParam();
-    facesToParticles(faces.velocity, fast.order, fast.grid, settings, scratch, fast.particles);
+    facesToParticles(faces, fast.order, fast.grid, settings, scratch, fast.particles);
     for (int axis = 0; axis < kAxes; ++axis)
         for (int r = 0; r < plain.modeCount; ++r) {
             SCOPED_TRACE(r);
@@ -71,7 +71,7 @@ TEST_P(FastKernels, GatherMovesParticlesWithTheirMeanVelocity)
     GatherSettings settings;
     settings.modes = GetParam();
     settings.dt = 0.01;
-    facesToParticles(faces.velocity, liquid.order, liquid.grid, settings, scratch, liquid.particles);
+    facesToParticles(faces, liquid.order, liquid.grid, settings, scratch, liquid.particles);
     for (std::size_t p = 0; p < before.count; ++p)
         EXPECT_LT((liquid.particles.position(p) - before.position(p) - settings.dt * liquid.particles.velocity(p)).norm(), 1e-14);
 }
@@ -89,7 +89,7 @@ TEST_P(FastKernels, SameBitsForAnyThreadCount)
             settings.dt = 0.02;
             fillRandomVelocities(liquid.grid, faces);
             particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
-            const double sum = facesToParticles(faces.velocity, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles).kinetic;
+            const double sum = facesToParticles(faces, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles).kinetic;
             std::vector<double> all(faces.sums.block(0), faces.sums.block(0) + faces.sums.size());
             all.insert(all.end(), liquid.particles.x[0].begin(), liquid.particles.x[0].end());
             all.push_back(sum);

@@ -74,7 +74,7 @@ struct Transfers {
     }
     GatherSums toParticles(const GatherSettings& settings)
     {
-        return facesToParticles(faces.velocity, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles);
+        return facesToParticles(faces, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles);
     }
 
     double mass(int axis, int b, int c) const { return faces.sums.block(b, FaceFields::kMass + axis)[c]; }
