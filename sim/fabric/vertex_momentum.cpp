@@ -1,4 +1,3 @@
-#include "sim/core/parallel.h"
 #include "sim/fabric/vertex_solver.h"
 
 #include <limits>
@@ -64,8 +63,7 @@ void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& stat
         groupInertia_[group] += loads_->drag[v];
     }
     // Velocities come from places: what these are rounded by is no motion, and fabric at rest stays so.
-    const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
-    const double rounding = std::numeric_limits<double>::epsilon() * farthest / h;
+    const double rounding = placeRounding_ / h;
     for (Vec3& missing : missing_) {
         const auto group = static_cast<std::size_t>(&missing - missing_.data());
         missing = missing.cwiseQuotient(groupInertia_[group].cwiseMax(std::numeric_limits<double>::min()));

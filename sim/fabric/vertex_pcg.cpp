@@ -252,9 +252,9 @@ LinearReport VertexSystem::solve(const LinearTolerance& tolerance, double stepEn
     const double most = totalMass_ * tolerance.most * tolerance.most;
     const double enough = std::min(std::max({share * energy, 0.09 * share * stepEnergy, speed}), most);
     // One iteration at least, above round-off: as steps begin with the forces of the last, errors too small for one would stay for good.
-    constexpr double kRoundOff = 1.0e-16;
-    const double last = std::max(std::min(enough, tolerance.left * tolerance.left * energy), kRoundOff * speed);
-    while (report.iterations < maxIterations && energy > (report.iterations == 0 ? kRoundOff * speed : last)) {
+    const double roundOff = totalMass_ * tolerance.roundOff * tolerance.roundOff;
+    const double last = std::max(std::min(enough, tolerance.left * tolerance.left * energy), roundOff);
+    while (report.iterations < maxIterations && energy > (report.iterations == 0 ? roundOff : last)) {
         const double curvature = multiply();
         if (!(curvature > 0.0)) break;
         const double next = precondition(energy / curvature);

@@ -19,6 +19,7 @@ namespace {
 constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
 constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
+constexpr double kRoundings = 4.0;            ///< of places in a step: slower motion is none [-]
 constexpr double kLeftAtContact = 0.3;        ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
 constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
 constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
@@ -66,6 +67,8 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
     feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
+    const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
+    placeRounding_ = std::numeric_limits<double>::epsilon() * farthest;
     groups_.begin();
     findMomenta(state);
     advance(t, h, 0, gravity, state, report, clock);
@@ -237,7 +240,7 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     const double fall = feltAcceleration_ * h;
     const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
     const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
-                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0};
+                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0, kRoundings * placeRounding_ / h};
     const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
     if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });

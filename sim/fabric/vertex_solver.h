@@ -109,6 +109,7 @@ class VertexSolver {
     bool guardActed_ = false;                    ///< in the last move: solids took a hand in it
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
+    double placeRounding_ = 0.0;                 ///< by which places of the step under way are rounded [cm]
     double feltAcceleration_ = 0.0;              ///< feltAcceleration of the step under way [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
     FabricEnergies startEnergies_;               ///< … and its energies

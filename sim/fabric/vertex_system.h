@@ -27,6 +27,7 @@ struct LinearTolerance {
     double share;                            ///< [-]
     double speed, most;                      ///< [cm/s]
     double left = 1.0;                       ///< [-]
+    double roundOff = 0.0;                   ///< slower errors are of rounding and stay [cm/s]
 };
 
 /// Linear solve of one Newton iteration.
