@@ -173,7 +173,6 @@ void keepMomentum(const Settings& settings, const BlockGrid& grid, bool isMixed,
     if (isMixed && settings.coupling.pressureOnFabric) work.coupling->mixture.pairChange(change);
     else if (isMixed) work.coupling->mixture.clearShared(work.free.unheld);
     takeMeans(grid, work.pressure, work.grid, change, work.free, velocity);
-    if (settings.time.reflects()) findHeldCells(grid, work.pressure, work.grid, work.free);
 }
 
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
@@ -283,6 +282,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     clock.start(Stage::Pressure);
     if (plan.isMixed) work.coupling->mixture.takeDisplaced(work.grid);
     keepMomentum(settings, grid, plan.isMixed, work, work.grid.faces.velocity);
+    if (settings.time.reflects()) findHeldCells(grid, work.pressure, work.grid, work.free);
     if (plan.reflects) {
         clock.start(Stage::Reflection);
         report.reflection = reflect(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, work.reflection);

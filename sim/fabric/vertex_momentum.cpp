@@ -64,10 +64,9 @@ void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& stat
     }
     // Velocities come from places: what these are rounded by is no motion, and fabric at rest stays so.
     const double rounding = placeRounding_ / h;
-    for (Vec3& missing : missing_) {
-        const auto group = static_cast<std::size_t>(&missing - missing_.data());
-        missing = missing.cwiseQuotient(groupInertia_[group].cwiseMax(std::numeric_limits<double>::min()));
-        if (missing.cwiseAbs().maxCoeff() < rounding) missing.setZero();
+    for (std::size_t group = 0; group < missing_.size(); ++group) {
+        missing_[group] = missing_[group].cwiseQuotient(groupInertia_[group].cwiseMax(std::numeric_limits<double>::min()));
+        if (missing_[group].cwiseAbs().maxCoeff() < rounding) missing_[group].setZero();
     }
     for (std::size_t v = 0; v < state.v.size(); ++v)
         if (const int group = groupOf(v); group >= 0) state.v[v] += missing_[group];

@@ -240,7 +240,8 @@ void VertexSolver::solve(double h, Newton& newton, const FabricState& state, Fab
     const double fall = feltAcceleration_ * h;
     const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
     const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
-                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0, kRoundings * placeRounding_ / h};
+                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0,
+                                       kRoundings * placeRounding_ / h};
     const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
     if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });

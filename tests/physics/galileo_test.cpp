@@ -1,22 +1,13 @@
 // Galileo: free liquid goes its way whatever happens in it, and a flow is the same seen from a frame that moves.
+#include "tests/physics/random_vector.h"
 #include "tests/physics/runs.h"
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <vector>
 
 namespace sim::test {
 namespace {
-
-using Random = std::mt19937;
-
-double between(double low, double high, Random& random) { return std::uniform_real_distribution(low, high)(random); }
-
-Vec3 anywhere(double size, Random& random)
-{
-    return {between(-size, size, random), between(-size, size, random), between(-size, size, random)};
-}
 
 /// Velocities that strain and turn a body, by a quadratic polynomial of the position [cm/s].
 struct Flow {

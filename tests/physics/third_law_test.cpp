@@ -1,24 +1,14 @@
 // Action and reaction: what liquid and fabric that nothing holds do to each other changes nothing of the momentum that they have together.
 #include "tests/physics/fabric_runs.h"
+#include "tests/physics/random_vector.h"
 
 #include "sim/fabric/generators.h"
 #include "sim/simulation.h"
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 namespace sim::test {
 namespace {
-
-using Random = std::mt19937;
-
-double between(double low, double high, Random& random) { return std::uniform_real_distribution(low, high)(random); }
-
-Vec3 anywhere(double size, Random& random)
-{
-    return {between(-size, size, random), between(-size, size, random), between(-size, size, random)};
-}
 
 /// A drop that meets a sheet with a yarn across it and a sheet of its own further off, all turned and thrown as chance has it.
 Scene wetFabric(FabricSolver solver, Random& random)
