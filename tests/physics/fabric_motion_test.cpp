@@ -158,7 +158,8 @@ TEST(FlyingFabric, FallsExactlyAsAPointWould)
     double worst = 0.0;
     for (std::size_t i = 0; i < run.state.x.size(); ++i)
         worst = std::max(worst, (run.state.x[i] - run.fabric.rest[i] - x).norm());
-    EXPECT_LT(worst, 1.0e-11);  // round-off of 30 cm in 100 steps, times the stiffness of the cloth in a step
+    // Solves leave errors of 4 roundings of a place in a step, 4 eps |x| = 3e-14 cm; were they all of one sign, n^2 / 2 of them would add up in n steps.
+    EXPECT_LT(worst, 1.5e-10);
     RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
 }
 
