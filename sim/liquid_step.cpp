@@ -234,7 +234,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     if (plan.meetsFabric) {
         clock.start(Stage::Capture);
         work.coupling->vertices.sort(grid, state.fabric);
-        plan.meetsFabric = !work.coupling->vertices.empty();
+        plan.meetsFabric = !work.coupling->vertices.empty() &&
+                           work.coupling->around.find(grid, work.order, particles, work.obstacleField, work.coupling->vertices);
         if (plan.meetsFabric) {
             const ExchangeWatch watch(work.coupling->fabric, state, &work.order);
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);

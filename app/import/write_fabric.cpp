@@ -2,6 +2,7 @@
 
 #include "sim/scene/node.h"
 #include "sim/scene/units.h"
+#include "sim/settings.h"
 
 #include <fmt/format.h>
 
@@ -28,12 +29,13 @@ void writeCoupling(const reference::LiquidInfo& l, SceneLines& out)
     out.from(l.line);
     out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter),
                            formatPlain(l.volumeFraction)));
-    out.add(0, fmt::format("coupling: {{drag: {}, drag_exponent: {}, pressure_on_fabric: {}, capture: {{rate: {}}}, "
-                           "wicking: {{pressure: {}}}}}",
+    out.add(0, fmt::format("coupling: {{drag: {}, drag_fraction: cell, drag_exponent: {}, pressure_on_fabric: {}, "
+                           "capture: {{law: published, compat_factor: {}}}, wicking: {{pressure: {}}}}}",
                            !l.drag           ? "off"
                            : l.nonlinearDrag ? "nonlinear"
                                              : "linear",
-                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric), formatPlain(l.captureRate),
+                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric),
+                           formatPlain(sim::CaptureSettings().compatFactor * l.captureRate),
                            yesOrNo(l.pressureInFabric)));
 }
 

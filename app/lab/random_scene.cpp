@@ -113,7 +113,11 @@ std::string randomCoupling(Dice& dice)
     text += fmt::format("  pressure_on_fabric: {}\n", dice.chance(0.8));
     text += fmt::format("  capillary: {}\n", dice.chance(0.7));
     text += fmt::format("  capillary_reaction: {}\n", dice.chance(0.5));
-    text += fmt::format("  capture: {{rate: {:.3g}}}\n", dice.chance(0.3) ? 0.0 : dice.acrossScales(0.1, 10.0));
+    const double factor = dice.chance(0.3) ? 0.0 : dice.acrossScales(0.1, 10.0);
+    const bool isPublished = dice.chance(0.3);
+    text += fmt::format("  drag_fraction: {}\n", isPublished ? "cell" : "fabric");
+    text += isPublished ? fmt::format("  capture: {{law: published, compat_factor: {:.3g}}}\n", factor)
+                        : fmt::format("  capture: {{rate: {:.3g}}}\n", 25.0 * factor);
     text += fmt::format("  wicking: {{rate_scale: {:.3g}}}\n", dice.chance(0.2) ? 0.0 : dice.acrossScales(0.1, 10.0));
     text += fmt::format("  drip: {}\n", dice.chance(0.7));
     return text;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "sim/core/simd.h"
+#include "sim/coupling/liquid_around.h"
 #include "sim/coupling/porous_law.h"
-#include "sim/coupling/sorted_vertices.h"
 #include "sim/settings.h"
 
 #include <numeric>
@@ -10,14 +9,17 @@
 
 namespace sim {
 
-/// Fabric takes up liquid from the particles around until its pores are full (model-fluid 9.1). Both meet in the cells that they reach;
-/// each particle gives some of its mass, at its own velocity. Mass and momentum are kept to round-off.
+/// Fabric takes up liquid from the particles around until its pores are full. Both meet in the cells that they reach; each particle gives
+/// some of its mass, at its own velocity. Mass and momentum are kept to round-off.
+///
+/// Law fabric: a vertex in liquid asks for rate · dt of what its pores hold, of which there is as much as there is fabric: how finely that
+/// is meshed, and how large cells are, does not enter. Law published: for a share of the liquid in the cells around (model-fluid 9.1).
 class Capture {
  public:
     /// @param nominalMass  of a particle [g]
-    Capture(const Fabric& fabric, const Settings& settings, double nominalMass);
+    Capture(const Fabric& fabric, LiquidAround& around, const Settings& settings, double nominalMass);
 
-    /// Over dt [s], with the liquid sorted. Velocities of pinned vertices stay.
+    /// Over dt [s], of the liquid around, which has been found. Velocities of pinned vertices stay.
     /// @return mass taken up [g]
     double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                    FabricState& state);
@@ -27,48 +29,33 @@ class Capture {
     void dropEmptied(LiquidParticles& liquid);
 
  private:
-    /// What a pack tells of a cell: its liquid, and what vertices want of that, later the share that they took.
-    enum Lane { kMass, kMomentum, kDemand = kMomentum + kAxes };
-
+    static double rateOf(const FabricMaterial& material, const Settings& settings);
+    double demand(std::size_t v, double dt) const;
     double roomOf(std::size_t v, const FabricState& state) const { return capacity_[v] - state.absorbed[v]; }
     bool findThirsty(const SortedVertices& vertices, const FabricState& state);
-    void collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid);
-    void ask(double dt, const SortedVertices& vertices, const FabricState& state);
+    void ask(double dt, const SortedVertices& vertices);
     void settle(const SortedVertices& vertices);
     double wet(const SortedVertices& vertices, FabricState& state);
     void drain(const BlockGrid& grid, LiquidParticles& liquid);
     double takeRemnants(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                         FabricState& state);
-    Pack& cellOf(int block, int cell) { return reinterpret_cast<Pack*>(cells_.data())[block * kBlockCells + cell]; }
     void give(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
-    bool findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
-    void addTile(const Pack* tile, const std::array<int, 27>& blocks);
     template <class Body>
     void forEachThirsty(const SortedVertices& vertices, int block, Body&& body) const;
     template <class Body>
-    void forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, std::size_t part, Body&& body) const;
+    void forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, const LiquidAround::Part& part, Body&& body) const;
 
     const Fabric& fabric_;
     std::vector<double> capacity_;              ///< of each vertex [g]
-    std::vector<double> ratePerVertex_;         ///< share of the liquid around that it takes per time [1/s]
+    std::vector<double> ratePerVertex_;         ///< law fabric: part of its pores that it fills per time; published: of the liquid around [1/s]
+    CaptureLaw law_;
+    LiquidAround& around_;
     double leastMass_;                          ///< of a particle that stays [g]
 
-    // Of the vertices' blocks.
-    AlignedArray<double> cells_;                ///< a pack (Lane) for each cell, and for those of an empty block behind the last
-    BlockArray<std::uint8_t> reached_;          ///< by a vertex that has room
-    std::vector<std::uint8_t> blockReached_;
     // Of the step.
-    std::vector<double> wanted_, around_;       ///< of each vertex [g]
+    std::vector<double> wanted_, got_;          ///< of each vertex [g]
     std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
     std::vector<std::uint8_t> thirsty_;         ///< of each block of the vertices: has vertices with room
-    std::vector<std::array<int, 27>> nearBlocks_;  ///< of each block of the liquid: vertices' blocks around; empty where none is reached
-    /// Particles of one block whose stencils may reach cells that thirsty vertices reach.
-    struct Part {
-        int block, begin, end;
-    };
-    std::vector<Part> near_;                    ///< in the order of the blocks
-    std::vector<int> nearBegin_;                ///< of each block of the liquid: its first part; it has none if the next block's is the same
-    AlignedArray<double> tiles_;                ///< of each part: what its particles bring to the cells of a tile
     std::vector<std::size_t> emptied_;          ///< particles, ascending
 };
 

@@ -11,6 +11,7 @@ namespace sim {
 struct Coupling {
     const Fabric& fabric;
     SortedVertices vertices;
+    LiquidAround around;
     WetElements elements;
     Capture capture;
     Mixture mixture;
@@ -21,9 +22,10 @@ struct Coupling {
     /// @param nominalMass  of a particle of liquid [g]
     Coupling(const Fabric& theFabric, const Settings& settings, double nominalMass)
         : fabric(theFabric),
+          around(fabric.vertexCount()),
           elements(fabric),
-          capture(fabric, settings, nominalMass),
-          mixture(fabric, settings, vertices),
+          capture(fabric, around, settings, nominalMass),
+          mixture(fabric, around, settings, vertices),
           drip(fabric, elements, settings, nominalMass),
           wicking(fabric, elements, settings)
     {

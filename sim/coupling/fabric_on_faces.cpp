@@ -1,6 +1,9 @@
 #include "sim/coupling/fabric_on_faces.h"
 
 #include "sim/core/parallel.h"
+#include "sim/coupling/yarn_flow.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +13,10 @@ namespace sim {
 namespace {
 
 constexpr double kRoundOff = 1.0e-12;  ///< relative [-]
+constexpr double kFelt = 0.56, kUnfelt = 0.63;  ///< distances (LiquidAround) of liquid that fabric feels whole, and not at all [cells]
+
+/// Normal to a triangle, as long as twice its area [cm^2].
+Vec3 doubleArea(const std::vector<Vec3>& x, const Vec3i& f) { return (x[f[1]] - x[f[0]]).cross(x[f[2]] - x[f[0]]); }
 
 /// Numbers of the elements at each vertex.
 template <class Corners>
@@ -27,13 +34,16 @@ void sortByVertex(std::size_t vertices, const std::vector<Corners>& elements, st
 
 }  // namespace
 
-FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedVertices& vertices)
-    : fabric_(fabric), liquidDensity_(liquidDensity), vertices_(vertices)
+FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, const LiquidAround* around, SortedVertices& vertices)
+    : fabric_(fabric), liquidDensity_(liquidDensity), around_(around), vertices_(vertices)
 {
     const std::size_t n = fabric.vertexCount();
     sortByVertex(n, fabric.edges.vertices, edgesBegin_, edgesAt_);
     sortByVertex(n, fabric.faces.vertices, facesBegin_, facesAt_);
     squaresOf_.resize(n);
+    envelopeOf_.resize(n);
+    restLength_.resize(n);
+    restArea_.resize(n);
     massOf_.resize(n);
     solidOf_.resize(n);
     for (std::size_t v = 0; v < n; ++v) {
@@ -42,33 +52,50 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedV
         for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
             const auto [a, b] = fabric.strands.radius[fabric.edges.strand[edgesAt_[i]]];
             yarn += 0.5 * kPi * a * b * fabric.edges.restLength[edgesAt_[i]];
+            restLength_[v] += fabric.edges.restLength[edgesAt_[i]];
         }
+        for (int i = facesBegin_[v]; i < facesBegin_[v + 1]; ++i) restArea_[v] += doubleArea(fabric.rest, fabric.faces.vertices[facesAt_[i]]).norm();
         shapeOf_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
     }
-    isOneShape_ = std::ranges::all_of(shapeOf_, [&](double one) { return one == shapeOf_[0]; });
+    const auto isUniformIn = [](const std::vector<double>& all) { return std::ranges::all_of(all, [&](double one) { return one == all[0]; }); };
+    isOneShape_ = isUniformIn(shapeOf_);
+    hasYarns_ = fabric.edges.size() > 0;
+    if (around && hasYarns_) {
+        diameterOf_ = yarnDiameters(fabric);
+        narrowingOf_ = narrowings(fabric, diameterOf_);
+        isOneDiameter_ = isUniformIn(diameterOf_);
+        isOneNarrowing_ = isUniformIn(narrowingOf_);
+    }
     const double first = fibresOf_[0] / fabric.mass[0];
     bool isUniform = true;
     for (std::size_t v = 0; v < n; ++v) isUniform &= std::abs(fibresOf_[v] / fabric.mass[v] - first) < kRoundOff * first;
     if (isUniform) fibresPerMass_ = first;
 }
 
-/// Squares of the components of tangents and normals, weighted by lengths and areas.
+/// Squares of the components of tangents and normals, weighted by lengths and areas; and by how much these have grown.
 void FabricOnFaces::findDirections(const FabricState& state)
 {
     const auto normalized = [](const Vec3& sum) { return sum.sum() > 0.0 ? Vec3(sum / sum.sum()) : Vec3::Constant(1.0 / 3.0).eval(); };
     parallelFor(vertices_.count(), kGrain, [&](std::size_t s) {
         const std::size_t v = vertices_.particles.id[s];
         Vec3 tangents = Vec3::Zero(), normals = Vec3::Zero();
+        double length = 0.0, area = 0.0;
         for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
             const Vec2i& e = fabric_.edges.vertices[edgesAt_[i]];
             const Vec3 t = state.x[e[1]] - state.x[e[0]];
             if (t.norm() > 0.0) tangents += t.cwiseAbs2() / t.norm();
+            length += t.norm();
         }
         for (int i = facesBegin_[v]; i < facesBegin_[v + 1]; ++i) {
             const Vec3i& f = fabric_.faces.vertices[facesAt_[i]];
-            const Vec3 area = (state.x[f[1]] - state.x[f[0]]).cross(state.x[f[2]] - state.x[f[0]]);
-            if (area.norm() > 0.0) normals += area.cwiseAbs2() / area.norm();
+            const Vec3 across = doubleArea(state.x, f);
+            if (across.norm() > 0.0) normals += across.cwiseAbs2() / across.norm();
+            area += across.norm();
         }
+        double stretch = 0.0;  // of yarns along, of cloth in its plane: sections and thickness stay
+        if (shapeOf_[v] > 0.0) stretch += shapeOf_[v] * length / restLength_[v];
+        if (shapeOf_[v] < 1.0) stretch += (1.0 - shapeOf_[v]) * area / restArea_[v];
+        envelopeOf_[v] = stretch * fabric_.volume[v];
         squaresOf_[v] = shapeOf_[v] * normalized(tangents) + (1.0 - shapeOf_[v]) * normalized(normals);
     });
 }
@@ -114,7 +141,7 @@ void FabricOnFaces::spread(const FabricState& state)
         parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
     }
     particlesToFaces(particles, vertices_.order, grid(), scatter_, sums_);
-    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &solid, &shape, &squares}) u->resize(grid().count());
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &narrowing, &solid, &shape, &squares}) u->resize(grid().count());
     parallelFor(grid().count(), 8, [&](std::size_t i) {
         const int b = static_cast<int>(i);
         std::copy_n(sums_.sums.block(b, FaceFields::kMass), kAxes * kBlockCells, mass.block(b));
@@ -126,7 +153,15 @@ void FabricOnFaces::spread(const FabricState& state)
     scatter([&](int v) { return Vec3(massOf_[v] * squaresOf_[v]); }, squares);
     divideByMass(squares);
     findVolumes(state);
-    findShapes();
+    if (around_) {
+        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v]); }, envelope);
+        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * touchedPart(around_->distanceAt(v), kFelt, kUnfelt)); }, touched);
+    }
+    takeMean(shapeOf_, isOneShape_, shape);
+    if (around_ && hasYarns_) {
+        takeMean(diameterOf_, isOneDiameter_, diameter);
+        takeMean(narrowingOf_, isOneNarrowing_, narrowing);
+    }
     findHeld(state);
 }
 
@@ -137,15 +172,16 @@ void FabricOnFaces::findHeld(const FabricState& state)
     divideByMass(held);
 }
 
-void FabricOnFaces::findShapes()
+/// Mean over the mass on each face.
+void FabricOnFaces::takeMean(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean)
 {
-    if (!isOneShape_) {
-        scatter([&](int v) { return Vec3::Constant(massOf_[v] * shapeOf_[v]); }, shape);
-        divideByMass(shape);
+    if (!isUniform) {
+        scatter([&](int v) { return Vec3::Constant(massOf_[v] * ofVertex[v]); }, mean);
+        divideByMass(mean);
         return;
     }
     parallelFor(grid().count(), 8,
-                [&](std::size_t b) { std::fill_n(shape.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, shapeOf_[0]); });
+                [&](std::size_t b) { std::fill_n(mean.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, ofVertex[0]); });
 }
 
 /// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.

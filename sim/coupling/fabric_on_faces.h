@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/coupling/sorted_vertices.h"
+#include "sim/coupling/liquid_around.h"
 #include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/grid/block_points.h"
 #include "sim/transfer/scatter.h"
@@ -14,7 +14,8 @@ namespace sim {
 /// P2G, without modes.
 class FabricOnFaces {
  public:
-    FabricOnFaces(const Fabric& fabric, double liquidDensity, SortedVertices& vertices);
+    /// @param around  the liquid, found before each call of spread, where envelopes are to be known; else null
+    FabricOnFaces(const Fabric& fabric, double liquidDensity, const LiquidAround* around, SortedVertices& vertices);
 
     /// P2G of all fields, of vertices that have been sorted.
     void spread(const FabricState& state);
@@ -31,8 +32,12 @@ class FabricOnFaces {
     BlockArray<double, 3> mass;           ///< with what has been absorbed [g]
     BlockArray<double, 3> velocity;       ///< [cm/s]
     BlockArray<double, 3> fibres;         ///< volume of the fibres [cm^3]
+    BlockArray<double, 3> envelope;       ///< volume of fibres and pores, as the fabric is stretched now [cm^3]; where it is asked for
+    BlockArray<double, 3> touched;        ///< that of the fabric that liquid touches [cm^3]; likewise
     BlockArray<double, 3> solid;          ///< volume of them and of what has been absorbed [cm^3]
     BlockArray<double, 3> shape;          ///< 1 = yarns, 0 = cloth, or between
+    BlockArray<double, 3> diameter;       ///< of yarns [cm]; with envelopes, where there are yarns
+    BlockArray<double, 3> narrowing;      ///< of the flow between them (narrowings) [-]; likewise
     BlockArray<double, 3> held;           ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
     BlockArray<double, 3> squares;        ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
@@ -45,17 +50,23 @@ class FabricOnFaces {
 
  private:
     void findVolumes(const FabricState& state);
-    void findShapes();
+    void takeMean(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean);
     void findHeld(const FabricState& state);
     void findDirections(const FabricState& state);
     void divideByMass(BlockArray<double, 3>& u) const;
 
     const Fabric& fabric_;
     double liquidDensity_;                          ///< [g/cm^3]
+    const LiquidAround* around_;
+    bool hasYarns_ = false;
+    std::vector<double> diameterOf_, narrowingOf_;  ///< of each vertex [cm, -]
     SortedVertices& vertices_;
     std::vector<double> fibresOf_, shapeOf_;        ///< of each vertex [cm^3, -]
+    std::vector<double> restLength_, restArea_;     ///< of the edges and faces at each vertex, summed [cm, cm^2]
+    std::vector<double> envelopeOf_;                ///< of each vertex, of the step [cm^3]
     std::optional<double> fibresPerMass_;           ///< of the dry fabric, where all vertices have the same [cm^3/g]
     bool isOneShape_ = false;                       ///< all yarns, or all cloth
+    bool isOneDiameter_ = false, isOneNarrowing_ = false;
     std::vector<double> massOf_, solidOf_;          ///< of each vertex, of the step [g, cm^3]
     std::vector<Vec3> squaresOf_;                   ///< of each vertex
     std::vector<int> edgesBegin_, edgesAt_;         ///< of each vertex: yarn edges that end there

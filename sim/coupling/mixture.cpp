@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/coupling/mixture_face.h"
+#include "sim/coupling/yarn_flow.h"
 #include "sim/liquid/pressure.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@ namespace {
 
 /// Where all of the fabric is held: what else could move of it, so that its mass stays finite.
 constexpr double kLeastFree = 1.0e-9;
+constexpr double kDensest = 0.9;     ///< part of its envelope that fibres of squeezed fabric fill at most [-]
+constexpr double kLeastOpen = 0.05;  ///< of a face: what fabric leaves for liquid that flows past it [-]
 
 }  // namespace
 
@@ -31,13 +34,14 @@ void Mixture::forEachShared(Body&& body) const
     });
 }
 
-Mixture::Mixture(const Fabric& fabric, const Settings& settings, SortedVertices& vertices)
+Mixture::Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices)
     : law_(settings.porous, settings.liquid, settings.coupling),
+      liquid_(settings.liquid),
       liquidDensity_(settings.liquid.density),
       settings_(settings.coupling),
       suction_(fabric, settings),
       vertices_(vertices),
-      onFaces_(fabric, settings.liquid.density, vertices)
+      onFaces_(fabric, settings.liquid.density, settings.coupling.dragFraction == DragFraction::Fabric ? &around : nullptr, vertices)
 {
     loads_.drag.resize(fabric.vertexCount());
     loads_.impulse.resize(fabric.vertexCount());
@@ -126,6 +130,35 @@ void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const 
     });
 }
 
+/// D = dt c V on a face. By the fabric's own fraction φ of fibres: V is the envelope of fabric that liquid touches, and c(φ) goes by
+/// the superficial velocity U. On a face whose part ψ are fibres, and V_s of V_c with what they hold, the phases are ΔU/(1 - ψ) apart, and
+/// pressure on V_s adds V_s/(V_c - V_s) of D to what the fabric feels; less by both, the force is c U on the envelope for any cell (Darcy's
+/// law). Yarns are resistances side by side: liquid flows through them, and around. By the cell's fraction, as published: c(ψ) (V_f + V_s).
+/// @param room  of the face outside obstacles [-]
+double Mixture::dragOn(int b, int a, int c, double liquidVolume, double room) const
+{
+    const double cell = std::pow(onFaces_.grid().dx, 3);
+    const double fibres = onFaces_.fibres.block(b, a)[c], solid = onFaces_.solid.block(b, a)[c];
+    const double shape = onFaces_.shape.block(b, a)[c], square = onFaces_.squares.block(b, a)[c];
+    const double fraction = std::clamp(fibres / cell, 0.0, 1.0);
+    if (settings_.dragFraction == DragFraction::Cell)
+        return dt_ * (liquidVolume + solid) * dragAlongAxis(law_.drag(fraction, speedAt(b, a, c)), shape, square);
+
+    const double envelope = onFaces_.envelope.block(b, a)[c];
+    const double speed = (1.0 - fraction) * speedAt(b, a, c), own = std::min(fibres / envelope, kDensest);
+    const double open = std::max(1.0 - fraction, kLeastOpen) * std::max(1.0 - solid / cell, kLeastOpen);
+    const double wet = std::min(1.0, (liquidVolume + solid) / (room * cell));
+    PorousLaw::Drag drag = law_.drag(own, speed);
+    double alongAxis = shape < 1.0 ? (1.0 - shape) * dragAlongAxis(drag, 0.0, square) : 0.0;
+    if (shape > 0.0) {
+        const DragAround around = dragAround(liquid_, settings_.drag, onFaces_.diameter.block(b, a)[c], onFaces_.narrowing.block(b, a)[c], speed);
+        const auto sideBySide = [](double one, double other) { return one > 0.0 && other > 0.0 ? one * other / (one + other) : 0.0; };
+        drag = {sideBySide(drag.along, around.along), sideBySide(drag.across, around.across)};
+        alongAxis += shape * dragAlongAxis(drag, 1.0, square);
+    }
+    return dt_ * alongAxis * onFaces_.touched.block(b, a)[c] * wet * open;
+}
+
 /// Drag, and what both phases together do (MixtureSplit).
 void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
 {
@@ -141,9 +174,7 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
         // Pressure acts on all the room that the fabric leaves, as without fabric; on a little liquid as on kLeastFill.
         face.liquidVolume = std::max(full / liquidDensity_ - face.fabricVolume, 0.0) * std::min(1.0, mass / (kLeastFill * full));
         face.fraction = std::clamp(fibres / cell, 0.0, 1.0);
-        const double shape = onFaces_.shape.block(b, a)[c], square = onFaces_.squares.block(b, a)[c];
-        const PorousLaw::Drag drag = law_.drag(face.fraction, speedAt(b, a, c));
-        face.drag = dt_ * (mass / liquidDensity_ + face.fabricVolume) * dragAlongAxis(drag, shape, square);
+        face.drag = dragOn(b, a, c, mass / liquidDensity_, obstacles.room(m, a)[c]);
 
         if (!settings_.pressureOnFabric) face.fabricVolume = 0.0;
 

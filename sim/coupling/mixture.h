@@ -15,7 +15,8 @@ namespace sim {
 /// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off (model-fabric 13.6).
 class Mixture {
  public:
-    Mixture(const Fabric& fabric, const Settings& settings, SortedVertices& vertices);
+    /// @param around  found before each call of find; goes by it where drag is by the fabric's own fraction
+    Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices);
 
     /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the vertices are sorted and the liquid's
     /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing
@@ -63,6 +64,7 @@ class Mixture {
     void addDisplaced(LiquidGrid& liquid) const;
     void applyPressure(const LiquidGrid& liquid);
     void separate(LiquidGrid& liquid) const;
+    double dragOn(int block, int axis, int cell, double liquidVolume, double room) const;
     double speedAt(int block, int axis, int cell) const;
     template <class Body>
     void forEachShared(Body&& body) const;
@@ -70,6 +72,7 @@ class Mixture {
     double sumOver(const BlockArray<double, 3>& velocity, int block, int axis, Of&& of) const;
 
     PorousLaw law_;
+    LiquidSettings liquid_;
     double liquidDensity_;                           ///< [g/cm^3]
     CouplingSettings settings_;
     Suction suction_;
@@ -82,7 +85,7 @@ class Mixture {
     Faces liquidMass_;                               ///< [g]
     Faces relative_;                                 ///< velocity of the liquid past the fabric [cm/s]
     Faces liquidVolume_;                             ///< on which pressure pushes the liquid [cm^3]
-    Faces drag_;                                     ///< D = dt c (V_f + V_s) [g]
+    Faces drag_;                                     ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
     Faces predicted_;                                ///< u_f*, later ũ_f: after the pressure [cm/s]
     Faces mixed_, mobility_;                         ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
     Faces sucked_;                                   ///< impulse of suction on the liquid [g cm/s]

@@ -31,7 +31,7 @@ Permeability permeability(double fraction, double fibreDiameter)
 
 PorousLaw::PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid, const CouplingSettings& coupling)
     : fibreDiameter_(porous.fibreDiameter),
-      suctionScale_(porous.poreRadius() > 0.0 ? liquid.surfaceTension * std::cos(liquid.contactAngle) / porous.poreRadius() : 0.0),
+      suctionScale_(porous.poreRadius() > 0.0 ? liquid.surfaceTension * std::max(std::cos(liquid.contactAngle), 0.0) / porous.poreRadius() : 0.0),
       density_(liquid.density),
       viscosity_(liquid.viscosity),
       law_(coupling.drag),

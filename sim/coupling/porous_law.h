@@ -22,6 +22,8 @@ class PorousLaw {
 
     /// P_c: capillary suction of dry fabric [dyn/cm^2]; 0 where fibres leave no pores.
     double suction(double fraction) const;
+    /// σ cos θ/r_p: suction per fibres' over pores' volume; none of what does not wet, as such liquid stays out [dyn/cm^2].
+    double suctionOfPores() const { return suctionScale_; }
     /// κ: rate at which fabric takes in what is in the cells around it [1/s] (model-fluid 9.1).
     double captureRate(double fraction, double cell) const;
     /// c: drag per volume and relative speed [g/(cm^3 s)]: Darcy's, and where it is not linear the one of Yazdchi and Luding 2012.
@@ -40,7 +42,7 @@ class PorousLaw {
     Drag drag(double fraction, double speed) const;
 
  private:
-    double fibreDiameter_, suctionScale_;            ///< [cm], σ cos θ / r_p [dyn/cm^2]
+    double fibreDiameter_, suctionScale_;            ///< [cm], σ cos θ / r_p, at least 0 [dyn/cm^2]
     double density_, viscosity_;                     ///< of the liquid [g/cm^3, P]
     DragLaw law_;
     double exponent_;                                ///< b, of the speed where drag is not linear [-]

@@ -10,12 +10,6 @@ namespace sim {
 
 namespace {
 
-/// The pores are those of the first material, as the published model has one for all of a scene's fabric.
-PorousSettings poresOf(const Fabric& fabric, const Settings& settings)
-{
-    return {settings.porous.fibreDiameter, fabric.materials.empty() ? settings.porous.volumeFraction : fabric.materials[0].volumeFraction};
-}
-
 /// Index in its block, by axes.
 std::array<int, kAxes> placeOf(int cell) { return {cell % kBlockEdge, cell / kBlockEdge % kBlockEdge, cell / (kBlockEdge * kBlockEdge)}; }
 
@@ -36,8 +30,10 @@ double massIn(const BlockGrid& grid, const LiquidGrid& liquid, int block, int ce
 }  // namespace
 
 Suction::Suction(const Fabric& fabric, const Settings& settings)
-    : fabric_(fabric), law_(poresOf(fabric, settings), settings.liquid, settings.coupling), density_(settings.liquid.density)
+    : fabric_(fabric), density_(settings.liquid.density)
 {
+    for (const FabricMaterial& m : fabric.materials)
+        strength_.push_back(PorousLaw({settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling).suctionOfPores());
 }
 
 void Suction::find(const SortedVertices& vertices, const FabricState& state, const BlockGrid& grid, std::span<const int> liquidBlock,
@@ -54,9 +50,11 @@ void Suction::find(const SortedVertices& vertices, const FabricState& state, con
             for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
                 const std::size_t v = vertices.particles.id[s];
                 const double fibres = fabric_.volume[v] - poreVolume(fabric_, v), held = state.absorbed[v] / density_;
+                const double pull = fibres * strength_[fabric_.vertexMaterial[v]];
                 CellStencil(vertices.particles.position(s), corner, vertices.grid.dx)
                     .forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                         volumes_.block(b, kFibres)[c] += weight * fibres;
+                        volumes_.block(b, kPull)[c] += weight * pull;
                         volumes_.block(b, kHeld)[c] += weight * held;
                     });
             }
@@ -71,7 +69,7 @@ void Suction::find(const SortedVertices& vertices, const FabricState& state, con
             if (!(fraction > 0.0 && fraction < 1.0)) continue;
             const double free = liquidBlock[b] == BlockGrid::kNone ? 0.0 : massIn(grid, liquid, liquidBlock[b], c) / density_;
             const double saturation = std::clamp((free + volumes_.block(b, kHeld)[c]) / (whole - fibres), 0.0, 1.0);
-            suction = law_.suction(fraction) * (1.0 - saturation);
+            suction = volumes_.block(b, kPull)[c] / (whole - fibres) * (1.0 - saturation);
         }
     });
 }

@@ -18,10 +18,10 @@ class Suction {
     double slope(const BlockGrid& grid, int block, int axis, int cell) const;
 
  private:
-    enum Kind { kFibres, kHeld, kKinds };        ///< volumes in a cell [cm^3]
+    enum Kind { kFibres, kPull, kHeld, kKinds };  ///< fibres [cm^3], they times P_c (1 - φ)/φ of their pores [dyn cm], held liquid [cm^3]
 
     const Fabric& fabric_;
-    PorousLaw law_;
+    std::vector<double> strength_;               ///< of each material: P_c (1 - φ)/φ of its pores [dyn/cm^2]
     double density_;                             ///< of the liquid [g/cm^3]
     BlockArray<double, kKinds> volumes_;
     BlockArray<double> suction_;                 ///< of each cell [dyn/cm^2]

@@ -17,11 +17,30 @@ inline std::span<const Choice<DragLaw>> choicesOf(DragLaw)
     return kAll;
 }
 
+inline std::span<const Choice<DragFraction>> choicesOf(DragFraction)
+{
+    static constexpr Choice<DragFraction> kAll[] = {{"fabric", DragFraction::Fabric}, {"cell", DragFraction::Cell}};
+    return kAll;
+}
+
+inline std::span<const Choice<CaptureLaw>> choicesOf(CaptureLaw)
+{
+    static constexpr Choice<CaptureLaw> kAll[] = {{"fabric", CaptureLaw::Fabric}, {"published", CaptureLaw::Published}};
+    return kAll;
+}
+
 template <class V>
 void describe(V& v, CaptureSettings& c)
 {
-    v.number("rate", c.rate, Quantity::None, Range::atLeast(0.0), "Factor on the rate at which fabric takes up liquid; 0 = it stays dry");
-    v.number("compat_factor", c.compatFactor, Quantity::None, Range::above(0.0), "Another factor; 3 as published, 1 physical");
+    v.choice("law", c.law, "By the fabric's pores, or by the liquid in the cells around as published");
+    v.number("rate", c.rate, Quantity::Frequency, Range::atLeast(0.0), "Part of its pores that fabric in liquid fills per time; 0 = it stays dry");
+    v.number("compat_factor", c.compatFactor, Quantity::None, Range::atLeast(0.0),
+             "Law published: factor on its rate; 3 as published, 1 physical, 0 = fabric stays dry");
+    const bool isPublished = c.law == CaptureLaw::Published;
+    v.require(!isPublished || c.rate == 0.0 || c.rate == CaptureSettings().rate, "rate",
+              "law published has a rate of its own, times compat_factor; leave rate out, or 0 for fabric that stays dry");
+    v.require(isPublished || c.compatFactor == CaptureSettings().compatFactor, "compat_factor",
+              "is of law published only; law fabric goes by rate");
 }
 
 template <class V>
@@ -35,6 +54,7 @@ template <class V>
 void describe(V& v, CouplingSettings& c)
 {
     v.choice("drag", c.drag, "What liquid feels that flows through fabric");
+    v.choice("drag_fraction", c.dragFraction, "Whose fraction of fibres drag goes by: the fabric's own, or the cell's mean as published");
     v.number("drag_exponent", c.dragExponent, Quantity::None, Range::between(1.0, 2.0), "Of the speed in nonlinear drag; 1 is Forchheimer's law");
     v.flag("pressure_on_fabric", c.pressureOnFabric, "The liquid's pressure pushes the fabric: buoyancy");
     v.flag("capillary", c.capillary, "Suction of empty pores draws the liquid around");

@@ -59,7 +59,9 @@ TEST(Import, SettingsArriveInTheirUnits)
     EXPECT_NEAR(s.porous.volumeFraction, 0.5, 1.0e-12) << "of fibres of 0.01 cm with pores of 0.005 cm";
     EXPECT_EQ(s.coupling.drag, sim::DragLaw::Linear);
     EXPECT_EQ(s.coupling.dragExponent, 1.2);
-    EXPECT_EQ(s.coupling.capture.rate, 2.0);
+    EXPECT_EQ(s.coupling.capture.law, sim::CaptureLaw::Published);
+    EXPECT_EQ(s.coupling.capture.compatFactor, 6.0);
+    EXPECT_EQ(s.coupling.dragFraction, sim::DragFraction::Cell);
     EXPECT_FALSE(s.coupling.pressureOnFabric || s.coupling.wicking.pressure);
     EXPECT_EQ(s.fabric.solver, sim::FabricSolver::Grid);
     EXPECT_EQ(s.fabric.hingeMeasure, sim::HingeMeasure::Tan);

@@ -22,6 +22,7 @@ struct Bath {
             testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.144}, middle}), testing::wool(), {0.017, 0.017}),
             testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03})};
         fabric = assembleFabric(pieces);
+        around = LiquidAround(fabric.vertexCount());
         state = restState(fabric);
         for (std::size_t v = 0; v < state.v.size(); ++v) state.v[v] = Vec3(3.0, -1.0, std::sin(static_cast<double>(v)));
         for (std::size_t p = 0; p < liquid.particles.count; ++p) liquid.particles.mass[p] *= kParticle;
@@ -30,10 +31,18 @@ struct Bath {
     }
     double capture(double dt)
     {
-        Capture capture(fabric, settings, kParticle);
+        findAround();
+        Capture capture(fabric, around, settings, kParticle);
         const double mass = capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
         toPins = capture.toPins();
         return mass;
+    }
+    void findAround()
+    {
+        ObstacleField none;
+        const std::vector<int> unknown(liquid.grid.count(), BlockGrid::kNone);
+        none.update(liquid.grid, unknown, Obstacles(), false);
+        ASSERT_TRUE(around.find(liquid.grid, liquid.order, liquid.particles, none, vertices));
     }
     double liquidMass() const { return std::accumulate(liquid.particles.mass.data(), liquid.particles.mass.data() + liquid.particles.count, 0.0); }
     double absorbed() const { return std::accumulate(state.absorbed.begin(), state.absorbed.end(), 0.0); }
@@ -48,6 +57,7 @@ struct Bath {
     SortedLiquid liquid;
     SortedVertices vertices;
     Fabric fabric;
+    LiquidAround around{0};
     FabricState state;
     Settings settings;
     Vec3 toPins = Vec3::Zero();  ///< of the last capture [g cm/s]
@@ -78,10 +88,12 @@ TEST(Capture, TakesWholeParticles)
     for (double& volume : bath.fabric.volume) volume *= 1.0e6;
     const double mass = bath.liquidMass();
     const Vec3 momentum = bath.momentum();
-    Capture capture(bath.fabric, bath.settings, kParticle);
+    Capture capture(bath.fabric, bath.around, bath.settings, kParticle);
     double captured = 0.0;
-    for (int n = 0; n < 30; ++n)
+    for (int n = 0; n < 30; ++n) {
+        bath.findAround();
         captured += capture.capture(10.0, bath.liquid.grid, bath.liquid.order, bath.vertices, bath.liquid.particles, bath.state);
+    }
     const std::size_t before = bath.liquid.particles.count;
     EXPECT_NEAR(bath.liquidMass() + captured, mass, 1.0e-13 * mass);
     EXPECT_LT((bath.momentum() - momentum).norm(), 1.0e-12 * momentum.norm());
@@ -131,35 +143,114 @@ TEST(Capture, FullOrCompactFabricTakesNothing)
     EXPECT_EQ(bath.capture(1.0), 0.0);
 }
 
-/// Model-fluid E2: a dry vertex in still liquid takes up 3 κ times the liquid around it per time, until it is full.
-TEST(Capture, OneVertexFillsAtTheRateOfTheModel)
-{
-    constexpr int kPerCell = 4;
-    SortedLiquid liquid;
-    liquid.grid.dx = kCell;
-    const double mass = std::pow(kCell / kPerCell, 3);
-    std::uint32_t id = 0;
-    for (int i = 0; i < 8 * kPerCell; ++i)
-        for (int j = 0; j < 8 * kPerCell; ++j)
-            for (int k = 0; k < 8 * kPerCell; ++k)
-                liquid.particles.add(kCell / kPerCell * Vec3(i + 0.3, j + 0.6, k + 0.1), mass, id++, Vec3::Zero());
-    liquid.sort();
-    const Vec3 at = kCell * Vec3(3.9, 4.2, 3.4);
-    const Fabric fabric = testing::fabricOf(testing::pieceOf(strand(at, at + Vec3(2.0, 0.0, 0.0), 1), testing::wool(), {0.03, 0.03}));
+/// Still liquid in a box of eight cells, and a vertex in it.
+struct Pool {
+    explicit Pool(double cell, const Vec3& place) : mass(std::pow(cell / kPerCell, 3))
+    {
+        settings.cell = liquid.grid.dx = cell;
+        std::uint32_t id = 0;
+        for (int i = 0; i < 8 * kPerCell; ++i)
+            for (int j = 0; j < 8 * kPerCell; ++j)
+                for (int k = 0; k < 8 * kPerCell; ++k)
+                    liquid.particles.add(cell / kPerCell * Vec3(i + 0.3, j + 0.6, k + 0.1), mass, id++, Vec3::Zero());
+        liquid.sort();
+        const Vec3 at = cell * place;
+        fabric = testing::fabricOf(testing::pieceOf(strand(at, at + Vec3(20.0 * cell, 0.0, 0.0), 1), testing::wool(), {0.03, 0.03}));
+        around = LiquidAround(fabric.vertexCount());
+        state = restState(fabric);
+        vertices.sort(liquid.grid, state);
+        const std::vector<int> unknown(liquid.grid.count(), BlockGrid::kNone);
+        none.update(liquid.grid, unknown, Obstacles(), false);
+    }
+    /// @return what is taken up in the next steps [g]
+    double capture(Capture& capture, double dt, int steps)
+    {
+        double sum = 0.0;
+        for (int n = 0; n < steps; ++n) {
+            around.find(liquid.grid, liquid.order, liquid.particles, none, vertices);
+            sum += capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
+        }
+        return sum;
+    }
+
+    static constexpr int kPerCell = 4;
+    double mass;  ///< of a particle [g]
     Settings settings;
-    settings.cell = kCell;
-    FabricState state = restState(fabric);
+    SortedLiquid liquid;
+    ObstacleField none;
+    Fabric fabric;
+    LiquidAround around{0};
     SortedVertices vertices;
-    vertices.sort(liquid.grid, state);
-    Capture capture(fabric, settings, mass);
+    FabricState state;
+};
+
+/// Model-fluid E2: by the published law a dry vertex in still liquid takes up 3 κ times the liquid around it per time, until it is full.
+TEST(Capture, PublishedLawTakesAShareOfTheLiquid)
+{
+    Pool pool(kCell, {3.9, 4.2, 3.4});
+    pool.settings.coupling.capture.law = CaptureLaw::Published;
+    Capture capture(pool.fabric, pool.around, pool.settings, pool.mass);
     const double dt = 1.0e-4, rate = 3.0 * 13.655;  // K2
-    const double gained = capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
+    const double gained = pool.capture(capture, dt, 1);
     EXPECT_NEAR(gained, rate * dt * std::pow(kCell, 3), 1.0e-4 * gained);
-    EXPECT_EQ(state.absorbed[1], 0.0);
-    const double capacity = poreVolume(fabric, 0);
-    const int steps = static_cast<int>(1.1 * capacity / gained);
-    for (int n = 0; n < steps; ++n) capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
-    EXPECT_NEAR(state.absorbed[0], capacity, 1.0e-12 * capacity);
+    EXPECT_EQ(pool.state.absorbed[1], 0.0);
+    const double capacity = poreVolume(pool.fabric, 0);
+    pool.capture(capture, dt, static_cast<int>(1.1 * capacity / gained));
+    EXPECT_NEAR(pool.state.absorbed[0], capacity, 1.0e-12 * capacity);
+}
+
+/// By the fabric's law it fills `rate` of its pores per time, whatever the cell and its place in it.
+TEST(Capture, FabricInLiquidFillsAtItsRate)
+{
+    for (const double cell : {0.5, 0.288, 0.1})
+        for (const Vec3& place : {Vec3(3.9, 4.2, 3.4), Vec3(4.5, 3.0, 4.0), Vec3(3.1, 3.6, 4.9)}) {
+            Pool pool(cell, place);
+            const double dt = 1.0e-3, part = pool.settings.coupling.capture.rate * dt, room = poreVolume(pool.fabric, 0);
+            const double capacity = std::min(room, 0.3 * std::pow(cell, 3));  // all that the test's small pool can give
+            for (double& volume : pool.fabric.volume) volume *= capacity / room;
+            Capture ofShare(pool.fabric, pool.around, pool.settings, pool.mass);
+            EXPECT_NEAR(pool.capture(ofShare, dt, 1), part * capacity, 1.0e-12 * capacity);
+            EXPECT_NEAR(pool.capture(ofShare, dt, 1), part * capacity, 1.0e-12 * capacity);
+            pool.capture(ofShare, dt, static_cast<int>(1.0 / part));
+            EXPECT_NEAR(pool.state.absorbed[0], capacity, 1.0e-12 * capacity);
+        }
+}
+
+TEST(Capture, WhatDoesNotWetStaysOutside)
+{
+    for (const CaptureLaw law : {CaptureLaw::Fabric, CaptureLaw::Published}) {
+        Pool pool(kCell, {3.9, 4.2, 3.4});
+        pool.settings.coupling.capture.law = law;
+        pool.settings.liquid.contactAngle = 0.55 * kPi;
+        Capture capture(pool.fabric, pool.around, pool.settings, pool.mass);
+        EXPECT_EQ(pool.capture(capture, 0.01, 3), 0.0);
+    }
+}
+
+/// Distances by which fabric is in touch with liquid or not: on a flat surface, beside it, amid liquid, and where walls bound it.
+TEST(LiquidAround, TellsHowFarLiquidIs)
+{
+    const auto distanceAt = [](const Vec3& place, bool isWalled) {
+        Pool pool(kCell, place);
+        if (isWalled) {
+            Obstacles walls;
+            walls.add(Shape::unite({Shape::box(Vec3(0.0, -9.0, 0.0), Vec3::Constant(9.0)), Shape::box(Vec3(-9.0, 0.0, 0.0), Vec3::Constant(9.0))}), {});
+            walls.moveTo(0.0, 0.0);
+            const std::vector<int> unknown(pool.liquid.grid.count(), BlockGrid::kNone);
+            pool.none.update(pool.liquid.grid, unknown, walls, false);
+        }
+        EXPECT_TRUE(pool.around.find(pool.liquid.grid, pool.liquid.order, pool.liquid.particles, pool.none, pool.vertices));
+        return pool.around.distanceAt(0);
+    };
+    for (double shift : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+        const auto at = [&](double height) { return distanceAt(Vec3(4.0 + shift, height, 4.4), false); };
+        EXPECT_NEAR(at(4.0 + shift), 0.0, 0.02);
+        EXPECT_NEAR(at(8.0), 0.56, 0.04);
+        EXPECT_NEAR(at(8.25), 0.73, 0.06);  // particles stand up to 0.025 off the middles of their room
+        EXPECT_NEAR(at(-0.225), 0.73, 0.06);
+        EXPECT_LT(distanceAt(Vec3(4.0, 0.0 + 0.5 * shift, 4.0), true), 0.15);             // on the bottom …
+        EXPECT_LT(distanceAt(Vec3(0.5 * shift, 0.0 + 0.5 * shift, 4.0), true), 0.2);      // … and in its corner
+    }
 }
 
 TEST(Capture, SameBitsForAnyThreadCount)

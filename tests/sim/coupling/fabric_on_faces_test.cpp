@@ -22,13 +22,14 @@ struct Spread {
                     : testing::pieceOf(clothGrid({{7, 9}, {0.144, 0.144}, middle + off}), testing::wool(), {0.017, 0.017});
         second.material.density = secondDensity;
         fabric = assembleFabric(std::vector<FabricPiece>{first, second});
+        around = LiquidAround(fabric.vertexCount());
         state = restState(fabric);
         testing::Noise noise(3);
         if (isWet)
             for (std::size_t v = 0; v < state.absorbed.size(); ++v) state.absorbed[v] = (1.0 + noise()) * fabric.mass[v];
         scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * scene.grid.dx; });
         vertices.sort(scene.grid, state);
-        faces.emplace(fabric, kWater, vertices);
+        faces.emplace(fabric, kWater, &around, vertices);
         faces->spread(state);
     }
     double fibres() const
@@ -50,6 +51,7 @@ struct Spread {
 
     GridScene scene;
     Fabric fabric;
+    LiquidAround around{0};  ///< 0 from all vertices
     FabricState state;
     SortedVertices vertices;
     std::optional<FabricOnFaces> faces;
@@ -97,6 +99,29 @@ TEST(FabricOnFaces, KnowsWithoutAPassWhatAPassGives)
             }
     EXPECT_LT(least, 0.1);
     EXPECT_GT(most, 0.9);
+}
+
+/// Fabric that is stretched has the fibres it had in an envelope that grows with it: yarns with their length, cloth with its area.
+TEST(FabricOnFaces, EnvelopesFollowTheStretch)
+{
+    for (const bool hasYarn : {false, true}) {
+        Spread spread(hasYarn, 1.3, false);
+        const double before = spread.sum(spread.faces->envelope, 1), fibres = spread.sum(spread.faces->fibres, 1);
+        double whole = 0.0, grown = 0.0;
+        for (std::size_t v = 0; v < spread.fabric.vertexCount(); ++v) {
+            const bool isYarn = hasYarn && v >= 81;
+            whole += spread.fabric.volume[v];
+            grown += (isYarn ? 1.2 : 1.44) * spread.fabric.volume[v];
+        }
+        EXPECT_NEAR(before, whole, 1.0e-12 * whole);
+        EXPECT_NEAR(spread.sum(spread.faces->touched, 1), whole, 1.0e-12 * whole);
+        const Vec3 middle = spread.scene.corner(Vec3i(8, 8, 8));
+        for (Vec3& x : spread.state.x) x = middle + 1.2 * (x - middle);
+        spread.vertices.sort(spread.scene.grid, spread.state);
+        spread.faces->spread(spread.state);
+        EXPECT_NEAR(spread.sum(spread.faces->envelope, 1), grown, 1.0e-12 * whole);
+        EXPECT_NEAR(spread.sum(spread.faces->fibres, 1), fibres, 1.0e-12 * whole);
+    }
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct Bath {
         FabricPiece yarn = testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03});
         cloth.material.volumeFraction = yarn.material.volumeFraction = 0.4;
         fabric = assembleFabric(std::vector<FabricPiece>{cloth, yarn});
+        around = LiquidAround(fabric.vertexCount());
         state = restState(fabric);
         for (Vec3& v : state.v) v = 20.0 * noise.vector();
         scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * scene.grid.dx; });
@@ -64,6 +65,7 @@ struct Bath {
 
     GridScene scene;
     Fabric fabric;
+    LiquidAround around{0};  ///< 0 from all vertices
     SortedVertices vertices;
     FabricState state;
     Settings settings;
@@ -73,7 +75,7 @@ struct Bath {
 TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;
-    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     ASSERT_TRUE(reachesLiquid(bath.scene.grid, bath.state));
     ASSERT_TRUE(bath.find(mixture));
     const Vec3 liquidBefore = mixture.liquidMomentum(bath.scene.liquid), fabricBefore = bath.fabricMomentum();
@@ -98,9 +100,9 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;
     GridScene& scene = bath.scene;
-    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     ASSERT_TRUE(bath.find(mixture));
-    FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, bath.vertices);
+    FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
     fabric.spread(bath.state);
     const Vec3 liquidBefore = mixture.liquidMomentum(scene.liquid);
     const double energyBefore = mixture.kinetic(scene.liquid.faces.velocity);
@@ -133,7 +135,7 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
 TEST(Mixture, PressureActsOnAllTheRoom)
 {
     Bath bath(DragLaw::Off);
-    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     GridScene& scene = bath.scene;
     ASSERT_TRUE(bath.find(mixture));
     findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
@@ -178,7 +180,7 @@ TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
         double middle = 0.0;
         for (const Vec3& x : bath.state.x) middle += x.y() / static_cast<double>(bath.state.x.size());
         fillBelow(bath, middle - 0.5 * bath.scene.grid.dx);
-        Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+        Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
         ASSERT_TRUE(bath.find(mixture));
         bath.exchange(mixture);
         const Vec3 up = mixture.liquidMomentum(bath.scene.liquid);
@@ -195,7 +197,7 @@ TEST(Mixture, FullPoresDoNotSuck)
     bath.settings.coupling.capillary = true;
     for (Vec3& v : bath.state.v) v.setZero();
     bath.scene.setRandomVelocities(0.0);  // fabric amid liquid: every cell that it reaches is full
-    Mixture mixture(bath.fabric, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     ASSERT_TRUE(bath.find(mixture));
     bath.exchange(mixture);
     EXPECT_LT(mixture.liquidMomentum(bath.scene.liquid).norm(), 1.0e-12);
