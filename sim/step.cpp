@@ -39,7 +39,7 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
     }
 }
 
-/// Liquid that leaves the fabric, and that moves in it.
+/// Liquid that moves in the fabric, and that leaves it.
 void exchange(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
               EnergyBook& energy)
 {
@@ -47,6 +47,14 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
     LiquidParticles& particles = state.liquid;
     if (plan.meetsFabric) coupling.capture.dropEmptied(particles);
     if (coupling.wicking.isWet(state.fabric)) {
+        clock.start(Stage::Wicking);
+        {
+            const ExchangeWatch watch(coupling.fabric, state, nullptr);
+            coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
+            watch.expectKept(coupling.wicking.toPins());
+        }
+        report.toPins += coupling.wicking.toPins();
+        energy.after(EnergyChange::Wicking);
         if (settings.coupling.drip) {
             clock.start(Stage::Drip);
             const std::size_t before = particles.count;
@@ -59,12 +67,6 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
             }
             energy.after(EnergyChange::Drip);
         }
-        clock.start(Stage::Wicking);
-        const ExchangeWatch watch(coupling.fabric, state, nullptr);
-        coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
-        watch.expectKept(coupling.wicking.toPins());
-        report.toPins += coupling.wicking.toPins();
-        energy.after(EnergyChange::Wicking);
     }
     report.particles = particles.count;
     report.liquidMass += report.drippedMass;

@@ -37,15 +37,15 @@ enum class Stage {
     FabricToGrid,      ///< vertices to faces …
     GridToFabric,      ///< … and back, solver grid only
     FabricStrain,      ///< strains of contact on the grid, with separation and friction
-    Drip,              ///< fabric lets go of liquid that its pores cannot hold
     Wicking,           ///< liquid moves in fabric
+    Drip,              ///< fabric lets go of liquid that its pores cannot hold
     Count
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {
     "keep", "taken_back", "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension",
     "pressure", "volume", "reflection", "walls", "grid_to_particles",
-    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "drip", "wicking"};
+    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "wicking", "drip"};
 
 /// What an iterative solve did.
 struct SolveReport {

@@ -5,14 +5,17 @@
 #include "sim/core/random.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace sim {
 
 namespace {
 
 constexpr std::uint64_t kSeed = 0x44726970;  // "Drip"
-constexpr double kJitter = 0.5;              ///< of the way to a random point of the element [-]
+constexpr double kJitter = 0.5;              ///< of the way to a corner of an element of the pool [-]
+constexpr double kLeastDrop = 1.0e-3;        ///< of the nominal mass: less stays, as it would all but vanish [-]
 
 }  // namespace
 
@@ -20,63 +23,72 @@ Drip::Drip(const Fabric& fabric, const WetElements& elements, const Settings& se
     : elements_(elements),
       capacity_(poreCapacity(fabric, settings.liquid.density)),
       excess_(fabric.vertexCount()),
-      nominalMass_(nominalMass)
+      nominalMass_(nominalMass),
+      cell_(settings.cell)
 {
 }
 
-/// One particle made of these masses of the element's corners [g], beside their centre.
-void Drip::release(int element, const std::array<double, 3>& part, const Vec3& offset, State& state) const
+/// Vertices with too much, those of a cell one behind the other.
+void Drip::findPools(const FabricState& fabric)
 {
-    if (state.nextId == std::numeric_limits<std::uint32_t>::max())
-        throw RunError("fabric has dripped more particles than can be numbered (2^32)");
+    wet_.clear();
+    for (std::size_t v = 0; v < excess_.size(); ++v)
+        if (excess_[v] > 0.0) wet_.push_back({(fabric.x[v] / cell_).array().floor().cast<int>().matrix(), static_cast<int>(v)});
+    const auto key = [](const Wet& w) { return std::make_tuple(w.cell.z(), w.cell.y(), w.cell.x(), w.vertex); };
+    std::ranges::sort(wet_, [&](const Wet& a, const Wet& b) { return key(a) < key(b); });
+}
+
+/// From the middle of a pool towards a random corner of the elements at it [cm].
+Vec3 Drip::jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const
+{
+    const CounterRandom random(kSeed, static_cast<std::uint64_t>(pool[0].vertex), static_cast<std::uint64_t>(state.step));
+    const auto pick = [&](int draw, std::size_t count) {
+        return std::min(static_cast<std::size_t>(random.uniform(number, draw) * static_cast<double>(count)), count - 1);
+    };
+    const int v = pool[pick(0, pool.size())].vertex, first = elements_.begin[v];
+    const std::size_t e = elements_.at[first + pick(1, elements_.begin[v + 1] - first)];
+    return kJitter * (state.fabric.x[elements_.vertices[e][pick(2, elements_.corners(e))]] - middle);
+}
+
+/// All that a pool has too much comes off, in drops of about the nominal mass.
+/// @return that [g]
+double Drip::drain(std::span<const Wet> pool, State& state) const
+{
     FabricState& fabric = state.fabric;
-    double mass = 0.0;
+    double mass = 0.0, over = 0.0;
     Vec3 moment = Vec3::Zero(), momentum = Vec3::Zero();
-    for (int c = 0; c < elements_.corners(element); ++c) {
-        const int v = elements_.vertices[element][c];
-        fabric.absorbed[v] -= part[c];
-        mass += part[c];
-        moment += part[c] * fabric.x[v];
-        momentum += part[c] * fabric.v[v];
+    for (const Wet& w : pool) {
+        const double excess = excess_[w.vertex];
+        mass += excess;
+        over = std::max(over, excess - kMostOver * capacity_[w.vertex]);
+        moment += excess * fabric.x[w.vertex];
+        momentum += excess * fabric.v[w.vertex];
     }
-    state.liquid.add(moment / mass + offset, mass, state.nextId++, momentum / mass);
-}
-
-/// From the middle of an element towards a random point of it [cm].
-Vec3 Drip::jitter(int element, std::uint64_t number, const State& state) const
-{
-    const CounterRandom random(kSeed, static_cast<std::uint64_t>(element), static_cast<std::uint64_t>(state.step));
-    const std::array<int, 3>& v = elements_.vertices[element];
-    const std::vector<Vec3>& x = state.fabric.x;
-    double u = random.uniform(number, 0), w = random.uniform(number, 1);
-    if (v[2] < 0) return kJitter * (u - 0.5) * (x[v[1]] - x[v[0]]);
-    if (u + w > 1.0) u = 1.0 - u, w = 1.0 - w;
-    return kJitter * ((u - 1.0 / 3.0) * (x[v[1]] - x[v[0]]) + (w - 1.0 / 3.0) * (x[v[2]] - x[v[0]]));
+    if (mass < kLeastDrop * nominalMass_ || (mass < nominalMass_ && !(over > 0.0))) return 0.0;
+    for (const Wet& w : pool) fabric.absorbed[w.vertex] -= excess_[w.vertex];
+    const int count = std::max(1, static_cast<int>(std::lround(mass / nominalMass_)));
+    const Vec3 middle = moment / mass;
+    for (int k = 0; k < count; ++k) {
+        if (state.nextId == std::numeric_limits<std::uint32_t>::max())
+            throw RunError("fabric has dripped more particles than can be numbered (2^32)");
+        // In pairs on opposite sides, and a last one in the middle: their centre stays.
+        const bool isAlone = k == count - 1 && k % 2 == 0;
+        const Vec3 offset = isAlone ? Vec3::Zero().eval() : jitter(pool, middle, k / 2, state);
+        state.liquid.add(middle + (k % 2 == 0 ? 1.0 : -1.0) * offset, mass / count, state.nextId++, momentum / mass);
+    }
+    return mass;
 }
 
 double Drip::drip(State& state)
 {
-    FabricState& fabric = state.fabric;
-    parallelFor(excess_.size(), 4096, [&](std::size_t v) { excess_[v] = std::max(fabric.absorbed[v] - capacity_[v], 0.0); });
+    const std::vector<double>& absorbed = state.fabric.absorbed;
+    parallelFor(excess_.size(), 4096, [&](std::size_t v) { excess_[v] = std::max(absorbed[v] - capacity_[v], 0.0); });
     if (!(parallelMax(excess_.size(), [&](std::size_t v) { return excess_[v]; }) > 0.0)) return 0.0;
-
+    findPools(state.fabric);
     double sum = 0.0;
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-        std::array<double, 3> part{};
-        double whole = 0.0;
-        for (int c = 0; c < elements_.corners(e); ++c) {
-            part[c] = excess_[elements_.vertices[e][c]] * elements_.share[e][c];
-            whole += part[c];
-        }
-        const int count = static_cast<int>(whole / nominalMass_);
-        for (double& m : part) m *= whole > 0.0 ? nominalMass_ / whole : 0.0;
-        const int element = static_cast<int>(e);
-        for (int k = 0; k < count; ++k) {
-            // In pairs on opposite sides, and a last one in the middle: their centre stays.
-            const Vec3 offset = k == count - 1 && k % 2 == 0 ? Vec3::Zero() : jitter(element, k / 2, state);
-            release(element, part, k % 2 == 0 ? offset : Vec3(-offset), state);
-        }
-        sum += count * nominalMass_;
+    for (std::size_t begin = 0, end; begin < wet_.size(); begin = end) {
+        for (end = begin + 1; end < wet_.size() && wet_[end].cell == wet_[begin].cell; ++end) {}
+        sum += drain(std::span(wet_).subspan(begin, end - begin), state);
     }
     return sum;
 }

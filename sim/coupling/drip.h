@@ -4,14 +4,18 @@
 #include "sim/settings.h"
 #include "sim/state.h"
 
+#include <span>
 #include <vector>
 
 namespace sim {
 
-/// Fabric lets go of liquid that its pores cannot hold, a whole particle of an element at a time (model-fluid 9.3). Mass, momentum and
+/// Fabric lets go of liquid that its pores cannot hold. What vertices within one cell of the grid have too much is pooled, and comes off as
+/// soon as it makes a particle, or as one of them holds kMostOver more than its pores: in a drop as small as that is. Mass, momentum and
 /// centre of mass are kept to round-off.
 class Drip {
  public:
+    static constexpr double kMostOver = 0.03;  ///< of what pores hold, that stays beside it [-]
+
     /// @param nominalMass  of a particle [g]
     Drip(const Fabric& fabric, const WetElements& elements, const Settings& settings, double nominalMass);
 
@@ -19,13 +23,21 @@ class Drip {
     double drip(State& state);
 
  private:
-    Vec3 jitter(int element, std::uint64_t number, const State& state) const;
-    void release(int element, const std::array<double, 3>& part, const Vec3& offset, State& state) const;
+    /// A vertex with too much, in its cell.
+    struct Wet {
+        Vec3i cell;
+        int vertex;
+    };
+    void findPools(const FabricState& fabric);
+    double drain(std::span<const Wet> pool, State& state) const;
+    Vec3 jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const;
 
     const WetElements& elements_;
     std::vector<double> capacity_;   ///< of each vertex [g]
     std::vector<double> excess_;     ///< of each vertex, as the step began to drip [g]
+    std::vector<Wet> wet_;           ///< vertices with too much, by cells
     double nominalMass_;             ///< [g]
+    double cell_;                    ///< edge of a cell [cm]
 };
 
 }  // namespace sim

@@ -49,12 +49,13 @@ void Suction::find(const SortedVertices& vertices, const FabricState& state, con
             const Vec3 corner = vertices.grid.lowerCorner(block);
             for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
                 const std::size_t v = vertices.particles.id[s];
-                const double fibres = fabric_.volume[v] - poreVolume(fabric_, v), held = state.absorbed[v] / density_;
+                const double pores = poreVolume(fabric_, v), fibres = fabric_.volume[v] - pores, held = state.absorbed[v] / density_;
                 const double pull = fibres * strength_[fabric_.vertexMaterial[v]];
                 CellStencil(vertices.particles.position(s), corner, vertices.grid.dx)
                     .forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                         volumes_.block(b, kFibres)[c] += weight * fibres;
                         volumes_.block(b, kPull)[c] += weight * pull;
+                        volumes_.block(b, kPores)[c] += weight * pores;
                         volumes_.block(b, kHeld)[c] += weight * held;
                     });
             }
@@ -68,7 +69,8 @@ void Suction::find(const SortedVertices& vertices, const FabricState& state, con
             suction = 0.0;
             if (!(fraction > 0.0 && fraction < 1.0)) continue;
             const double free = liquidBlock[b] == BlockGrid::kNone ? 0.0 : massIn(grid, liquid, liquidBlock[b], c) / density_;
-            const double saturation = std::clamp((free + volumes_.block(b, kHeld)[c]) / (whole - fibres), 0.0, 1.0);
+            const double held = volumes_.block(b, kHeld)[c], pores = volumes_.block(b, kPores)[c];
+            const double saturation = std::clamp(std::max((free + held) / (whole - fibres), held / pores), 0.0, 1.0);
             suction = volumes_.block(b, kPull)[c] / (whole - fibres) * (1.0 - saturation);
         }
     });

@@ -6,7 +6,8 @@
 
 namespace sim {
 
-/// Capillary suction of fabric on the liquid around: P = P_c (1 − saturation) in the cells that vertices reach (model-fluid 8.1).
+/// Capillary suction of fabric on the liquid around: P = P_c (1 − S) in the cells that vertices reach (model-fluid 8.1). S is how full a
+/// cell is, or its fabric's pores, whichever is more: what is wet through does not draw, nor does what is under liquid.
 class Suction {
  public:
     Suction(const Fabric& fabric, const Settings& settings);
@@ -18,7 +19,7 @@ class Suction {
     double slope(const BlockGrid& grid, int block, int axis, int cell) const;
 
  private:
-    enum Kind { kFibres, kPull, kHeld, kKinds };  ///< fibres [cm^3], they times P_c (1 - φ)/φ of their pores [dyn cm], held liquid [cm^3]
+    enum Kind { kFibres, kPull, kPores, kHeld, kKinds };  ///< fibres [cm^3], they times P_c (1 - φ)/φ [dyn cm], pores, what they hold [cm^3]
 
     const Fabric& fabric_;
     std::vector<double> strength_;               ///< of each material: P_c (1 - φ)/φ of its pores [dyn/cm^2]

@@ -11,7 +11,6 @@ namespace sim {
 struct WetElements {
     std::vector<std::array<int, 3>> vertices;     ///< the third of an edge is −1
     std::vector<double> crossSection;             ///< of an edge: area [cm^2]; of a face: thickness [cm]
-    std::vector<std::array<double, 3>> share;     ///< of each corner's rest surface that is the element's [-]
     std::vector<int> begin, at;                   ///< of each vertex: its elements are at[begin[v]] … at[begin[v + 1] − 1]
 
     explicit WetElements(const Fabric& fabric);
