@@ -32,7 +32,8 @@ struct Fabric {
         std::vector<Vec2i> vertices;
         std::vector<int> strand;
         std::vector<double> restLength;        ///< [cm]
-        std::vector<double> twistInertia;      ///< J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<double> twistInertia;      ///< of dry yarn, J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<std::array<double, 2>> wetTwist;  ///< what J grows by per mass of water that either end has absorbed [cm^2]
         std::vector<char> twistHeld;           ///< its angle follows a pin
         std::size_t size() const { return vertices.size(); }
     };
@@ -103,6 +104,14 @@ struct FabricState {
     BlockGrid faceBlocks;                 ///< of the grid in the last step, and …
     BlockArray<double, 3> faceChange;     ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
 };
+
+/// Inertia of the twist of a yarn edge, with the water in it [g cm^2].
+inline double twistInertia(const Fabric& fabric, std::span<const double> absorbed, std::size_t edge)
+{
+    const Vec2i& v = fabric.edges.vertices[edge];
+    const auto [first, last] = fabric.edges.wetTwist[edge];
+    return fabric.edges.twistInertia[edge] + first * absorbed[v[0]] + last * absorbed[v[1]];
+}
 
 /// Puts the pieces together. Throws InputError for a strand of one vertex, edges or faces without extent, indices out of range.
 Fabric assembleFabric(std::span<const FabricPiece> pieces);
