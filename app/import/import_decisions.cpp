@@ -1,5 +1,7 @@
 #include "app/import/import_decisions.h"
 
+#include "sim/settings.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,6 +77,10 @@ void tellUncoupled(const reference::LiquidInfo& l, ImportReport& report)
             "a volume fraction that changes with stretch (useVaryingFraction): this version has none");
     if (l.porePressureOnFabric)
         report.warnings.emplace_back("pore pressure on fabric (applyPorePressureSolid): this version has none");
+    if (l.levelSetForce)
+        report.decisions.push_back(fmt::format(
+            "how hard solids push fabric follows from its mass and the step, not from levelsetYoungModulus={} and levelsetThickness={}",
+            l.levelsetYoung, l.levelsetThickness));
     if (!l.dragByFutureSolid)
         report.decisions.emplace_back(
             "dragByFutureSolid=0 is a defect of libWetCloth, which loses momentum: drag is with the fabric's new "
@@ -90,6 +96,9 @@ void tellFabric(const ImportedScene& scene, const ImportOptions& options, Import
         return;
     }
     tellUncoupled(r.liquid, report);
+    if (r.liquid.solidModes > sim::FabricTransferSettings::kMostModes)
+        report.decisions.push_back(fmt::format("scalarModes={}: fabric has {} modes at most, as a sheet is surface everywhere",
+                                               r.liquid.solidModes, sim::FabricTransferSettings::kMostModes));
     tellGroups(r, report);
     std::set<int> used;
     for (const ImportedPiece& piece : scene.pieces) used.insert(piece.material);

@@ -48,9 +48,6 @@ void writeSolver(const ImportedScene& scene, SceneLines& out)
             ? ""
             : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
     out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yesOrNo(l.twist), published));
-    if (scene.vertexSolver) return;
-    out.add(0, fmt::format("contact: {{obstacle_young: {}, obstacle_thickness: {}}}", formatPlain(l.levelsetYoung),
-                           formatPlain(l.levelsetThickness)));
 }
 
 void writeMaterial(const reference::Material& m, int number, SceneLines& out)

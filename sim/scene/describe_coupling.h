@@ -34,7 +34,7 @@ void describe(V& v, WickingSettings& w)
 template <class V>
 void describe(V& v, CouplingSettings& c)
 {
-    v.choice("drag", c.drag, "What liquid feels that flows through fabric");
+    v.choice("drag", c.drag, "What liquid feels that flows through fabric; off: it still moves inside of it as with nonlinear");
     v.number("drag_exponent", c.dragExponent, Quantity::None, Range::between(1.0, 2.0), "Of the speed in nonlinear drag; 1 is Forchheimer's law");
     v.flag("pressure_on_fabric", c.pressureOnFabric, "The liquid's pressure pushes the fabric: buoyancy");
     v.flag("capillary", c.capillary, "Suction of empty pores draws the liquid around");

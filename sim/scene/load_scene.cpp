@@ -32,7 +32,8 @@ void describeTop(V& v, Settings& settings)
     describeFabric(v, settings);
     for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion", "changes"}) v.other(key, "");
     for (const char* key : {"render", "output", "compare", "validate", "precision"}) v.other(key, "");
-    for (const char* key : {"benchmark", "test"}) v.other(key, "");  // of other verbs; they change nothing in a run
+    v.later("benchmark", "no verb reads it; remove the section (drench bench --scene times a scene)");
+    v.later("test", "no verb reads it; remove the section (a scene's checks stand in validate)");
     describeLater(v);
 }
 

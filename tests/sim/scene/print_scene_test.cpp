@@ -63,7 +63,6 @@ units: si
 grid: {cell: 2 mm}
 porous: {fibre_diameter: 0.1 mm, pore_radius: 0.07 mm}
 fabric: {solver: "off", bending: hinge, hinge: {constant: 3, measure: sin}, tolerance: 1.0e-3}
-contact: {obstacle_thickness: 0.3}
 materials:
   wool: {young: 1.0e+6, friction_angle: 0.31 rad, section_rotation: 11.1}
   "12": {young: 2.34 MPa, volume_fraction: 0.77, damp_bending: false}
