@@ -131,6 +131,13 @@ struct WickingSettings {
     bool pressure = true;       ///< The pressure of the liquid around drives it too
 };
 
+/// How wet fabric sticks, with solver vertex.
+struct CohesionSettings {
+    double strength = 0.0;      ///< of liquid bridges, relative to the capillary force along threads (bridgeForce); published: 2e-3; 0 = none [-]
+    bool fabric = true;         ///< They hold fabric on fabric …
+    bool obstacle = true;       ///< … and on solids
+};
+
 /// How liquid and fabric act on each other (model-fluid 6, 8, 9).
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
@@ -141,6 +148,7 @@ struct CouplingSettings {
     CaptureSettings capture;
     WickingSettings wicking;
     bool drip = true;                   ///< fabric lets go of what its pores cannot hold
+    CohesionSettings cohesion;
 };
 
 struct SolverSettings {

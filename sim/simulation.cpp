@@ -142,11 +142,19 @@ void Simulation::prepareWorkspace()
     if (!fabric_.empty() && (isWet || !scene_.sources.empty()))
         work_.coupling = std::make_unique<Coupling>(fabric_, scene_.settings, nominalMass(scene_));
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
-        work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
+        work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles, cohesion());
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
         work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Off)
         work_.ledFabric = std::make_unique<LedFabric>(fabric_, scene_.settings.fabric);
+}
+
+/// What holds wet fabric, if anything does and there is liquid to wet it.
+std::optional<Cohesion> Simulation::cohesion() const
+{
+    const CohesionSettings& settings = scene_.settings.coupling.cohesion;
+    if (!work_.coupling || !(settings.strength > 0.0)) return std::nullopt;
+    return Cohesion(fabric_, scene_.settings.liquid, settings);
 }
 
 /// From the state as it is: nothing is known of steps before.

@@ -85,7 +85,7 @@ void writeObstacles(const ImportedScene& scene, SceneLines& out)
         if (o.inside) out.add(2, "inside: true");
         if (scene.hasFabric()) {
             out.add(2, fmt::format("collide: {}", yesOrNo(scene.reference.liquid.levelSetForce)));
-            out.add(2, fmt::format("cohesive: {}", yesOrNo(o.sampled)));
+            if (!o.sampled && scene.vertexSolver && scene.reference.liquid.coheres()) out.add(2, "cohesive: false");
         }
         if (!o.motion.empty()) out.add(2, "motion: " + o.motion);
     }

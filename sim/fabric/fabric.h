@@ -71,8 +71,10 @@ struct ContactEnergy {
     double pressed = 0.0;  ///< where fabric presses on itself
     double gripped = 0.0;  ///< by friction of fabric on fabric that has not slid; solver vertex only
     double solids = 0.0;   ///< where fabric presses on solids and holds on to them
+    double bridges = 0.0;  ///< of `pressed` and `solids`: in liquid bridges, below 0 by what breaking them takes
 
     double sum() const { return pressed + gripped + solids; }
+    double springs() const { return pressed + solids - bridges; }  ///< what presses or, on solids, holds
 };
 
 /// What evolves of the fabric.

@@ -15,6 +15,7 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
     ContactEnergy stored;
     if (contacts_) stored = contact_->storedEnergy(x, held.onFabric);
     stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
+    stored.bridges += obstacles_.bridgeEnergy(fabric_, x);
     return stored;
 }
 

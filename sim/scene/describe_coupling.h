@@ -32,6 +32,15 @@ void describe(V& v, WickingSettings& w)
 }
 
 template <class V>
+void describe(V& v, CohesionSettings& c)
+{
+    v.number("strength", c.strength, Quantity::None, Range::atLeast(0.0),
+             "Of liquid bridges: 1 is the capillary force along the threads that touch; 2e-3 as published, 0 = none");
+    v.flag("fabric", c.fabric, "They hold fabric on fabric");
+    v.flag("obstacle", c.obstacle, "They hold fabric on solids");
+}
+
+template <class V>
 void describe(V& v, CouplingSettings& c)
 {
     v.choice("drag", c.drag, "What liquid feels that flows through fabric; off: it still moves inside of it as with nonlinear");
@@ -46,7 +55,7 @@ void describe(V& v, CouplingSettings& c)
     v.onlyRuns("air_drag", "false", {"true"}, "Air drags fabric");
     v.onlyRuns("varying_fraction", "false", {"true"}, "Fabric that is stretched has wider pores");
     v.onlyRuns("pore_pressure_on_fabric", "false", {"true"}, "Suction in its pores moves fabric");
-    v.later("cohesion", "this version has no cohesion of wet fabric; remove the key");
+    v.section("cohesion", c.cohesion, "Wet fabric sticks, fabric.solver vertex only");
 }
 
 }  // namespace sim

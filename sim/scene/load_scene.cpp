@@ -93,6 +93,20 @@ void checkCoupling(const Scene& scene)
                                 coupling.dragExponent));
 }
 
+/// Where cohesion is asked for there must be something for it to act on.
+void checkCohesion(const Node& root, const Settings& settings)
+{
+    const Node* coupling = root.find("coupling");
+    const Node* node = coupling ? coupling->find("cohesion") : nullptr;
+    const CohesionSettings& cohesion = settings.coupling.cohesion;
+    if (!node || !(cohesion.strength > 0.0) || !root.find("fabrics")) return;
+    const auto refuse = [&](const char* why) { fail(node->place, fmt::format("coupling.cohesion: {}", why)); };
+    if (settings.fabric.solver == FabricSolver::Grid)
+        refuse("fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0");
+    if (!settings.fabric.contact) refuse("acts where fabric touches, and fabric.contact is false; set that true, or strength: 0");
+    if (!cohesion.fabric && !cohesion.obstacle) refuse("holds neither fabric nor obstacle; set one of them true, or strength: 0");
+}
+
 }  // namespace
 
 std::span<const LiquidPreset> liquidPresets()
@@ -124,6 +138,7 @@ void readSettings(const Node& root, Settings& settings, std::vector<NamedMateria
     SectionReader::read(&root, "", [&](auto& v) { describeTop(v, settings); });
     SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, settings.liquid); });
     materials = readMaterials(root, settings.porous);
+    checkCohesion(root, settings);
 }
 
 /// Tells of walls between which and the liquid the grid sees little.

@@ -96,6 +96,8 @@ TEST(Import, OptionsDecideOtherwise)
     EXPECT_EQ(scene.settings.fabric.solver, sim::FabricSolver::Vertex);
     EXPECT_NEAR(scene.fabrics.at(0).material.frictionAngle, 20.0 * kDegree, 1.0e-12);
     EXPECT_EQ(scene.fabrics.at(0).radius, (std::array{0.03, 0.03}));
+    EXPECT_EQ(scene.settings.coupling.cohesion.strength, 0.002) << "the default of the file's cohesionCoeff";
+    EXPECT_TRUE(scene.settings.coupling.cohesion.fabric && scene.settings.coupling.cohesion.obstacle);
 }
 
 TEST(Import, LiquidObstacleAndDomainOfTheSheet)
