@@ -9,6 +9,7 @@
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/section_writer.h"
+#include "sim/scene/unread_settings.h"
 #include "sim/shapes/thickness.h"
 
 #include <fmt/format.h>
@@ -176,6 +177,7 @@ Scene readScene(const SceneFile& file)
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());
     if (!scene.sources.empty()) noteThinWalls(scene);
+    noteUnreadSettings(root, scene);
     checkCoupling(scene);
     scene.changes = readChanges(root, scene);
     return scene;
