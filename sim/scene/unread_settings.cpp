@@ -84,10 +84,32 @@ const Node* nodeAt(const Node& root, std::string_view path)
     return node;
 }
 
+/// What pieces, sources and solids are given in vain.
+void noteUnreadOfBodies(Scene& scene)
+{
+    const auto add = [&](const std::string& where, const std::string& what, std::string_view why) {
+        scene.notes.push_back(fmt::format("{}: {}: has no effect here; it goes with {}", where, what, why));
+    };
+    for (const FabricPiece& piece : scene.fabrics)
+        if (piece.wetness > 0.0 && piece.material.volumeFraction >= 1.0)
+            add(piece.where, fmt::format("fabrics.{}.wetness", piece.name), "pores, a volume_fraction of its material or of porous below 1");
+    const FillSettings usual;
+    for (const SourceSettings& source : scene.sources)
+        if (source.fill.seed != usual.seed && source.fill.pattern == FillSettings::Pattern::Lattice)
+            add(source.where, fmt::format("liquid.sources.{}.fill.seed", source.name), "the patterns that are random");
+    const CohesionSettings& cohesion = scene.settings.coupling.cohesion;
+    for (const ObstacleSettings& solid : scene.obstacles) {
+        const auto path = [&](const char* key) { return fmt::format("obstacles.{}.{}", solid.name, key); };
+        if (!solid.cohesive && !(cohesion.strength > 0.0 && cohesion.obstacle)) add(solid.where, path("cohesive"), "coupling.cohesion");
+        if (solid.frictionAngle && !solid.collide && !scene.fabrics.empty()) add(solid.where, path("friction_angle"), "collide true");
+    }
+}
+
 }  // namespace
 
 void noteUnreadSettings(const Node& root, Scene& scene)
 {
+    noteUnreadOfBodies(scene);
     std::vector<Reader> readers;
     addFabricReaders(scene, readers);
     addLiquidReaders(scene, readers);

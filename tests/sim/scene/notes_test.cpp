@@ -93,6 +93,22 @@ TEST(Notes, NameSettingsThatNothingReadsAndWhatWould)
               "unread.yaml:3: transfer.modes.fabric: has no effect here; it goes with fabric.solver grid");
 }
 
+TEST(Notes, NameWhatBodiesAreGivenInVain)
+{
+    const std::string yarn = "grid: {cell: 0.25}\n" + std::string(kYarn);
+    EXPECT_EQ((std::vector<std::string>{"unread.yaml:3: fabrics.yarn.wetness: has no effect here; it goes with pores, a volume_fraction of its "
+                                        "material or of porous below 1"}),
+              notesOnSettings(yarn, {"fabrics.0.wetness=0.5"}));
+    EXPECT_TRUE(notesOnSettings(yarn, {"fabrics.0.wetness=0.5", "materials.thread.volume_fraction=0.4"}).empty());
+    const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool), post = "obstacles: [{name: post, shape: {ball: {center: [0, 9, 0], radius: 1}}}]\n";
+    EXPECT_EQ(1u, notesOnSettings(pool, {"liquid.sources.0.fill.seed=7"}).size());
+    EXPECT_TRUE(notesOnSettings(pool, {"liquid.sources.0.fill.seed=7", "liquid.sources.0.fill.pattern=jittered"}).empty());
+    EXPECT_EQ(1u, notesOnSettings(yarn + post, {"obstacles.0.cohesive=false"}).size());
+    EXPECT_EQ(1u, notesOnSettings(yarn + post, {"obstacles.0.friction_angle=3", "obstacles.0.collide=false"}).size());
+    EXPECT_TRUE(notesOnSettings(yarn + post, {"obstacles.0.friction_angle=3"}).empty());
+    EXPECT_TRUE(notesOnSettings(yarn + post, {"obstacles.0.cohesive=false", "coupling.cohesion.strength=1"}).empty());
+}
+
 TEST(Notes, SayNothingOfSettingsThatAreReadOrAreTheirDefaults)
 {
     const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool);
