@@ -105,11 +105,19 @@ void noteUnreadOfBodies(Scene& scene)
     }
 }
 
+/// Of a file with variants or methods one run may leave unread what another reads.
+bool isOfSeveralRuns(const Node& root)
+{
+    const Node* compare = root.find("compare");
+    return (compare && compare->find("variants")) || root.find("precision");
+}
+
 }  // namespace
 
 void noteUnreadSettings(const Node& root, Scene& scene)
 {
     noteUnreadOfBodies(scene);
+    const bool isShared = isOfSeveralRuns(root);
     std::vector<Reader> readers;
     addFabricReaders(scene, readers);
     addLiquidReaders(scene, readers);
@@ -121,7 +129,8 @@ void noteUnreadSettings(const Node& root, Scene& scene)
         if (given[i].value == defaults[i].value) continue;
         const auto lacking = std::ranges::find_if(readers, [&](const Reader& r) { return !r.isThere && isOf(path, r.path); });
         const Node* node = lacking == readers.end() ? nullptr : nodeAt(root, path);
-        if (node) scene.notes.push_back(fmt::format("{}: {}: has no effect here; it goes with {}", node->place.text(), path, lacking->what));
+        const bool isOfThisRun = node && (!isShared || !node->place.source || !node->place.source->numbered);  // of the command line
+        if (isOfThisRun) scene.notes.push_back(fmt::format("{}: {}: has no effect here; it goes with {}", node->place.text(), path, lacking->what));
     }
 }
 

@@ -109,6 +109,14 @@ TEST(Notes, NameWhatBodiesAreGivenInVain)
     EXPECT_TRUE(notesOnSettings(yarn + post, {"obstacles.0.cohesive=false", "coupling.cohesion.strength=1"}).empty());
 }
 
+TEST(Notes, LeaveToEachVariantWhatItReads)
+{
+    const std::string text = "grid: {cell: 0.25}\n" + std::string(kPool) +
+                             "transfer: {flip_ratio: 0.5}\ncompare: {variants: [{name: flip, transfer.method: flip}]}\n";
+    EXPECT_TRUE(notesOnSettings(text).empty());
+    EXPECT_EQ(1u, notesOnSettings(text, {"transfer.flip_ratio=0.4"}).size()) << "but it was asked for now";
+}
+
 TEST(Notes, SayNothingOfSettingsThatAreReadOrAreTheirDefaults)
 {
     const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool);
