@@ -100,23 +100,31 @@ double FabricObstacles::stiffnessOf(const Point& point, const Start& start)
     return kStiffness * point.mass / (start.springStep * start.springStep);
 }
 
+/// Of the bridge between a point and an obstacle [dyn]. It comes about between steps, so that Newton's iterations do not make and break it.
+double FabricObstacles::pullOf(const Point& point, int obstacle) const
+{
+    const Body& body = bodies_[obstacle];
+    if (!body.isCohesive || !(point.pull > 0.0)) return 0.0;
+    return body.pose.distance(body.carry * point.start) < point.reach + point.bridge ? point.pull : 0.0;
+}
+
 std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point, int obstacle, const Start& start) const
 {
     const Body& body = bodies_[obstacle];
     const double overlap = point.reach - body.pose.distance(point.x);
-    const bool isHeld = pullOf(point, obstacle) > 0.0 && overlap > -point.bridge;
-    if (!(overlap > 0.0 || isHeld)) return std::nullopt;
+    const double pull = overlap > -point.bridge ? pullOf(point, obstacle) : 0.0;
+    if (!(overlap > 0.0 || pull > 0.0)) return std::nullopt;
     const Vec3 n = body.pose.normal(point.x);
-    if (!(overlap > 0.0)) return Touch{n, 0.0, 0.0, 0.0, {Vec3::Zero()}};
+    if (!(overlap > 0.0)) return Touch{n, 0.0, pull, 0.0, 0.0, {Vec3::Zero()}};
     const double stiffness = stiffnessOf(point, start), push = stiffness * overlap;
     const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
     const Vec3 carried = body.carry * point.start, slip = along(point.x - carried);
     const Vec3 held = along(body.carry.linear() * start.held.at({point.number, obstacle}));
     const double coefficient = body.friction[point.material];
-    if (start.moves.empty()) return Touch{n, overlap, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
+    if (start.moves.empty()) return Touch{n, overlap, pull, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
     const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
     const GripSpring spring{held, stiffness, coefficient * pressed};
-    return Touch{n, overlap, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
+    return Touch{n, overlap, pull, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
 }
 
 FabricObstacles::Point FabricObstacles::pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x,
@@ -140,7 +148,8 @@ Vec3 FabricObstacles::collect(const Point& point, int obstacle, const ObstacleCo
     const Vec3& n = touching->normal;
     ObstacleContact& contact = out.emplace_back(corners);
     contact.between = {point.number, obstacle};
-    contact.gradient = touching->friction.force + (pullOf(point, obstacle) - touching->push) * n;
+    contact.pull = touching->pull;
+    contact.gradient = touching->friction.force + (touching->pull - touching->push) * n;
     contact.stiffness = touching->stiffness * n * n.transpose() + touching->friction.matrix(n);
     contact.place = point.x;
     return touching->overlap * n;
@@ -231,11 +240,10 @@ double FabricObstacles::bridgeEnergy(const Fabric& fabric, std::span<const Vec3>
 {
     if (!cohesion_ || !cohesion_->isOnObstacles()) return 0.0;
     return -parallelSum(contacts_.size(), [&](std::size_t i) {
-        const int v = contacts_[i].between[0];
-        const Body& body = bodies_[contacts_[i].between[1]];
-        if (v >= static_cast<int>(share_.size()) || !body.isCohesive) return 0.0;
-        const double longest = (1.0 + kActivation + kBridgeLength) * fabric.radius[v];
-        return cohesion_->onObstacle(v) * std::max(0.0, longest - body.pose.distance(x[v]));
+        const ObstacleContact& c = contacts_[i];
+        if (!(c.pull > 0.0)) return 0.0;
+        const double longest = (1.0 + kActivation + kBridgeLength) * fabric.radius[c.vertex];
+        return c.pull * std::max(0.0, longest - bodies_[c.between[1]].pose.distance(x[c.vertex]));
     });
 }
 

@@ -24,6 +24,7 @@ struct ObstacleContact {
     Vec3 place = Vec3::Zero();      ///< of the point, where these are [cm]
     int third = kNone;              ///< corner of a face, or kNone
     Vec3 weights = Vec3::Zero();    ///< of the corners at a nearest point; zero for a vertex or a middle [-]
+    double pull = 0.0;              ///< of a liquid bridge on a vertex, in the gradient [dyn]
 
     static constexpr int kNone = -1;
     bool isEdge() const { return other != kNone; }
@@ -95,7 +96,7 @@ class FabricObstacles {
     /// What a body does to a point.
     struct Touch {
         Vec3 normal;
-        double overlap, push, stiffness;  ///< of the penalty [cm, dyn, dyn/cm]; without overlap a bridge alone
+        double overlap, pull, push, stiffness;  ///< pull of a bridge [dyn]; of the penalty [cm, dyn, dyn/cm], without overlap none
         Friction friction;
     };
     void findEdges(const Fabric& fabric);
@@ -105,7 +106,7 @@ class FabricObstacles {
     static double stiffnessOf(const Point& point, const Start& start);
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
     Point pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x, const Start& start) const;
-    double pullOf(const Point& point, int obstacle) const { return bodies_[obstacle].isCohesive ? point.pull : 0.0; }
+    double pullOf(const Point& point, int obstacle) const;
     Vec3 collect(const Point& point, int obstacle, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     Vec3 collect(const Point& point, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     bool touches(const Vec3& x, double reach) const;

@@ -194,7 +194,12 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
     grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b), h * h * mobility, false};
-    if (bridges()) grips[slot].bridge = list.bridge(a, b);
+    if (bridges()) {
+        Vec3 before = Vec3::Zero();
+        for (std::size_t k = 0; k < 4; ++k) before += c[k] * start[v[k]];
+        const double longest = list.bridge(a, b);  // a bridge comes about between steps, so that Newton's iterations do not make and break it
+        if (before.norm() < pairs.reach[place] + longest) grips[slot].bridge = longest;
+    }
     const Friction sideways = friction(x, expected, energy, distance, slot);
     grips[slot].slides = sideways.slides;
     active.force[slot] = energy.slope * normal + sideways.force;
