@@ -225,11 +225,8 @@ void describe(V& v, CompareSettings& c)
             "What is made of the runs");
     v.onlyRuns("sync", "time", {}, "Pictures of equal simulated time stand side by side");
     v.text("reference", c.reference, "Label of the variant the others are held against");
-    v.withoutEffect([](auto& w) {
-        double tolerance = 0.0;
-        w.number("tolerance", tolerance, Quantity::None, Range::atLeast(0.0),
-                 "Difference of pictures that a test accepts");
-    });
+    v.later("tolerance", "a comparison shows runs side by side and judges none; remove the key, or give the scene a section validate, whose "
+                         "checks have tolerances");
 }
 
 }  // namespace app

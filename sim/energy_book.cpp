@@ -33,7 +33,18 @@ EnergyBook::Energy EnergyBook::look() const
     e.potential = weightSums(state_.liquid, settings_.gravity).potential;
     if (work_.fabric) e.fabric = work_.fabric->energies(state_.fabric, settings_.gravity).total();
     if (work_.gridFabric) e.fabric = work_.gridFabric->energies(state_.fabric, settings_.gravity).total();
+    if (work_.ledFabric) e.fabric = work_.ledFabric->energies(state_.fabric, settings_.gravity).total();
+    if (work_.coupling) e.fabricMoment = fabricMoment();
     return e;
+}
+
+Vec3 EnergyBook::fabricMoment() const
+{
+    const std::vector<double>& dry = work_.coupling->fabric.mass;
+    Vec3 moment;
+    for (int a = 0; a < kAxes; ++a)
+        moment[a] = parallelSum(dry.size(), [&](std::size_t v) { return (dry[v] + state_.fabric.absorbed[v]) * state_.fabric.x[v][a]; });
+    return moment;
 }
 
 void EnergyBook::onFaces(EnergyChange change)
@@ -151,10 +162,11 @@ void EnergyBook::walls()
     after(EnergyChange::Walls);
 }
 
-void EnergyBook::solved(bool isMixed, double dt, const FabricReport& fabric)
+void EnergyBook::solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric)
 {
     if (!changes_) return;
     const Energy now = look();
+    book(EnergyChange::Gravity, (gravity - settings_.gravity).dot(now.fabricMoment - last_.fabricMoment));
     double alone = now.liquidKinetic - last_.liquidKinetic;  // of faces that only liquid is on
     if (fabric.energyChanges) *changes_ += *fabric.energyChanges;
     if (isMixed) {

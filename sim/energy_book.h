@@ -29,7 +29,8 @@ class EnergyBook {
     /// All that has changed since the last look.
     void after(EnergyChange change);
     /// Liquid and fabric have been solved for, over dt [s].
-    void solved(bool isMixed, double dt, const FabricReport& fabric);
+    /// @param gravity  that acted on the fabric: meanGravity [cm/s^2]
+    void solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric);
     /// Faces behind walls have got their velocities.
     void walls();
     /// The step is over.
@@ -38,9 +39,11 @@ class EnergyBook {
  private:
     struct Energy {
         double liquidKinetic = 0.0, potential = 0.0, fabric = 0.0;  ///< fabric: all of its own
+        Vec3 fabricMoment = Vec3::Zero();                           ///< Σ m x of the fabric [g cm]
         double sum() const { return liquidKinetic + potential + fabric; }
     };
     Energy look() const;
+    Vec3 fabricMoment() const;
     double particlesKinetic() const;
     double facesKinetic() const;
     /// Of its impulse on each face, along the velocity at the end: that has no divergence, so that a drop's uniform pressure does

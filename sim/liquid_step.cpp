@@ -65,13 +65,6 @@ void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockA
     });
 }
 
-/// How long weight, viscosity and surface tension act on the velocities of a step [s]. With reflection they are those halfway through it:
-/// steps of any length then fall as far as they should.
-double fallTime(const TimeSettings& time, const State& state, double dt)
-{
-    return time.reflects() ? 0.5 * (state.lastDt + dt) : dt;
-}
-
 /// Give the faces behind walls the velocities that the particles in front of them read.
 void finishAtWalls(const BlockGrid& grid, const LiquidSettings& settings, const LiquidPlan& plan, Workspace& work)
 {
@@ -207,6 +200,16 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
 
 }  // namespace
 
+double fallTime(const TimeSettings& time, const State& state, double dt)
+{
+    return time.reflects() ? 0.5 * (state.lastDt + dt) : dt;
+}
+
+Vec3 meanGravity(const Settings& settings, const State& state, double dt)
+{
+    return settings.gravity * (fallTime(settings.time, state, dt) / dt);
+}
+
 LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock,
                        EnergyBook& energy)
 {
@@ -266,8 +269,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         const std::optional<FabricFaces> faces = facesOf(work);
         // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (time-splitting 2).
         plan.reflects = false;
-        plan.isMixed =
-            work.coupling->mixture.find(grid, work.obstacleField, settings.gravity, dt, state.fabric, faces ? &*faces : nullptr, work.grid);
+        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, meanGravity(settings, state, dt), dt, state.fabric,
+                                                   faces ? &*faces : nullptr, work.grid);
     }
 
     press(state, settings, work, dt, plan, report, clock, energy);

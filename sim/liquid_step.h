@@ -14,6 +14,13 @@ struct LiquidPlan {
     bool isMixed = false;      ///< with fabric on some faces
 };
 
+/// How long weight, viscosity and surface tension act on the velocities of a step of dt [s]. With the integrator reflected velocities are
+/// those halfway through it: steps of any length then fall as far as they should.
+double fallTime(const TimeSettings& time, const State& state, double dt);
+/// Gravity that over dt does what gravity does over fallTime [cm/s^2]: what acts on fabric that is with liquid, so that both fall alike
+/// when steps change their length.
+Vec3 meanGravity(const Settings& settings, const State& state, double dt);
+
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
 LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock,
                        EnergyBook& energy);

@@ -53,8 +53,10 @@ struct TransferSettings {
 
 /// The fabric's part of `transfer`; read by fabric.solver grid only.
 struct FabricTransferSettings {
+    static constexpr int kMostModes = 8;  ///< a sheet is surface everywhere, where quadratic modes feed on faces that carry next to nothing
+
     TransferMethod method = TransferMethod::PolyPic;  ///< never Flip: the fabric then runs apic
-    int modes = 8;
+    int modes = 8;                        ///< PolyPIC modes per component, read by polypic only [1..kMostModes]
     XiMap xi = XiMap::Translation;
     double keepStretch = 1.0;   ///< Factor on the symmetric part of the velocity gradient, kept per keepDt [0..1]
     double keepRotation = 1.0;  ///< Factor on its antisymmetric part, kept per keepDt [0..1]
@@ -74,6 +76,7 @@ struct LiquidSettings {
     double density = 1.0;          ///< [g/cm^3]
     double viscosity = 8.9e-3;     ///< [P]
     bool solveViscosity = false;   ///< Viscosity acts inside the liquid, not on fabric alone
+    int viscositySubsteps = 1;     ///< Parts of a step, each of which viscosity is solved for [-]
     double surfaceTension = 72.0;  ///< [dyn/cm]
     bool surfaceTensionForce = false;  ///< Surface tension moves the liquid
     int curvatureSmoothing = 7;    ///< Smoothing passes over the fill before its curvature is taken [-]
@@ -93,7 +96,7 @@ enum class TorsionModel { Ellipse, Polar };
 
 /// How fabric is solved for (model-fabric, contact-design); what it is made of stands in FabricMaterial (fabric/piece.h).
 struct FabricSettings {
-    FabricSolver solver = FabricSolver::Vertex;  ///< Off: the fabric stands still
+    FabricSolver solver = FabricSolver::Vertex;  ///< Off: pins follow their motions, all else stays
     MembraneModel membrane = MembraneModel::StVk;
     BendingModel bending = BendingModel::ShapeOperator;
     double hingeConstant = 1.0;       ///< c of model-fabric 2.3, bending hinge only; the published code has 3 [-]
@@ -136,6 +139,13 @@ struct WickingSettings {
     bool pressure = true;       ///< The pressure of the liquid around drives it too
 };
 
+/// How wet fabric sticks, with solver vertex.
+struct CohesionSettings {
+    double strength = 0.0;      ///< of liquid bridges, relative to the capillary force along threads (bridgeForce); published: 2e-3; 0 = none [-]
+    bool fabric = true;         ///< They hold fabric on fabric …
+    bool obstacle = true;       ///< … and on solids
+};
+
 /// How liquid and fabric act on each other (model-fluid 6, 8, 9).
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
@@ -147,12 +157,14 @@ struct CouplingSettings {
     CaptureSettings capture;
     WickingSettings wicking;
     bool drip = true;                   ///< fabric lets go of what its pores cannot hold
+    CohesionSettings cohesion;
 };
 
 struct SolverSettings {
     double pressureTolerance = 1.0e-6;  ///< Largest residual relative to the largest right-hand side [-]
     int maxIterations = 200;
     double viscosityTolerance = 1.0e-6;  ///< Of the viscosity solve, relative to the largest momentum of a face [-]
+    int wickingSubsteps = 1;             ///< Least number of parts of a step of the flow in fabric; stability may ask for more [-]
 };
 
 struct Settings {

@@ -66,7 +66,8 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     state_.grid.dx = settings.cell;
     state_.liquid.modeCount = storedModes(settings.transfer.modeCount());
     state_.emittedVolume.assign(scene_.sources.size(), 0.0);
-    state_.fabric = settings.fabric.solver == FabricSolver::Off ? restState(fabric_) : initialState(fabric_, scene_.fabrics, settings.liquid.density);
+    state_.fabric = initialState(fabric_, scene_.fabrics, settings.liquid.density);
+    if (settings.fabric.solver == FabricSolver::Off) std::ranges::fill(state_.fabric.v, Vec3::Zero());
     state_.ledger.emittedMass = std::accumulate(state_.fabric.absorbed.begin(), state_.fabric.absorbed.end(), 0.0);
     prepareWorkspace();
     emitLiquid(scene_, state_, state_.time, state_.time, work_.emission);
@@ -133,14 +134,27 @@ void Simulation::prepareWorkspace()
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_);
-    if (scene_.settings.fabric.solver == FabricSolver::Off) std::ranges::fill(fabric_.pinned, 1);
+    if (scene_.settings.fabric.solver == FabricSolver::Off) {
+        std::ranges::fill(fabric_.pinned, 1);
+        std::ranges::fill(state_.fabric.held, Vec3::Ones());
+    }
     const bool isWet = std::ranges::any_of(scene_.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
     if (!fabric_.empty() && (isWet || !scene_.sources.empty()))
         work_.coupling = std::make_unique<Coupling>(fabric_, scene_.settings, nominalMass(scene_));
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
-        work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles);
+        work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles, cohesion());
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
         work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
+    if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Off)
+        work_.ledFabric = std::make_unique<LedFabric>(fabric_, scene_.settings.fabric);
+}
+
+/// What holds wet fabric, if anything does and there is liquid to wet it.
+std::optional<Cohesion> Simulation::cohesion() const
+{
+    const CohesionSettings& settings = scene_.settings.coupling.cohesion;
+    if (!work_.coupling || !(settings.strength > 0.0)) return std::nullopt;
+    return Cohesion(fabric_, scene_.settings.liquid, settings);
 }
 
 /// From the state as it is: nothing is known of steps before.
@@ -155,6 +169,7 @@ void Simulation::bookEnergy()
     work_.booksEnergy = true;
     if (work_.fabric) work_.fabric->bookEnergy();
     if (work_.gridFabric) work_.gridFabric->bookEnergy();
+    if (work_.ledFabric) work_.ledFabric->bookEnergy();
 }
 
 Energies Simulation::energies() const
@@ -163,6 +178,7 @@ Energies Simulation::energies() const
     energies.potential += potentialLag(state_, scene_.settings);
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
     if (work_.gridFabric) energies.fabric = work_.gridFabric->energies(state_.fabric, scene_.settings.gravity);
+    if (work_.ledFabric) energies.fabric = work_.ledFabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
 }
 

@@ -46,6 +46,7 @@ class Simulation {
     void takeOver(const SettingsChange& change);
     void applyChanges();
     void prepareWorkspace();
+    std::optional<Cohesion> cohesion() const;
     void begin();
     double chooseLength(double until) const;
     double lengthOfStep(double left, double largest) const;

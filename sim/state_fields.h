@@ -78,6 +78,7 @@ void visitFabric(V& v, Fabric& fabric)
     v.number("fabric/energy_of_pressed_fabric", "erg", fabric.stored.pressed);
     v.number("fabric/energy_of_friction", "erg", fabric.stored.gripped);
     v.number("fabric/energy_at_obstacles", "erg", fabric.stored.solids);
+    v.number("fabric/energy_of_bridges", "erg", fabric.stored.bridges);
     v.number("fabric/spring_step", "s", fabric.springStep);
     v.number("fabric/taken_fraction", "-", fabric.lastFraction);
     visitGrips(v, "fabric/friction_on_fabric", fabric.onFabric);

@@ -16,13 +16,14 @@ namespace sim {
 namespace {
 
 /// The fabric, and the liquid between it.
-void stepFabric(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
+void stepFabric(State& state, const Vec3& gravity, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock)
 {
     if (plan.isMixed) clock.start(Stage::Mixture);
-    if (work.fabric) {
+    if (work.fabric || work.ledFabric) {
         const LiquidLoads* loads = plan.isMixed ? &work.coupling->mixture.loads(work.grid) : nullptr;
-        report.fabric = work.fabric->step(state.time, dt, settings.gravity, state.fabric, clock, loads);
-        if (work.kept) report.fabric.deepest = work.fabric->deepestInObstacles(state.fabric);
+        if (work.ledFabric) report.fabric = work.ledFabric->step(state.time, dt, gravity, state.fabric, loads);
+        else report.fabric = work.fabric->step(state.time, dt, gravity, state.fabric, clock, loads);
+        if (work.fabric && work.kept) report.fabric.deepest = work.fabric->deepestInObstacles(state.fabric);
         if (!plan.isMixed) return;
         clock.start(Stage::Mixture);
         work.coupling->mixture.separate(state.fabric, work.grid);
@@ -31,7 +32,7 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
         std::optional<FaceLoads> loads;
         if (plan.isMixed) loads.emplace(work.coupling->mixture.faceLoads(work.grid));
         if (!plan.meetsFabric) work.gridFabric->spread(state.fabric, clock);
-        report.fabric = work.gridFabric->advance(state.time, dt, settings.gravity, state.fabric, clock, loads ? &*loads : nullptr);
+        report.fabric = work.gridFabric->advance(state.time, dt, gravity, state.fabric, clock, loads ? &*loads : nullptr);
         if (work.kept) report.fabric.deepest = work.gridFabric->deepestInObstacles(state.fabric);
         if (!plan.isMixed) return;
         clock.start(Stage::Mixture);
@@ -40,8 +41,9 @@ void stepFabric(State& state, const Settings& settings, Workspace& work, double 
 }
 
 /// Liquid that moves in the fabric, and that leaves it.
-void exchange(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
-              EnergyBook& energy)
+/// @param gravity  meanGravity of the step
+void exchange(State& state, const Settings& settings, const Vec3& gravity, Workspace& work, double dt, const LiquidPlan& plan,
+              StepReport& report, StageClock& clock, EnergyBook& energy)
 {
     Coupling& coupling = *work.coupling;
     LiquidParticles& particles = state.liquid;
@@ -50,7 +52,7 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
         clock.start(Stage::Wicking);
         {
             const ExchangeWatch watch(coupling.fabric, state, nullptr);
-            coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
+            coupling.wicking.move(dt, gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
             watch.expectKept(coupling.wicking.toPins());
         }
         report.toPins += coupling.wicking.toPins();
@@ -80,6 +82,7 @@ void findFabricEnergies(const State& state, const Settings& settings, const Work
 {
     if (work.fabric) report.energies.fabric = work.fabric->energies(state.fabric, settings.gravity);
     if (work.gridFabric) report.energies.fabric = work.gridFabric->energies(state.fabric, settings.gravity);
+    if (work.ledFabric) report.energies.fabric = work.ledFabric->energies(state.fabric, settings.gravity);
     if (std::isfinite(report.energies.fabric.total())) return;
     report.failure = "the fabric's energy is not finite";
     report.failedStage = Stage::FabricSolve;
@@ -118,10 +121,11 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     LiquidPlan plan;
     if (isWet) plan = startLiquid(state, scene, work, dt, reflects, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
-    stepFabric(state, scene.settings, work, dt, plan, report, clock);
-    energy.solved(plan.isMixed, dt, report.fabric);
+    const Vec3 gravity = work.coupling ? meanGravity(scene.settings, state, dt) : scene.settings.gravity;
+    stepFabric(state, gravity, work, dt, plan, report, clock);
+    energy.solved(plan.isMixed, dt, gravity, report.fabric);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);
-    if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock, energy);
+    if (work.coupling) exchange(state, scene.settings, gravity, work, dt, plan, report, clock, energy);
     findFabricEnergies(state, scene.settings, work, report);
 
     state.time += dt;

@@ -2,6 +2,7 @@
 
 #include "sim/coupling/coupling.h"
 #include "sim/fabric/grid/grid_solver.h"
+#include "sim/fabric/led_fabric.h"
 #include "sim/fabric/vertex_solver.h"
 #include "sim/kept_state.h"
 #include "sim/liquid/free_liquid.h"
@@ -50,8 +51,9 @@ struct Workspace {
     std::unique_ptr<KeptState> kept;                       ///< mode adaptive: the state before the step
     bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
-    std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these two …
-    std::unique_ptr<GridFabricSolver> gridFabric;          ///< … or neither, where there is no fabric that moves
+    std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these three, where there is fabric
+    std::unique_ptr<GridFabricSolver> gridFabric;
+    std::unique_ptr<LedFabric> ledFabric;
 };
 
 /// Advance liquid and fabric by dt [s] (model-fluid 15.1). What is not there runs none of its stages.

@@ -1,5 +1,7 @@
 #include "app/import/import_decisions.h"
 
+#include "sim/settings.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,16 +67,30 @@ void tellGroups(const reference::Scene& scene, ImportReport& report)
             "groups {} of particles are moved by no script, so their numbers are not kept", fmt::join(still, ", ")));
 }
 
+void tellCohesion(const reference::LiquidInfo& l, bool vertexSolver, ImportReport& report)
+{
+    if (!l.coheres()) return;
+    if (vertexSolver)
+        report.decisions.push_back(fmt::format("cohesionCoeff={} is coupling.cohesion.strength: of bridges that hold by the length of threads and "
+                                               "by saturation, not by the element",
+                                               l.cohesionCoeff));
+    else
+        report.warnings.push_back(
+            fmt::format("cohesion of wet fabric ({}): fabric.solver grid has none (--solver vertex has)", l.cohesionCoeff));
+}
+
 void tellUncoupled(const reference::LiquidInfo& l, ImportReport& report)
 {
-    if (l.cohesion && l.cohesionCoeff > 0.0)
-        report.warnings.push_back(fmt::format("cohesion of wet fabric ({}): this version has none", l.cohesionCoeff));
     if (l.airDrag) report.warnings.emplace_back("drag by air (dragByAir): this version has none");
     if (l.varyingFraction)
         report.warnings.emplace_back(
             "a volume fraction that changes with stretch (useVaryingFraction): this version has none");
     if (l.porePressureOnFabric)
         report.warnings.emplace_back("pore pressure on fabric (applyPorePressureSolid): this version has none");
+    if (l.levelSetForce)
+        report.decisions.push_back(fmt::format(
+            "how hard solids push fabric follows from its mass and the step, not from levelsetYoungModulus={} and levelsetThickness={}",
+            l.levelsetYoung, l.levelsetThickness));
     if (!l.dragByFutureSolid)
         report.decisions.emplace_back(
             "dragByFutureSolid=0 is a defect of libWetCloth, which loses momentum: drag is with the fabric's new "
@@ -89,7 +105,11 @@ void tellFabric(const ImportedScene& scene, const ImportOptions& options, Import
         report.decisions.emplace_back("there is no fabric, so materials, pores and coupling are left out");
         return;
     }
+    tellCohesion(r.liquid, scene.vertexSolver, report);
     tellUncoupled(r.liquid, report);
+    if (r.liquid.solidModes > sim::FabricTransferSettings::kMostModes)
+        report.decisions.push_back(fmt::format("scalarModes={}: fabric has {} modes at most, as a sheet is surface everywhere",
+                                               r.liquid.solidModes, sim::FabricTransferSettings::kMostModes));
     tellGroups(r, report);
     std::set<int> used;
     for (const ImportedPiece& piece : scene.pieces) used.insert(piece.material);

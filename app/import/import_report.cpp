@@ -50,8 +50,6 @@ constexpr KnownName kKnown[] = {
     {"liquidinfo/implicitViscosity", kOwnWay},
     {"liquidinfo/airDensity", kMissing},
     {"liquidinfo/airViscosity", kMissing},
-    {"liquidinfo/softCohesion", kMissing},
-    {"liquidinfo/solidCohesion", kMissing},
     {"scene/maxsimfreq", kOwnWay},
     {"camera@radius", kOwnWay},
     {"distancefield@cached", kOwnWay},

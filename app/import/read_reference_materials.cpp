@@ -64,6 +64,8 @@ void readThreads(const XmlElement& info, bool counts, LiquidInfo& out)
 void readCoupling(const XmlElement& info, LiquidInfo& out)
 {
     out.cohesion = info.value("cohesion", out.cohesion);
+    out.softCohesion = info.value("softCohesion", out.softCohesion);
+    out.solidCohesion = info.value("solidCohesion", out.solidCohesion);
     out.cohesionCoeff = info.value("cohesionCoeff", out.cohesionCoeff);
     out.drag = info.value("useDrag", out.drag);
     out.nonlinearDrag = info.value("useNonlinearDrag", out.nonlinearDrag);

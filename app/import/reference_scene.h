@@ -45,8 +45,9 @@ struct LiquidInfo {
     std::string bendingScheme;                                    ///< tantheta, sintheta, else the angle
     int curvatureSmoothing = 7;
     bool surfaceTensionForce = false, solveViscosity = false;
-    bool cohesion = true;
+    bool cohesion = true, softCohesion = true, solidCohesion = true;
     double cohesionCoeff = 0.002;
+    bool coheres() const { return cohesion && cohesionCoeff > 0.0 && (softCohesion || solidCohesion); }
     bool drag = true, nonlinearDrag = true, airDrag = false, dragByFutureSolid = false;
     bool solveSolid = true, pressureOnFabric = true, porePressureOnFabric = false, pressureInFabric = true;
     bool varyingFraction = false, nonuniformFraction = false, levelSetForce = true, twist = true;

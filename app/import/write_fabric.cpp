@@ -23,20 +23,24 @@ std::string radiusText(const std::array<double, 2>& radius)
                                   : fmt::format("[{}, {}]", formatPlain(radius[0]), formatPlain(radius[1]));
 }
 
-void writeCoupling(const reference::LiquidInfo& l, SceneLines& out)
+void writeCoupling(const reference::LiquidInfo& l, bool vertexSolver, SceneLines& out)
 {
+    const std::string cohesion = vertexSolver && l.coheres()
+                                     ? fmt::format(", cohesion: {{strength: {}, fabric: {}, obstacle: {}}}", formatPlain(l.cohesionCoeff),
+                                                   yesOrNo(l.softCohesion), yesOrNo(l.solidCohesion))
+                                     : "";
     out.blank();
     out.from(l.line);
     out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter),
                            formatPlain(l.volumeFraction)));
     out.add(0, fmt::format("coupling: {{drag: {}, drag_fraction: cell, drag_exponent: {}, pressure_on_fabric: {}, "
-                           "capture: {{law: published, compat_factor: {}}}, wicking: {{pressure: {}}}}}",
+                           "capture: {{law: published, compat_factor: {}}}, wicking: {{pressure: {}}}{}}}",
                            !l.drag           ? "off"
                            : l.nonlinearDrag ? "nonlinear"
                                              : "linear",
                            formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric),
                            formatPlain(sim::CaptureSettings().compatFactor * l.captureRate),
-                           yesOrNo(l.pressureInFabric)));
+                           yesOrNo(l.pressureInFabric), cohesion));
 }
 
 void writeSolver(const ImportedScene& scene, SceneLines& out)
@@ -50,12 +54,9 @@ void writeSolver(const ImportedScene& scene, SceneLines& out)
             ? ""
             : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
     out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yesOrNo(l.twist), published));
-    if (scene.vertexSolver) return;
-    out.add(0, fmt::format("contact: {{obstacle_young: {}, obstacle_thickness: {}}}", formatPlain(l.levelsetYoung),
-                           formatPlain(l.levelsetThickness)));
 }
 
-void writeMaterial(const reference::Material& m, int number, SceneLines& out)
+void writeMaterial(const reference::Material& m, int number, bool vertexSolver, SceneLines& out)
 {
     std::string fields =
         fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}",
@@ -63,8 +64,8 @@ void writeMaterial(const reference::Material& m, int number, SceneLines& out)
                     yesOrNo(m.damps), yesOrNo(m.damps && !m.dampsOnlyBending));
     const auto add = [&](const char* key, const std::string& value) { fields += fmt::format(", {}: {}", key, value); };
     if (m.stretchingMultiplier != 1.0) add("stretch_factor", formatPlain(m.stretchingMultiplier));
-    add("contact_stiffness", formatPlain(m.collisionMultiplier));
-    add("pin_stiffness", formatPlain(m.attachMultiplier));
+    if (!vertexSolver) add("contact_stiffness", formatPlain(m.collisionMultiplier));
+    if (!vertexSolver) add("pin_stiffness", formatPlain(m.attachMultiplier));
     add("friction_angle", formatPlain(std::min(m.frictionAngle, kSteepestFriction)));
     if (m.volumeFraction) add("volume_fraction", formatPlain(*m.volumeFraction));
     if (m.baseRotation != 0.0) add("section_rotation", sim::formatNumber(m.baseRotation, sim::Quantity::Angle));
@@ -101,12 +102,12 @@ void writeFabrics(const ImportedScene& scene, const std::function<std::string(co
                   SceneLines& out)
 {
     if (!scene.hasFabric()) return;
-    writeCoupling(scene.reference.liquid, out);
+    writeCoupling(scene.reference.liquid, scene.vertexSolver, out);
     writeSolver(scene, out);
     out.add(0, "materials:");
     std::set<int> used;
     for (const ImportedPiece& piece : scene.pieces) used.insert(piece.material);
-    for (const int m : used) writeMaterial(scene.reference.materials[m], m, out);
+    for (const int m : used) writeMaterial(scene.reference.materials[m], m, scene.vertexSolver, out);
     out.blank();
     out.add(0, "fabrics:");
     for (const ImportedPiece& piece : scene.pieces) writePiece(piece, fileOf(piece), out);

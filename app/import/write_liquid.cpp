@@ -53,7 +53,7 @@ void writeLiquid(const ImportedScene& scene, SceneLines& out)
     out.add(1, fmt::format("surface_tension: {}", formatPlain(l.surfaceTension)));
     out.add(1, fmt::format("contact_angle: {}", sim::formatNumber(l.contactAngle, sim::Quantity::Angle)));
     out.add(1, fmt::format("particle_spacing: {}     # in cells", formatPlain(l.particleCellMultiplier)));
-    out.add(1, fmt::format("wall_friction: {}", formatPlain(l.wallFriction)));
+    if (!scene.bodies.obstacles.empty()) out.add(1, fmt::format("wall_friction: {}", formatPlain(l.wallFriction)));
     out.add(1, fmt::format("relax: {{rate: {}, range: {}}}",
                            formatPlain(l.correctionStrength / (l.correctionStep * scene.reference.run.dt)),
                            formatPlain(l.correctionMultiplier)));

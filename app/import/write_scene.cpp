@@ -3,6 +3,7 @@
 
 #include "sim/scene/node.h"
 #include "sim/scene/units.h"
+#include "sim/settings.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -47,8 +48,9 @@ void writeHead(const ImportedScene& scene, SceneLines& out)
 std::string modesText(const ImportedScene& scene)
 {
     const reference::LiquidInfo& l = scene.reference.liquid;
-    if (!scene.hasFabric() || l.fluidModes == l.solidModes) return std::to_string(l.fluidModes);
-    return fmt::format("{{liquid: {}, fabric: {}}}", l.fluidModes, l.solidModes);
+    const int fabric = std::min(l.solidModes, sim::FabricTransferSettings::kMostModes);
+    if (!scene.hasFabric() || l.fluidModes == fabric) return std::to_string(l.fluidModes);
+    return fmt::format("{{liquid: {}, fabric: {}}}", l.fluidModes, fabric);
 }
 
 void writeTransfer(const ImportedScene& scene, const char* method, SceneLines& out)
@@ -83,7 +85,7 @@ void writeObstacles(const ImportedScene& scene, SceneLines& out)
         if (o.inside) out.add(2, "inside: true");
         if (scene.hasFabric()) {
             out.add(2, fmt::format("collide: {}", yesOrNo(scene.reference.liquid.levelSetForce)));
-            out.add(2, fmt::format("cohesive: {}", yesOrNo(o.sampled)));
+            if (!o.sampled && scene.vertexSolver && scene.reference.liquid.coheres()) out.add(2, "cohesive: false");
         }
         if (!o.motion.empty()) out.add(2, "motion: " + o.motion);
     }

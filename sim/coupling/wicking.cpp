@@ -61,6 +61,7 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
       settings_(settings.coupling.wicking),
       density_(settings.liquid.density),
       capacity_(poreCapacity(fabric, density_)),
+      leastSubsteps_(settings.solver.wickingSubsteps),
       rate_(elements.size()),
       flow_(elements.size()),
       carried_(elements.size())
@@ -69,8 +70,10 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
     isWetElement_.resize(elements.size());
     isActive_.resize(fabric.vertexCount());
     for (std::vector<Vec3>* u : {&acceleration_, &velocity_, &toPins_}) u->resize(fabric.vertexCount());
+    CouplingSettings inPores = settings.coupling;  // whatever liquid around the fabric feels, in its pores fibres hold it
+    if (inPores.drag == DragLaw::Off) inPores.drag = CouplingSettings().drag;
     for (const FabricMaterial& m : fabric.materials) {
-        laws_.emplace_back(PorousSettings{settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling);
+        laws_.emplace_back(PorousSettings{settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, inPores);
         suction_.push_back(laws_.back().suction(m.volumeFraction));
         along_.push_back(permeability(m.volumeFraction, settings.porous.fibreDiameter).along);
     }
@@ -84,11 +87,11 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
     }
 }
 
-int Wicking::substeps(double dt) const { return std::max(1, static_cast<int>(std::ceil(dt / longest_))); }
+int Wicking::substeps(double dt) const { return std::max(leastSubsteps_, static_cast<int>(std::ceil(dt / longest_))); }
 
 bool Wicking::isWet(const FabricState& state) const
 {
-    return settings_.rateScale > 0.0 && parallelMax(state.absorbed.size(), [&](std::size_t v) { return state.absorbed[v]; }) > 0.0;
+    return parallelMax(state.absorbed.size(), [&](std::size_t v) { return state.absorbed[v]; }) > 0.0;
 }
 
 /// The elements that hold liquid, and the vertices that it may flow from or to.
@@ -220,9 +223,10 @@ void Wicking::transport(double h, FabricState& state)
 void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
                    FabricState& state)
 {
+    std::ranges::fill(toPins_, Vec3::Zero());
+    if (!(settings_.rateScale > 0.0)) return;
     const int parts = substeps(dt);
     const double h = dt / parts;
-    std::ranges::fill(toPins_, Vec3::Zero());
     parallelFor(before.size(), kGrain, [&](std::size_t v) { acceleration_[v] = (state.v[v] - before[v]) / dt; });
     for (int n = 0; n < parts; ++n) {
         findActive(state);

@@ -17,7 +17,7 @@ class Wicking {
  public:
     Wicking(const Fabric& fabric, const WetElements& elements, const Settings& settings);
 
-    /// Over dt [s], in substeps as short as stability asks for.
+    /// Over dt [s], in substeps as short as stability and solver.wicking_substeps ask for.
     /// @param before  velocity of each vertex when the step began [cm/s]
     void move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
               FabricState& state);
@@ -43,6 +43,7 @@ class Wicking {
     std::vector<PorousLaw> laws_;                 ///< of each material …
     std::vector<double> suction_, along_;         ///< … its suction when dry [dyn/cm^2], permeability along fibres [cm^2]
     std::vector<double> capacity_;                ///< of each vertex [g]
+    int leastSubsteps_;                           ///< of a step [-]
 
     // Of the step.
     std::vector<Vec3> acceleration_;              ///< of each vertex [cm/s^2]

@@ -160,6 +160,18 @@ void sortPins(Fabric::Pins& pins)
     for (std::size_t i = 0; i < all.size(); ++i) std::tie(pins.vertex[i], pins.motion[i]) = all[i];
 }
 
+/// The water of a vertex is in its elements by their volumes, and fills the sections of yarns evenly.
+void findWetTwist(Fabric& fabric)
+{
+    for (std::size_t e = 0; e < fabric.edges.size(); ++e) {
+        const auto [a, b] = fabric.strands.radius[fabric.edges.strand[e]];
+        const double half = 0.5 * kPi * a * b * fabric.edges.restLength[e];
+        std::array<double, 2>& perMass = fabric.edges.wetTwist.emplace_back();
+        for (int end = 0; end < 2; ++end)
+            perMass[end] = 0.25 * (a * a + b * b) * half / fabric.volume[fabric.edges.vertices[e][end]];
+    }
+}
+
 /// A unit vector across t: the axis with t's smallest component, made orthogonal to it.
 Vec3 anyAcross(const Vec3& t)
 {
@@ -183,6 +195,7 @@ Fabric assembleFabric(std::span<const FabricPiece> pieces)
     Fabric fabric;
     for (const FabricPiece& piece : pieces) PieceAssembly(piece, fabric).add();
     sortPins(fabric.pins);
+    findWetTwist(fabric);
     return fabric;
 }
 

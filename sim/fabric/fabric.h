@@ -32,7 +32,8 @@ struct Fabric {
         std::vector<Vec2i> vertices;
         std::vector<int> strand;
         std::vector<double> restLength;        ///< [cm]
-        std::vector<double> twistInertia;      ///< J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<double> twistInertia;      ///< of dry yarn, J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<std::array<double, 2>> wetTwist;  ///< what J grows by per mass of water that either end has absorbed [cm^2]
         std::vector<char> twistHeld;           ///< its angle follows a pin
         std::size_t size() const { return vertices.size(); }
     };
@@ -70,8 +71,10 @@ struct ContactEnergy {
     double pressed = 0.0;  ///< where fabric presses on itself
     double gripped = 0.0;  ///< by friction of fabric on fabric that has not slid; solver vertex only
     double solids = 0.0;   ///< where fabric presses on solids and holds on to them
+    double bridges = 0.0;  ///< of `pressed` and `solids`: in liquid bridges, below 0 by what breaking them takes
 
     double sum() const { return pressed + gripped + solids; }
+    double springs() const { return pressed + solids - bridges; }  ///< what presses or, on solids, holds
 };
 
 /// What evolves of the fabric.
@@ -103,6 +106,14 @@ struct FabricState {
     BlockGrid faceBlocks;                 ///< of the grid in the last step, and …
     BlockArray<double, 3> faceChange;     ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
 };
+
+/// Inertia of the twist of a yarn edge, with the water in it [g cm^2].
+inline double twistInertia(const Fabric& fabric, std::span<const double> absorbed, std::size_t edge)
+{
+    const Vec2i& v = fabric.edges.vertices[edge];
+    const auto [first, last] = fabric.edges.wetTwist[edge];
+    return fabric.edges.twistInertia[edge] + first * absorbed[v[0]] + last * absorbed[v[1]];
+}
 
 /// Puts the pieces together. Throws InputError for a strand of one vertex, edges or faces without extent, indices out of range.
 Fabric assembleFabric(std::span<const FabricPiece> pieces);

@@ -15,13 +15,15 @@ constexpr double kActivation = 0.25;      ///< distance at which it begins to ac
 
 }  // namespace
 
-FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles)
+FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion)
+    : cohesion_(cohesion)
 {
     for (const ObstacleSettings& obstacle : obstacles) {
         if (!obstacle.collide || obstacle.shape.empty()) continue;  // as SolidGuard counts them
         Body& body = bodies_.emplace_back();
         body.pose.add(obstacle.shape, obstacle.motion);
         body.motion = obstacle.motion;
+        body.isCohesive = obstacle.cohesive;
         for (const FabricMaterial& material : fabric.materials) {
             const double own = std::tan(material.frictionAngle);
             body.friction.push_back(obstacle.frictionAngle ? std::sqrt(own * std::tan(*obstacle.frictionAngle)) : own);
@@ -59,7 +61,12 @@ void FabricObstacles::moveTo(double t0, double t1)
 FabricObstacles::Point FabricObstacles::vertexPoint(const Fabric& fabric, int v, std::span<const Vec3> x, const Start& start) const
 {
     const Vec3 move = start.moves.empty() ? Vec3::Zero().eval() : start.moves[v];
-    return {v, x[v], start.x[v], (1.0 + kActivation) * fabric.radius[v], start.mass[v], fabric.vertexMaterial[v], move};
+    Point point{v, x[v], start.x[v], (1.0 + kActivation) * fabric.radius[v], start.mass[v], fabric.vertexMaterial[v], move};
+    if (cohesion_ && cohesion_->isOnObstacles()) {
+        point.pull = cohesion_->onObstacle(v);
+        point.bridge = kBridgeLength * fabric.radius[v];
+    }
+    return point;
 }
 
 /// Where an obstacle is flat the ends, which begin to feel it earlier, keep it away from the middle.
@@ -93,21 +100,31 @@ double FabricObstacles::stiffnessOf(const Point& point, const Start& start)
     return kStiffness * point.mass / (start.springStep * start.springStep);
 }
 
+/// Of the bridge between a point and an obstacle [dyn]. It comes about between steps, so that Newton's iterations do not make and break it.
+double FabricObstacles::pullOf(const Point& point, int obstacle) const
+{
+    const Body& body = bodies_[obstacle];
+    if (!body.isCohesive || !(point.pull > 0.0)) return 0.0;
+    return body.pose.distance(body.carry * point.start) < point.reach + point.bridge ? point.pull : 0.0;
+}
+
 std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point, int obstacle, const Start& start) const
 {
     const Body& body = bodies_[obstacle];
     const double overlap = point.reach - body.pose.distance(point.x);
-    if (!(overlap > 0.0)) return std::nullopt;
-    const double stiffness = stiffnessOf(point, start), push = stiffness * overlap;
+    const double pull = overlap > -point.bridge ? pullOf(point, obstacle) : 0.0;
+    if (!(overlap > 0.0 || pull > 0.0)) return std::nullopt;
     const Vec3 n = body.pose.normal(point.x);
+    if (!(overlap > 0.0)) return Touch{n, 0.0, pull, 0.0, 0.0, {Vec3::Zero()}};
+    const double stiffness = stiffnessOf(point, start), push = stiffness * overlap;
     const auto along = [&](const Vec3& u) -> Vec3 { return u - u.dot(n) * n; };
     const Vec3 carried = body.carry * point.start, slip = along(point.x - carried);
     const Vec3 held = along(body.carry.linear() * start.held.at({point.number, obstacle}));
     const double coefficient = body.friction[point.material];
-    if (start.moves.empty()) return Touch{n, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
+    if (start.moves.empty()) return Touch{n, overlap, pull, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
     const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
     const GripSpring spring{held, stiffness, coefficient * pressed};
-    return Touch{n, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
+    return Touch{n, overlap, pull, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
 }
 
 FabricObstacles::Point FabricObstacles::pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x,
@@ -131,10 +148,11 @@ Vec3 FabricObstacles::collect(const Point& point, int obstacle, const ObstacleCo
     const Vec3& n = touching->normal;
     ObstacleContact& contact = out.emplace_back(corners);
     contact.between = {point.number, obstacle};
-    contact.gradient = touching->friction.force - touching->push * n;
+    contact.pull = touching->pull;
+    contact.gradient = touching->friction.force + (touching->pull - touching->push) * n;
     contact.stiffness = touching->stiffness * n * n.transpose() + touching->friction.matrix(n);
     contact.place = point.x;
-    return touching->push / touching->stiffness * n;
+    return touching->overlap * n;
 }
 
 /// Likewise with all obstacles.
@@ -168,7 +186,7 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
         for (const Body& body : bodies_) nearest_[v] = std::min(nearest_[v], body.pose.distance(x[v]));
         const Point point = vertexPoint(fabric, static_cast<int>(v), x, start);
         pushedOut_[v].setZero();
-        if (!fabric.pinned[v] && nearest_[v] < point.reach) pushedOut_[v] = collect(point, {static_cast<int>(v)}, start, out);
+        if (!fabric.pinned[v] && nearest_[v] < point.reach + point.bridge) pushedOut_[v] = collect(point, {static_cast<int>(v)}, start, out);
     });
     collectFrom(edges_.size(), [&](std::size_t i, std::vector<ObstacleContact>& out) {
         const int a = edges_[i][0], b = edges_[i][1];
@@ -215,6 +233,17 @@ double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3>
         const Point point = pointOf(fabric, c, x, start);
         const double overlap = std::max(0.0, point.reach - bodies_[c.between[1]].pose.distance(point.x)), stiffness = stiffnessOf(point, start);
         return 0.5 * stiffness * overlap * overlap + 0.5 * held.at(c.between).squaredNorm() / stiffness;
+    }) + bridgeEnergy(fabric, x);
+}
+
+double FabricObstacles::bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const
+{
+    if (!cohesion_ || !cohesion_->isOnObstacles()) return 0.0;
+    return -parallelSum(contacts_.size(), [&](std::size_t i) {
+        const ObstacleContact& c = contacts_[i];
+        if (!(c.pull > 0.0)) return 0.0;
+        const double longest = (1.0 + kActivation + kBridgeLength) * fabric.radius[c.vertex];
+        return c.pull * std::max(0.0, longest - bodies_[c.between[1]].pose.distance(x[c.vertex]));
     });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/core/types.h"
+#include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/friction_law.h"
 #include "sim/fabric/solids/guard.h"
@@ -23,6 +24,7 @@ struct ObstacleContact {
     Vec3 place = Vec3::Zero();      ///< of the point, where these are [cm]
     int third = kNone;              ///< corner of a face, or kNone
     Vec3 weights = Vec3::Zero();    ///< of the corners at a nearest point; zero for a vertex or a middle [-]
+    double pull = 0.0;              ///< of a liquid bridge on a vertex, in the gradient [dyn]
 
     static constexpr int kNone = -1;
     bool isEdge() const { return other != kNone; }
@@ -43,7 +45,8 @@ class FabricObstacles {
  public:
     FabricObstacles() = default;
     /// Those of the scene that fabric feels.
-    FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles);
+    /// @param cohesion  of wet fabric, taken up before each step; null without
+    FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion = nullptr);
 
     bool empty() const { return bodies_.empty(); }
     /// Poses and motion of a step from t0 to t1 [s].
@@ -67,6 +70,8 @@ class FabricObstacles {
     void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held);
     /// Energy that the contacts found last hold at x, in their penalty and in the friction that is held there [erg].
     double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const Grips& held) const;
+    /// The part of it that is in liquid bridges, 0 or below [erg].
+    double bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const;
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
     double deepest(const Fabric& fabric, std::span<const Vec3> x) const;
 
@@ -76,6 +81,7 @@ class FabricObstacles {
         Motion motion;
         Eigen::Isometry3d carry;            ///< from where the obstacle is at the start of the step to where it is at the end
         std::vector<double> friction;       ///< Coulomb's coefficient against each material of the fabric [-]
+        bool isCohesive;
     };
     /// A point of the fabric that may touch.
     struct Point {
@@ -85,11 +91,12 @@ class FabricObstacles {
         double mass;      ///< [g]
         int material;
         Vec3 move;        ///< Start::moves, where they are given [cm]
+        double pull = 0.0, bridge = 0.0;  ///< of a liquid bridge [dyn], and its length beyond the reach [cm]
     };
     /// What a body does to a point.
     struct Touch {
         Vec3 normal;
-        double push, stiffness;   ///< of the penalty [dyn, dyn/cm]
+        double overlap, pull, push, stiffness;  ///< pull of a bridge [dyn]; of the penalty [cm, dyn, dyn/cm], without overlap none
         Friction friction;
     };
     void findEdges(const Fabric& fabric);
@@ -99,10 +106,12 @@ class FabricObstacles {
     static double stiffnessOf(const Point& point, const Start& start);
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
     Point pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x, const Start& start) const;
+    double pullOf(const Point& point, int obstacle) const;
     Vec3 collect(const Point& point, int obstacle, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     Vec3 collect(const Point& point, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     bool touches(const Vec3& x, double reach) const;
 
+    const Cohesion* cohesion_ = nullptr;
     std::vector<Body> bodies_;
     std::vector<Vec2i> edges_;              ///< of yarns and of cloth
     std::vector<double> share_;             ///< of each vertex: part of its mass that each of its edges stands for [-]

@@ -104,7 +104,7 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
         changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += work;
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
-        const double inertia = fabric_.edges.twistInertia[e], faster = state.omega[e] - start_.omega[e];
+        const double inertia = twistInertia(fabric_, state.absorbed, e), faster = state.omega[e] - start_.omega[e];
         changes[EnergyChange::Implicit] -= 0.5 * inertia * faster * faster;
         if (fabric_.edges.twistHeld[e]) changes[EnergyChange::Pins] += (inertia * faster + h * gradient.byAngle[e]) * state.omega[e];
     }

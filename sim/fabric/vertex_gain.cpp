@@ -15,6 +15,7 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
     ContactEnergy stored;
     if (contacts_) stored = contact_->storedEnergy(x, held.onFabric);
     stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
+    stored.bridges += obstacles_.bridgeEnergy(fabric_, x);
     return stored;
 }
 
@@ -109,7 +110,7 @@ void VertexSolver::slowDown(double energy, FabricState& state) const
     for (std::size_t v = 0; v < state.v.size(); ++v)
         if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * relative(v).squaredNorm();
     for (std::size_t e = 0; e < state.omega.size(); ++e)
-        if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * fabric_.edges.twistInertia[e] * state.omega[e] * state.omega[e];
+        if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * twistInertia(fabric_, state.absorbed, e) * state.omega[e] * state.omega[e];
     if (!(energy > 0.0 && kinetic > 0.0)) return;
     const double lost = 1.0 - std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
     for (std::size_t v = 0; v < state.v.size(); ++v)

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace sim {
 
@@ -40,12 +41,18 @@ constexpr int kMostTurns = 8;                 ///< of solids and of pairs in lim
 
 }  // namespace
 
-VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles)
-    : fabric_(fabric), settings_(settings), system_(fabric, settings), groups_(fabric), restReference_(restState(fabric).reference)
+VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles,
+                           std::optional<Cohesion> cohesion)
+    : fabric_(fabric),
+      settings_(settings),
+      system_(fabric, settings),
+      cohesion_(std::move(cohesion)),
+      groups_(fabric),
+      restReference_(restState(fabric).reference)
 {
     if (settings.contact) {
-        contact_.emplace(fabric);
-        obstacles_ = FabricObstacles(fabric, obstacles);
+        contact_.emplace(fabric, cohesion_ ? &*cohesion_ : nullptr);
+        obstacles_ = FabricObstacles(fabric, obstacles, cohesion_ ? &*cohesion_ : nullptr);
         guard_ = SolidGuard(fabric, obstacles);
     }
     solidsMove_ = std::ranges::any_of(obstacles, [](const ObstacleSettings& obstacle) { return !obstacle.motion.isStatic(); });
@@ -69,6 +76,7 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
     placeRounding_ = std::numeric_limits<double>::epsilon() * farthest;
+    if (cohesion_) cohesion_->takeUp(state.absorbed);
     groups_.begin();
     findMomenta(state);
     advance(t, h, 0, gravity, state, report, clock);
@@ -193,7 +201,7 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
     // Where something drives the fabric, a step is halved for the sake of stiffer springs; what drives it gives what they take.
     springStep_ = isDriven_ && h < wholeStep_ ? h
-                                              : springStepFor(start_.springStep, h, start_.stored.pressed + start_.stored.solids,
+                                              : springStepFor(start_.springStep, h, start_.stored.springs(),
                                                               kStiffeningGain * felt(startEnergies_.kinetic, h));
     state.springStep = springStep_;
     limits_ = {};

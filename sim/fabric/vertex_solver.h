@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/cohesion.h"
 #include "sim/fabric/contact/contact.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/groups.h"
@@ -19,7 +20,11 @@ namespace sim {
 /// crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
 class VertexSolver {
  public:
-    VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles);
+    /// @param cohesion  of wet fabric; none without
+    VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles,
+                 std::optional<Cohesion> cohesion = std::nullopt);
+    VertexSolver(const VertexSolver&) = delete;  // its parts refer to each other
+    VertexSolver& operator=(const VertexSolver&) = delete;
 
     /// From t to t + h [s]. A step that could not be taken is redone as two halves, and so on; each then takes its part of the loads.
     /// @param loads  of the liquid over the whole step; null without liquid
@@ -85,6 +90,7 @@ class VertexSolver {
     const Fabric& fabric_;
     FabricSettings settings_;
     VertexSystem system_;
+    std::optional<Cohesion> cohesion_;
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
     SolidGuard guard_;

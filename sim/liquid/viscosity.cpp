@@ -4,6 +4,7 @@
 #include "sim/grid/rows.h"
 #include "sim/solvers/block_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sim {
@@ -163,9 +164,18 @@ class ConjugateGradients {
 SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,
                            const SolverSettings& solver, double dt, ViscosityWorkspace& work, LiquidGrid& liquid)
 {
-    work.system.assemble(grid, obstacles, liquid, dt * settings.viscosity, settings.wallFriction);
-    work.multigrid.build(grid, work.system, dt * settings.viscosity / (settings.density * grid.dx * grid.dx));
-    return ConjugateGradients(grid, work, liquid).solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
+    const double part = dt / settings.viscositySubsteps;
+    work.system.assemble(grid, obstacles, liquid, part * settings.viscosity, settings.wallFriction);
+    work.multigrid.build(grid, work.system, part * settings.viscosity / (settings.density * grid.dx * grid.dx));
+    ConjugateGradients solve(grid, work, liquid);
+    SolveReport all = solve.solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
+    for (int n = 1; n < settings.viscositySubsteps; ++n) {
+        const SolveReport next = solve.solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
+        all.iterations += next.iterations;
+        all.residual = std::max(all.residual, next.residual);
+        all.converged = all.converged && next.converged;
+    }
+    return all;
 }
 
 }  // namespace sim

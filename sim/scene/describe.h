@@ -7,7 +7,9 @@
 #include "sim/scene/units.h"
 #include "sim/settings.h"
 
+#include <algorithm>
 #include <span>
+#include <string_view>
 
 // The one declaration of every key of a scene: where it is stored, unit, range, one line of help. Visitors do the rest:
 // SectionReader (YAML → struct), KeyList (what keys there are), SectionWriter (struct → commented YAML), ParameterList (struct → what a
@@ -82,7 +84,10 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
         w.choice(key, m, "How velocities go to the grid and back");
     });
     v.perPhase("modes", liquid.modes, fabric.modes, [](auto& w, const char* key, int& m) {
-        w.integer(key, m, 1, 27, "Velocity modes per component, polypic only; more than 8 amid the liquid only");
+        const bool isFabrics = std::string_view(key) == "fabric";
+        w.integer(key, m, 1, isFabrics ? FabricTransferSettings::kMostModes : 27,
+                  isFabrics ? "Velocity modes per component, polypic only"
+                            : "Velocity modes per component, polypic only; more than 8 amid the liquid only");
     });
     v.perPhase("xi", liquid.xi, fabric.xi, [](auto& w, const char* key, XiMap& xi) {
         w.choice(key, xi, "How modes move with the particle, polypic only");
@@ -99,6 +104,7 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
     v.flag("damp_modes", liquid.dampModes, "keep acts on PolyPIC modes too");
     v.whenReading([&](auto&) {
         if (fabric.method == TransferMethod::Flip) fabric.method = TransferMethod::Apic;
+        fabric.modes = std::min(fabric.modes, FabricTransferSettings::kMostModes);
     });
 }
 
@@ -153,10 +159,7 @@ void describe(V& v, LiquidSettings& l)
     v.flag("solve_viscosity", l.solveViscosity, "Viscosity inside the liquid");
     v.flag("surface_tension_force", l.surfaceTensionForce, "Surface tension moves the liquid");
     v.integer("curvature_smoothing", l.curvatureSmoothing, 0, 1000, "Smoothing passes over the fill before its curvature is taken");
-    v.withoutEffect([](auto& w) {
-        int substeps = 1;
-        w.integer("viscosity_substeps", substeps, 1, 1000, "Parts of a step of the viscosity solve");
-    });
+    v.integer("viscosity_substeps", l.viscositySubsteps, 1, 1000, "Parts of a step, each of which viscosity is solved for");
     v.other("sources", "Where liquid starts");
 }
 
@@ -168,9 +171,8 @@ void describe(V& v, SolverSettings& s)
     v.integer("max_iterations", s.maxIterations, 1, 1'000'000, "Iterations after which a solve stops");
     v.number("viscosity_tolerance", s.viscosityTolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
              "Largest residual of the viscosity solve relative to the largest momentum of a face");
-    v.withoutEffect([](auto& w) {
-        w.other("wicking_substeps", "Parts of a step of the flow inside fabric");
-    });
+    v.integer("wicking_substeps", s.wickingSubsteps, 1, 1000,
+              "Least number of parts of a step of the flow inside fabric; stability may ask for more");
 }
 
 template <class V>

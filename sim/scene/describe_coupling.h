@@ -51,9 +51,18 @@ void describe(V& v, WickingSettings& w)
 }
 
 template <class V>
+void describe(V& v, CohesionSettings& c)
+{
+    v.number("strength", c.strength, Quantity::None, Range::atLeast(0.0),
+             "Of liquid bridges: 1 is the capillary force along the threads that touch; 2e-3 as published, 0 = none");
+    v.flag("fabric", c.fabric, "They hold fabric on fabric");
+    v.flag("obstacle", c.obstacle, "They hold fabric on solids");
+}
+
+template <class V>
 void describe(V& v, CouplingSettings& c)
 {
-    v.choice("drag", c.drag, "What liquid feels that flows through fabric");
+    v.choice("drag", c.drag, "What liquid feels that flows through fabric; off: it still moves inside of it as with nonlinear");
     v.choice("drag_fraction", c.dragFraction, "Whose fraction of fibres drag goes by: the fabric's own, or the cell's mean as published");
     v.number("drag_exponent", c.dragExponent, Quantity::None, Range::between(1.0, 2.0), "Of the speed in nonlinear drag; 1 is Forchheimer's law");
     v.flag("pressure_on_fabric", c.pressureOnFabric, "The liquid's pressure pushes the fabric: buoyancy");
@@ -66,7 +75,7 @@ void describe(V& v, CouplingSettings& c)
     v.onlyRuns("air_drag", "false", {"true"}, "Air drags fabric");
     v.onlyRuns("varying_fraction", "false", {"true"}, "Fabric that is stretched has wider pores");
     v.onlyRuns("pore_pressure_on_fabric", "false", {"true"}, "Suction in its pores moves fabric");
-    v.later("cohesion", "this version has no cohesion of wet fabric; remove the key");
+    v.section("cohesion", c.cohesion, "Wet fabric sticks, fabric.solver vertex only");
 }
 
 }  // namespace sim

@@ -48,7 +48,7 @@ inline std::span<const Choice<TorsionModel>> choicesOf(TorsionModel)
 template <class V>
 void describe(V& v, FabricSettings& f)
 {
-    v.fixed([&](auto& w) { w.choice("solver", f.solver, "off: the fabric stands still"); });
+    v.fixed([&](auto& w) { w.choice("solver", f.solver, "off: pins follow their motions, all else stays where it is"); });
     v.choice("membrane", f.membrane, "How cloth resists stretching");
     v.choice("bending", f.bending, "How cloth resists bending");
     v.group("hinge", "Read by bending: hinge only", [&](auto& w) {
@@ -63,15 +63,6 @@ void describe(V& v, FabricSettings& f)
                "Left out: 1e-2 of the residual with solver vertex, 5e-3 of gravity times the step with grid");
     v.fixed([&](auto& w) { w.flag("contact", f.contact, "Fabric touches itself and obstacles"); });
     v.integer("max_halvings", f.maxHalvings, 0, 30, "Of a step that could not be taken, solver vertex only");
-}
-
-/// Keys of `contact`, as published: obstacles push fabric by its inertia here, whatever the solver.
-template <class V>
-void describePublishedContact(V& v)
-{
-    double young = 6.6e6, thickness = 0.25;
-    v.number("obstacle_young", young, Quantity::Pressure, Range::above(0.0), "Stiffness of obstacles against fabric");
-    v.number("obstacle_thickness", thickness, Quantity::None, Range::above(0.0), "Cells around obstacles in which they push");
 }
 
 class SectionReader;
@@ -132,7 +123,8 @@ void describeFabric(V& v, Settings& s)
 {
     v.section("porous", s.porous, "");
     v.section("fabric", s.fabric, "");
-    v.withoutEffect([](auto& w) { w.group("contact", "", [](auto& inner) { describePublishedContact(inner); }); });
+    v.later("contact", "how hard solids push fabric follows from its mass and the step, with every solver; remove the section "
+                       "(fabric.contact: false takes contact away, obstacles[].collide: false that with one solid)");
 }
 
 }  // namespace sim

@@ -9,6 +9,7 @@
 #include "sim/scene/read_shape.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/section_writer.h"
+#include "sim/scene/unread_settings.h"
 #include "sim/shapes/thickness.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ void describeTop(V& v, Settings& settings)
     describeFabric(v, settings);
     for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion", "changes"}) v.other(key, "");
     for (const char* key : {"render", "output", "compare", "validate", "precision"}) v.other(key, "");
-    for (const char* key : {"benchmark", "test"}) v.other(key, "");  // of other verbs; they change nothing in a run
+    v.later("benchmark", "no verb reads it; remove the section (drench bench --scene times a scene)");
+    v.later("test", "no verb reads it; remove the section (a scene's checks stand in validate)");
     describeLater(v);
 }
 
@@ -92,6 +94,20 @@ void checkCoupling(const Scene& scene)
                                 coupling.dragExponent));
 }
 
+/// Where cohesion is asked for there must be something for it to act on.
+void checkCohesion(const Node& root, const Settings& settings)
+{
+    const Node* coupling = root.find("coupling");
+    const Node* node = coupling ? coupling->find("cohesion") : nullptr;
+    const CohesionSettings& cohesion = settings.coupling.cohesion;
+    if (!node || !(cohesion.strength > 0.0) || !root.find("fabrics")) return;
+    const auto refuse = [&](const char* why) { fail(node->place, fmt::format("coupling.cohesion: {}", why)); };
+    if (settings.fabric.solver == FabricSolver::Grid)
+        refuse("fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0");
+    if (!settings.fabric.contact) refuse("acts where fabric touches, and fabric.contact is false; set that true, or strength: 0");
+    if (!cohesion.fabric && !cohesion.obstacle) refuse("holds neither fabric nor obstacle; set one of them true, or strength: 0");
+}
+
 }  // namespace
 
 std::span<const LiquidPreset> liquidPresets()
@@ -123,6 +139,7 @@ void readSettings(const Node& root, Settings& settings, std::vector<NamedMateria
     SectionReader::read(&root, "", [&](auto& v) { describeTop(v, settings); });
     SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, settings.liquid); });
     materials = readMaterials(root, settings.porous);
+    checkCohesion(root, settings);
 }
 
 /// Tells of walls between which and the liquid the grid sees little.
@@ -160,6 +177,7 @@ Scene readScene(const SceneFile& file)
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());
     if (!scene.sources.empty()) noteThinWalls(scene);
+    noteUnreadSettings(root, scene);
     checkCoupling(scene);
     scene.changes = readChanges(root, scene);
     return scene;

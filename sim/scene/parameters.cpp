@@ -89,10 +89,6 @@ class ParameterList {
     {
         if (holds) fields(*this);
     }
-    template <class Fields>
-    void withoutEffect(Fields)
-    {
-    }
     template <class Action>
     void whenReading(Action)
     {

@@ -67,6 +67,7 @@ void writeObstacle(SectionWriter& w, const ObstacleSettings& obstacle)
     w.line("  shape", obstacle.shapeText, "[cm]");
     w.line("  inside", obstacle.inside ? "true" : "false", "The solid is everything outside of the shape");
     w.line("  collide", obstacle.collide ? "true" : "false", "Fabric touches it");
+    w.line("  cohesive", obstacle.cohesive ? "true" : "false", "Wet fabric sticks to it, where there is cohesion");
     if (obstacle.frictionAngle)
         w.line("  friction_angle", formatNumber(*obstacle.frictionAngle, Quantity::Angle), "[deg] Of fabric on it");
     if (!obstacle.motionText.empty()) w.line("  motion", obstacle.motionText, "[s], [cm], [deg]");

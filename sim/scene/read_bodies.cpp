@@ -109,10 +109,7 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
         v.other("motion", "");
         v.flag("collide", obstacle.collide, "");
         v.number("friction_angle", friction, Quantity::Angle, Range::between(0.0, 89.0), "");
-        v.withoutEffect([](auto& w) {
-            bool flag = true;
-            w.flag("cohesive", flag, "");
-        });
+        v.flag("cohesive", obstacle.cohesive, "");
     });
     if (node.find("friction_angle")) obstacle.frictionAngle = friction;
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);

@@ -113,10 +113,7 @@ ReadShape readMesh(const Node& node, const Context& context)
         v.text("file", file, "");
         v.number("scale", scale, Quantity::Length, kSize, "");
         v.number("cell", cell, Quantity::Length, kSize, "");
-        v.withoutEffect([](auto& w) {
-            std::string cache;
-            w.text("cache", cache, "");
-        });
+        v.later("cache", "this version finds the distances of a mesh anew in every run; remove the key (a larger mesh.cell is faster)");
     };
     SectionReader::read(&node, context.path, fields);
     if (!(cell > 0.0))

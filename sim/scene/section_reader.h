@@ -81,11 +81,6 @@ class KeyList {
     {
         fields(*this);
     }
-    template <class Fields>
-    void withoutEffect(Fields fields)
-    {
-        fields(*this);
-    }
     template <class Action>
     void whenReading(Action)
     {
@@ -212,12 +207,6 @@ class SectionReader {
     /// Fields that hold for a whole run.
     template <class Fields>
     void fixed(Fields fields)
-    {
-        fields(*this);
-    }
-    /// Fields that are read and checked, and change nothing in this version.
-    template <class Fields>
-    void withoutEffect(Fields fields)
     {
         fields(*this);
     }

@@ -134,10 +134,6 @@ class SectionWriter {
     {
         fields(*this);
     }
-    template <class Fields>
-    void withoutEffect(Fields)
-    {
-    }
     template <class Action>
     void whenReading(Action)
     {

@@ -29,12 +29,12 @@ std::vector<double> leastRadius(const Primitives& p)
 
 }  // namespace
 
-CandidateList::CandidateList(const Fabric& fabric) : primitives_(fabric), search_(primitives_, fabric.rest)
+CandidateList::CandidateList(const Fabric& fabric, bool bridges) : primitives_(fabric), bridges_(bridges), search_(primitives_, fabric.rest)
 {
     const std::size_t n = fabric.vertexCount();
     for (double r : leastRadius(primitives_)) {
         stray_.push_back(ListMargin::stray(r));
-        strayAtRest_.push_back(ListMargin::strayAtRest(r));
+        strayAtRest_.push_back(ListMargin::strayAtRest(r) - (bridges ? ListMargin::bridge(r) : 0.0));
     }
     sweep_.from.resize(n), sweep_.move.resize(n), measuredAt_.resize(n), ahead_.resize(n);
     dirtyVertices_.resize(n), strayed_.resize(n);
@@ -53,7 +53,7 @@ void CandidateList::findRestPairs(std::span<const Vec3> rest)
     for (const CandidatePool* pool : {&edgePairs_, &facePairs_}) {
         places.clear();
         for (std::size_t i = 0; i < pool->size(); ++i)
-            if (pool->distance[i] < pool->reach[i]) places.push_back({pool->a[i], pool->b[i], static_cast<int>(i)});
+            if (pool->distance[i] < pool->reach[i] + (bridges_ ? kNearAtRest * primitives_.bridge(pool->a[i], pool->b[i]) : 0.0)) places.push_back({pool->a[i], pool->b[i], static_cast<int>(i)});
         sorter.sort(places, primitives_.firstFace());
         for (const PairPlace& pair : places) {
             found.begin.resize(pair.a + 1, static_cast<int>(found.partner.size()));

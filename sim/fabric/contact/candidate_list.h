@@ -14,7 +14,8 @@ namespace sim::contact {
 /// near (ListMargin); others among them are inactive.
 class CandidateList {
  public:
-    explicit CandidateList(const Fabric& fabric);
+    /// @param bridges  it holds all pairs within the length of liquid bridges as well
+    explicit CandidateList(const Fabric& fabric, bool bridges = false);
     CandidateList(const CandidateList&) = delete;
 
     /// The moves covered from now on, until the fabric is moved, are those by which a step begins.
@@ -31,12 +32,22 @@ class CandidateList {
 
     const Primitives& primitives() const { return primitives_; }
     const RestPairs& restPairs() const { return restPairs_; }
+    /// How long a liquid bridge between the two may be beyond their reach [cm]; none holds parts of one yarn or cloth that are about as near
+    /// at rest.
+    double bridge(int a, int b) const
+    {
+        const double length = primitives_.bridge(a, b), reach = primitives_.radius[a] + primitives_.radius[b] + primitives_.band(a, b);
+        const bool isNear = primitives_.areOfOnePiece(a, b) && restPairs_.distanceOf(a, b) < reach + kNearAtRest * length;
+        return isNear ? 0.0 : length;
+    }
     const CandidatePool& edgePairs() const { return edgePairs_; }
     const CandidatePool& facePairs() const { return facePairs_; }
     std::size_t size() const { return edgePairs_.size() + facePairs_.size(); }
     bool empty() const { return size() == 0; }
 
  private:
+    static constexpr double kNearAtRest = 2.0;  ///< lengths of a bridge [-]
+
     bool cover(std::span<const Vec3> x, std::span<const Vec3> u);
     int findStrays(std::span<const Vec3> x, std::span<const Vec3> u, int moves);
     int stepsToLookAhead(std::span<const Vec3> u) const;
@@ -47,6 +58,7 @@ class CandidateList {
     void findRestPairs(std::span<const Vec3> rest);
 
     Primitives primitives_;
+    bool bridges_;
     PairSearch search_;
     RestPairs restPairs_;
     std::vector<double> stray_, strayAtRest_;  ///< of each vertex (ListMargin) [cm]

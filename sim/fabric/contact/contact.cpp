@@ -14,7 +14,7 @@ namespace sim {
 using namespace contact;
 
 struct FabricContact::Parts {
-    explicit Parts(const Fabric& fabric) : list(fabric), limiter(list.primitives()), start(fabric.rest) {}
+    Parts(const Fabric& fabric, const Cohesion* c) : cohesion(c), list(fabric, c != nullptr), limiter(list.primitives()), start(fabric.rest) {}
 
     /// What the friction of an active pair goes by.
     struct Grip {
@@ -25,6 +25,8 @@ struct FabricContact::Parts {
         double coefficient;  ///< Coulomb's [-]
         double perMass;      ///< h² over the mass that its separation has [cm/dyn]
         bool slides;         ///< friction is at its bound
+        double bridge = 0.0; ///< longest beyond the reach [cm] …
+        double pull = 0.0;   ///< … and what it holds with [dyn]
     };
     /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
     struct Acted {
@@ -33,6 +35,7 @@ struct FabricContact::Parts {
         double bound;        ///< of friction [dyn]
     };
 
+    bool bridges() const { return cohesion && cohesion->isOnFabric(); }
     void findActive(const CandidatePool& pairs, std::vector<PairPlace>& found);
     void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::span<const PairPlace> places,
                   std::size_t first);
@@ -40,9 +43,14 @@ struct FabricContact::Parts {
     Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance, std::size_t slot) const;
     void resizeActive(std::size_t n);
     void findHeld();
+    template <class Body>
+    void forEachSeeker(Body&& body) const;
+    double pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
+    void findBridges(std::span<const Vec3> x);
     Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
     double touchingMass();
 
+    const Cohesion* cohesion;                 ///< or null
     CandidateList list;
     Limiter limiter;
     std::vector<Vec3> start;                  ///< of the step [cm]
@@ -56,10 +64,11 @@ struct FabricContact::Parts {
     Grips held;                               ///< at the start of the step
     std::vector<Vec3> heldForce;              ///< of it on the active pairs [dyn]
     std::vector<char> isTouching;             ///< of each vertex
+    std::vector<int> nearest, opposite;       ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
     std::vector<Vec3> keptForce;              ///< of friction on the active pairs, at the end of the step [dyn]
 };
 
-FabricContact::FabricContact(const Fabric& fabric) : parts_(std::make_unique<Parts>(fabric)) {}
+FabricContact::FabricContact(const Fabric& fabric, const Cohesion* cohesion) : parts_(std::make_unique<Parts>(fabric, cohesion)) {}
 FabricContact::~FabricContact() = default;
 
 void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const Grips& held)
@@ -103,6 +112,7 @@ const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageCloc
     p.findHeld();
     p.describe(x, expected, p.list.edgePairs(), p.edgePairs, 0);
     p.describe(x, expected, p.list.facePairs(), p.facePairs, p.edgePairs.size());
+    if (p.bridges()) p.findBridges(x);
     return p.active;
 }
 
@@ -111,10 +121,15 @@ void FabricContact::Parts::findActive(const CandidatePool& pairs, std::vector<Pa
     const Chunks chunks(pairs.size());
     std::array<int, kMaxChunks> count{};
     acting.resize(pairs.size());
+    const bool isHeld = bridges();
+    const auto acts = [&](std::size_t i) {
+        if (pairs.distance[i] < pairs.reach[i]) return true;
+        return isHeld && pairs.distance[i] < pairs.reach[i] + list.bridge(pairs.a[i], pairs.b[i]);
+    };
     parallelFor(chunks.count(), [&](std::size_t c) {
         PairPlace* out = acting.data() + chunks.begin(c);
         for (std::size_t i = chunks.begin(c); i < chunks.end(c); ++i)
-            if (pairs.distance[i] < pairs.reach[i]) out[count[c]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
+            if (acts(i)) out[count[c]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
     });
     found.clear();
     for (std::size_t c = 0; c < chunks.count(); ++c)
@@ -179,6 +194,12 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
     grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b), h * h * mobility, false};
+    if (bridges()) {
+        Vec3 before = Vec3::Zero();
+        for (std::size_t k = 0; k < 4; ++k) before += c[k] * start[v[k]];
+        const double longest = list.bridge(a, b);  // a bridge comes about between steps, so that Newton's iterations do not make and break it
+        if (before.norm() < pairs.reach[place] + longest) grips[slot].bridge = longest;
+    }
     const Friction sideways = friction(x, expected, energy, distance, slot);
     grips[slot].slides = sideways.slides;
     active.force[slot] = energy.slope * normal + sideways.force;
@@ -211,13 +232,62 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
 }
 
+/// body(seeker, pair, direction from the seeker to the other) for the active pairs that may have bridges: yarns seek yarns, vertices faces.
+template <class Body>
+void FabricContact::Parts::forEachSeeker(Body&& body) const
+{
+    const Primitives& primitives = list.primitives();
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        if (!(grips[i].bridge > 0.0)) continue;
+        const int a = active.between[i][0], b = active.between[i][1];
+        const bool areEdges = primitives.kind(a) == PairKind::EdgeEdge;
+        if (areEdges && (primitives.strand[a] < 0 || primitives.strand[b] < 0)) continue;
+        body(a, i, Vec3(-active.normal[i]));
+        if (areEdges) body(b, i, active.normal[i]);
+    }
+}
+
+/// A seeker's part of the force of a pair's bridge [dyn]. Yarns that cross touch along their width.
+double FabricContact::Parts::pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const
+{
+    const Primitives& primitives = list.primitives();
+    const std::array<int, 4>& v = active.vertices[i];
+    const std::array<double, 4>& c = active.weights[i];
+    if (primitives.kind(seeker) == PairKind::VertexFace)
+        return cohesion->onFace(v[0], {v[1], v[2], v[3]}, {-c[1], -c[2], -c[3]});
+    const int other = active.between[i][active.between[i][0] == seeker ? 1 : 0];
+    const Vec3 first = x[v[1]] - x[v[0]], second = x[v[3]] - x[v[2]];
+    const double length = (active.between[i][0] == seeker ? first : second).norm();
+    const double along = std::abs(first.normalized().dot(second.normalized()));
+    return std::min(1.0, along + 2.0 * primitives.radius[other] / length) * cohesion->onYarn(seeker);
+}
+
+/// Each vertex and yarn edge has a bridge to what is nearest, and one to what is nearest on its other side.
+void FabricContact::Parts::findBridges(std::span<const Vec3> x)
+{
+    for (std::vector<int>* best : {&nearest, &opposite}) best->assign(list.primitives().firstFace(), -1);
+    const auto isNearer = [&](std::size_t i, int than) { return than < 0 || grips[i].apart.squaredNorm() < grips[than].apart.squaredNorm(); };
+    const auto direction = [&](int seeker, int i) -> Vec3 { return active.between[i][0] == seeker ? Vec3(-active.normal[i]) : active.normal[i]; };
+    forEachSeeker([&](int seeker, std::size_t i, const Vec3&) {
+        if (isNearer(i, nearest[seeker])) nearest[seeker] = static_cast<int>(i);
+    });
+    forEachSeeker([&](int seeker, std::size_t i, const Vec3& towards) {
+        if (towards.dot(direction(seeker, nearest[seeker])) < 0.0 && isNearer(i, opposite[seeker])) opposite[seeker] = static_cast<int>(i);
+    });
+    forEachSeeker([&](int seeker, std::size_t i, const Vec3&) {
+        const int slot = static_cast<int>(i);
+        if (slot == nearest[seeker] || slot == opposite[seeker]) grips[i].pull += pullOf(seeker, i, x);
+    });
+    for (std::size_t i = 0; i < active.size(); ++i) active.force[i] += grips[i].pull * active.normal[i];
+}
+
 FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::span<const Vec3> x) const
 {
     const Vec3& n = active.normal[i];
     Vec3 apart = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) apart += active.weights[i][k] * x[active.vertices[i][k]];
     const Vec3 moved = apart - grips[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
-    const double normalForce = -(active.force[i] + active.stiffness[i] * moved).dot(n);
+    const double normalForce = grips[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
     return {apart, acted - acted.dot(n) * n, grips[i].coefficient * std::max(normalForce, 0.0)};
 }
 
@@ -272,7 +342,11 @@ ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& 
     };
     const auto press = [&](std::size_t i, double distance) { return pairEnergy(distance, p.grips[i].range, p.grips[i].stiffness); };
     ContactEnergy stored;
-    stored.pressed = sumOver([&](std::size_t i, double distance) { return press(i, distance).energy; });
+    if (p.bridges())
+        stored.bridges = -sumOver([&](std::size_t i, double distance) {
+            return p.grips[i].pull * std::max(0.0, p.grips[i].range.reach + p.grips[i].bridge - distance);
+        });
+    stored.pressed = stored.bridges + sumOver([&](std::size_t i, double distance) { return press(i, distance).energy; });
     stored.gripped = sumOver([&](std::size_t i, double distance) {
         const double pressed = p.grips[i].range.reach - distance;
         if (!(pressed > 0.0)) return 0.0;

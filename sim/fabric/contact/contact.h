@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 #include "sim/settings.h"
 #include "sim/step_report.h"
@@ -40,7 +41,8 @@ struct LimitReport {
 /// Costs nothing per step but the check of the candidate list where no pair is near.
 class FabricContact {
  public:
-    explicit FabricContact(const Fabric& fabric);
+    /// @param cohesion  of liquid between wet fabric, taken up before each step; null without
+    explicit FabricContact(const Fabric& fabric, const Cohesion* cohesion = nullptr);
     ~FabricContact();
 
     /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and springStep [s] (springStepFor), friction

@@ -3,6 +3,7 @@
 #include "sim/fabric/contact/box_tree.h"
 #include "sim/fabric/contact/primitives.h"
 #include "sim/fabric/contact/rest_pairs.h"
+#include "sim/fabric/cohesion.h"
 
 #include <vector>
 
@@ -25,6 +26,8 @@ struct ListMargin {
     static double reach(double radius) { return (1.125 + kMargin) * radius; }
     static double stray(double radius) { return (1.125 + kMargin - 0.6533) / (1.0 + 5.0 / 3.0) * radius; }
     static double strayAtRest(double radius) { return kMargin * radius; }
+    /// A bridge is as long as kBridgeLength of the thinner one's radius: on each side half of that at most.
+    static double bridge(double radius) { return 0.5 * kBridgeLength * radius; }
 };
 
 /// Finds pairs of which one at least has a dirty vertex.

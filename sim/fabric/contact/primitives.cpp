@@ -1,5 +1,7 @@
 #include "sim/fabric/contact/primitives.h"
 
+#include "sim/fabric/groups.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -24,11 +26,13 @@ Primitives::Primitives(const Fabric& fabric) : pinned(fabric.pinned)
     addClothEdges(fabric);
     edgeCount = static_cast<int>(edges.size());
     vertexCount = static_cast<int>(fabric.vertexCount());
+    const FabricGroups groups(fabric);
     for (int v = 0; v < vertexCount; ++v) {
         const FabricMaterial& m = fabric.materials[fabric.vertexMaterial[v]];
         radius.push_back(fabric.radius[v]);
         young.push_back(effectiveYoung(m));
         friction.push_back(std::tan(m.frictionAngle));
+        piece.push_back(groups.pieceOf(v));
     }
     faceCount = static_cast<int>(fabric.faces.size());
     for (int f = 0; f < faceCount; ++f) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/contact/closest_points.h"
+#include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 
 #include <array>
@@ -26,6 +27,7 @@ struct Primitives {
     std::vector<std::array<int, 2>> edges;
     std::vector<std::array<int, 3>> faces;
     std::vector<char> pinned;        ///< of each vertex
+    std::vector<int> piece;          ///< of each vertex: its mesh or strand (FabricGroups)
     std::vector<double> radius;      ///< of each primitive: of a yarn, half the thickness of cloth [cm]
     std::vector<double> young;       ///< E χ [dyn/cm^2]
     std::vector<double> friction;    ///< tan of the friction angle [-]
@@ -49,6 +51,13 @@ struct Primitives {
 
     /// Neither share a vertex nor are neighbours on a strand, nor are all four vertices held: then nothing could be done.
     bool canTouch(int a, int b) const;
+    /// How long a liquid bridge between the two may be beyond their reach [cm].
+    double bridge(int a, int b) const { return kBridgeLength * std::min(radius[a], radius[b]); }
+    bool areOfOnePiece(int a, int b) const
+    {
+        const std::array<int, 4> v = vertices(a, b);
+        return piece[v[0]] == piece[v[3]];
+    }
     /// @param restDistance  of the two [cm]; anything large for pairs far apart
     PairRange range(int a, int b, double restDistance) const;
 

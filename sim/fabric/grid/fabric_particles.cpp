@@ -18,7 +18,7 @@ FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
     if (transfer_.method == TransferMethod::Flip) transfer_.method = TransferMethod::Apic;
     modes_ = transfer_.method == TransferMethod::Pic    ? 1
              : transfer_.method == TransferMethod::Apic ? 4
-                                                        : std::min(transfer_.modes, kModesAtSurface);  // a sheet is surface everywhere
+                                                        : std::min(transfer_.modes, FabricTransferSettings::kMostModes);
     particles_.modeCount = storedModes(modes_);
     grid_.dx = settings.cell;
     particles_.resize(fabric.vertexCount());

@@ -6,11 +6,6 @@
 
 namespace sim {
 
-namespace {
-
-
-}  // namespace
-
 FaceSystem::FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact)
     : fabric_(fabric), stiffness_(stiffness), contact_(contact)
 {
@@ -20,6 +15,11 @@ FaceSystem::FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const E
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     in_.resize(stiffness.unknowns().size);
     out_.resize(stiffness.unknowns().size);
+}
+
+void FaceSystem::takeUp(std::span<const double> absorbed)
+{
+    parallelFor(edges(), 4096, [&](std::size_t e) { inertia_[e] = twistInertia(fabric_, absorbed, e); });
 }
 
 void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoads* loads)

@@ -57,6 +57,8 @@ class FaceSystem {
  public:
     FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact);
 
+    /// The inertia of twist is that of yarns which hold this water: of each vertex [g].
+    void takeUp(std::span<const double> absorbed);
     /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
     void begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);

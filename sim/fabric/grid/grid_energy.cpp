@@ -27,7 +27,7 @@ void GridFabricSolver::bookSolve(double h, const Vec3& gravity, const FabricStat
     const BlockArray<double, 3>&first = particles_.velocity(), &last = velocity_.faces;
     double twistKinetic = 0.0, twistStart = 0.0, fall = 0.0;
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
-        const double inertia = fabric_.edges.twistInertia[e], faster = velocity_.twist[e] - state.omega[e];
+        const double inertia = twistInertia(fabric_, state.absorbed, e), faster = velocity_.twist[e] - state.omega[e];
         twistStart += 0.5 * inertia * state.omega[e] * state.omega[e];
         twistKinetic += 0.5 * inertia * velocity_.twist[e] * velocity_.twist[e];
         changes[EnergyChange::Implicit] -= 0.5 * inertia * faster * faster;

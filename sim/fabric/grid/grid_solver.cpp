@@ -214,8 +214,10 @@ void GridFabricSolver::spread(FabricState& state, StageClock& clock)
 {
     begin(state);
     clock.start(Stage::FabricToGrid);
-    if (meetsLiquid_)
+    if (meetsLiquid_) {
         parallelFor(mass_.size(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
+        system_.takeUp(state.absorbed);
+    }
     parallelFor(contact_.size(), 1024, [&](std::size_t e) { points_[e] = contact_.position(e, state.x); });
     particles_.toFaces(mass_, points_, state);
 }

@@ -50,12 +50,10 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
 
     torqueShare_.assign(layout_.groups.size(), Pack{});
     perRestLength_.resize(layout_.edge.size());
-    twistInertia_.resize(layout_.edge.size());
     for (std::size_t i = 0; i < layout_.edge.size(); ++i)
         for (int l = 0; l < kLanes; ++l) {
             const int e = layout_.edge[i][l];
             perRestLength_[i][l] = e >= 0 ? 1.0 / fabric.edges.restLength[e] : 0.0;
-            twistInertia_[i][l] = e >= 0 ? fabric.edges.twistInertia[e] : 1.0;
         }
 
     bends_.resize(layout_.vertex.size());

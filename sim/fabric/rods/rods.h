@@ -41,9 +41,6 @@ class Rods {
     /// Elastic energy [erg]: stretching, bending, twisting.
     std::array<double, 3> energies(const FabricState& state) const;
 
-    /// Inertia of the twist angles as the layout has them, one pack per packed edge; 1 in unused lanes [g cm^2].
-    const std::vector<Pack>& twistInertia() const { return twistInertia_; }
-
  private:
     struct Walk;
     void forcesOfGroup(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
@@ -66,7 +63,6 @@ class Rods {
     StrandLayout layout_;
     std::vector<Stiffness> stiffness_;
     std::vector<Pack> perRestLength_;        ///< of each packed edge; 0 in unused lanes [1/cm]
-    std::vector<Pack> twistInertia_;
     std::vector<Bend> bends_;
     bool damped_ = false;
     std::vector<Pack> startStretch_;         ///< l / l̄ of each packed edge

@@ -55,6 +55,7 @@ TEST(Import, SettingsArriveInTheirUnits)
     EXPECT_NEAR(s.liquid.relax.rate, 0.1 / (4.0 * 1.0e-3), 1.0e-12);
     EXPECT_EQ(s.liquid.relax.range, 1.5);
     EXPECT_TRUE(s.liquid.solveViscosity && s.liquid.surfaceTensionForce);
+    EXPECT_EQ(s.liquid.viscositySubsteps, 3);
     EXPECT_EQ(s.liquid.curvatureSmoothing, 5);
     EXPECT_NEAR(s.porous.volumeFraction, 0.5, 1.0e-12) << "of fibres of 0.01 cm with pores of 0.005 cm";
     EXPECT_EQ(s.coupling.drag, sim::DragLaw::Linear);
@@ -97,6 +98,8 @@ TEST(Import, OptionsDecideOtherwise)
     EXPECT_EQ(scene.settings.fabric.solver, sim::FabricSolver::Vertex);
     EXPECT_NEAR(scene.fabrics.at(0).material.frictionAngle, 20.0 * kDegree, 1.0e-12);
     EXPECT_EQ(scene.fabrics.at(0).radius, (std::array{0.03, 0.03}));
+    EXPECT_EQ(scene.settings.coupling.cohesion.strength, 0.002) << "the default of the file's cohesionCoeff";
+    EXPECT_TRUE(scene.settings.coupling.cohesion.fabric && scene.settings.coupling.cohesion.obstacle);
 }
 
 TEST(Import, LiquidObstacleAndDomainOfTheSheet)
@@ -122,7 +125,8 @@ TEST(Import, WeaveIsRecognisedWhereverItLies)
     EXPECT_THAT(weave.yaml(), HasSubstr("pin: {corners: all}"));
     EXPECT_EQ(scene.settings.transfer.method, sim::TransferMethod::PolyPic);
     EXPECT_EQ(scene.settings.transfer.modes, 8);
-    EXPECT_EQ(scene.settings.fabricTransfer.modes, 11);
+    EXPECT_EQ(scene.settings.fabricTransfer.modes, 8);
+    EXPECT_THAT(weave.report, HasSubstr("scalarModes=11"));
     EXPECT_EQ(scene.fabrics[0].material.volumeFraction, 0.5);
     EXPECT_NEAR(scene.fabrics[0].material.frictionAngle, 89.0 * kDegree, 1.0e-12);
     EXPECT_FALSE(scene.obstacles.at(0).collide) << "useLevelSetForce=0";
@@ -213,7 +217,7 @@ TEST(Import, ReportNamesWhatIsNotInTheScene)
     const Imported sheet(ownScene("sheet"));
     for (const char* words : {"apic=1", "biradius is not given", "friction_angle=20", "2 particles belong to no cloth",
                               "drag by air", "cohesion of wet fabric", "liquidinfo/halfThickness",
-                              "StrandParameters/haircolor", "scene/collision", "bucketinfo@kernelorder"})
+                              "StrandParameters/haircolor", "not from levelsetYoungModulus", "scene/collision", "bucketinfo@kernelorder"})
         EXPECT_THAT(sheet.report, HasSubstr(words));
     EXPECT_THAT(sheet.report, Not(HasSubstr("misspelt")));
 }

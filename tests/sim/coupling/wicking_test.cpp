@@ -163,6 +163,51 @@ TEST(Wicking, DryYarnFillsByTheSquareRootOfTime)
     EXPECT_LT(wick.state.absorbed[kSegments], 1.0e-12);  // the other end is still dry
 }
 
+std::vector<FabricPiece> hangingRod() { return {rod(20, Vec3(0.0, 1.0, 0.0))}; }
+
+TEST(Wicking, SubstepsAreStepsOfAPart)
+{
+    constexpr double kStep = 3.0e-5;  // s
+    const Vec3 gravity(0.0, -981.0, 0.0);
+    const auto wetEnd = [](const Vec3& x) { return x.y() < 0.3 ? 0.8 : 0.1; };
+    Wick asked(hangingRod()), parts(hangingRod()), once(hangingRod());
+    for (Wick* wick : {&asked, &parts, &once}) wick->fill(wetEnd);
+    asked.settings.solver.wickingSubsteps = 3;
+    ASSERT_EQ(1, Wicking(once.fabric, once.elements, once.settings).substeps(kStep));
+    EXPECT_EQ(3, Wicking(asked.fabric, asked.elements, asked.settings).substeps(kStep));
+    EXPECT_GT(Wicking(asked.fabric, asked.elements, asked.settings).substeps(1000.0 * kStep), 3) << "where stability asks for more";
+    asked.run(kStep, 1, gravity);
+    parts.run(kStep / 3.0, 3, gravity);
+    once.run(kStep, 1, gravity);
+    EXPECT_EQ(asked.state.absorbed, parts.state.absorbed);
+    EXPECT_NE(asked.state.absorbed, once.state.absorbed);
+}
+
+/// What liquid around the fabric feels is one thing, the fibres that hold liquid in its pores another.
+TEST(Wicking, GoesOnWithoutDragOutside)
+{
+    Wick off(hangingRod()), on(hangingRod());
+    off.settings.coupling.drag = DragLaw::Off;
+    on.settings.coupling.drag = DragLaw::Nonlinear;
+    for (Wick* wick : {&off, &on}) {
+        wick->fill([](const Vec3& x) { return x.y() < 0.3 ? 0.8 : 0.0; });
+        wick->run(1.0e-3, 10, Vec3(0.0, -981.0, 0.0));
+    }
+    EXPECT_EQ(off.state.absorbed, on.state.absorbed);
+    EXPECT_GT(off.saturation(8), 0.01) << "it rose";
+}
+
+TEST(Wicking, AtRateZeroLiquidStays)
+{
+    Wick wick(hangingRod());
+    wick.fill([](const Vec3& x) { return x.y() < 0.3 ? 0.8 : 0.0; });
+    const std::vector<double> before = wick.state.absorbed;
+    wick.settings.coupling.wicking.rateScale = 0.0;
+    wick.run(1.0e-3, 10, Vec3(0.0, -981.0, 0.0));
+    EXPECT_EQ(before, wick.state.absorbed);
+    EXPECT_TRUE(Wicking(wick.fabric, wick.elements, wick.settings).isWet(wick.state)) << "and what is too much still drips off";
+}
+
 /// Model-fluid E3: in a yarn that hangs, saturation falls upwards until suction holds the weight: 2 P_c ds/dy = −ρ g.
 TEST(Wicking, ColumnAtRest)
 {

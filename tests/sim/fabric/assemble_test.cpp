@@ -85,6 +85,35 @@ TEST(AssembleFabric, YarnWeighsItsLengthTimesSection)
     }
 }
 
+/// J = ¼ m (a² + b²) of an elliptic section, whatever fills it: m is the water of the edge's half on either side.
+TEST(AssembleFabric, WaterIsInTheInertiaOfTwist)
+{
+    const Fabric fabric = assemble(pieceOf(sim::strand(Vec3(0, 0, 0), Vec3(0, 5, 0), 10), 0.048, 0.018));
+    const std::size_t last = fabric.edges.size() - 1;
+    std::vector<double> absorbed(fabric.vertexCount(), 0.0);
+    absorbed[4] = 3.0e-4, absorbed[10] = 1.0e-4;  // g
+    const double perMass = 0.25 * (0.048 * 0.048 + 0.018 * 0.018), dry = fabric.edges.twistInertia[0];
+    EXPECT_DOUBLE_EQ(dry, twistInertia(fabric, absorbed, 0));
+    EXPECT_NEAR(dry + perMass * 1.5e-4, twistInertia(fabric, absorbed, 3), 1.0e-18);
+    EXPECT_NEAR(dry + perMass * 1.5e-4, twistInertia(fabric, absorbed, 4), 1.0e-18);
+    EXPECT_NEAR(dry + perMass * 1.0e-4, twistInertia(fabric, absorbed, last), 1.0e-18) << "the end of a yarn has one edge";
+    for (std::size_t v = 0; v < absorbed.size(); ++v) absorbed[v] = 2.0 * fabric.mass[v];
+    for (std::size_t e = 0; e <= last; ++e) EXPECT_NEAR(3.0 * dry, twistInertia(fabric, absorbed, e), 1.0e-17);
+}
+
+/// Of a yarn that is sewn to cloth the cloth has its share of the water.
+TEST(AssembleFabric, WaterOfClothTwistsNoYarn)
+{
+    FabricPiece both = cloth();
+    both.strands.push_back({0, 1, 2});
+    const Fabric fabric = assemble(both), yarn = assemble(pieceOf(sim::strand(both.points[0], both.points[1], 1), both.radius[0], both.radius[1]));
+    std::vector<double> absorbed(fabric.vertexCount(), 0.0);
+    absorbed[0] = fabric.volume[0];  // as much per volume in all of the vertex
+    const auto [a, b] = both.radius;
+    EXPECT_NEAR(twistInertia(fabric, absorbed, 0) - fabric.edges.twistInertia[0], 0.25 * (a * a + b * b) * yarn.volume[0], 1.0e-18);
+    EXPECT_GT(fabric.volume[0], 1.01 * yarn.volume[0]);
+}
+
 TEST(AssembleFabric, SharedVerticesCountEachYarnOnce)
 {
     const FabricPiece piece = yarnSheet();

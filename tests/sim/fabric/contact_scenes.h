@@ -51,6 +51,7 @@ struct ContactScene {
             fabric.edges.strand.push_back(strand);
             fabric.edges.restLength.push_back(length);
             fabric.edges.twistInertia.push_back(0.0);
+            fabric.edges.wetTwist.push_back({0.0, 0.0});
             fabric.edges.twistHeld.push_back(0);
             const double half = 0.5 * fabric.materials[material].envelopeDensity() * kPi * radius * radius * length;
             for (int k : {v, w}) {

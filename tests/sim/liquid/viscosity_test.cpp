@@ -129,6 +129,25 @@ TEST(ViscousSystem, IsSymmetricAndPositive)
     }
 }
 
+/// Parts of a step are steps: of liquid of one density, to the last bit.
+TEST(Viscosity, SubstepsAreStepsOfAPart)
+{
+    ViscousScene whole = ball(), parts = ball(), once = ball();
+    whole.scene.settings.viscositySubsteps = 4;
+    const SolveReport report = whole.solve(1.0e-2);
+    int iterations = 0;
+    for (int n = 0; n < 4; ++n) iterations += parts.solve(2.5e-3).iterations;
+    once.solve(1.0e-2);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.iterations, iterations);
+    double change = 0.0;
+    whole.scene.forEachFace([&](int a, const Vec3i& c) {
+        EXPECT_EQ(whole.scene.velocity(a, c), parts.scene.velocity(a, c));
+        change = std::max(change, std::abs(whole.scene.velocity(a, c) - once.scene.velocity(a, c)));
+    });
+    EXPECT_GT(change, 1.0e-3);
+}
+
 /// What conjugate gradients need of a preconditioner.
 TEST(ViscousMultigrid, IsSymmetricAndPositive)
 {

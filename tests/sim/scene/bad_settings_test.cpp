@@ -238,7 +238,39 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 transfer: {modes: {liquid: 8, fabric: 28}}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "bad.yaml:2: transfer.modes.fabric: 28 is out of range; must be 1 to 27"},
+     "bad.yaml:2: transfer.modes.fabric: 28 is out of range; must be 1 to 8"},
+    {"ModesOfFabricAboveEight", R"(grid: {cell: 0.1}
+transfer: {modes: {liquid: 11, fabric: 11}}
+)",
+     "bad.yaml:2: transfer.modes.fabric: 11 is out of range; must be 1 to 8"},
+    {"PublishedContact", R"(grid: {cell: 0.1}
+contact: {obstacle_young: 1.0e+5}
+)",
+     "bad.yaml:2: contact: how hard solids push fabric follows from its mass and the step, with every solver; remove the section "
+     "(fabric.contact: false takes contact away, obstacles[].collide: false that with one solid)"},
+    {"Benchmark", R"(grid: {cell: 0.1}
+benchmark: {repeat: 3}
+)",
+     "bad.yaml:2: benchmark: no verb reads it; remove the section (drench bench --scene times a scene)"},
+    {"Test", R"(grid: {cell: 0.1}
+test: {repeat: 3}
+)",
+     "bad.yaml:2: test: no verb reads it; remove the section (a scene's checks stand in validate)"},
+    {"WickingSubstepsAreAWord", R"(grid: {cell: 0.1}
+solver: {wicking_substeps: auto}
+)",
+     "bad.yaml:2: solver.wicking_substeps: needs a whole number, 1 to 1000, not \"auto\""},
+    {"CompareTolerance", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+compare: {tolerance: 0.1}
+)",
+     "bad.yaml:3: compare.tolerance: a comparison shows runs side by side and judges none; remove the key, or give the scene a section "
+     "validate, whose checks have tolerances"},
+    {"MeshCache", R"(grid: {cell: 0.1}
+liquid: {sources: [{shape: {mesh: {file: a.obj, cache: a.sdf}}}]}
+)",
+     "bad.yaml:2: liquid.sources.0.shape.mesh.cache: this version finds the distances of a mesh anew in every run; remove the key (a larger "
+     "mesh.cell is faster)"},
     {"ModesFraction", R"(grid: {cell: 0.1}
 transfer: {modes: 8.5}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}

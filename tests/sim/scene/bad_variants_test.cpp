@@ -7,9 +7,29 @@ namespace {
 const BadScene kBadScenes[] = {
     {"Coupling", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
+coupling: {cohesion: {strength: -1}}
+)",
+     "bad.yaml:3: coupling.cohesion.strength: \"-1\" is out of range; must be at least 0"},
+    {"CohesionWithSolverGrid", R"(grid: {cell: 0.1}
+materials: {wool: {young: 1.0e+6}}
+fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 3, radius: 0.05}}]
+fabric: {solver: grid}
 coupling: {cohesion: {strength: 1}}
 )",
-     "bad.yaml:3: coupling.cohesion: this version has no cohesion of wet fabric; remove the key"},
+     "bad.yaml:5: coupling.cohesion: fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0"},
+    {"CohesionWithoutContact", R"(grid: {cell: 0.1}
+materials: {wool: {young: 1.0e+6}}
+fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 3, radius: 0.05}}]
+fabric: {contact: false}
+coupling: {cohesion: {strength: 1}}
+)",
+     "bad.yaml:5: coupling.cohesion: acts where fabric touches, and fabric.contact is false; set that true, or strength: 0"},
+    {"CohesionOfNothing", R"(grid: {cell: 0.1}
+materials: {wool: {young: 1.0e+6}}
+fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 3, radius: 0.05}}]
+coupling: {cohesion: {strength: 1, fabric: false, obstacle: false}}
+)",
+     "bad.yaml:4: coupling.cohesion: holds neither fabric nor obstacle; set one of them true, or strength: 0"},
     {"Sinks", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 sinks: []

@@ -116,7 +116,6 @@ TEST(LoadFabric, SolverSettingsArrive)
     const Scene scene = load(kBegin + "fabrics: [{" + kSheet + R"(}]
 fabric: {solver: grid, membrane: neo_hookean, bending: hinge, hinge: {constant: 3, measure: tan}, torsion: polar, twist: false,
          newton: 7, tolerance: 1.0e-4, contact: false, max_halvings: 2}
-contact: {obstacle_young: 1.0e+5, obstacle_thickness: 0.5}
 )");
     const sim::FabricSettings& f = scene.settings.fabric;
     EXPECT_EQ(sim::FabricSolver::Grid, f.solver);

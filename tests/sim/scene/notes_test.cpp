@@ -69,4 +69,66 @@ TEST(Notes, ASourceThatIsAskedForNothingSaysSo)
     EXPECT_NE(std::string::npos, notes("velocity: [0, 1, 0], emit: [{from: 3, to: 4}]")[0].find("nothing comes from 3 to 4 s"));
 }
 
+std::vector<std::string> notesOnSettings(const std::string& text, const std::vector<std::string>& set = {})
+{
+    return sim::readScene(sim::sceneFileFromText(text, "unread.yaml", {"", set})).notes;
+}
+
+TEST(Notes, NameSettingsThatNothingReadsAndWhatWould)
+{
+    const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool);
+    const auto expectOne = [&](const std::string& text, const std::string& note) {
+        const std::vector<std::string> notes = notesOnSettings(pool + text);
+        ASSERT_EQ(1u, notes.size()) << text;
+        EXPECT_EQ(note, notes[0]);
+    };
+    expectOne("transfer: {flip_ratio: 0.5}\n",
+              "unread.yaml:3: transfer.flip_ratio: has no effect here; it goes with transfer.method flip");
+    expectOne("transfer: {method: apic, modes: 6}\n",
+              "unread.yaml:3: transfer.modes.liquid: has no effect here; it goes with transfer.method polypic");
+    expectOne("solver: {viscosity_tolerance: 1.0e-3}\n",
+              "unread.yaml:3: solver.viscosity_tolerance: has no effect here; it goes with liquid.solve_viscosity true");
+    expectOne("coupling: {drag: linear}\n", "unread.yaml:3: coupling.drag: has no effect here; it goes with fabrics");
+    expectOne("transfer: {modes: {fabric: 4}}\n",
+              "unread.yaml:3: transfer.modes.fabric: has no effect here; it goes with fabric.solver grid");
+}
+
+TEST(Notes, NameWhatBodiesAreGivenInVain)
+{
+    const std::string yarn = "grid: {cell: 0.25}\n" + std::string(kYarn);
+    EXPECT_EQ((std::vector<std::string>{"unread.yaml:3: fabrics.yarn.wetness: has no effect here; it goes with pores, a volume_fraction of its "
+                                        "material or of porous below 1"}),
+              notesOnSettings(yarn, {"fabrics.0.wetness=0.5"}));
+    EXPECT_TRUE(notesOnSettings(yarn, {"fabrics.0.wetness=0.5", "materials.thread.volume_fraction=0.4"}).empty());
+    const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool), post = "obstacles: [{name: post, shape: {ball: {center: [0, 9, 0], radius: 1}}}]\n";
+    EXPECT_EQ(1u, notesOnSettings(pool, {"liquid.sources.0.fill.seed=7"}).size());
+    EXPECT_TRUE(notesOnSettings(pool, {"liquid.sources.0.fill.seed=7", "liquid.sources.0.fill.pattern=jittered"}).empty());
+    EXPECT_EQ(1u, notesOnSettings(yarn + post, {"obstacles.0.cohesive=false"}).size());
+    EXPECT_EQ(1u, notesOnSettings(yarn + post, {"obstacles.0.friction_angle=3", "obstacles.0.collide=false"}).size());
+    EXPECT_TRUE(notesOnSettings(yarn + post, {"obstacles.0.friction_angle=3"}).empty());
+    EXPECT_TRUE(notesOnSettings(yarn + post, {"obstacles.0.cohesive=false", "coupling.cohesion.strength=1"}).empty());
+}
+
+TEST(Notes, LeaveToEachVariantWhatItReads)
+{
+    const std::string text = "grid: {cell: 0.25}\n" + std::string(kPool) +
+                             "transfer: {flip_ratio: 0.5}\ncompare: {variants: [{name: flip, transfer.method: flip}]}\n";
+    EXPECT_TRUE(notesOnSettings(text).empty());
+    EXPECT_EQ(1u, notesOnSettings(text, {"transfer.flip_ratio=0.4"}).size()) << "but it was asked for now";
+}
+
+TEST(Notes, SayNothingOfSettingsThatAreReadOrAreTheirDefaults)
+{
+    const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool);
+    EXPECT_TRUE(notesOnSettings(pool + "transfer: {method: flip, flip_ratio: 0.5}\n").empty());
+    EXPECT_TRUE(notesOnSettings(pool + "transfer: {flip_ratio: 0.99}\nfabric: {newton: 2}\n").empty());
+    EXPECT_TRUE(notesOnSettings(pool + "transfer: {method: apic}\n").empty()) << "the fabric's part is not given";
+    const std::string yarn = "grid: {cell: 0.25}\n" + std::string(kYarn) + "fabric: {newton: 3}\n";
+    EXPECT_TRUE(notesOnSettings(yarn).empty());
+    EXPECT_EQ(1u, notesOnSettings(yarn, {"fabric.solver=grid"}).size());
+    EXPECT_EQ(1u, notesOnSettings(yarn, {"materials.thread.pin_stiffness=1"}).size());
+    const sim::Scene printed = sim::readScene(sim::sceneFileFromText(yarn, "yarn.yaml"));
+    EXPECT_TRUE(notesOnSettings(sim::printScene(printed)).empty()) << "all settings written out";
+}
+
 }  // namespace

@@ -62,8 +62,8 @@ const char* const kAllFabric = R"(
 units: si
 grid: {cell: 2 mm}
 porous: {fibre_diameter: 0.1 mm, pore_radius: 0.07 mm}
+coupling: {cohesion: {strength: 0.3, obstacle: false}}
 fabric: {solver: "off", bending: hinge, hinge: {constant: 3, measure: sin}, tolerance: 1.0e-3}
-contact: {obstacle_thickness: 0.3}
 materials:
   wool: {young: 1.0e+6, friction_angle: 0.31 rad, section_rotation: 11.1}
   "12": {young: 2.34 MPa, volume_fraction: 0.77, damp_bending: false}
@@ -84,7 +84,7 @@ fabrics:
   - strand: {material: wool, from: [1, 0, 0], to: [1, 0.1, 0], segments: 7, radius: 0.3 mm}
     pin: {shape: {subtract: [{box: {min: [0, 0, -1], max: [2, 0.05, 1]}}, {ball: {center: [1, 0, 0], radius: 0.01}}]}}
 obstacles:
-  - {name: ball, shape: {ball: {center: [5, 0, 0], radius: 0.1}}, collide: false, friction_angle: 0.4 rad}
+  - {name: ball, shape: {ball: {center: [5, 0, 0], radius: 0.1}}, collide: false, cohesive: false, friction_angle: 0.4 rad}
 motion: {right: {t: [0, 2], rotate: {axis: [0, 0, 1], angle: 99, origin: [0, 0.1, 0]}}}
 )";
 
