@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace sim {
@@ -25,60 +26,62 @@ struct QuantityInfo {
     Dimension dimension;
     const char* cgs;
     const char* si;
-    double siInCgs;  ///< one SI unit
+    int siInCgs;  ///< power of ten that one SI unit is
 };
 
 const QuantityInfo& infoOf(Quantity quantity)
 {
     static constexpr std::array<QuantityInfo, 15> kInfo = {{
-        {"plain number", {}, "", "", 1.0},
-        {"length", {1, 0, 0, 0}, "cm", "m", 1.0e2},
-        {"time", {0, 0, 1, 0}, "s", "s", 1.0},
-        {"mass", {0, 1, 0, 0}, "g", "kg", 1.0e3},
-        {"velocity", {1, 0, -1, 0}, "cm/s", "m/s", 1.0e2},
-        {"acceleration", {1, 0, -2, 0}, "cm/s^2", "m/s^2", 1.0e2},
-        {"density", {-3, 1, 0, 0}, "g/cm^3", "kg/m^3", 1.0e-3},
-        {"pressure", {-1, 1, -2, 0}, "dyn/cm^2", "Pa", 1.0e1},
-        {"viscosity", {-1, 1, -1, 0}, "P", "Pa s", 1.0e1},
-        {"surface tension", {0, 1, -2, 0}, "dyn/cm", "N/m", 1.0e3},
-        {"volume", {3, 0, 0, 0}, "cm^3", "m^3", 1.0e6},
-        {"frequency", {0, 0, -1, 0}, "1/s", "1/s", 1.0},
-        {"angle", {0, 0, 0, 1}, "deg", "deg", 1.0},
-        {"angle", {0, 0, 0, 1}, "deg", "deg", 1.0},
-        {"turn rate", {0, 0, -1, 1}, "deg/s", "deg/s", 1.0},
+        {"plain number", {}, "", "", 0},
+        {"length", {1, 0, 0, 0}, "cm", "m", 2},
+        {"time", {0, 0, 1, 0}, "s", "s", 0},
+        {"mass", {0, 1, 0, 0}, "g", "kg", 3},
+        {"velocity", {1, 0, -1, 0}, "cm/s", "m/s", 2},
+        {"acceleration", {1, 0, -2, 0}, "cm/s^2", "m/s^2", 2},
+        {"density", {-3, 1, 0, 0}, "g/cm^3", "kg/m^3", -3},
+        {"pressure", {-1, 1, -2, 0}, "dyn/cm^2", "Pa", 1},
+        {"viscosity", {-1, 1, -1, 0}, "P", "Pa s", 1},
+        {"surface tension", {0, 1, -2, 0}, "dyn/cm", "N/m", 3},
+        {"volume", {3, 0, 0, 0}, "cm^3", "m^3", 6},
+        {"frequency", {0, 0, -1, 0}, "1/s", "1/s", 0},
+        {"angle", {0, 0, 0, 1}, "deg", "deg", 0},
+        {"angle", {0, 0, 0, 1}, "deg", "deg", 0},
+        {"turn rate", {0, 0, -1, 1}, "deg/s", "deg/s", 0},
     }};
     return kInfo[static_cast<std::size_t>(quantity)];
 }
 
 struct Unit {
     const char* symbol;
-    double inCgs;
+    int decimals;  ///< power of ten that it is in CGS …
     Dimension dimension;
     bool takesPrefix = true;
+    double factor = 1.0;  ///< … times this
 };
 
 // Angles count in degrees here: bare numbers of a scene are degrees, and the change to radians comes last.
 constexpr Unit kUnits[] = {
-    {"m", 1.0e2, {1, 0, 0, 0}},      {"g", 1.0, {0, 1, 0, 0}},
-    {"s", 1.0, {0, 0, 1, 0}},        {"min", 60.0, {0, 0, 1, 0}, false},
-    {"N", 1.0e5, {1, 1, -2, 0}},     {"dyn", 1.0, {1, 1, -2, 0}, false},
-    {"Pa", 1.0e1, {-1, 1, -2, 0}},   {"Ba", 1.0, {-1, 1, -2, 0}, false},
-    {"bar", 1.0e6, {-1, 1, -2, 0}},  {"P", 1.0, {-1, 1, -1, 0}},
-    {"J", 1.0e7, {2, 1, -2, 0}},     {"erg", 1.0, {2, 1, -2, 0}, false},
-    {"Hz", 1.0, {0, 0, -1, 0}},      {"l", 1.0e3, {3, 0, 0, 0}},
-    {"L", 1.0e3, {3, 0, 0, 0}},      {"deg", 1.0, {0, 0, 0, 1}, false},
-    {"°", 1.0, {0, 0, 0, 1}, false}, {"rad", 180.0 / kPi, {0, 0, 0, 1}},
-    {"%", 1.0e-2, {}, false},        {"1", 1.0, {}, false},
+    {"m", 2, {1, 0, 0, 0}},        {"g", 0, {0, 1, 0, 0}},
+    {"s", 0, {0, 0, 1, 0}},        {"min", 0, {0, 0, 1, 0}, false, 60.0},
+    {"N", 5, {1, 1, -2, 0}},       {"dyn", 0, {1, 1, -2, 0}, false},
+    {"Pa", 1, {-1, 1, -2, 0}},     {"Ba", 0, {-1, 1, -2, 0}, false},
+    {"bar", 6, {-1, 1, -2, 0}},    {"P", 0, {-1, 1, -1, 0}},
+    {"J", 7, {2, 1, -2, 0}},       {"erg", 0, {2, 1, -2, 0}, false},
+    {"Hz", 0, {0, 0, -1, 0}},      {"l", 3, {3, 0, 0, 0}},
+    {"L", 3, {3, 0, 0, 0}},        {"deg", 0, {0, 0, 0, 1}, false},
+    {"°", 0, {0, 0, 0, 1}, false}, {"rad", 0, {0, 0, 0, 1}, true, 180.0 / kPi},
+    {"%", -2, {}, false},          {"1", 0, {}, false},
 };
 
 struct Prefix {
     const char* symbol;
-    double factor;
+    int decimals;
 };
-constexpr Prefix kPrefixes[] = {{"n", 1.0e-9}, {"u", 1.0e-6}, {"µ", 1.0e-6}, {"μ", 1.0e-6}, {"m", 1.0e-3},
-                                {"c", 1.0e-2}, {"d", 1.0e-1}, {"k", 1.0e3},  {"M", 1.0e6},  {"G", 1.0e9}};
+constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"c", -2}, {"d", -1}, {"k", 3}, {"M", 6}, {"G", 9}};
 
+/// Of a product of units: 10^decimals · factor.
 struct Scale {
+    int decimals = 0;
     double factor = 1.0;
     Dimension dimension;
 };
@@ -86,14 +89,14 @@ struct Scale {
 std::optional<Scale> unitNamed(std::string_view symbol)
 {
     for (const Unit& unit : kUnits) {
-        if (symbol == unit.symbol) return Scale{unit.inCgs, unit.dimension};
+        if (symbol == unit.symbol) return Scale{unit.decimals, unit.factor, unit.dimension};
     }
     for (const Unit& unit : kUnits) {
         if (!unit.takesPrefix) continue;
         for (const Prefix& prefix : kPrefixes) {
             const std::string_view head(prefix.symbol), tail(unit.symbol);
             if (symbol.size() == head.size() + tail.size() && symbol.starts_with(head) && symbol.ends_with(tail)) {
-                return Scale{prefix.factor * unit.inCgs, unit.dimension};
+                return Scale{prefix.decimals + unit.decimals, unit.factor, unit.dimension};
             }
         }
     }
@@ -102,7 +105,7 @@ std::optional<Scale> unitNamed(std::string_view symbol)
 
 void multiply(Scale& scale, const Scale& unit, int power)
 {
-    // One unit at a time: cm^3 is exactly 1, where pow(0.01 · 100, 3) need not be.
+    scale.decimals += power * unit.decimals;
     for (int i = 0; i < std::abs(power); ++i)
         scale.factor = power > 0 ? scale.factor * unit.factor : scale.factor / unit.factor;
     scale.dimension.length += power * unit.dimension.length;
@@ -201,6 +204,23 @@ ParsedNumber problem(std::string text)
     return {0.0, std::move(text)};
 }
 
+/// A number as it is written, times a power of ten: rounded once, so that 1.65e-4 m is 0.0165 cm to the last bit. Infinite where it is out of
+/// range.
+double shiftedNumber(std::string_view digits, int decimals, double number)
+{
+    if (decimals == 0 || number == 0.0) return number;
+    const std::size_t e = digits.find_first_of("eE");
+    int exponent = 0;
+    if (e != std::string_view::npos) {
+        const std::string_view tail = digits.substr(e + 1 + (digits[e + 1] == '+' ? 1 : 0));
+        std::from_chars(tail.data(), tail.data() + tail.size(), exponent);
+    }
+    const std::string text = fmt::format("{}e{}", digits.substr(0, e), exponent + decimals);
+    double shifted = 0.0;
+    const std::errc error = std::from_chars(text.data(), text.data() + text.size(), shifted).ec;
+    return error == std::errc() ? shifted : std::numeric_limits<double>::infinity();
+}
+
 /// -0 is 0: there is no other scene with it.
 double unsignedZero(double value)
 {
@@ -245,7 +265,8 @@ ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
     const QuantityInfo& info = infoOf(quantity);
     if (quantity == Quantity::Angle && unit == "rad")
         return {unsignedZero(number), ""};  // as it is stored: not through degrees and back
-    double inFile = isSi ? number * info.siInCgs : number;
+    const std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.data()));
+    double inFile = isSi ? shiftedNumber(digits, info.siInCgs, number) : number;
     if (!unit.empty()) {
         const std::optional<Scale> scale = parseUnit(unit);
         if (!scale)
@@ -256,7 +277,7 @@ ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
                                        withArticle(describeDimension(scale->dimension)), nameOf(quantity),
                                        *info.cgs ? fmt::format(" (in {})", info.cgs) : ""));
         }
-        inFile = number * scale->factor;
+        inFile = shiftedNumber(digits, scale->decimals, number) * scale->factor;
     }
     if (!std::isfinite(inFile)) return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
     return {unsignedZero(toStored(inFile, quantity)), ""};

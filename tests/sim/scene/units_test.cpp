@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <string>
 
 namespace {
 
@@ -45,6 +47,29 @@ TEST(Units, BareNumbersOfSiAreConverted)
     EXPECT_DOUBLE_EQ(200.0, si("2", Quantity::Velocity));
     EXPECT_EQ(2.0, si("2", Quantity::Time));
     EXPECT_EQ(2.0, si("2", Quantity::Frequency));
+}
+
+/// Whoever writes a scene in metres gets the same bits as who writes it in centimetres.
+TEST(Units, SiAndCgsAreTheSameBits)
+{
+    struct Pair {
+        Quantity quantity;
+        int decimals;
+        const char* unit;
+    };
+    const Pair pairs[] = {{Quantity::Length, 2, "m"}, {Quantity::Density, -3, "kg/m^3"}, {Quantity::Pressure, 1, "Pa"}, {Quantity::Volume, 6, "m^3"},
+                          {Quantity::SurfaceTension, 3, "N/m"}, {Quantity::Viscosity, 1, "Pa s"}, {Quantity::Acceleration, 2, "m/s^2"}};
+    std::mt19937 random(3);
+    for (const Pair& pair : pairs)
+        for (int n = 0; n < 200; ++n) {
+            const int digits = std::uniform_int_distribution<int>(1, 999999)(random), exponent = std::uniform_int_distribution<int>(-9, 4)(random);
+            const std::string inCgs = std::to_string(digits) + "e" + std::to_string(exponent);
+            const std::string inSi = std::to_string(digits) + "E" + std::to_string(exponent - pair.decimals);
+            EXPECT_EQ(si(inSi.c_str(), pair.quantity), cgs(inCgs.c_str(), pair.quantity)) << inCgs;
+            EXPECT_EQ(cgs((inSi + " " + pair.unit).c_str(), pair.quantity), cgs(inCgs.c_str(), pair.quantity)) << inCgs;
+        }
+    EXPECT_EQ(si("-1.65e-4", Quantity::Length), -0.0165);
+    EXPECT_FALSE(sim::parseNumber("1e308", Quantity::Length, true).problem.empty());
 }
 
 TEST(Units, WrittenUnitsMeanTheSameInBothSystems)
