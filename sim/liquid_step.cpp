@@ -240,7 +240,9 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         plan.meetsFabric = !work.coupling->vertices.empty();
         if (plan.meetsFabric) {
             const ExchangeWatch watch(work.coupling->fabric, state, &work.order);
+            work.coupling->twist.note(work.coupling->fabric, state.fabric);
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
+            work.coupling->twist.keep(work.coupling->fabric, state.fabric);
             report.toPins = work.coupling->capture.toPins();
             watch.expectKept(report.toPins);
             energy.after(EnergyChange::Capture);
