@@ -187,7 +187,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
     if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     if (isTense) {
-        applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt) / dt, work.surfaceTension, work.grid);
+        applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt, plan.meetsFabric) / dt, work.surfaceTension, work.grid);
         energy.surfaceTension(plan.isMixed);
     }
     project(state, settings, work, dt, report, energy);
@@ -200,14 +200,15 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
 
 }  // namespace
 
-double fallTime(const TimeSettings& time, const State& state, double dt)
+double fallTime(const TimeSettings& time, const State& state, double dt, bool meetsFabric)
 {
-    return time.reflects() ? 0.5 * (state.lastDt + dt) : dt;
+    const bool isFirst = state.lastDt == 0.0;
+    return time.reflects() && (isFirst || !meetsFabric) ? 0.5 * (state.lastDt + dt) : dt;
 }
 
-Vec3 meanGravity(const Settings& settings, const State& state, double dt)
+Vec3 meanGravity(const Settings& settings, const State& state, double dt, bool meetsFabric)
 {
-    return settings.gravity * (fallTime(settings.time, state, dt) / dt);
+    return meetsFabric ? Vec3(settings.gravity * (fallTime(settings.time, state, dt, true) / dt)) : settings.gravity;
 }
 
 LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock,
@@ -241,7 +242,9 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
                            work.coupling->around.find(grid, work.order, particles, work.obstacleField, work.coupling->vertices);
         if (plan.meetsFabric) {
             const ExchangeWatch watch(work.coupling->fabric, state, &work.order);
+            work.coupling->twist.note(work.coupling->fabric, state.fabric);
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
+            work.coupling->twist.keep(work.coupling->fabric, state.fabric);
             report.toPins = work.coupling->capture.toPins();
             watch.expectKept(report.toPins);
             energy.after(EnergyChange::Capture);
@@ -261,7 +264,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         state.unrelaxed = 0.0;
     }
 
-    liquidToGrid(state, settings, work, fallTime(settings.time, state, dt), keepsAdvected, report, clock, energy);
+    liquidToGrid(state, settings, work, fallTime(settings.time, state, dt, plan.meetsFabric), keepsAdvected, report, clock, energy);
 
     if (plan.meetsFabric) {
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
@@ -269,7 +272,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         const std::optional<FabricFaces> faces = facesOf(work);
         // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (time-splitting 2).
         plan.reflects = false;
-        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, meanGravity(settings, state, dt), dt, state.fabric,
+        plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, meanGravity(settings, state, dt, true), dt, state.fabric,
                                                    faces ? &*faces : nullptr, work.grid);
     }
 

@@ -15,11 +15,11 @@ struct LiquidPlan {
 };
 
 /// How long weight, viscosity and surface tension act on the velocities of a step of dt [s]. With the integrator reflected velocities are
-/// those halfway through it: steps of any length then fall as far as they should.
-double fallTime(const TimeSettings& time, const State& state, double dt);
-/// Gravity that over dt does what gravity does over fallTime [cm/s^2]: what acts on fabric that is with liquid, so that both fall alike
-/// when steps change their length.
-Vec3 meanGravity(const Settings& settings, const State& state, double dt);
+/// those halfway through it: steps of any length then fall as far as they should. Not so near fabric, which bears its weight over dt: to
+/// liquid and fabric that fall together gravity does the same when steps change their length.
+double fallTime(const TimeSettings& time, const State& state, double dt, bool meetsFabric);
+/// Gravity on the fabric over dt: what near liquid does to it what gravity does to the liquid over fallTime [cm/s^2].
+Vec3 meanGravity(const Settings& settings, const State& state, double dt, bool meetsFabric);
 
 /// The liquid up to its velocities on the grid; those on faces with fabric are the mixture's.
 LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double dt, bool reflects, StepReport& report, StageClock& clock,

@@ -121,7 +121,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     LiquidPlan plan;
     if (isWet) plan = startLiquid(state, scene, work, dt, reflects, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
-    const Vec3 gravity = work.coupling ? meanGravity(scene.settings, state, dt) : scene.settings.gravity;
+    const Vec3 gravity = meanGravity(scene.settings, state, dt, plan.meetsFabric);
     stepFabric(state, gravity, work, dt, plan, report, clock);
     energy.solved(plan.isMixed, dt, gravity, report.fabric);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);

@@ -3,6 +3,7 @@
 #include "sim/coupling/capture.h"
 #include "sim/coupling/drip.h"
 #include "sim/coupling/mixture.h"
+#include "sim/coupling/twist_momentum.h"
 #include "sim/coupling/wicking.h"
 
 namespace sim {
@@ -17,6 +18,7 @@ struct Coupling {
     Mixture mixture;
     Drip drip;
     Wicking wicking;
+    TwistMomentum twist;
     std::vector<Vec3> velocityBefore;  ///< of each vertex, as the fabric's part of the step began [cm/s]
 
     /// @param nominalMass  of a particle of liquid [g]

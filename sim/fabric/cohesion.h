@@ -20,8 +20,8 @@ inline constexpr double kBridgeLength = 0.25;
 double bridgeForce(const LiquidSettings& liquid, double fraction, double saturation);
 
 /// Liquid bridges that hold wet fabric on fabric and on solids: between two that are nearer than kBridgeLength, the same force whatever
-/// their length, so that what parts them must pull with that force, and pays its product with the length. They come about between steps. Cloth counts as threads side by side that
-/// are as wide as it is thick: finer meshes hold no more.
+/// their length, so that what parts them must pull with that force, and pays its product with the length. They come about between steps.
+/// Cloth counts as threads side by side that are as wide as it is thick: finer meshes hold no more.
 class Cohesion {
  public:
     Cohesion(const Fabric& fabric, const LiquidSettings& liquid, const CohesionSettings& settings);

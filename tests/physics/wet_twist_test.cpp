@@ -47,6 +47,39 @@ TEST_P(WetTwist, SlowsWithTheInertiaOfTheWater)
     }
 }
 
+/// What spins in water that it takes up keeps J ω. No drag acts on a twist.
+TEST_P(WetTwist, KeepsItsMomentumWhileYarnTakesUpWater)
+{
+    Scene scene;
+    scene.name = "spinning yarn";
+    scene.settings.cell = 0.25;
+    scene.settings.time.dt = 1.0e-3;
+    scene.settings.gravity.setZero();
+    scene.settings.fabric.solver = GetParam();
+    scene.settings.coupling.wicking.rateScale = 0.0;
+    scene.settings.coupling.drip = false;
+    scene.fabrics.push_back(testing::pieceOf(strand(Vec3(-0.4, 0.0, 0.0), Vec3(0.4, 0.0, 0.0), 4), testing::wool(), {0.05, 0.05}));
+    SourceSettings drop;
+    drop.name = "drop";
+    drop.shape = Shape::ball(Vec3::Zero(), 0.8);
+    drop.emissions.push_back({});
+    scene.sources.push_back(drop);
+
+    State state = Simulation(scene).state();
+    for (double& omega : state.fabric.omega) omega = 50.0;  // 1/s
+    Simulation simulation(scene, std::move(state));
+    const auto spin = [&](auto&& of) {
+        const FabricState& fabric = simulation.state().fabric;
+        double sum = 0.0;
+        for (std::size_t e = 0; e < fabric.omega.size(); ++e) sum += twistInertia(simulation.fabric(), fabric.absorbed, e) * of(fabric.omega[e]);
+        return sum;
+    };
+    const double momentum = spin([](double omega) { return omega; }), inertia = spin([](double) { return 1.0; });
+    for (int n = 1; n <= 5; ++n) simulation.step(n * 1.0e-3);
+    EXPECT_GT(spin([](double) { return 1.0; }), 1.2 * inertia) << "it took up water";
+    EXPECT_NEAR(spin([](double omega) { return omega; }), momentum, 1.0e-6 * momentum);
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, WetTwist, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
                          [](const auto& given) { return given.param == FabricSolver::Grid ? "grid" : "vertex"; });
 

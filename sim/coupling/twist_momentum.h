@@ -1,0 +1,29 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+
+#include <vector>
+
+namespace sim {
+
+/// Water that fabric takes up comes without spin: yarns keep their momentum of twist, J ω, and turn more slowly.
+class TwistMomentum {
+ public:
+    /// Before the fabric takes up water.
+    void note(const Fabric& fabric, const FabricState& state)
+    {
+        before_.resize(fabric.edges.size());
+        for (std::size_t e = 0; e < before_.size(); ++e) before_[e] = twistInertia(fabric, state.absorbed, e);
+    }
+    /// When it has taken it up.
+    void keep(const Fabric& fabric, FabricState& state) const
+    {
+        for (std::size_t e = 0; e < before_.size(); ++e)
+            if (!fabric.edges.twistHeld[e]) state.omega[e] *= before_[e] / twistInertia(fabric, state.absorbed, e);
+    }
+
+ private:
+    std::vector<double> before_;  ///< inertia of each yarn edge [g cm^2]
+};
+
+}  // namespace sim
