@@ -57,13 +57,14 @@ void exchange(State& state, const Settings& settings, Workspace& work, double dt
                 report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();
                 report.energies.potential -= particles.mass[p] * settings.gravity.dot(particles.position(p));
             }
+            work.momentum.exchanged(state, {});
             energy.after(EnergyChange::Drip);
         }
         clock.start(Stage::Wicking);
         const ExchangeWatch watch(coupling.fabric, state, nullptr);
         coupling.wicking.move(dt, settings.gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
         watch.expectKept(coupling.wicking.toPins());
-        report.toPins += coupling.wicking.toPins();
+        work.momentum.exchanged(state, coupling.wicking.toPinsByVertex());
         energy.after(EnergyChange::Wicking);
     }
     report.particles = particles.count;
@@ -104,6 +105,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     EnergyBook energy(state, scene.settings, work, report);
     const bool reflects = mayReflect(state, scene.settings.time, work) && !state.reflected;
 
+    work.momentum.begin(dt, state);
     work.emission.inflows.clear();
     if (emits(scene, state, state.time, state.time + dt)) {
         clock.start(Stage::Emit);
@@ -111,16 +113,20 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
         emitLiquid(scene, state, state.time, state.time + dt, work.emission);
         for (std::size_t p = before; p < state.liquid.count; ++p)
             report.emittedKinetic += 0.5 * state.liquid.mass[p] * state.liquid.velocity(p).squaredNorm();
+        work.momentum.entered(state, before);
     }
     const bool isWet = hasLiquid(state);
     LiquidPlan plan;
     if (isWet) plan = startLiquid(state, scene, work, dt, reflects, report, clock, energy);
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     stepFabric(state, scene.settings, work, dt, plan, report, clock);
+    if (work.fabric || work.gridFabric) work.momentum.fabricMoved(dt, scene.settings.gravity, state);
     energy.solved(plan.isMixed, dt, report.fabric);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);
     if (work.coupling) exchange(state, scene.settings, work, dt, plan, report, clock, energy);
     findFabricEnergies(state, scene.settings, work, report);
+    work.momentum.finish();
+    for (const Impulse& pins : work.momentum.forces().pins) report.toPins += pins.linear;
 
     state.time += dt;
     ++state.step;
