@@ -22,7 +22,7 @@ namespace {
 //   xxh3 0123456789abcdef
 constexpr std::size_t kHeaderBytes = 512;
 constexpr std::string_view kMagic = "Drench checkpoint ";
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 
 std::string checksum(std::string_view content) { return hexDigits(XXH3_64bits(content.data(), content.size())); }
 
@@ -88,6 +88,8 @@ void visitSummary(V& v, Summary& s)
     v.number("logs/taken_back", "-", s.takenBack);
     v.number("logs/largest_cfl", "-", s.largestCfl);
     v.number("logs/mass_error", "-", s.massError);
+    v.number("logs/forces/time", "s", s.forces.time);
+    v.list("logs/forces/numbers", "cgs", s.forces.numbers);
 }
 
 template <class V, class Logs>
