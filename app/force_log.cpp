@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using sim::Impulse, sim::Vec3;
 
-constexpr std::size_t kNumbers = 8;  ///< of a load in ForceTotals
+constexpr std::size_t kNumbers = 14, kLargest = 6, kFirst = 8;  ///< of a load in ForceTotals, and places among them
 
 Json vectorJson(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -59,21 +59,31 @@ ForceNames::ForceNames(const sim::Scene& scene)
     }
 }
 
-void ForceTotals::add(const sim::Forces& forces)
+void ForceTotals::add(const sim::Forces& forces, bool isFirst)
 {
     if (!(forces.dt > 0.0)) return;
     time += forces.dt;
+    const double length = firstTime + forces.dt;
     std::size_t at = 0;
     forEachLoad(forces, [&](const Impulse& impulse) {
         if (numbers.size() < at + kNumbers) numbers.resize(at + kNumbers, 0.0);
+        double* n = numbers.data() + at;
+        Impulse both = impulse;
         for (int a = 0; a < sim::kAxes; ++a) {
-            numbers[at + a] += impulse.linear[a];
-            numbers[at + 3 + a] += impulse.angular[a];
+            n[a] += impulse.linear[a];
+            n[3 + a] += impulse.angular[a];
+            both.linear[a] += n[kFirst + a];
+            both.angular[a] += n[kFirst + 3 + a];
+            n[kFirst + a] = isFirst ? impulse.linear[a] : 0.0;
+            n[kFirst + 3 + a] = isFirst ? impulse.angular[a] : 0.0;
         }
-        numbers[at + 6] = std::max(numbers[at + 6], impulse.linear.norm() / forces.dt);
-        numbers[at + 7] = std::max(numbers[at + 7], impulse.angular.norm() / forces.dt);
+        if (!isFirst) {
+            n[kLargest] = std::max(n[kLargest], both.linear.norm() / length);
+            n[kLargest + 1] = std::max(n[kLargest + 1], both.angular.norm() / length);
+        }
         at += kNumbers;
     });
+    firstTime = isFirst ? forces.dt : 0.0;
 }
 
 sim::Impulse ForceTotals::mean(std::size_t load) const
@@ -110,7 +120,7 @@ Json forcesJson(const ForceNames& names, const ForceTotals& totals)
     std::size_t load = 0;
     return byNames(names, [&]() -> Json {
         const Impulse mean = totals.mean(load);
-        const double* largest = totals.numbers.data() + load++ * kNumbers + 6;
+        const double* largest = totals.numbers.data() + load++ * kNumbers + kLargest;
         return {{"mean_force", vectorJson(mean.linear)}, {"largest_force", largest[0]}, {"mean_torque", vectorJson(mean.angular)}, {"largest_torque", largest[1]}};
     });
 }

@@ -289,7 +289,7 @@ void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const 
 void Reports::step(const sim::State& state, const sim::StepReport& report, const sim::Forces& forces)
 {
     if (steps_) steps_->add(stepLine(state, report, summary_.forceNames, forces));
-    summary_.forces.add(forces);
+    summary_.forces.add(forces, report.isReflected);
     if (energyLedger_) energyLedger_->step(state.time, report);
     if (energy_ && !report.isReflected)
         energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass,
