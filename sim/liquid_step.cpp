@@ -113,6 +113,7 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
         particlesToFacesBounded(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, own.kinetic + own.modal, work.bounded,
                                 work.grid.faces);
     } else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
+    work.momentum.liquidOnFaces(work.grid.faces, grid.count());
     if (!work.obstacles.empty()) work.onSolids.begin(grid, work.obstacleField, work.obstacles, work.grid.faces);
     const bool mirrors = wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty();
     if (mirrors) foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
@@ -211,9 +212,11 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
 /// What solids get of the liquid on its faces, now that these have the velocities that particles will read.
 void tellSolids(const State& state, const Settings& settings, double dt, const LiquidPlan& plan, const GatherSettings& gather, Workspace& work)
 {
-    if (plan.isMixed)
+    if (plan.isMixed) {
+        work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseOnFabric(
             [&](int b, int a, int c, double impulse) { work.onSolids.fabricGot(b, a, c, impulse); });
+    }
     const LiquidOnSolids::Outcome outcome{.velocity = plan.reflects ? work.reflection.velocity : work.grid.faces.velocity,
                                           .liquid = work.grid,
                                           .system = work.pressure,
@@ -338,9 +341,9 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
         sums.kinetic -= pushed.lost;
     }
     energy.toParticles(dt, pushed);
-    work.momentum.liquidMoved(fallTime(settings.time, state, dt) * settings.gravity, state, work.onSolids, work.pushedSolids);
 
     const WeightSums weights = weightSums(particles, settings.gravity);
+    work.momentum.liquidMoved(sums.momentum, weights.mass * fallTime(settings.time, state, dt) * settings.gravity, work.onSolids, work.pushedSolids);
     report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
     report.liquidMass = weights.mass;
     report.particles = particles.count;

@@ -1,19 +1,9 @@
 #include "sim/momentum_book.h"
 
 #include "sim/core/parallel.h"
-
-#include <functional>
+#include "sim/core/simd.h"
 
 namespace sim {
-
-namespace {
-
-Vec3 momentumOf(const LiquidParticles& liquid)
-{
-    return parallelReduce(liquid.count, Vec3::Zero().eval(), [&](std::size_t p) { return Vec3(liquid.mass[p] * liquid.velocity(p)); }, std::plus<Vec3>());
-}
-
-}  // namespace
 
 void MomentumBook::prepare(const Scene& scene, const Fabric& fabric)
 {
@@ -57,9 +47,8 @@ void MomentumBook::begin(double dt, const State& state)
     forces_.begin(dt);
     look(state.fabric);
     for (Piece& piece : pieces_) piece.byLiquid = piece.onPins = Vec3::Zero();
-    liquid_ = momentumOf(state.liquid);
+    liquid_.setZero();
     leftSoFar_ = state.ledger.leftMomentum;
-    forces_.balance.change = -liquid_;
     for (const Piece& piece : pieces_) forces_.balance.change -= piece.momentum.linear;
 }
 
@@ -173,27 +162,45 @@ void MomentumBook::settleHeld(std::size_t piece, const FabricState& state)
     }
 }
 
-void MomentumBook::liquidMoved(const Vec3& fall, const State& state, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed)
+void MomentumBook::liquidOnFaces(const FaceFields& faces, int blocks)
 {
     if (!isOpen()) return;
-    const double mass = parallelSum(state.liquid.count, [&](std::size_t p) { return state.liquid.mass[p]; });
-    forces_.balance.weight += mass * fall;
-    liquid_ += mass * fall;
+    Vec3 momentum;
+    for (int a = 0; a < kAxes; ++a)
+        momentum[a] = parallelSum(blocks, [&](std::size_t b) {
+            const double* of = faces.sums.block(static_cast<int>(b), FaceFields::kMomentum + a);
+            Pack sum = loadPack(of);
+            for (int c = kLanes; c < kBlockCells; c += kLanes) sum += loadPack(of + c);
+            return sumLanes(sum);
+        });
+    forces_.balance.change += liquid_ - momentum;
+    liquid_ = momentum;
+}
+
+void MomentumBook::liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed)
+{
+    if (!isOpen()) return;
+    forces_.balance.weight += weight;
+    liquid_ += weight;
     LiquidOnSolids::OnSolid most;
     int bearer = -1;
     for (std::size_t n = 0; n < forces_.obstacles.size(); ++n) {
         const LiquidOnSolids::OnSolid solid = onSolids.on(static_cast<int>(n));
-        const Impulse got = solid.impulse + pushed.sum(n);
-        forces_.obstacles[n].liquid += got;
-        liquid_ -= got.linear;
+        forces_.obstacles[n].liquid += solid.impulse;
+        liquid_ -= solid.impulse.linear;
         if (solid.pressed > most.pressed) most = solid, bearer = static_cast<int>(n);
     }
-    const Vec3 now = momentumOf(state.liquid), missing = now - liquid_;
+    const Vec3 missing = now - liquid_;
     if (bearer >= 0) {
         forces_.obstacles[bearer].liquid += Impulse::at(most.moment / most.pressed, -missing);
         forces_.balance.borne -= missing;
     } else forces_.balance.unresolved += missing;
     liquid_ = now;
+    for (std::size_t n = 0; n < forces_.obstacles.size(); ++n) {
+        const Impulse stopped = pushed.sum(n);
+        forces_.obstacles[n].liquid += stopped;
+        liquid_ -= stopped.linear;
+    }
 }
 
 void MomentumBook::finish()

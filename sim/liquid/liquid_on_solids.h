@@ -21,7 +21,8 @@ class LiquidOnSolids {
     /// Around the solve for viscosity, of whose stresses solids get those on closed faces and on walls that stick.
     void beforeViscosity(const BlockArray<double, 3>& velocity);
     void afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid);
-    /// On a face the fabric got an impulse of the liquid [g cm/s].
+    /// There is fabric on faces: then tell what each got of the liquid [g cm/s].
+    void meetFabric() { clearOthers(); }
     void fabricGot(int block, int axis, int cell, double impulse)
     {
         const int place = place_[block];
@@ -61,15 +62,27 @@ class LiquidOnSolids {
 
  private:
     static constexpr int kMass = 0, kMomentum = 3;  ///< kinds of brought_
-    double excess(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int cell) const;
+    /// What the faces of a row got of solids, and how hard these press on what they close.
+    struct Row {
+        Pack got, pressed;  ///< [g cm/s]
+    };
+    void clearOthers();
+    std::uint64_t facesNear(const BitAccess& bits, int block, int axis, int k) const { return near_.block(block)[k] | bits.below(near_, 0, axis, k); }
+    std::uint64_t wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const;
+    Pack stepOf(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
+    Row onRow(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
+    void addRow(const BlockGrid& grid, const ObstacleField& field, std::size_t place, int axis, int row, unsigned faces, const Row& on,
+                std::span<OnSolid> sums) const;
     void finishBlock(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;
 
     int solids_ = 0;
     std::vector<int> blocks_, place_;               ///< those near solids; of each block its place among them, or BlockGrid::kNone
-    // By place:
+    BlockBits<> near_;                              ///< cells whose middles are near a solid
+    // By place, of rows with faces near one:
     BlockArray<double, 6> brought_;                 ///< by particles: mass [g] and momentum [g cm/s] of each face
     BlockArray<double, 3> others_;                  ///< momentum that a face got of viscous stresses, less what it gave to fabric [g cm/s] …
-    BlockBits<3> shared_;                           ///< … if fabric is on it
+    BlockBits<3> shared_;                           ///< … if fabric is on it …
+    bool hasOthers_ = false;                        ///< … where there are any of both
     BlockArray<double, 3> before_;                  ///< velocities before viscosity [cm/s]
     ChunkSums<OnSolid> sums_;
 };
