@@ -212,7 +212,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
 /// What solids get of the liquid on its faces, now that these have the velocities that particles will read.
 void tellSolids(const State& state, const Settings& settings, double dt, const LiquidPlan& plan, const GatherSettings& gather, Workspace& work)
 {
-    if (plan.isMixed) {
+    if (plan.isMixed && (work.fabric || work.gridFabric)) {
         work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseOnFabric(
             [&](int b, int a, int c, double impulse) { work.onSolids.fabricGot(b, a, c, impulse); });

@@ -228,6 +228,23 @@ TEST_P(ForcesOf, ASheetInASlugDragsItByWhatItLoses)
     EXPECT_GT(largest, 1.0);
 }
 
+/// Fabric that is not solved for holds liquid up all the same: what that loses is somebody's.
+TEST(Forces, CloseAroundFabricThatIsNotSolvedFor)
+{
+    Scene scene = tankScene(kPoly8, 0.5, {10.0, 14.0, 10.0}, {1.0, 6.0, 1.0}, {9.0, 9.0, 9.0});
+    scene.settings.fabric.solver = FabricSolver::Off;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = 1.0e-3;
+    scene.settings.porous.fibreDiameter = 0.01;
+    scene.fabrics = {sheet(Vec3(1.0, 2.5, 1.0), 13, 0.25)};
+    Simulation simulation(scene);
+    for (int step = 0; step < 20; ++step) {
+        const ClosedStep closed(simulation);
+        EXPECT_LT(closed.error, kExact * closed.exchanged);
+    }
+    EXPECT_GT(simulation.forces().balance.unresolved.norm() + simulation.forces().balance.borne.norm(), 0.0);
+}
+
 /// A sheet falls on a ball, another one on it.
 TEST_P(ForcesOf, ContactPushesBothSides)
 {
