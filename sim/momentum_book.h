@@ -31,9 +31,9 @@ class MomentumBook {
     /// Fabric took up liquid, let go of some, or moved some within itself.
     /// @param toPins  of each vertex: what pins held back of it [g cm/s]; empty if nothing
     void exchanged(const State& state, std::span<const Vec3> toPins);
-    /// Its particles have brought the liquid's momentum to the faces.
+    /// Particles have brought the liquid's momentum to the faces.
     void liquidOnFaces(const FaceFields& faces, int blocks);
-    /// Its solver has moved the fabric, and told what it knows of forces.
+    /// The fabric's solver has moved it, and told what it knows of forces.
     void fabricMoved(double dt, const Vec3& gravity, const State& state);
     /// Particles have their velocities from the faces, and were kept out of solids.
     /// @param now     momentum that they had before they were kept out [g cm/s]
@@ -60,8 +60,8 @@ class MomentumBook {
 
     const Fabric* fabric_ = nullptr;
     Forces forces_;
-    Vec3 liquid_ = Vec3::Zero();                 ///< momentum that the liquid should have by what has been booked, until it is on the faces …
-                                                 ///< … less than it had at the start of the step [g cm/s]
+    Vec3 liquid_ = Vec3::Zero();                 ///< momentum that the liquid should have by what has been booked; until it is on the faces the
+                                                 ///< change of it since the start of the step [g cm/s]
     Vec3 leftSoFar_ = Vec3::Zero();              ///< Ledger::leftMomentum at the start of the step [g cm/s]
     std::vector<Piece> pieces_;                  ///< as they were when they were last looked at …
     std::vector<Impulse> before_;                ///< … and their momenta before that
