@@ -59,6 +59,7 @@ class RealSimulation : public Steppable {
         return solver ? solver->contacts() : nullptr;
     }
     const sim::LiquidGrid& liquidGrid() const override { return simulation_.workspace().grid; }
+    const sim::Forces& forces() const override { return simulation_.forces(); }
     sim::StepReport step(double until) override { return simulation_.step(until); }
     sim::Energies energies() const override { return simulation_.energies(); }
     void bookEnergy() override { simulation_.bookEnergy(); }

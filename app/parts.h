@@ -4,6 +4,7 @@
 #include "app/scene_setup.h"
 #include "app/view/view_options.h"
 #include "sim/fabric/contact/contact.h"
+#include "sim/forces.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/state.h"
 
@@ -23,6 +24,7 @@ class Steppable {
     virtual const sim::Fabric& fabric() const = 0;   ///< what state().fabric is the state of
     virtual const sim::ActiveContacts* contacts() const = 0;   ///< between fabric and fabric, of the last step; null where there are none
     virtual const sim::LiquidGrid& liquidGrid() const = 0;   ///< of the last step, in state().grid
+    virtual const sim::Forces& forces() const = 0;   ///< of the last step
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
     virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]

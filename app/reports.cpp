@@ -58,7 +58,7 @@ Json stageJson(const sim::StepReport& report)
     return seconds;
 }
 
-std::string stepLine(const sim::State& state, const sim::StepReport& report)
+std::string stepLine(const sim::State& state, const sim::StepReport& report, const ForceNames& names, const sim::Forces& forces)
 {
     Json line = {
         {"step", state.step},
@@ -86,6 +86,10 @@ std::string stepLine(const sim::State& state, const sim::StepReport& report)
           {"momentum_to_pins", {report.toPins.x(), report.toPins.y(), report.toPins.z()}}}},
     };
     if (!state.fabric.x.empty()) line["fabric"] = fabricJson(report);
+    if (forces.dt > 0.0) {
+        line["ledger"]["momentum"] = balanceJson(forces);
+        line["forces"] = forcesJson(names, forces);
+    }
     return line.dump();
 }
 
@@ -162,6 +166,7 @@ Json reportJson(const RunSummary& s)
                  {"threads", s.threads},
                  {"version", s.version},
                  {"content_hash", s.contentHash}});
+    if (s.forces.time > 0.0) json["forces"] = forcesJson(s.forceNames, s.forces);
     if (s.energyLedger) json["energy_ledger"] = ledgerJson(*s.energyLedger);
     return json;
 }
@@ -250,6 +255,7 @@ void Reports::describe(const SceneSetup& setup, std::string contentHash, int thr
     summary_.title = setup.scene.title;
     summary_.variant = setup.variant;
     summary_.label = setup.label;
+    summary_.forceNames = ForceNames(setup.scene);
     summary_.contentHash = std::move(contentHash);
     summary_.version = DRENCH_VERSION;
     summary_.threads = threads;
@@ -280,9 +286,10 @@ void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const 
                                publishedEnergy(state.fabric, energies, gravity_)));
 }
 
-void Reports::step(const sim::State& state, const sim::StepReport& report)
+void Reports::step(const sim::State& state, const sim::StepReport& report, const sim::Forces& forces)
 {
-    if (steps_) steps_->add(stepLine(state, report));
+    if (steps_) steps_->add(stepLine(state, report, summary_.forceNames, forces));
+    summary_.forces.add(forces, report.isReflected);
     if (energyLedger_) energyLedger_->step(state.time, report);
     if (energy_ && !report.isReflected)
         energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass,

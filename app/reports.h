@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/energy_ledger.h"
+#include "app/force_log.h"
 #include "app/output_files.h"
 #include "app/scene_setup.h"
 #include "sim/state.h"
@@ -47,6 +48,8 @@ struct RunSummary {
     std::int64_t takenBack = 0;              ///< steps that turned out bad and were made again
     double largestCfl = 0.0;
     double massError = 0.0;                  ///< (entered − left − there) / entered, largest over the steps [-]
+    ForceNames forceNames;
+    ForceTotals forces;
     std::optional<EnergyLedger::Summary> energyLedger;    ///< where it was asked for
     std::string stateHash;
     int threads = 0;
@@ -84,7 +87,7 @@ class Reports {
 
     /// The state before the first step: the first row of energy.csv.
     void initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies);
-    void step(const sim::State& state, const sim::StepReport& report);
+    void step(const sim::State& state, const sim::StepReport& report, const sim::Forces& forces);
     void frameDone() { ++summary_.frames; }
 
     /// Write report.json as it stands; `reason` for runs that did not get to their end.

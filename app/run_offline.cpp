@@ -68,7 +68,7 @@ void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& 
         const auto begin = std::chrono::steady_clock::now();
         const sim::StepReport report = simulation.step(until);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        reports.step(state, report);
+        reports.step(state, report, simulation.forces());
         shut.look(state);
         progress.stepDone(state.time, report.dt, seconds.count());
     }

@@ -106,6 +106,8 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
         particlesToFacesBounded(state.liquid, work.order, grid, settings.transfer.xi, state.lastDt, own.kinetic + own.modal, work.bounded,
                                 work.grid.faces);
     } else particlesToFaces(state.liquid, work.order, grid, work.scatter, work.grid.faces);
+    work.momentum.liquidOnFaces(work.grid.faces, grid.count());
+    if (!work.obstacles.empty()) work.onSolids.begin(grid, work.obstacleField, work.obstacles, work.grid.faces);
     const bool mirrors = wallsMirror(settings.liquid.wallFriction) && !work.obstacles.empty();
     if (mirrors) foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
     energy.toGrid();
@@ -115,7 +117,9 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
 
     if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {
         clock.start(Stage::Viscosity);
+        if (!work.obstacles.empty()) work.onSolids.beforeViscosity(work.grid.faces.velocity);
         report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
+        if (!work.obstacles.empty()) work.onSolids.afterViscosity(grid, work.obstacleField, work.viscosity.system, work.grid);
         energy.onFaces(EnergyChange::Viscosity);
     }
     work.grid.unpressed = work.grid.faces.velocity;
@@ -198,6 +202,26 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     }
 }
 
+/// What solids get of the liquid on its faces, now that these have the velocities that particles will read.
+void tellSolids(const State& state, const Settings& settings, double dt, const LiquidPlan& plan, const GatherSettings& gather, Workspace& work)
+{
+    if (plan.isMixed && (work.fabric || work.gridFabric)) {
+        work.onSolids.meetFabric();
+        work.coupling->mixture.forEachImpulseOnFabric(
+            [&](int b, int a, int c, double impulse) { work.onSolids.fabricGot(b, a, c, impulse); });
+    }
+    const LiquidOnSolids::Outcome outcome{.velocity = plan.reflects ? work.reflection.velocity : work.grid.faces.velocity,
+                                          .liquid = work.grid,
+                                          .system = work.pressure,
+                                          .pressure = state.pressure,
+                                          .again = plan.reflects ? &work.reflection.potential : nullptr,
+                                          .flipVelocity = gather.flipVelocity,
+                                          .flipRatio = gather.flipRatio,
+                                          .perPressure = dt * work.grid.fullMass / (settings.liquid.density * state.grid.dx),
+                                          .fall = fallTime(settings.time, state, dt, plan.meetsFabric) * settings.gravity};
+    work.onSolids.finish(state.grid, work.obstacleField, outcome);
+}
+
 }  // namespace
 
 double fallTime(const TimeSettings& time, const State& state, double dt, bool meetsFabric)
@@ -226,6 +250,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
 
     clock.start(Stage::Sort);
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
+    work.momentum.left(state);
     energy.sorted();
     carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
     work.grid.resize(grid.count(), keepsAdvected);
@@ -245,8 +270,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
             work.coupling->twist.note(work.coupling->fabric, state.fabric);
             report.capturedMass = work.coupling->capture.capture(dt, grid, work.order, work.coupling->vertices, particles, state.fabric);
             work.coupling->twist.keep(work.coupling->fabric, state.fabric);
-            report.toPins = work.coupling->capture.toPins();
-            watch.expectKept(report.toPins);
+            watch.expectKept(work.coupling->capture.toPins());
+            work.momentum.exchanged(state, work.coupling->capture.toPinsByVertex());
             energy.after(EnergyChange::Capture);
         }
     }
@@ -306,6 +331,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     GatherSettings gather = gatherSettings(scene, work, dt);
     if (plan.relaxes) gather.displacement = work.displacement.data();
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
+    if (!work.obstacles.empty()) tellSolids(state, settings, dt, plan, gather, work);
     if (work.kept) work.kept->keepModes(particles, plan.flips);
     if (!work.obstacles.empty()) keepPlaces(particles, work.places);
     if (plan.reflects) gather.reflected = &work.reflection.velocity;
@@ -317,12 +343,14 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (!work.obstacles.empty()) {
         const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
-        pushed = pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles);
+        pushed = pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles,
+                                     work.pushedSolids);
         sums.kinetic -= pushed.lost;
     }
     energy.toParticles(dt, pushed);
 
     const WeightSums weights = weightSums(particles, settings.gravity);
+    work.momentum.liquidMoved(sums.momentum, weights.mass * fallTime(settings.time, state, dt) * settings.gravity, work.onSolids, work.pushedSolids);
     report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
     report.liquidMass = weights.mass;
     report.particles = particles.count;

@@ -132,6 +132,7 @@ void Simulation::prepareWorkspace()
     if (scene_.settings.time.mode == TimeMode::Adaptive) work_.kept = std::make_unique<KeptState>();
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
+    work_.momentum.prepare(scene_, fabric_);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_);
     if (scene_.settings.fabric.solver == FabricSolver::Off) {
@@ -147,6 +148,8 @@ void Simulation::prepareWorkspace()
         work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
     if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Off)
         work_.ledFabric = std::make_unique<LedFabric>(fabric_, scene_.settings.fabric);
+    if (work_.fabric) work_.fabric->tellForces(work_.momentum.forces());
+    if (work_.gridFabric) work_.gridFabric->tellForces(work_.momentum.forces());
 }
 
 /// What holds wet fabric, if anything does and there is liquid to wet it.

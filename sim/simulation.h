@@ -27,6 +27,8 @@ class Simulation {
     const Scene& scene() const { return scene_; }
     const Workspace& workspace() const { return work_; }
     const Fabric& fabric() const { return fabric_; }
+    /// What acted on solids, fabrics and pins in the last step; nothing before the first.
+    const Forces& forces() const { return work_.momentum.forces(); }
     /// Energies of the initial state; afterwards the step's report tells them.
     Energies energies() const;
     /// From now on reports tell where energy goes (model-fluid 9.5).

@@ -55,7 +55,7 @@ void exchange(State& state, const Settings& settings, const Vec3& gravity, Works
             coupling.wicking.move(dt, gravity, state.grid, state.pressure, coupling.velocityBefore, state.fabric);
             watch.expectKept(coupling.wicking.toPins());
         }
-        report.toPins += coupling.wicking.toPins();
+        work.momentum.exchanged(state, coupling.wicking.toPinsByVertex());
         energy.after(EnergyChange::Wicking);
         if (settings.coupling.drip) {
             clock.start(Stage::Drip);
@@ -67,6 +67,7 @@ void exchange(State& state, const Settings& settings, const Vec3& gravity, Works
                 report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();
                 report.energies.potential -= particles.mass[p] * settings.gravity.dot(particles.position(p));
             }
+            work.momentum.exchanged(state, {});
             energy.after(EnergyChange::Drip);
         }
     }
@@ -109,6 +110,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     EnergyBook energy(state, scene.settings, work, report);
     const bool reflects = mayReflect(state, scene.settings.time, work) && !state.reflected;
 
+    work.momentum.begin(dt, state);
     work.emission.inflows.clear();
     if (emits(scene, state, state.time, state.time + dt)) {
         clock.start(Stage::Emit);
@@ -116,6 +118,7 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
         emitLiquid(scene, state, state.time, state.time + dt, work.emission);
         for (std::size_t p = before; p < state.liquid.count; ++p)
             report.emittedKinetic += 0.5 * state.liquid.mass[p] * state.liquid.velocity(p).squaredNorm();
+        work.momentum.entered(state, before);
     }
     const bool isWet = hasLiquid(state);
     LiquidPlan plan;
@@ -123,10 +126,13 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     if (work.coupling) work.coupling->velocityBefore = state.fabric.v;
     const Vec3 gravity = meanGravity(scene.settings, state, dt, plan.meetsFabric);
     stepFabric(state, gravity, work, dt, plan, report, clock);
+    if (work.fabric || work.gridFabric) work.momentum.fabricMoved(dt, gravity, state);
     energy.solved(plan.isMixed, dt, gravity, report.fabric);
     if (isWet) finishLiquid(state, scene, work, dt, plan, report, clock, energy);
     if (work.coupling) exchange(state, scene.settings, gravity, work, dt, plan, report, clock, energy);
     findFabricEnergies(state, scene.settings, work, report);
+    work.momentum.finish();
+    for (const Impulse& pins : work.momentum.forces().pins) report.toPins += pins.linear;
 
     state.time += dt;
     ++state.step;

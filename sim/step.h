@@ -8,11 +8,13 @@
 #include "sim/liquid/free_liquid.h"
 #include "sim/liquid/walls.h"
 #include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/reflection.h"
 #include "sim/liquid/surface_tension.h"
 #include "sim/liquid/viscosity.h"
 #include "sim/liquid/volume.h"
+#include "sim/momentum_book.h"
 #include "sim/particles/emit.h"
 #include "sim/particles/relax.h"
 #include "sim/scene/scene.h"
@@ -49,6 +51,9 @@ struct Workspace {
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
     std::unique_ptr<KeptState> kept;                       ///< mode adaptive: the state before the step
+    LiquidOnSolids onSolids;                               ///< by the faces of the liquid …
+    ChunkSums<Impulse> pushedSolids;                       ///< … and by particles kept out of solids [g cm/s]
+    MomentumBook momentum;
     bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
     std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these three, where there is fabric

@@ -120,7 +120,7 @@ struct StepReport {
     double emittedKinetic = 0.0;                 ///< of liquid that came from sources in this step [erg]
     double inflowWork = 0.0;                     ///< of the pressure on liquid that sources pressed into liquid in this step [erg]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
-    Vec3 toPins = Vec3::Zero();                  ///< momentum of liquid that fabric took up and moved, which pins held back in this step [g cm/s]
+    Vec3 toPins = Vec3::Zero();                  ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
     std::string_view failure;                    ///< empty, or why the state can't be trusted …
     Stage failedStage = Stage::GridToParticles;  ///< … and since when
 

@@ -88,6 +88,9 @@ void visitSummary(V& v, Summary& s)
     v.number("logs/taken_back", "-", s.takenBack);
     v.number("logs/largest_cfl", "-", s.largestCfl);
     v.number("logs/mass_error", "-", s.massError);
+    v.number("logs/forces/time", "s", s.forces.time);
+    v.number("logs/forces/first_time", "s", s.forces.firstTime);
+    v.list("logs/forces/numbers", "cgs", s.forces.numbers);
 }
 
 template <class V, class Logs>

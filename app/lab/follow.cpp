@@ -9,8 +9,8 @@
 
 namespace app {
 
-Followed follow(Steppable& simulation, const sim::Scene& scene, double every,
-                const std::function<void(double time)>& read, const std::function<bool()>& stopWanted)
+Followed follow(Steppable& simulation, const sim::Scene& scene, double every, const std::function<void(double time)>& read,
+                const std::function<void()>& stepped, const std::function<bool()>& stopWanted)
 {
     using Clock = std::chrono::steady_clock;
     // Readings end on the duration itself but for the rounding of sums.
@@ -25,6 +25,7 @@ Followed follow(Steppable& simulation, const sim::Scene& scene, double every,
         const auto begin = Clock::now();
         while (simulation.state().time < until - kRounding * every) {
             followed.largestCfl = std::max(followed.largestCfl, simulation.step(until).cfl);
+            stepped();
             shut.look(simulation.state());
         }
         followed.stepSeconds += std::chrono::duration<double>(Clock::now() - begin).count();

@@ -14,9 +14,9 @@ struct Followed {
     double largestCfl = 0.0;   ///< [-]
 };
 
-/// Steps to the end, and calls `read` at the start and after every `every` seconds. Throws RunError, also when it
-/// is to stop. Tells of sources that stop.
-Followed follow(Steppable& simulation, const sim::Scene& scene, double every,
-                const std::function<void(double time)>& read, const std::function<bool()>& stopWanted);
+/// Steps to the end, and calls `read` at the start and after every `every` seconds, `stepped` after every step. Throws RunError, also when
+/// it is to stop. Tells of sources that stop.
+Followed follow(Steppable& simulation, const sim::Scene& scene, double every, const std::function<void(double time)>& read,
+                const std::function<void()>& stepped, const std::function<bool()>& stopWanted);
 
 }  // namespace app

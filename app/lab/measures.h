@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/force_log.h"
 #include "sim/core/types.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/scene/formula.h"
@@ -23,17 +24,27 @@ class Steppable;
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
 ///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
 ///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
-///    vertex), wet_a(saturation) (the same of vertices whose pores are that full).
+///    vertex), wet_a(saturation) (the same of vertices whose pores are that full);
+///  * forces [dyn] and torques about the origin [dyn cm], means over the steps since the last reading, 0 before the first: force_a("ball") and
+///    torque_a("ball") of an obstacle or a fabric by liquid and contact together, liquid_force_a, liquid_torque_a, contact_force_a and
+///    contact_torque_a by one of them, pin_force_a("sheet") and pin_torque_a by a fabric on all its pins, or on those of that name.
 class Measures {
  public:
-    /// @param density  of the liquid [g/cm^3]
-    explicit Measures(double density) : density_(density) {}
+    explicit Measures(const sim::Scene& scene) : density_(scene.settings.liquid.density), forceNames_(scene) {}
     Measures(const Measures&) = delete;
     Measures& operator=(const Measures&) = delete;
 
     /// Names for formulas; they look at what this looks at.
     std::vector<sim::FormulaNames::Function> names();
-    void look(const Steppable& simulation) { simulation_ = &simulation; }
+    std::vector<sim::FormulaNames::OfName> forces();
+    void look(const Steppable& simulation)
+    {
+        simulation_ = &simulation;
+        startInterval();
+    }
+    /// Readings of forces are means over the steps that were taken since.
+    void startInterval() { interval_ = {}; }
+    void tookStep();
     /// Formulas of x, y, z, t.
     void setFlow(std::array<sim::Formula, sim::kAxes> flow) { flow_ = std::move(flow); }
 
@@ -55,7 +66,12 @@ class Measures {
     double pressureAt(const sim::Vec3& x) const;
     double front(int axis, double where) const;
 
-    double density_;
+    sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;
+    sim::Impulse meanOnPins(const std::string& name) const;
+
+    double density_;                 ///< of the liquid [g/cm^3]
+    ForceNames forceNames_;
+    ForceTotals interval_;
     const Steppable* simulation_ = nullptr;
     std::optional<std::array<sim::Formula, sim::kAxes>> flow_;
 };

@@ -69,8 +69,9 @@ Outcome runOnce(const SceneSetup& setup, const std::vector<Check>& checks, const
         for (std::size_t i = 0; i < checks.size(); ++i)
             if (const auto reading = readOnce(checks[i], time)) outcome.errors[i].push_back(*reading);
         if (precision.energy) outcome.energies.push_back({time, (*precision.energy)(std::array{time}), 0.0});
+        precision.measures->startInterval();
     };
-    outcome.followed = follow(*simulation, setup.scene, precision.every, read, stopWanted);
+    outcome.followed = follow(*simulation, setup.scene, precision.every, read, [&] { precision.measures->tookStep(); }, stopWanted);
     return outcome;
 }
 

@@ -130,7 +130,7 @@ std::optional<Precision> readPrecision(const sim::SceneFile& file, const sim::Sc
                                 "integrators", "steps", "resolutions", "published", "headline", "converged", "quick"})
             v.other(key, "");
     });
-    auto measures = std::make_shared<Measures>(scene.settings.liquid.density);
+    auto measures = std::make_shared<Measures>(scene);
     const ReadingContext context = readContext(section, scene, *measures);
     section.needs("errors", "a list of what is compared, like errors: [{read: flow_error, expect: 0}]");
     Precision precision;

@@ -43,7 +43,7 @@ std::optional<Validation> readValidation(const sim::SceneFile& file, const sim::
         for (const char* key : {"about", "source", "every", "let", "flow", "quick", "checks"}) v.other(key, "");
     });
     Validation validation;
-    validation.measures = std::make_shared<Measures>(scene.settings.liquid.density);
+    validation.measures = std::make_shared<Measures>(scene);
     section.text("about", validation.about, "");
     section.text("source", validation.source, "");
     const ReadingContext context = readContext(section, scene, *validation.measures);

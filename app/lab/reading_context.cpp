@@ -100,6 +100,7 @@ ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& 
     readConstants(section.find("let"), context);
     readFlow(section.find("flow"), context, measures);
     context.reading.functions = measures.names();
+    context.reading.ofNames = measures.forces();
     return context;
 }
 

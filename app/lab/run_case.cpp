@@ -22,8 +22,12 @@ void follow(const SceneSetup& setup, const Parts& parts, const std::function<boo
     const Validation& validation = *setup.validation;
     const auto simulation = parts.startSimulation(setup);
     validation.measures->look(*simulation);
-    const auto read = [&](double time) { readAll(validation, time, result); };
-    result.steps = follow(*simulation, setup.scene, validation.every, read, stopWanted).steps;
+    Measures& measures = *validation.measures;
+    const auto read = [&](double time) {
+        readAll(validation, time, result);
+        measures.startInterval();
+    };
+    result.steps = follow(*simulation, setup.scene, validation.every, read, [&] { measures.tookStep(); }, stopWanted).steps;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "sim/settings.h"
 
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace sim {
@@ -25,6 +26,8 @@ class Capture {
                    FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
     Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
+    /// The same of each vertex.
+    std::span<const Vec3> toPinsByVertex() const { return toPins_; }
     /// Removes the particles that have given all they had; their numbers change.
     void dropEmptied(LiquidParticles& liquid);
 

@@ -19,21 +19,6 @@ constexpr double kLeastOpen = 0.05;  ///< of a face: what fabric leaves for liqu
 
 }  // namespace
 
-/// body(block, liquid's block, axis, cell) for the shared faces, blocks in parallel.
-template <class Body>
-void Mixture::forEachShared(Body&& body) const
-{
-    parallelFor(liquidBlock_.size(), [&](std::size_t n) {
-        const int b = static_cast<int>(n), m = liquidBlock_[b];
-        if (m == BlockGrid::kNone) return;
-        for (int a = 0; a < kAxes; ++a) {
-            const double* mass = liquidMass_.block(b, a);
-            for (int c = 0; c < kBlockCells; ++c)
-                if (mass[c] > 0.0) body(b, m, a, c);
-        }
-    });
-}
-
 Mixture::Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices)
     : law_(settings.porous, settings.liquid, settings.coupling),
       liquid_(settings.liquid),
@@ -292,6 +277,16 @@ void Mixture::separate(LiquidGrid& liquid) const
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
         liquid.faces.velocity.block(m, a)[c] = (mass * predicted_.block(b, a)[c] + drag * fabric) / (mass + drag);
     });
+}
+
+/// Drag and the reaction of suction, what it got of the pressure's impulse; of the fabric's velocity at the end of the step.
+double Mixture::impulseOnFabric(int block, int axis, int cell) const
+{
+    const double mass = liquidMass_.block(block, axis)[cell], drag = drag_.block(block, axis)[cell];
+    double impulse = mass * drag / (mass + drag) * (predicted_.block(block, axis)[cell] - onFaces_.velocity.block(block, axis)[cell]);
+    if (settings_.capillary && settings_.capillaryReaction) impulse -= sucked_.block(block, axis)[cell];
+    if (settings_.pressureOnFabric) impulse -= onFaces_.solid.block(block, axis)[cell] * push_.block(block, axis)[cell];
+    return impulse;
 }
 
 Vec3 Mixture::liquidMomentum(const LiquidGrid& liquid) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/core/parallel.h"
 #include "sim/coupling/fabric_on_faces.h"
 #include "sim/coupling/porous_law.h"
 #include "sim/coupling/suction.h"
@@ -40,6 +41,13 @@ class Mixture {
     /// What pressure and surface tension did to liquid and fabric together on these faces, as a change of the liquid's velocity alone [cm/s].
     void pairChange(BlockArray<double, 3>& change) const;
 
+    /// After separate: call f(liquid's block, axis, cell, impulse) with what the fabric got on each shared face [g cm/s], blocks in parallel.
+    template <class F>
+    void forEachImpulseOnFabric(F&& f) const
+    {
+        forEachShared([&](int b, int m, int a, int c) { f(m, a, c, impulseOnFabric(b, a, c)); });
+    }
+
     /// Set what the liquid has on these faces to 0.
     void clearShared(BlockArray<double, 3>& values) const;
     void clearShared(BlockBits<3>& faces) const;
@@ -66,8 +74,21 @@ class Mixture {
     void separate(LiquidGrid& liquid) const;
     double dragOn(int block, int axis, int cell, double liquidVolume, double room) const;
     double speedAt(int block, int axis, int cell) const;
+    double impulseOnFabric(int block, int axis, int cell) const;
+    /// body(block, liquid's block, axis, cell) for the shared faces, blocks in parallel.
     template <class Body>
-    void forEachShared(Body&& body) const;
+    void forEachShared(Body&& body) const
+    {
+        parallelFor(liquidBlock_.size(), [&](std::size_t n) {
+            const int b = static_cast<int>(n), m = liquidBlock_[b];
+            if (m == BlockGrid::kNone) return;
+            for (int a = 0; a < kAxes; ++a) {
+                const double* mass = liquidMass_.block(b, a);
+                for (int c = 0; c < kBlockCells; ++c)
+                    if (mass[c] > 0.0) body(b, m, a, c);
+            }
+        });
+    }
     template <class Of>
     double sumOver(const BlockArray<double, 3>& velocity, int block, int axis, Of&& of) const;
 

@@ -23,6 +23,8 @@ class Wicking {
               FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
     Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
+    /// The same of each vertex.
+    std::span<const Vec3> toPinsByVertex() const { return toPins_; }
     /// Is there liquid in the fabric?
     bool isWet(const FabricState& state) const;
     int substeps(double dt) const;

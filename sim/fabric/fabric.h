@@ -50,12 +50,12 @@ struct Fabric {
         std::vector<Motion> motions;
     };
 
-    std::vector<FabricMaterial> materials;
+    std::vector<FabricMaterial> materials;     ///< of each piece of the scene, in its order
     std::vector<Vec3> rest;                    ///< of each vertex: position at the start, free of stress [cm]
     std::vector<double> mass;                  ///< of each vertex, dry [g]
     std::vector<double> volume;                ///< of each vertex, envelope with pores [cm^3]
     std::vector<double> radius;                ///< of each vertex in contact: √(ab) of a yarn, half the thickness of cloth, the larger of both [cm]
-    std::vector<int> vertexMaterial;           ///< of each vertex; where pieces' elements meet, that of the last
+    std::vector<int> vertexMaterial;           ///< of each vertex: the number of its piece
     std::vector<char> pinned;                  ///< of each vertex
     Strands strands;
     YarnEdges edges;
@@ -64,6 +64,8 @@ struct Fabric {
 
     bool empty() const { return rest.empty(); }
     std::size_t vertexCount() const { return rest.size(); }
+    int pieces() const { return static_cast<int>(materials.size()); }  ///< of the scene
+    int pieceOf(int vertex) const { return vertexMaterial[vertex]; }
 };
 
 /// What contact holds and gives back when it ends [erg].

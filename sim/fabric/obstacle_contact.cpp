@@ -18,9 +18,11 @@ constexpr double kActivation = 0.25;      ///< distance at which it begins to ac
 FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion)
     : cohesion_(cohesion)
 {
-    for (const ObstacleSettings& obstacle : obstacles) {
+    for (std::size_t n = 0; n < obstacles.size(); ++n) {
+        const ObstacleSettings& obstacle = obstacles[n];
         if (!obstacle.collide || obstacle.shape.empty()) continue;  // as SolidGuard counts them
         Body& body = bodies_.emplace_back();
+        body.inScene = static_cast<int>(n);
         body.pose.add(obstacle.shape, obstacle.motion);
         body.motion = obstacle.motion;
         body.isCohesive = obstacle.cohesive;
@@ -30,6 +32,12 @@ FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleS
         }
     }
     if (!bodies_.empty()) findEdges(fabric);
+}
+
+int FabricObstacles::nearest(const Vec3& x) const
+{
+    const auto distance = [&](const Body& body) { return body.pose.distance(x); };
+    return std::ranges::min_element(bodies_, {}, distance)->inScene;
 }
 
 void FabricObstacles::findEdges(const Fabric& fabric)

@@ -49,6 +49,9 @@ class FabricObstacles {
     FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion = nullptr);
 
     bool empty() const { return bodies_.empty(); }
+    /// Number in the scene of an obstacle among those felt (ObstacleContact::between), and of the one that is nearest to a place.
+    int inScene(int obstacle) const { return bodies_[obstacle].inScene; }
+    int nearest(const Vec3& x) const;
     /// Poses and motion of a step from t0 to t1 [s].
     void moveTo(double t0, double t1);
     /// How the points of the fabric come into a step of h [s].
@@ -77,6 +80,7 @@ class FabricObstacles {
 
  private:
     struct Body {
+        int inScene;                        ///< its number there
         Obstacles pose;                     ///< the obstacle alone
         Motion motion;
         Eigen::Isometry3d carry;            ///< from where the obstacle is at the start of the step to where it is at the end

@@ -2,6 +2,7 @@
 
 #include "sim/fabric/fabric.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,5 +16,8 @@ std::vector<Vec3> pinTargets(const Fabric& fabric, double t);
 /// @param restReference  first axes of the reference frames at rest, of each yarn edge
 double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state,
                  int edge);
+
+/// The pin that a held edge's frame follows, by its number among Fabric::Pins: that of the first of its vertices with one.
+std::optional<std::size_t> pinOfEdge(const Fabric& fabric, int edge);
 
 }  // namespace sim

@@ -12,19 +12,13 @@ namespace sim {
 void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const
 {
     const auto move = [&](int v) -> Vec3 { return state.x[v] - start_.x[v]; };
-    const auto solved = [&](int v) -> Vec3 { return hasMovedSinceLook_ ? system_.move(v) : Vec3::Zero().eval(); };
     for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) {
         const std::array<int, 4>& v = contacts_->vertices[i];
         const std::array<double, 4>& weight = contacts_->weights[i];
         const Vec3& normal = contacts_->normal[i];
-        Vec3 apart = Vec3::Zero(), change = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) {
-            apart += weight[k] * move(v[k]);
-            change += weight[k] * solved(v[k]);
-        }
-        const Vec3 along = normal.dot(change) * normal;
-        const Vec3 force =
-            contacts_->force[i] + contacts_->stiffness[i] * along + contacts_->frictionStiffness[i] * (change - along);
+        Vec3 apart = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) apart += weight[k] * move(v[k]);
+        const Vec3 force = forceAtEnd(i);
         const Vec3 push = normal.dot(force) * normal;
         changes[EnergyChange::Contact] -= push.dot(apart);
         changes[EnergyChange::Friction] -= (force - push).dot(apart);
@@ -33,12 +27,9 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
     for (const ObstacleContact& contact : touching_) {
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
-        Vec3 change = Vec3::Zero(), moved = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            change += share[k] * solved(v[k]);
-            moved += share[k] * move(v[k]);
-        }
-        const Vec3 force = contact.gradient + contact.stiffness * change;
+        Vec3 moved = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) moved += share[k] * move(v[k]);
+        const Vec3 force = forceAtEnd(contact);
         changes[EnergyChange::Obstacles] -= force.dot(moved);
         for (int k = 0; k < 3; ++k) gradient[v[k]] += share[k] * force;
     }

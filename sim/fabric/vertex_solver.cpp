@@ -81,6 +81,7 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     findMomenta(state);
     advance(t, h, 0, gravity, state, report, clock);
     keepMomentum(h, gravity, state);
+    if (forces_ && loads_) tellLiquid(state);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
 }
@@ -147,13 +148,24 @@ void VertexSolver::limit(const FabricState& state, FabricReport& report, StageCl
     report.scalings += limits_.scalings - before.scalings;
 }
 
+/// Makes move_ safe from solids; did they change it?
+bool VertexSolver::keepFromSolids(const FabricState& state)
+{
+    if (guard_.empty() || !forces_) return guard_.limit(state.x, mass_, move_, guarded_);
+    unguarded_ = move_;
+    if (!guard_.limit(state.x, mass_, move_, guarded_)) return false;
+    parallelFor(move_.size(), 4096, [&](std::size_t v) { guardMove_[v] += move_[v] - unguarded_[v]; });
+    return true;
+}
+
 /// Solids and pairs of fabric each change what the other has left safe, until one has nothing more to change.
 void VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
 {
     guardActed_ = false;
+    if (forces_ && !guard_.empty()) guardMove_.assign(move_.size(), Vec3::Zero());
     for (int turn = 0; turn < kMostTurns; ++turn) {
         clock.start(Stage::FabricContact);
-        const bool isChanged = guard_.limit(state.x, mass_, move_, guarded_);
+        const bool isChanged = keepFromSolids(state);
         guardActed_ = guardActed_ || isChanged;
         if (!isChanged && turn > 0) return;
         contact_->limit(state.x, move_, limits_, clock);
@@ -165,7 +177,7 @@ void VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
     // A part of each straight move is as safe, if solids rest.
     if (guard_.anyMoves()) {
         ++guarded_.left;
-        guard_.limit(state.x, mass_, move_, guarded_);
+        keepFromSolids(state);
         return;
     }
     constexpr double kSpare = 0.95;
@@ -350,6 +362,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     std::optional<EnergyChanges> changes;
     if (mayHaveGained && isDriven_) changes = slowDriven(h, gravity, state);
     if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, gravity, state);
+    if (forces_) tellForces(h, gravity, state);
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
 #include "sim/fabric/vertex_system.h"
+#include "sim/forces.h"
 #include "sim/scene/scene.h"
 
 #include <optional>
@@ -31,6 +32,8 @@ class VertexSolver {
     FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads = nullptr);
     /// From now on reports tell where energy goes: takes as long as a Newton iteration.
     void bookEnergy() { booksEnergy_ = true; }
+    /// From now on steps add there what acts between the fabric and what it touches, hangs on and meets of the liquid.
+    void tellForces(Forces& forces) { forces_ = &forces; }
     /// Not by two threads at once: it remembers the state that it was asked for last.
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
@@ -67,6 +70,7 @@ class VertexSolver {
     double rmsInRadii(std::span<const Vec3> move) const;
     void limit(const FabricState& state, FabricReport& report, StageClock& clock);
     void limitInTurn(const FabricState& state, StageClock& clock);
+    bool keepFromSolids(const FabricState& state);
     void turnHeldEdges(double t, FabricState& state) const;
     void findRates(double h, FabricState& state) const;
     void finish(double h, FabricState& state);
@@ -86,6 +90,14 @@ class VertexSolver {
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
+    Vec3 solvedMove(int vertex) const;
+    Vec3 forceAtEnd(std::size_t contact) const;
+    Vec3 forceAtEnd(const ObstacleContact& contact) const;
+    void tellForces(double h, const Vec3& gravity, const FabricState& state) const;
+    void tellContacts(double h, const FabricState& state) const;
+    void tellGuard(double h, const FabricState& state) const;
+    void tellPins(double h, const Vec3& gravity, const FabricState& state) const;
+    void tellLiquid(const FabricState& state) const;
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -108,11 +120,13 @@ class VertexSolver {
     mutable Known known_;
 
     bool booksEnergy_ = false;
+    Forces* forces_ = nullptr;                   ///< where they are wanted
     const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …
     std::span<const ObstacleContact> touching_;  ///< … and with obstacles
     LimitReport limits_;                         ///< of the attempt under way …
     GuardReport guarded_;                        ///< … likewise
-    bool guardActed_ = false;                    ///< in the last move: solids took a hand in it
+    bool guardActed_ = false;                    ///< in the last move: solids took a hand in it …
+    std::vector<Vec3> guardMove_, unguarded_;    ///< … of each vertex, where forces are wanted: what they made of it, and the move before [cm]
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
     double placeRounding_ = 0.0;                 ///< by which places of the step under way are rounded [cm]

@@ -213,7 +213,9 @@ void VertexSystem::holdPins()
         for (int a = 0; a < 3; ++a) heldSlots_.push_back(unknowns_.slot[v] + a * kLanes);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
         if (fabric_.edges.twistHeld[e]) heldSlots_.push_back(unknowns_.twistSlot[e]);
+    heldGradient_.clear();
     for (int slot : heldSlots_) {
+        heldGradient_.push_back(gradient_[slot]);
         gradient_[slot] = 0.0;
         if (slot >= unknowns_.strandSize) continue;
         const int row = slot / kLanes, lane = slot % kLanes;

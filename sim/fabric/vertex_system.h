@@ -58,6 +58,9 @@ class VertexSystem {
     Vec3 move(int vertex) const;             ///< of the last solve [cm]
     double turn(int edge) const { return solution_[unknowns_.twistSlot[edge]]; }  ///< [rad]
     const AlignedArray<double>& gradient() const { return gradient_; }
+    /// What would be the gradient of the held unknowns at the last assembly, if they were not: 3 numbers of each pin [dyn], then one of each
+    /// held twist angle, by edges [dyn cm].
+    std::span<const double> heldGradient() const { return heldGradient_; }
 
  private:
     static constexpr int kNextVertex = 4 * kLanes;  ///< how far the next vertex of a strand is in a vector
@@ -134,7 +137,8 @@ class VertexSystem {
     std::vector<LooseVertex> loose_;
     AlignedArray<double> pairForce_;         ///< C p on either side of each pair, 4 numbers each
     AlignedArray<double> pOfVertex_;         ///< p of each vertex, 4 numbers each
-    std::vector<int> heldSlots_;                       ///< unknowns that are pinned
+    std::vector<int> heldSlots_;                       ///< unknowns that are pinned …
+    std::vector<double> heldGradient_;                 ///< … and their gradient before it is taken away
     std::vector<int> pieceOf_;                         ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
     std::vector<Mat3> pieceStiffness_;                 ///< of each of these pieces, moved as a whole [dyn/cm]
     std::vector<Vec3> pieceForce_;                     ///< what is left of the forces on it [dyn]

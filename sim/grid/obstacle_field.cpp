@@ -18,10 +18,12 @@ void ObstacleField::resizeSlots(int count)
     closed_.resize(count);
     blocked_.resize(count);
     centerDistance_.resize(count);
+    owner_.resize(count);
     touchedByMoving_.resize(count);
     if (slotCount_ == 0 && count > 0)
         for (int c = 0; c < kBlockCells; ++c) {
             centerDistance_.block(kOpenSlot)[c] = std::numeric_limits<double>::infinity();
+            owner_.block(kOpenSlot)[c] = 0;
             blocked_.block(kOpenSlot)[c / 64] = 0;
             for (int a = 0; a < kAxes; ++a) {
                 open_.block(kOpenSlot, a)[c] = room_.block(kOpenSlot, a)[c] = 1.0;
@@ -137,6 +139,8 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
                 const double distance = distanceAcrossSeams(obstacles, center, kExactDistance * grid.dx);
                 centerDistance_.block(slot)[cell] = std::min(distance, kExactDistance * grid.dx);
+                owner_.block(slot)[cell] =
+                    static_cast<std::uint16_t>(distance < kExactDistance * grid.dx ? obstacles.nearest(center) : 0);
                 for (int a = 0; a < kAxes; ++a) {
                     double open = faces.open(a, i, j, k);
                     if (open > 0.0 && isWallBetween(grid, obstacles, center, distance, a)) open = 0.0;

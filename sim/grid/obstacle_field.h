@@ -41,6 +41,8 @@ class ObstacleField {
     const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(anyMoved_ ? slot_[block] : kOpenSlot, axis); }
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
+    /// Number of the solid that is nearest to the middle of each cell, where that is nearer than kExactDistance cells.
+    const std::uint16_t* owner(int block) const { return owner_.block(slot_[block]); }
 
  private:
     static constexpr int kOpenSlot = 0;
@@ -65,6 +67,7 @@ class ObstacleField {
     BlockBits<3> closed_;
     BlockBits<> blocked_;
     BlockArray<double> centerDistance_;
+    BlockArray<std::uint16_t> owner_;
 };
 
 }  // namespace sim

@@ -62,9 +62,14 @@ bool Obstacles::reach(const Vec3& x, double halfEdge, double within, Which which
     });
 }
 
-const Obstacles::Body* Obstacles::nearest(const Vec3& x) const
+int Obstacles::nearest(const Vec3& x) const
 {
-    const Body* best = nullptr;
+    return count() == 1 ? 0 : static_cast<int>(nearestBody(x) - bodies_.data());
+}
+
+const Obstacles::Body* Obstacles::nearestBody(const Vec3& x) const
+{
+    const Body* best = bodies_.empty() ? nullptr : bodies_.data();
     double least = std::numeric_limits<double>::infinity();
     for (const Body& body : bodies_) {
         const double d = body.shape.distance(body.toShape * x);
@@ -78,7 +83,7 @@ const Obstacles::Body* Obstacles::nearest(const Vec3& x) const
 
 Vec3 Obstacles::normal(const Vec3& x) const
 {
-    const Body* body = nearest(x);
+    const Body* body = nearestBody(x);
     return body == nullptr ? Vec3::Zero() : Vec3(body->now.linear() * body->shape.normal(body->toShape * x));
 }
 
@@ -147,7 +152,7 @@ double Obstacles::farthestMove(const Vec3& x, double halfEdge) const
 
 Vec3 Obstacles::velocity(const Vec3& x) const
 {
-    const Body* body = nearest(x);
+    const Body* body = nearestBody(x);
     if (body == nullptr || !body->moving || interval_ <= 0.0) return Vec3::Zero();
     return (x - body->before * (body->toShape * x)) / interval_;
 }

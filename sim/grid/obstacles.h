@@ -19,6 +19,7 @@ class Obstacles {
     void moveTo(double t0, double t1);
 
     bool empty() const { return bodies_.empty(); }
+    int count() const { return static_cast<int>(bodies_.size()); }
     bool anyMoving() const { return anyMoving_; }  ///< between t0 and t1 of the last moveTo
 
     double distance(const Vec3& x) const;          ///< to the nearest solid [cm], negative inside; infinite without any
@@ -26,6 +27,7 @@ class Obstacles {
     /// Does a solid come nearer than `within` to some place of the cube around x [cm]? Rather yes than no: as if it were a ball, and for meshes
     /// a little more.
     bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
+    int nearest(const Vec3& x) const;              ///< number of the nearest solid, in the order of add; there must be one
     Vec3 normal(const Vec3& x) const;              ///< out of the nearest solid
     Vec3 velocity(const Vec3& x) const;            ///< of the nearest solid's material point at x [cm/s]
 
@@ -79,7 +81,7 @@ class Obstacles {
         Eigen::Isometry3d now, toShape, before;
         bool moving = false;
     };
-    const Body* nearest(const Vec3& x) const;
+    const Body* nearestBody(const Vec3& x) const;
     template <class Start>
     std::optional<Contact> meet(const Vec3& to, double resolution, Start&& start) const;
 

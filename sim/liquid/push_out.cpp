@@ -5,7 +5,7 @@
 
 #include <bit>
 #include <cmath>
-#include <functional>
+#include <numeric>
 #include <optional>
 
 namespace sim {
@@ -106,16 +106,17 @@ Vec3 slide(const Obstacles& obstacles, double dx, const Vec3& from, const Vec3& 
 }
 
 /// Take away the velocity towards the solid at a particle.
-PushedOut stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidParticles& particles)
+PushedOut stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidParticles& particles, Vec3& onSolid)
 {
     const Vec3 velocity = particles.velocity(p);
     const double towards = std::min(0.0, (velocity - wall).dot(normal)), mass = particles.mass[p];
     for (int a = 0; a < kAxes; ++a) particles.mode(a, 0)[p] -= towards * normal[a];
+    onSolid = mass * towards * normal;
     return {0.5 * mass * towards * (2.0 * velocity.dot(normal) - towards), -mass * towards * wall.dot(normal), Vec3::Zero()};
 }
 
 PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p,
-                  LiquidParticles& particles)
+                  LiquidParticles& particles, std::span<Impulse> onSolids)
 {
     const Vec3 x = particles.position(p);
     Vec3 moved = x, normal = Vec3::Zero();
@@ -127,7 +128,9 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
     if (normal.isZero()) return {};
     for (int a = 0; a < kAxes; ++a) particles.x[a][p] = moved[a];
     const Vec3 wall = obstacles.anyMoving() ? obstacles.velocity(moved) : Vec3(Vec3::Zero());
-    PushedOut pushed = stop(wall, normal, p, particles);
+    Vec3 onSolid;
+    PushedOut pushed = stop(wall, normal, p, particles, onSolid);
+    onSolids[obstacles.nearest(moved)] += Impulse::at(moved, onSolid);
     if (!wall.isZero()) pushed.carried = particles.mass[p] * (moved - x);
     return pushed;
 }
@@ -135,9 +138,10 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
 }  // namespace
 
 PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles)
+                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
+                          ChunkSums<Impulse>& onSolids)
 {
-    const auto ofBlock = [&](std::size_t n) {
+    const auto ofBlock = [&](std::size_t n, std::span<Impulse> impulses) {
         const int b = order.occupied[n];
         PushedOut pushed;
         // Solids are known where they are now: on its way a particle has been no nearer to them than this.
@@ -149,11 +153,17 @@ PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, 
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);
             if (start[0] == start[1] || (field.nearSolid(b) && field.centerDistance(b)[c] > safe)) continue;
-            for (int s = start[0]; s < start[1]; ++s) pushed = pushed + keepOut(obstacles, grid.dx, before, s, particles);
+            for (int s = start[0]; s < start[1]; ++s) pushed = pushed + keepOut(obstacles, grid.dx, before, s, particles, impulses);
         }
         return pushed;
     };
-    return parallelReduce(order.occupied.size(), PushedOut{}, ofBlock, std::plus<>());
+    const Chunks chunks(order.occupied.size());
+    std::array<PushedOut, kMaxChunks> partial;
+    onSolids.begin(chunks.count(), obstacles.count());
+    parallelFor(chunks.count(), [&](std::size_t c) {
+        for (std::size_t n = chunks.begin(c); n < chunks.end(c); ++n) partial[c] = partial[c] + ofBlock(n, onSolids.of(c));
+    });
+    return std::accumulate(partial.begin(), partial.begin() + chunks.count(), PushedOut{});
 }
 
 }  // namespace sim

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "sim/core/chunk_sums.h"
+#include "sim/forces.h"
 #include "sim/grid/obstacle_field.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
@@ -26,7 +28,9 @@ struct PushedOut {
 /// @param order      the order of the positions before they moved
 /// @param before     those positions, in that order; null: particles inside solids are moved out, paths are not looked at
 /// @param farthest   how far a particle can have moved since the sort [cm]
+/// @param onSolids   what each solid gets of the particles' momentum; begun anew
 PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles);
+                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
+                          ChunkSums<Impulse>& onSolids);
 
 }  // namespace sim

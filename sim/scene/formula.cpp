@@ -26,7 +26,10 @@ struct Formula::Parser {
         static double call3(void* data, double a, double b, double c) { return call(data, std::array{a, b, c}); }
     };
 
+    static double callOfName(void* data, const char* name) { return static_cast<const FormulaNames::OfName*>(data)->value(name); }
+
     mu::Parser parser;
+    std::vector<FormulaNames::OfName> ofNames;
     std::vector<double> values;
     std::vector<Bound> functions;  ///< with arguments
     struct Measured {
@@ -56,6 +59,7 @@ Formula::Formula(std::string text, const FormulaNames& names)
 {
     Parser& p = *parser_;
     p.values.resize(names.variables.size());
+    p.ofNames = names.ofNames;
     for (const FormulaNames::Function& function : names.functions)
         if (function.arguments > 0)
             p.functions.push_back({function, &p});
@@ -66,6 +70,7 @@ Formula::Formula(std::string text, const FormulaNames& names)
         for (std::size_t i = 0; i < names.variables.size(); ++i) p.parser.DefineVar(names.variables[i], &p.values[i]);
         for (const auto& [name, value] : names.constants) p.parser.DefineConst(name, value);
         for (Parser::Bound& bound : p.functions) p.define(bound);
+        for (FormulaNames::OfName& of : p.ofNames) p.parser.DefineFunUserData(of.name, Parser::callOfName, &of, false);
         for (Parser::Measured& measured : p.measured) p.parser.DefineVar(measured.function.name, &measured.value);
         p.parser.SetExpr(text_);
         p.parser.Eval();

@@ -22,9 +22,15 @@ struct FormulaNames {
         int arguments = 0;  ///< 0 to 3; without any it is written without parentheses
         std::function<double(std::span<const double>)> value;
     };
+    /// A function of something that the scene has, called as in force_y("ball").
+    struct OfName {
+        std::string name;
+        std::function<double(const std::string&)> value;  ///< throws FormulaError where there is no such thing, also before there is a value
+    };
     std::vector<std::string> variables = {};
     std::map<std::string, double> constants = {};
     std::vector<Function> functions = {};  ///< not called before the formula is evaluated
+    std::vector<OfName> ofNames = {};      ///< called when the formula is read, too, to find names that are wrong
 };
 
 /// A formula that a scene gives as text, like "1 - exp(-2*t)". Copies share their workspace: one thread at a time.

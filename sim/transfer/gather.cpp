@@ -39,6 +39,7 @@ struct Context {
 };
 
 struct LaneSums {
+    Pack momentum[3] = {broadcast(0.0), broadcast(0.0), broadcast(0.0)};
     Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
 };
 
@@ -154,6 +155,7 @@ template <class Set, int kModes, bool kFold, class Rows>
         xi[a] = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
         const Pack carried = ctx.flipTile != nullptr ? loadPack(rows.at(a, 0, s)) : meanVelocity<Set>(c[a]);
         speedSquared += carried * carried;
+        sums.momentum[a] += select(lanes, mass * carried, zero);
     }
     speedSquared = select(lanes, speedSquared, zero);
     sums.kinetic += mass * speedSquared;
@@ -213,6 +215,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
                 }
             }
     rows.finish(order.end(block));
+    for (int a = 0; a < kAxes; ++a) sums.momentum[a] += sumLanes(lanes.momentum[a]);
     sums.kinetic += 0.5 * sumLanes(lanes.kinetic);
     sums.modal += 0.5 * sumLanes(lanes.modal);
     for (int l = 0; l < kLanes; ++l) {
@@ -265,6 +268,7 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
     });
     GatherSums total;
     for (const GatherSums& s : scratch.perBlock) {
+        total.momentum += s.momentum;
         total.kinetic += s.kinetic;
         total.modal += s.modal;
         total.maxSpeedSquared = larger(s.maxSpeedSquared, total.maxSpeedSquared);

@@ -41,6 +41,7 @@ class ToySimulation : public Steppable {
     const sim::Fabric& fabric() const override { return fabric_; }
     const sim::ActiveContacts* contacts() const override { return nullptr; }
     const sim::LiquidGrid& liquidGrid() const override { return grid_; }
+    const sim::Forces& forces() const override { return forces_; }
     void bookEnergy() override { booksEnergy_ = true; }
     sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0], .fabric = {}}; }
     void setChanges(std::vector<sim::SettingsChange>) override {}
@@ -63,6 +64,17 @@ class ToySimulation : public Steppable {
         report.energies = energies();
         if (booksEnergy_) report.energyChanges.emplace()[sim::EnergyChange::Gravity] = -0.75 * toy_.speed * report.dt;  // a quarter is missing
         report.liquidMass = 2.0;
+        if (toy_.push != 0.0) {
+            forces_.obstacles.resize(1);
+            forces_.fabrics.resize(1);
+            forces_.pins.resize(2);
+            forces_.begin(report.dt);
+            const sim::Impulse impulse = sim::Impulse::at(sim::Vec3(0.0, 3.0, 0.0), {report.dt * toy_.push * static_cast<double>(state_.step), 0.0, 0.0});
+            forces_.obstacles[0].liquid = impulse;
+            forces_.fabrics[0].contact = -impulse;
+            forces_.pins = {impulse, 2.0 * impulse};
+            forces_.balance.borne = sim::Vec3(0.5, 0.0, 0.0);
+        }
         if (toy_.shutAtStep > 0) {
             state_.memory.sources.resize(1);
             state_.memory.sources[0].isShut = state_.step >= toy_.shutAtStep ? 1.0 : 0.0;
@@ -75,6 +87,7 @@ class ToySimulation : public Steppable {
     const ToySettings toy_;
     const sim::Fabric fabric_;
     const sim::LiquidGrid grid_;
+    sim::Forces forces_;
     sim::State state_;
     bool booksEnergy_ = false;
 };
@@ -154,6 +167,13 @@ SceneSetup toySetup(const ToySettings& toy)
     setup.scene.name = "toy";
     setup.scene.settings.time.duration = toy.duration;
     setup.scene.settings.time.dt = toy.dt;
+    if (toy.push != 0.0) {
+        setup.scene.obstacles.emplace_back().name = "wall";
+        sim::FabricPiece& sheet = setup.scene.fabrics.emplace_back();
+        sheet.name = "sheet";
+        sheet.pins.resize(2);
+        sheet.pins[1].name = "left";
+    }
     setup.pictures.output.every = toy.every;
     setup.pictures.compare.variants = {{"a", "A", {}}, {"b", "B|2", {}}};
     setup.pictures.compare.sheet = true;

@@ -15,6 +15,7 @@ struct ToySettings {
     int drawMilliseconds = 0, writeMilliseconds = 0;
     int failAtStep = 0;              ///< the step that throws RunError; 0: none
     int shutAtStep = 0;              ///< the step after which its one source has to stop; 0: it has none
+    double push = 0.0;               ///< by liquid on an obstacle "wall" and by a fabric "sheet" on its pins: in step n n times that, along x [dyn]; 0: there are none
     int failAtDrawing = -1;          ///< the frame whose drawing throws
     int failAtWriting = -1;          ///< the frame whose file cannot be written
 };

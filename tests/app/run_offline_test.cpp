@@ -81,6 +81,64 @@ TEST(RunOffline, StepLinesTellTimeStagesEnergyAndLedger)
     }
 }
 
+TEST(RunOffline, ForcesAreToldByNameInStepsAndReport)
+{
+    TemporaryFolder folder;
+    runToy({.push = 2.0}, folder.path());
+    const auto lines = test::linesOf(folder / "steps.jsonl");
+    double time = 0.0, sum = 0.0;
+    for (std::size_t n = 1; n <= lines.size(); ++n) {
+        const json line = json::parse(lines[n - 1]), forces = line.at("forces");
+        const double push = 2.0 * static_cast<double>(n), dt = line.at("dt");
+        EXPECT_NEAR(forces.at("obstacles").at("wall").at("liquid").at("force").at(0).get<double>(), push, 1e-12);
+        EXPECT_NEAR(forces.at("obstacles").at("wall").at("liquid").at("torque").at(2).get<double>(), -3.0 * push, 1e-12);
+        EXPECT_EQ(forces.at("obstacles").at("wall").at("contact").at("force"), json({0.0, 0.0, 0.0}));
+        EXPECT_NEAR(forces.at("fabrics").at("sheet").at("contact").at("force").at(0).get<double>(), -push, 1e-12);
+        EXPECT_NEAR(forces.at("pins").at("sheet.0").at("force").at(0).get<double>(), push, 1e-12);
+        EXPECT_NEAR(forces.at("pins").at("sheet.left").at("force").at(0).get<double>(), 2.0 * push, 1e-12);
+        EXPECT_NEAR(line.at("ledger").at("momentum").at("to_solids").at(0).get<double>(), dt * push, 1e-12);
+        EXPECT_EQ(line.at("ledger").at("momentum").at("borne").at(0), 0.5);
+        time += dt;
+        sum += dt * push;
+    }
+    const json wall = reportOf(folder.path()).at("forces").at("obstacles").at("wall").at("liquid");
+    EXPECT_NEAR(wall.at("mean_force").at(0).get<double>(), sum / time, 1e-12);
+    EXPECT_NEAR(wall.at("mean_torque").at(2).get<double>(), -3.0 * sum / time, 1e-12);
+    EXPECT_NEAR(wall.at("largest_force").get<double>(), 30.0, 1e-12);
+    EXPECT_NEAR(wall.at("largest_torque").get<double>(), 90.0, 1e-12);
+}
+
+TEST(RunOffline, ForcesOfTwoStepsAreLargestTogetherWhereTheFirstIsReflected)
+{
+    const auto pushed = [](double push) {
+        sim::Forces forces;
+        forces.obstacles.resize(1);
+        forces.begin(0.5);
+        forces.obstacles[0].liquid = sim::Impulse::at(sim::Vec3::UnitY(), {0.5 * push, 0.0, 0.0});
+        return forces;
+    };
+    ForceTotals totals;
+    totals.add(pushed(10.0), true);
+    totals.add(pushed(2.0), false);
+    totals.add(pushed(5.0), false);
+    ForceNames names;
+    names.obstacles = {"wall"};
+    const auto wall = forcesJson(names, totals).at("obstacles").at("wall").at("liquid");
+    EXPECT_EQ(wall.at("largest_force"), 6.0);
+    EXPECT_EQ(wall.at("largest_torque"), 6.0);
+    EXPECT_NEAR(wall.at("mean_force").at(0).get<double>(), 17.0 / 3.0, 1e-12);
+}
+
+TEST(RunOffline, WithoutSolidsAndFabricNothingIsSaidOfForces)
+{
+    TemporaryFolder folder;
+    runToy({}, folder.path());
+    const json line = json::parse(test::linesOf(folder / "steps.jsonl").at(0));
+    EXPECT_FALSE(line.contains("forces"));
+    EXPECT_FALSE(line.at("ledger").contains("momentum"));
+    EXPECT_FALSE(reportOf(folder.path()).contains("forces"));
+}
+
 TEST(RunOffline, EveryStepIsInTheLogBeforeTheNextOne)
 {
     TemporaryFolder folder;

@@ -135,6 +135,7 @@ void GridFabricSolver::moveVertices(double h, const Vec3& gravity, FabricState& 
             (*report.energyChanges)[EnergyChange::Implicit] -= got.elastic - wanted.elastic;
         }
     }
+    if (forces_ && !guard_.empty()) tellGuard(h, state);
     if (guarded.left > 0) ++report.shortened;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
 }
@@ -285,6 +286,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
     if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());
+    if (forces_) tellSprings(h, state, touching);
+    if (forces_ && loads) tellLiquid(state, *loads);
 
     clock.start(Stage::GridToFabric);
     keepChange(state);

@@ -5,6 +5,7 @@
 #include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
+#include "sim/forces.h"
 #include "sim/scene/scene.h"
 
 #include <span>
@@ -38,6 +39,9 @@ class GridFabricSolver {
     FabricFaces faces() const { return {particles_.grid(), particles_.faces().velocity}; }
     /// From now on reports tell where energy goes: takes as long as some iterations of the solve.
     void bookEnergy() { booksEnergy_ = true; }
+    /// From now on steps add there what acts between the fabric and solids, pins and liquid. What fabrics do to each other on faces that both
+    /// reach is not told apart.
+    void tellForces(Forces& forces) { forces_ = &forces; }
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
     /// Energy that contact on the grid held at the start of the last step [erg].
     double contactEnergy() const { return contact_.energy(); }
@@ -71,6 +75,9 @@ class GridFabricSolver {
                    EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const;
     double facesKinetic(const BlockArray<double, 3>& velocity) const;
+    void tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching);
+    void tellGuard(double h, const FabricState& state) const;
+    void tellLiquid(const FabricState& state, const FaceLoads& loads);
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -84,6 +91,7 @@ class GridFabricSolver {
     std::vector<int> groupOfBlock_, nearBlock_;     ///< … and of blocks (findGroups)
     FaceVector velocity_;
     bool meetsLiquid_, booksEnergy_ = false;
+    Forces* forces_ = nullptr;  ///< where they are wanted
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
     // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did
     // [cm/s^2].
@@ -93,6 +101,7 @@ class GridFabricSolver {
     std::vector<Vec3> predicted_,
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
     std::vector<Vec3> move_, wanted_;  ///< of each vertex in the step, and but for solids [cm]
+    std::vector<Vec3> byLiquid_;       ///< of each vertex: impulse per mass [cm/s]
     FabricState trial_;                ///< places and frames where a move would take the fabric
     FabricMotion motion_;
 };

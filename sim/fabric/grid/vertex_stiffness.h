@@ -39,6 +39,21 @@ class VertexStiffness {
         double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
     };
     Work work(const FabricState& state, double h, AlignedArray<double>& u);
+    /// Impulses h gradient + h² K u with which the vertices' velocities u pull at what holds them: call onPin(number among Fabric::Pins, impulse),
+    /// onEdge(held edge, impulse on its twist) and onObstacle(number among assemble's contacts, impulse).
+    void pulls(double h, const AlignedArray<double>& u, auto&& onPin, auto&& onEdge, auto&& onObstacle) const
+    {
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const Spring& s = springs_[i];
+            const Vec3 impulse = h * (s.gradient + h * (s.stiffness * atPoint(u, s)));
+            if (i < pinStiffness_.size()) onPin(i, impulse);
+            else onObstacle(i - pinStiffness_.size(), impulse);
+        }
+        for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
+            const double rate = u[unknowns_.twistSlot[heldEdges_[i]]];
+            onEdge(heldEdges_[i], h * (heldTorque_[i] + h * heldStiffness_[i] * rate));
+        }
+    }
     /// Makes twist ready to follow vertices in steps of h [s], or to take impulses, with inertia of each edge [g cm^2].
     void balanceTwist(std::span<const double> inertia, double h);
     /// Sets the rates of twist in u to what goes with the vertices' velocities. u is completed for shared vertices.

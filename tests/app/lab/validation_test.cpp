@@ -9,9 +9,8 @@
 namespace app {
 namespace {
 
-Validation validationOf(const std::string& section)
+Validation validationOf(const std::string& section, const sim::Scene& scene = {})
 {
-    const sim::Scene scene;
     return *readValidation(sim::sceneFileFromText(fmt::format("drench: 1\nvalidate:\n{}", section), "case.yaml"),
                            scene);
 }
@@ -20,7 +19,7 @@ Validation validationOf(const std::string& section)
 CaseResult fly(const std::string& checks, const test::ToySettings& toy = {})
 {
     SceneSetup setup = test::toySetup(toy);
-    setup.validation = validationOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks));
+    setup.validation = validationOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks), setup.scene);
     return runCase("flight", setup, test::toyParts(toy), [] { return false; });
 }
 
@@ -39,6 +38,20 @@ TEST(Validation, ComparesReadingsWithWhatIsKnown)
     EXPECT_FALSE(result.passes());
     EXPECT_EQ(result.readings[0].size(), 6u);
     EXPECT_EQ(result.readings[3].size(), 2u);
+}
+
+/// Steps of 0.004, 0.004 and 0.002 s between two readings: the first three push by 1, 2 and 3 dyn.
+TEST(Validation, ForcesAreMeansSinceTheLastReading)
+{
+    const CaseResult result = fly("    - {read: 'force_x(\"wall\")', to: 0.015, take: last, expect: 1.8, tolerance: 1.0e-9}\n"
+                                  "    - {read: 'torque_z(\"wall\")', from: 0.015, to: 0.025, take: last, expect: -3*4.8, tolerance: 1.0e-9}\n"
+                                  "    - {read: 'contact_force_x(\"wall\") + liquid_force_x(\"sheet\")', take: last, expect: 0, within: 0}\n"
+                                  "    - {read: 'contact_force_x(\"sheet\")/force_x(\"wall\")', from: 0.005, expect: -1, tolerance: 1.0e-9}\n"
+                                  "    - {read: 'pin_force_x(\"left\")/force_x(\"wall\")', from: 0.005, expect: 2, tolerance: 1.0e-9}\n"
+                                  "    - {read: 'pin_torque_z(\"sheet\")/force_x(\"wall\")', from: 0.005, expect: -9, tolerance: 1.0e-9}\n",
+                                  {.push = 1.0});
+    ASSERT_EQ(result.findings.size(), 6u) << result.failure;
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(result.findings[i].passes) << i << ": " << result.findings[i].value;
 }
 
 TEST(Validation, WhatHasNoValueFails)
@@ -74,6 +87,10 @@ TEST(Validation, MistakesNameTheirLine)
         {"  every: 1\n", "case.yaml:2: validate.checks is missing"},
         {"  every: 1\n  checks: []\n", "case.yaml:4: validate.checks: needs a list"},
         {"  every: 1\n  checks:\n    - {read: sped, at_most: 1}\n", "case.yaml:5: validate.checks.0.read: \"sped\""},
+        {"  every: 1\n  checks:\n    - {read: 'force_y(\"bal\")', at_most: 1}\n",
+         "case.yaml:5: validate.checks.0.read: \"force_y(\"bal\")\": there is no obstacle and no fabric \"bal\""},
+        {"  every: 1\n  checks:\n    - {read: 'pin_force_y(\"bal\")', at_most: 1}\n",
+         "case.yaml:5: validate.checks.0.read: \"pin_force_y(\"bal\")\": no pins and no fabric with pins are called \"bal\""},
         {"  every: 1\n  checks:\n    - {read: speed}\n",
          "case.yaml:5: validate.checks.0: needs expect with a tolerance"},
         {"  every: 1\n  checks:\n    - {read: speed, expect: 1}\n",

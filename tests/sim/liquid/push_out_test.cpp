@@ -25,7 +25,8 @@ struct PushedOut {
             for (int a = 0; a < kAxes; ++a) liquid.particles.x[a][p] += way[a];
             before.push_back(liquid.particles.position(p));
         }
-        pushOutOfObstacles(liquid.order, liquid.grid, field, obstacles, farthest, nullptr, liquid.particles);
+        ChunkSums<Impulse> onSolids;
+        pushOutOfObstacles(liquid.order, liquid.grid, field, obstacles, farthest, nullptr, liquid.particles, onSolids);
         for (std::size_t p = 0; p < before.size(); ++p) after.push_back(liquid.particles.position(p));
     }
 };

@@ -1,0 +1,201 @@
+#include "sim/liquid/liquid_on_solids.h"
+
+#include "sim/core/parallel.h"
+#include "sim/grid/rows.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace sim {
+
+namespace {
+
+/// A cell one above or below another along an axis.
+CellRef cellBeside(const BlockGrid& grid, int block, int cell, int axis, int step)
+{
+    Vec3i at(cell & 7, cell >> 3 & 7, cell >> 6);
+    at[axis] += step;
+    return cellNear(grid, block, at.x(), at.y(), at.z());
+}
+
+bool isClosed(const ObstacleField& field, const CellRef& face, int axis) { return field.open(face.block, axis)[face.cell] == 0.0; }
+
+/// Of the liquid, or of the solid that closes the face [cm/s].
+double velocityAt(const ObstacleField& field, const LiquidGrid& liquid, const CellRef& face, int axis)
+{
+    return isClosed(field, face, axis) ? field.wallVelocity(face.block, axis)[face.cell] : liquid.faces.velocity.block(face.block, axis)[face.cell];
+}
+
+}  // namespace
+
+void LiquidOnSolids::begin(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, const FaceFields& faces)
+{
+    const double near = ObstacleField::kExactDistance * grid.dx;
+    solids_ = obstacles.count();
+    hasOthers_ = false;
+    blocks_ = field.blocksNearSolid();
+    place_.assign(grid.count() + 1, BlockGrid::kNone);
+    brought_.resize(static_cast<int>(blocks_.size()));
+    near_.resize(grid.count());
+    std::fill_n(near_.block(0), static_cast<std::size_t>(grid.count()) * BlockBits<>::kWords, 0);
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        place_[blocks_[n]] = static_cast<int>(n);
+        const double* distance = field.centerDistance(blocks_[n]);
+        for (int row = 0; row < kBlockCells; row += kLanes)
+            near_.block(blocks_[n])[row >> 6] |= std::uint64_t{maskBits(loadPack(distance + row) < near)} << (row & 63);
+    });
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        const int b = blocks_[n], place = static_cast<int>(n);
+        const BitAccess bits(grid, b);
+        for (int a = 0; a < kAxes; ++a)
+            for (int k = 0; k < kBlockEdge; ++k) {
+                if (facesNear(bits, b, a, k) == 0) continue;
+                std::copy_n(faces.sums.block(b, FaceFields::kMass + a) + 64 * k, 64, brought_.block(place, kMass + a) + 64 * k);
+                std::copy_n(faces.sums.block(b, FaceFields::kMomentum + a) + 64 * k, 64, brought_.block(place, kMomentum + a) + 64 * k);
+            }
+    });
+}
+
+void LiquidOnSolids::clearOthers()
+{
+    if (hasOthers_) return;
+    hasOthers_ = true;
+    others_.resize(static_cast<int>(blocks_.size()));
+    shared_.resize(static_cast<int>(blocks_.size()));
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        std::fill_n(others_.block(static_cast<int>(n)), BlockArray<double, 3>::kStride, 0.0);
+        std::fill_n(shared_.block(static_cast<int>(n)), kAxes * BlockBits<3>::kWords, 0);
+    });
+}
+
+void LiquidOnSolids::beforeViscosity(const BlockArray<double, 3>& velocity)
+{
+    clearOthers();
+    before_.resize(static_cast<int>(blocks_.size()));
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        std::copy_n(velocity.block(blocks_[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n)));
+    });
+}
+
+void LiquidOnSolids::afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid)
+{
+    const bool sticks = system.wall.size() > 0;
+    parallelFor(blocks_.size(), [&](std::size_t n) {
+        const int b = blocks_[n], place = static_cast<int>(n);
+        for (int a = 0; a < kAxes; ++a) {
+            const double *mass = liquid.faces.sums.block(b, FaceFields::kMass + a), *u = liquid.faces.velocity.block(b, a),
+                         *before = before_.block(place, a), *wall = field.wallVelocity(b, a);
+            double* others = others_.block(place, a);
+            for (int c = 0; c < kBlockCells; ++c) {
+                others[c] += mass[c] * (u[c] - before[c]);
+                if (sticks) others[c] -= system.wall.block(b, a)[c] * (wall[c] - u[c]);
+                if (!isClosed(field, {b, c}, a)) continue;
+                // The cells on both sides pull at the face by their normal strains.
+                const CellRef above = cellBeside(grid, b, c, a, 1), below = cellBeside(grid, b, c, a, -1);
+                const double own = velocityAt(field, liquid, {b, c}, a);
+                others[c] += system.normal.block(b, a)[c] * (velocityAt(field, liquid, above, a) - own) -
+                             system.normal.block(below.block, a)[below.cell] * (own - velocityAt(field, liquid, below, a));
+            }
+        }
+    });
+}
+
+/// Faces of plane k of a block that a solid is near to, and where there is anything of the liquid.
+std::uint64_t LiquidOnSolids::wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const
+{
+    const int b = blocks_[place];
+    const std::uint64_t near = facesNear(bits, b, axis, k);
+    if (near == 0) return 0;
+    const BlockBits<>& inside = outcome.liquid.inside;
+    const double* mass = brought_.block(static_cast<int>(place), kMass + axis) + 64 * k;
+    std::uint64_t wet = inside.block(b)[k] | bits.below(inside, 0, axis, k);
+    for (int row = 0; row < 64; row += kLanes) wet |= std::uint64_t{maskBits(loadPack(mass + row) > 0.0)} << row;
+    return near & wet;
+}
+
+/// K, but on faces of the pressure system, which feel K times their room if they are as full as they count: there also what they are short of,
+/// or have beyond, as it is not from a solid [cm^2 s].
+Pack LiquidOnSolids::stepOf(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const
+{
+    const int b = blocks_[place];
+    const Pack coefficient = loadPack(outcome.system.coefficient.block(b, axis) + row), all = broadcast(outcome.perPressure);
+    PackMask counts = coefficient > 0.0;
+    if (hasOthers_) counts &= ~maskOfBits(shared_.block(static_cast<int>(place), axis)[row >> 6] >> (row & 63));
+    const Pack mass = loadPack(outcome.liquid.faces.sums.block(b, FaceFields::kMass + axis) + row);
+    const Pack felt = mass * grid.dx * coefficient / loadPack(field.open(b, axis) + row);
+    return select(counts, all - (all * loadPack(field.room(b, axis) + row) - felt), all);
+}
+
+LiquidOnSolids::Row LiquidOnSolids::onRow(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis,
+                                          int row) const
+{
+    const int b = blocks_[place], n = static_cast<int>(place), j = row >> 3 & 7, k = row >> 6;
+    const RowAccess rows(grid, b);
+    Pack above = rows.row(outcome.pressure, 0, j, k), under = rows.below(outcome.pressure, 0, axis, j, k);
+    if (outcome.again) {
+        above += rows.row(*outcome.again, 0, j, k);
+        under += rows.below(*outcome.again, 0, axis, j, k);
+    }
+    const Pack mass = loadPack(brought_.block(n, kMass + axis) + row);
+    Pack before = loadPack(brought_.block(n, kMomentum + axis) + row);
+    if (outcome.flipVelocity)
+        before = outcome.flipRatio * mass * loadPack(outcome.flipVelocity->block(b, axis) + row) + (1.0 - outcome.flipRatio) * before;
+    if (hasOthers_) before += loadPack(others_.block(n, axis) + row);
+    const Pack after = mass * (loadPack(outcome.velocity.block(b, axis) + row) - outcome.fall[axis]);
+    return {after - before + stepOf(grid, field, outcome, place, axis, row) * (above - under),
+            outcome.perPressure * (1.0 - loadPack(field.open(b, axis) + row)) * (absPack(above) + absPack(under))};
+}
+
+/// To the solids that the faces of a row are nearest to.
+void LiquidOnSolids::addRow(const BlockGrid& grid, const ObstacleField& field, std::size_t place, int axis, int row, unsigned faces, const Row& on,
+                            std::span<OnSolid> sums) const
+{
+    const int b = blocks_[place];
+    Vec3 x = grid.lowerCorner(b) + grid.dx * Vec3(0.5, (row >> 3 & 7) + 0.5, (row >> 6) + 0.5);
+    x[axis] -= 0.5 * grid.dx;
+    const auto add = [&](int solid, double got, double pressed, const Vec3& gotAt, const Vec3& pressedAt) {
+        sums[solid] += {{-got * Vec3::Unit(axis), -gotAt.cross(Vec3::Unit(axis))}, pressed, pressedAt};
+    };
+    if (solids_ == 1) {
+        constexpr Pack kPlaces = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+        const Pack got = select(maskOfBits(faces), on.got, broadcast(0.0)), pressed = select(maskOfBits(faces), on.pressed, broadcast(0.0));
+        const double allGot = sumLanes(got), allPressed = sumLanes(pressed);
+        add(0, allGot, allPressed, allGot * x + grid.dx * sumLanes(got * kPlaces) * Vec3::UnitX(),
+            allPressed * x + grid.dx * sumLanes(pressed * kPlaces) * Vec3::UnitX());
+        return;
+    }
+    for (; faces != 0; faces &= faces - 1) {
+        const int i = std::countr_zero(faces), c = row + i;
+        const CellRef below = cellBeside(grid, b, c, axis, -1);
+        const bool isOwn = field.centerDistance(b)[c] <= field.centerDistance(below.block)[below.cell];
+        const Vec3 at = x + grid.dx * i * Vec3::UnitX();
+        add(isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at);
+    }
+}
+
+void LiquidOnSolids::finishBlock(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place,
+                                 std::span<OnSolid> sums) const
+{
+    const BitAccess bits(grid, blocks_[place]);
+    for (int a = 0; a < kAxes; ++a)
+        for (int k = 0; k < kBlockEdge; ++k) {
+            const std::uint64_t wet = wetNear(bits, outcome, place, a, k);
+            for (int j = 0; j < kBlockEdge && wet != 0; ++j) {
+                const unsigned faces = wet >> (j * kBlockEdge) & 0xff;
+                if (faces == 0) continue;
+                const int row = cellInBlock(0, j, k);
+                addRow(grid, field, place, a, row, faces, onRow(grid, field, outcome, place, a, row), sums);
+            }
+        }
+}
+
+void LiquidOnSolids::finish(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome)
+{
+    const Chunks chunks(blocks_.size());
+    sums_.begin(chunks.count(), solids_);
+    parallelFor(chunks.count(), [&](std::size_t c) {
+        for (std::size_t n = chunks.begin(c); n < chunks.end(c); ++n) finishBlock(grid, field, outcome, n, sums_.of(c));
+    });
+}
+
+}  // namespace sim

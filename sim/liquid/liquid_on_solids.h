@@ -1,0 +1,90 @@
+#pragma once
+
+#include "sim/core/chunk_sums.h"
+#include "sim/forces.h"
+#include "sim/liquid/pressure.h"
+#include "sim/liquid/viscous_system.h"
+
+#include <vector>
+
+namespace sim {
+
+/// What each solid gets of the liquid's momentum on the grid in a step. On a face that no solid is near, all that changes the liquid's momentum
+/// beside weight and fabric is the step of the pressure, −K (p above − p below) with the same K everywhere, and the step of viscous stresses; both
+/// sum up to nothing over all faces. So what a face near a solid has got beyond them is from the solid: the pressure on what it closes of the cell,
+/// what its wall takes from what particles bring behind it, and its share of a face that is not open all the way. It is the nearest solid's,
+/// and acts in the middle of the face. Not from the solid is what pressure does to a face that is less full than it counts (findPressureFaces).
+class LiquidOnSolids {
+ public:
+    /// After P2G: what particles have brought to faces near solids, before weight, walls and forces act there.
+    void begin(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, const FaceFields& faces);
+    /// Around the solve for viscosity, of whose stresses solids get those on closed faces and on walls that stick.
+    void beforeViscosity(const BlockArray<double, 3>& velocity);
+    void afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid);
+    /// There is fabric on faces: then tell what each got of the liquid [g cm/s].
+    void meetFabric() { clearOthers(); }
+    void fabricGot(int block, int axis, int cell, double impulse)
+    {
+        const int place = place_[block];
+        if (place == BlockGrid::kNone) return;
+        others_.block(place, axis)[cell] -= impulse;
+        shared_.set(place, cell, axis);
+    }
+
+    /// What acted on the faces of which particles then read their momentum.
+    struct Outcome {
+        const BlockArray<double, 3>& velocity;             ///< that they read [cm/s]
+        const LiquidGrid& liquid;
+        const PressureWorkspace& system;
+        const BlockArray<double>& pressure;                ///< [dyn/cm^2]
+        const BlockArray<double>* again;                   ///< that of a reflection [dyn/cm^2], or null
+        const BlockArray<double, 3>* flipVelocity;         ///< straight after P2G [cm/s]; null but for FLIP …
+        double flipRatio;                                  ///< … whose particles keep so much of what they had [-]
+        double perPressure;                                ///< K: of a face amid liquid by the step of the pressure [cm^2 s]
+        Vec3 fall;                                         ///< what weight made of velocities [cm/s]
+    };
+    void finish(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome);
+
+    /// What a solid got, and of that what pressed on the closed part of its faces, regardless of direction, and where that is.
+    struct OnSolid {
+        Impulse impulse;
+        double pressed = 0.0;           ///< [g cm/s]
+        Vec3 moment = Vec3::Zero();     ///< of it [g cm^2/s]
+        OnSolid& operator+=(const OnSolid& other)
+        {
+            impulse += other.impulse;
+            pressed += other.pressed;
+            moment += other.moment;
+            return *this;
+        }
+    };
+    OnSolid on(int solid) const { return sums_.sum(solid); }
+
+ private:
+    static constexpr int kMass = 0, kMomentum = 3;  ///< kinds of brought_
+    /// What the faces of a row got of solids, and how hard these press on what they close.
+    struct Row {
+        Pack got, pressed;  ///< [g cm/s]
+    };
+    void clearOthers();
+    std::uint64_t facesNear(const BitAccess& bits, int block, int axis, int k) const { return near_.block(block)[k] | bits.below(near_, 0, axis, k); }
+    std::uint64_t wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const;
+    Pack stepOf(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
+    Row onRow(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
+    void addRow(const BlockGrid& grid, const ObstacleField& field, std::size_t place, int axis, int row, unsigned faces, const Row& on,
+                std::span<OnSolid> sums) const;
+    void finishBlock(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;
+
+    int solids_ = 0;
+    std::vector<int> blocks_, place_;               ///< those near solids; of each block its place among them, or BlockGrid::kNone
+    BlockBits<> near_;                              ///< cells whose middles are near a solid
+    // By place, of rows with faces near one:
+    BlockArray<double, 6> brought_;                 ///< by particles: mass [g] and momentum [g cm/s] of each face
+    BlockArray<double, 3> others_;                  ///< momentum that a face got of viscous stresses, less what it gave to fabric [g cm/s] …
+    BlockBits<3> shared_;                           ///< … if fabric is on it …
+    bool hasOthers_ = false;                        ///< … where there are any of both
+    BlockArray<double, 3> before_;                  ///< velocities before viscosity [cm/s]
+    ChunkSums<OnSolid> sums_;
+};
+
+}  // namespace sim

@@ -1,0 +1,279 @@
+// Forces on solids, fabrics and pins: action and reaction, and what is known of some of them.
+#include "tests/physics/fabric_runs.h"
+#include "tests/physics/runs.h"
+#include "tests/sim/fixtures.h"
+
+#include "sim/fabric/generators.h"
+#include "sim/simulation.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+constexpr double kExact = 1.0e-10;  ///< of what is exchanged: action and reaction
+
+Vec3 momentumOfLiquid(const Simulation& simulation)
+{
+    Vec3 sum = Vec3::Zero();
+    const LiquidParticles& particles = simulation.state().liquid;
+    for (std::size_t p = 0; p < particles.count; ++p) sum += particles.mass[p] * particles.velocity(p);
+    return sum;
+}
+
+Vec3 momentumOfFabric(const Simulation& simulation)
+{
+    Vec3 sum = Vec3::Zero();
+    const FabricState& fabric = simulation.state().fabric;
+    for (std::size_t v = 0; v < fabric.v.size(); ++v) sum += (simulation.fabric().mass[v] + fabric.absorbed[v]) * fabric.v[v];
+    return sum;
+}
+
+double massOfLiquid(const Simulation& simulation)
+{
+    double sum = 0.0;
+    const LiquidParticles& particles = simulation.state().liquid;
+    for (std::size_t p = 0; p < particles.count; ++p) sum += particles.mass[p];
+    return sum;
+}
+
+/// Takes a step and looks whether its forces are all that changed the momentum. What is exchanged is at least the weight.
+struct ClosedStep {
+    StepReport report;
+    double error, exchanged;  ///< [g cm/s]
+
+    explicit ClosedStep(Simulation& simulation)
+    {
+        const Vec3 before = momentumOfLiquid(simulation) + momentumOfFabric(simulation);
+        report = simulation.step(1.0e9);
+        const Forces& forces = simulation.forces();
+        const MomentumBalance& balance = forces.balance;
+        Vec3 rest = momentumOfLiquid(simulation) + momentumOfFabric(simulation) - before;
+        EXPECT_LT((rest - balance.change).norm(), kExact * (before.norm() + balance.weight.norm()));
+        exchanged = balance.weight.norm() + balance.entered.norm() + balance.left.norm();
+        rest -= balance.weight + balance.entered - balance.left + balance.unresolved;
+        for (const Load& load : forces.obstacles) rest += load.sum().linear, exchanged += load.sum().linear.norm();
+        for (const Impulse& pins : forces.pins) rest += pins.linear, exchanged += pins.linear.norm();
+        error = rest.norm();
+    }
+};
+
+/// Water at rest in a tank of 16 x 20 x 16 cells of 0.5 cm, up to the 14th, with a ball of 3 cells in it.
+Scene dippedBall(const Transfer& transfer, double friction)
+{
+    Scene scene = tankScene(transfer, 0.5, {16.0, 20.0, 16.0}, {0.0, 0.0, 0.0}, {16.0, 14.0, 16.0});
+    scene.obstacles.push_back(obstacle("ball", Shape::ball({4.0, 3.5, 4.0}, 1.5)));
+    scene.settings.liquid.wallFriction = friction;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = 2.0e-3;
+    return scene;
+}
+
+class DippedBall : public ::testing::TestWithParam<double> {};
+
+TEST_P(DippedBall, FeelsTheWeightOfTheWaterInItsPlace)
+{
+    Simulation simulation(dippedBall(kPoly8, GetParam()));
+    constexpr int kSteps = 100, kFrom = 40;
+    Vec3 onBall = Vec3::Zero(), onTank = Vec3::Zero(), torque = Vec3::Zero();
+    for (int step = 0; step < kSteps; ++step) {
+        const ClosedStep closed(simulation);
+        ASSERT_LT(closed.error, kExact * closed.exchanged);
+        if (step < kFrom) continue;
+        const Forces& forces = simulation.forces();
+        onBall += forces.obstacles[1].sum().linear / (forces.dt * (kSteps - kFrom));
+        torque += forces.obstacles[1].sum().angular / (forces.dt * (kSteps - kFrom));
+        onTank += forces.obstacles[0].sum().linear / (forces.dt * (kSteps - kFrom));
+    }
+    const double buoyancy = 4.0 / 3.0 * kPi * 1.5 * 1.5 * 1.5 * kEarthGravity, weight = massOfLiquid(simulation) * kEarthGravity;
+    EXPECT_NEAR(onBall.y() / buoyancy, 1.0, GetParam() < 1.0 ? 0.04 : 0.08);  // of a radius of 3 cells; 0.004 of 6
+    EXPECT_LT(std::hypot(onBall.x(), onBall.z()), 1.0e-4 * buoyancy);
+    EXPECT_LT((torque - Vec3(4.0, 3.5, 4.0).cross(onBall)).norm(), 1.0e-4 * buoyancy * 1.5);
+    EXPECT_LT((onBall + onTank + weight * Vec3::UnitY()).norm(), 1.0e-3 * weight);
+}
+
+INSTANTIATE_TEST_SUITE_P(Friction, DippedBall, ::testing::Values(0.0, 0.5, 1.0));
+
+TEST(Forces, AreAllThatChangesMomentum)
+{
+    for (const Transfer& transfer : {kFlip, kApic, kPoly8, kPoly27})
+        for (const double friction : {0.0, 0.3, 1.0})
+            for (const bool isViscous : {false, true}) {
+                SCOPED_TRACE(transfer.name + ", friction " + std::to_string(friction) + (isViscous ? ", viscous" : ""));
+                Scene scene = dippedBall(transfer, friction);
+                scene.sources[0].emissions[0].velocity = Vec3(20.0, 0.0, 10.0);
+                scene.settings.liquid.surfaceTensionForce = true;
+                scene.settings.liquid.solveViscosity = isViscous;
+                scene.settings.liquid.viscosity = 5.0;
+                Motion motion;
+                motion.addOscillation(0.0, 100.0, Vec3::UnitX(), 5.0, 0.5);
+                scene.obstacles[1].motion = motion;
+                Simulation simulation(scene);
+                for (int step = 0; step < 4; ++step) {
+                    const ClosedStep closed(simulation);
+                    EXPECT_LT(closed.error, kExact * closed.exchanged);
+                    const MomentumBalance& balance = simulation.forces().balance;
+                    EXPECT_EQ(balance.unresolved, Vec3::Zero());
+                    EXPECT_LT(balance.borne.norm(), 6.0e-3 * closed.exchanged);
+                    EXPECT_GT(balance.change.norm(), 0.01 * balance.weight.norm());
+                    EXPECT_GT(simulation.forces().obstacles[1].liquid.linear.norm(), 0.01 * closed.exchanged);
+                }
+            }
+}
+
+TEST(Forces, AreTheSameOnAnyNumberOfThreads)
+{
+    const auto forcesOn = [](int threads) {
+        return onThreads(threads, [] {
+            Simulation simulation(dippedBall(kPoly8, 0.0));
+            for (int step = 0; step < 3; ++step) simulation.step(1.0e9);
+            return simulation.forces().obstacles;
+        });
+    };
+    const std::vector<Load> one = forcesOn(1);
+    for (const int threads : {2, 8}) {
+        const std::vector<Load> other = forcesOn(threads);
+        for (std::size_t n = 0; n < one.size(); ++n) {
+            EXPECT_EQ(one[n].liquid.linear, other[n].liquid.linear);
+            EXPECT_EQ(one[n].liquid.angular, other[n].liquid.angular);
+        }
+    }
+}
+
+FabricPiece sheet(const Vec3& origin, int nodes, double spacing)
+{
+    FabricPiece piece = testing::pieceOf(clothGrid({{nodes, nodes}, {spacing, spacing}, origin}), testing::wool(), {0.03, 0.03});
+    piece.material.frictionAngle = 0.5;
+    return piece;
+}
+
+PinGroup pinsAt(std::vector<int> vertices)
+{
+    PinGroup pins;
+    pins.vertices = std::move(vertices);
+    return pins;
+}
+
+class ForcesOf : public ::testing::TestWithParam<FabricSolver> {
+ protected:
+    Scene scene() const
+    {
+        Scene scene;
+        scene.name = "forces";
+        scene.settings.cell = 0.25;
+        scene.settings.fabric.solver = GetParam();
+        scene.settings.time.mode = TimeMode::Fixed;
+        scene.settings.time.dt = 1.0e-3;
+        scene.settings.porous.fibreDiameter = 0.01;
+        return scene;
+    }
+};
+
+/// A towel that hangs from two groups of pins.
+TEST_P(ForcesOf, PinsCarryAWetTowel)
+{
+    Scene wet = scene();
+    FabricPiece towel = testing::pieceOf(clothGrid({{13, 13}, {0.25, 0.25}, Vec3(0.0, 5.0, 0.0), Vec3::UnitX(), -Vec3::UnitY()}), testing::wool(), {0.05, 0.05});
+    towel.material.dampingViscosity = 2000.0;
+    towel.wetness = 0.7;
+    towel.pins = {pinsAt({0, 1, 2, 3}), pinsAt({9, 10, 11, 12})};
+    wet.fabrics = {towel};
+    wet.settings.time.dt = 2.0e-3;
+    Simulation simulation(wet);
+    Vec3 mean[2] = {Vec3::Zero(), Vec3::Zero()};
+    constexpr int kSteps = 600, kFrom = 400;
+    for (int step = 0; step < kSteps; ++step) {
+        const ClosedStep closed(simulation);
+        ASSERT_LT(closed.error, kExact * closed.exchanged);
+        for (int group = 0; group < 2 && step >= kFrom; ++group) mean[group] += simulation.forces().pins[group].linear / simulation.forces().dt;
+    }
+    double mass = 0.0;
+    for (std::size_t v = 0; v < simulation.fabric().vertexCount(); ++v) mass += simulation.fabric().mass[v] + simulation.state().fabric.absorbed[v];
+    const double weight = mass * kEarthGravity * (kSteps - kFrom);
+    EXPECT_LT(((mean[0] + mean[1]) / weight + Vec3::UnitY()).norm(), 1.0e-3);
+    EXPECT_NEAR(mean[0].y() / mean[1].y(), 1.0, 0.02);
+    EXPECT_GT(mean[0].x(), 0.0);  // the towel pulls its corners together
+    EXPECT_LT(mean[1].x(), 0.0);
+}
+
+/// A slug of water flies against a sheet that pins hold.
+TEST_P(ForcesOf, ASheetInASlugDragsItByWhatItLoses)
+{
+    Scene slug = scene();
+    slug.settings.gravity.setZero();
+    FabricPiece cloth = sheet(Vec3(-1.0, 0.0, -1.0), 17, 0.125);
+    std::vector<int> border;
+    for (int v = 0; v < 17 * 17; ++v)
+        if (v % 17 == 0 || v % 17 == 16 || v / 17 == 0 || v / 17 == 16) border.push_back(v);
+    cloth.pins = {pinsAt(border)};
+    slug.fabrics = {cloth};
+    SourceSettings water;
+    water.shape = Shape::ball(Vec3(0.0, 0.9, 0.0), 0.7);
+    Emission emission;
+    emission.velocity = Vec3(20.0, -80.0, 0.0);
+    water.emissions.push_back(emission);
+    slug.sources.push_back(water);
+    Simulation simulation(slug);
+    double largest = 0.0;
+    for (int step = 0; step < 30; ++step) {
+        const Vec3 before = momentumOfLiquid(simulation), fabricBefore = momentumOfFabric(simulation);
+        const ClosedStep closed(simulation);
+        EXPECT_LT(closed.error, kExact * closed.exchanged + 1.0e-13 * before.norm());
+        const Forces& forces = simulation.forces();
+        const Vec3 lost = before - momentumOfLiquid(simulation), got = forces.fabrics[0].liquid.linear;
+        EXPECT_LT((lost - got).norm(), kExact * std::max(got.norm(), 1.0)) << step << ": " << lost.transpose() << " | " << got.transpose();
+        EXPECT_LT((momentumOfFabric(simulation) - fabricBefore - got + forces.pins[0].linear).norm(), kExact * std::max(got.norm(), 1.0));
+        largest = std::max(largest, got.norm());
+    }
+    EXPECT_GT(largest, 1.0);
+}
+
+/// Fabric that is not solved for holds liquid up all the same: what that loses is somebody's.
+TEST(Forces, CloseAroundFabricThatIsNotSolvedFor)
+{
+    Scene scene = tankScene(kPoly8, 0.5, {10.0, 14.0, 10.0}, {1.0, 6.0, 1.0}, {9.0, 9.0, 9.0});
+    scene.settings.fabric.solver = FabricSolver::Off;
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = 1.0e-3;
+    scene.settings.porous.fibreDiameter = 0.01;
+    scene.fabrics = {sheet(Vec3(1.0, 2.5, 1.0), 13, 0.25)};
+    Simulation simulation(scene);
+    for (int step = 0; step < 20; ++step) {
+        const ClosedStep closed(simulation);
+        EXPECT_LT(closed.error, kExact * closed.exchanged);
+    }
+    EXPECT_GT(simulation.forces().balance.unresolved.norm() + simulation.forces().balance.borne.norm(), 0.0);
+}
+
+/// A sheet falls on a ball, another one on it.
+TEST_P(ForcesOf, ContactPushesBothSides)
+{
+    Scene pile = scene();
+    pile.fabrics = {sheet(Vec3(-0.8, 0.1, -0.8), 9, 0.2), sheet(Vec3(-0.6, 0.18, -0.6), 7, 0.2)};
+    pile.obstacles.push_back(obstacle("ball", Shape::ball(Vec3(0.0, -1.0, 0.0), 1.0)));
+    Simulation simulation(pile);
+    Vec3 onBall = Vec3::Zero(), onTop = Vec3::Zero();
+    double weight = 0.0, above = 0.0;
+    constexpr int kSteps = 300, kFrom = 100;
+    for (int step = 0; step < kSteps; ++step) {
+        const ClosedStep closed(simulation);
+        ASSERT_LT(closed.error, kExact * closed.exchanged);
+        const Forces& forces = simulation.forces();
+        EXPECT_LT((forces.obstacles[0].contact + forces.fabrics[0].contact + forces.fabrics[1].contact).linear.norm(), kExact * closed.exchanged);
+        EXPECT_LT((forces.obstacles[0].contact + forces.fabrics[0].contact + forces.fabrics[1].contact).angular.norm(), 10.0 * kExact * closed.exchanged);
+        if (step < kFrom) continue;
+        onBall += forces.obstacles[0].contact.linear;
+        onTop += forces.fabrics[1].contact.linear;
+        weight += forces.balance.weight.norm();
+    }
+    for (std::size_t v = 0; v < simulation.fabric().vertexCount(); ++v)
+        if (simulation.fabric().pieceOf(static_cast<int>(v)) == 1) above += simulation.fabric().mass[v];
+    EXPECT_LT((onBall + weight * Vec3::UnitY()).norm(), 0.01 * weight);
+    EXPECT_LT((onTop / (above * kEarthGravity * (kSteps - kFrom) * pile.settings.time.dt) - Vec3::UnitY()).norm(), 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, ForcesOf, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
+                         [](const auto& tested) { return tested.param == FabricSolver::Grid ? "grid" : "vertex"; });
+
+}  // namespace
+}  // namespace sim::test
