@@ -350,7 +350,8 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     energy.toParticles(dt, pushed);
 
     const WeightSums weights = weightSums(particles, settings.gravity);
-    work.momentum.liquidMoved(sums.momentum, weights.mass * fallTime(settings.time, state, dt) * settings.gravity, work.onSolids, work.pushedSolids);
+    const Vec3 weight = weights.mass * fallTime(settings.time, state, dt, plan.meetsFabric) * settings.gravity;
+    work.momentum.liquidMoved(sums.momentum, weight, work.onSolids, work.pushedSolids);
     report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
     report.liquidMass = weights.mass;
     report.particles = particles.count;
