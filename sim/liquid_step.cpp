@@ -145,7 +145,7 @@ void correct(State& state, const Settings& settings, Workspace& work, bool isMix
 {
     const BlockGrid& grid = state.grid;
     const double strength = std::min(kLargestShare, settings.liquid.volume.rate * state.uncorrected);
-    report.volume = correctVolume(grid, work.obstacleField, work.pressure, settings.gravity, work.grid, strength, settings.solver.maxIterations,
+    report.volume = correctVolume(grid, work.obstacleField, work.pressure, settings.gravity, work.grid, strength, settings.solver,
                                   work.volume);
     state.uncorrected = 0.0;
     findUnheldFaces(grid, work.obstacleField, work.free);

@@ -2,11 +2,14 @@
 
 #include "sim/core/parallel.h"
 
+#include <algorithm>
+
 namespace sim {
 
 namespace {
 
-constexpr double kReflectionTolerance = 1.0e-3;  ///< of the solve: it moves second-order errors only
+/// Of the solve: it moves second-order errors only; less where pressures are asked for to less than 1e-6.
+double reflectionTolerance(const SolverSettings& solver) { return std::min(1.0e-3, 1.0e3 * solver.pressureTolerance); }
 
 }  // namespace
 
@@ -18,7 +21,7 @@ SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const
     parallelFor(grid.count(), 8,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     const SolveReport report =
-        pressure.solver.solveAgain(grid, pressure.matrix, work.rhs, kReflectionTolerance, solver.maxIterations, work.potential);
+        pressure.solver.solveAgain(grid, pressure.matrix, work.rhs, reflectionTolerance(solver), solver.maxIterations, work.potential);
 
     work.velocity = liquid.faces.velocity;
     parallelFor(grid.count(), 2, [&](std::size_t n) {

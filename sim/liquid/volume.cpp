@@ -9,7 +9,8 @@ namespace sim {
 
 namespace {
 
-constexpr double kVolumeTolerance = 1.0e-2;  ///< of the solve: what is left is corrected next time
+/// Of the solve: what is left is corrected next time; less where pressures are asked for to less than 1e-6.
+double volumeTolerance(const SolverSettings& solver) { return std::min(1.0e-2, 1.0e4 * solver.pressureTolerance); }
 constexpr double kFillBelowSurface =
     0.8;  ///< of cells beside surface cells, at least, while the liquid is in one piece
 constexpr double kLargestError =
@@ -74,7 +75,7 @@ void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const 
 }  // namespace
 
 SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const Vec3& gravity,
-                          const LiquidGrid& liquid, double strength, int maxIterations, VolumeWorkspace& work)
+                          const LiquidGrid& liquid, double strength, const SolverSettings& solver, VolumeWorkspace& work)
 {
     work.potential.resize(grid.count());
     work.displacement.resize(grid.count());
@@ -82,7 +83,7 @@ SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles,
                 [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     findSources(grid, obstacles, gravity, liquid, strength, pressure.rhs);
     const SolveReport report =
-        pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, kVolumeTolerance, maxIterations, work.potential);
+        pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, volumeTolerance(solver), solver.maxIterations, work.potential);
     displaceFaces(grid, obstacles, pressure, work);
     return report;
 }

@@ -19,6 +19,6 @@ inline constexpr double kLargestCorrection = 0.2;
 /// @param gravity   whose direction tells ceilings, from which liquid may come off
 /// @param strength  share of the error that is corrected at once [0..1]
 SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const Vec3& gravity,
-                          const LiquidGrid& liquid, double strength, int maxIterations, VolumeWorkspace& work);
+                          const LiquidGrid& liquid, double strength, const SolverSettings& solver, VolumeWorkspace& work);
 
 }  // namespace sim

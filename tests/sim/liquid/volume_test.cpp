@@ -44,7 +44,7 @@ TEST(Volume, CellsExpandByWhatTheyHoldTooMuchAndHolesClose)
         GridScene scene = tank();
         scene.liquid.fill.block(scene.at(cell).block)[scene.at(cell).cell] = fill;
         VolumeWorkspace work;
-        EXPECT_TRUE(correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, 100, work).converged);
+        EXPECT_TRUE(correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work).converged);
         const double expected = kStrength * (fill - 1.0);
         scene.forEachCell([&](const Vec3i& c) {
             if (!scene.isInside(c)) return;
@@ -61,7 +61,7 @@ TEST(Volume, OfThinPlacesAtTheSurfaceIsLeftAlone)
     for (int j = 6; j < 8; ++j)
         scene.liquid.fill.block(scene.at({4, j, 4}).block)[scene.at({4, j, 4}).cell] = j == 7 ? 0.3 : 0.85;
     VolumeWorkspace work;
-    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, 100, work);
+    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work);
     scene.forEachFace([&](int a, const Vec3i& c) {
         EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0);
     });
@@ -83,7 +83,7 @@ TEST(Volume, WhatComesOffACeilingIsNotPulledBackToIt)
         scene.project(1.0e-3);
         const Vec3 gravity(unit(random), n % 2 == 0 ? 1.01 + unit(random) : -1.01 - unit(random), unit(random));
         VolumeWorkspace work;
-        correctVolume(scene.grid, scene.field, scene.work, gravity, scene.liquid, kStrength, 100, work);
+        correctVolume(scene.grid, scene.field, scene.work, gravity, scene.liquid, kStrength, SolverSettings(), work);
         double largest = 0.0;
         scene.forEachFace([&](int a, const Vec3i& c) {
             largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell]));
@@ -100,7 +100,7 @@ TEST(Volume, NothingMovesFartherThanTheLargestCorrection)
         if (scene.isInside(c)) scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell] = 50.0;
     });
     VolumeWorkspace work;
-    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, 1.0, 100, work);
+    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, 1.0, SolverSettings(), work);
     double largest = 0.0;
     scene.forEachFace([&](int a, const Vec3i& c) {
         largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell]));
