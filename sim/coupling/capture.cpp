@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kDrunk = 0.73, kUntouched = 0.9;  ///< distances (LiquidAround) of liquid that fabric drinks from, and no more does [cells]
+constexpr double kDrunk = 0.73, kUntouched = 0.9;  ///< distances (LiquidAround) of liquid that fabric drinks from, and no more [cells]
 constexpr double kLeastShare = 1.0e-3;  ///< of the nominal mass, below which a particle gives all it has (model-fluid 9.1) [-]
 
 }  // namespace
@@ -129,10 +129,12 @@ double Capture::wet(const SortedVertices& vertices, FabricState& state)
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                 const Pack& cell = around_.cell(b, c);
                 // Of what is asked of the cell it gives all, or as much as it has.
-                if (cell[LiquidAround::kMass] > 0.0) got += wanted_[v] / around_.massAt(v) * weight / std::max(1.0, cell[LiquidAround::kDemand]) * cell;
+                if (cell[LiquidAround::kMass] > 0.0)
+                    got += wanted_[v] / around_.massAt(v) * weight / std::max(1.0, cell[LiquidAround::kDemand]) * cell;
             });
             got_[v] = got[LiquidAround::kMass];
-            give(v, got[LiquidAround::kMass], {got[LiquidAround::kMomentum], got[LiquidAround::kMomentum + 1], got[LiquidAround::kMomentum + 2]}, state);
+            constexpr int kFirst = LiquidAround::kMomentum;
+            give(v, got[LiquidAround::kMass], {got[kFirst], got[kFirst + 1], got[kFirst + 2]}, state);
         });
     });
     return parallelSum(got_.size(), [&](std::size_t v) { return got_[v]; });

@@ -141,7 +141,8 @@ void FabricOnFaces::spread(const FabricState& state)
         parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
     }
     particlesToFaces(particles, vertices_.order, grid(), scatter_, sums_);
-    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &narrowing, &solid, &shape, &squares}) u->resize(grid().count());
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &narrowing, &solid, &shape, &squares})
+        u->resize(grid().count());
     parallelFor(grid().count(), 8, [&](std::size_t i) {
         const int b = static_cast<int>(i);
         std::copy_n(sums_.sums.block(b, FaceFields::kMass), kAxes * kBlockCells, mass.block(b));

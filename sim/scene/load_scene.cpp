@@ -12,6 +12,7 @@
 #include "sim/scene/unread_settings.h"
 #include "sim/shapes/thickness.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -142,6 +143,24 @@ void readSettings(const Node& root, Settings& settings, std::vector<NamedMateria
     checkCohesion(root, settings);
 }
 
+/// Tells of cloth between whose vertices liquid slips: what solver grid holds is in them, and reaches 1.5 cells.
+void noteWideMeshes(Scene& scene)
+{
+    if (scene.settings.fabric.solver != FabricSolver::Grid) return;
+    constexpr double kCells = 1.25;
+    const double cell = scene.settings.cell;
+    for (const FabricPiece& piece : scene.fabrics) {
+        double area = 0.0;  // twice that of the faces [cm^2]
+        for (const Vec3i& f : piece.faces) area += (piece.points[f[1]] - piece.points[f[0]]).cross(piece.points[f[2]] - piece.points[f[0]]).norm();
+        if (piece.faces.empty()) continue;
+        const double spacing = std::sqrt(area / static_cast<double>(piece.faces.size()));  // of a square grid: two faces to a square
+        if (spacing < kCells * cell) continue;
+        scene.notes.push_back(fmt::format("{}: vertices of fabric {} are {:.2g} cm apart, {:.2g} cells: with solver grid liquid slips between them; "
+                                          "a finer mesh, a grid.cell of {:.2g} cm or solver vertex would hold it",
+                                          piece.where, piece.name, spacing, spacing / cell, spacing));
+    }
+}
+
 /// Tells of walls between which and the liquid the grid sees little.
 void noteThinWalls(Scene& scene)
 {
@@ -176,7 +195,10 @@ Scene readScene(const SceneFile& file)
     for (const FabricPiece& piece : scene.fabrics) scene.notes.insert(scene.notes.end(), piece.notes.begin(), piece.notes.end());
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());
-    if (!scene.sources.empty()) noteThinWalls(scene);
+    if (!scene.sources.empty()) {
+        noteThinWalls(scene);
+        noteWideMeshes(scene);
+    }
     noteUnreadSettings(root, scene);
     checkCoupling(scene);
     scene.changes = readChanges(root, scene);

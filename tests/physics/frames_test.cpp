@@ -102,7 +102,8 @@ TEST_P(Frames, ThatMapTheGridToItselfSeeTheSame)
     const Mat3 quarter = turned(0.5 * kPi, Vec3::UnitY()).array().round(), tipped = turned(0.5 * kPi, Vec3::UnitX()).array().round();
     const Mat3 mirror = Vec3(-1.0, 1.0, 1.0).asDiagonal(), upside = Vec3(1.0, -1.0, -1.0).asDiagonal();
     const Frame frames[] = {{Mat3::Identity(), cell * Vec3(3, -2, 5)}, {Mat3::Identity(), cell * Vec3(-64, 8, 1)}, {quarter, Vec3::Zero()},
-                            {tipped, Vec3::Zero()}, {mirror, Vec3::Zero()}, {upside, Vec3::Zero()}, {tipped * quarter * mirror, cell * Vec3(1, 2, 3)}};
+                            {tipped, Vec3::Zero()}, {mirror, Vec3::Zero()}, {upside, Vec3::Zero()},
+                            {tipped * quarter * mirror, cell * Vec3(1, 2, 3)}};
     for (const Frame& frame : frames) {
         SCOPED_TRACE(::testing::PrintToString(frame.turn) + ::testing::PrintToString(frame.shift.transpose()));
         const Seen there = runIn(GetParam(), frame, until);
@@ -143,10 +144,13 @@ grid: {cell: 0.23}
 gravity: [3.3, -981, 1.7]
 porous: {fibre_diameter: 0.0113, volume_fraction: 0.37}
 materials: {wool: {young: 6.6e+6, poisson: 0.35, density: 1.32, damping_viscosity: 1.0e+3, friction_angle: 29}}
-liquid: {density: 0.97, viscosity: 0.0087, surface_tension: 71.3, surface_tension_force: true, sources: [{name: drop, shape: {ball: {center: [0.11, 0.83, -0.07], radius: 0.61}}, velocity: [1.3, -83, 7.1]}]}
+liquid:
+  {density: 0.97, viscosity: 0.0087, surface_tension: 71.3, surface_tension_force: true,
+   sources: [{name: drop, shape: {ball: {center: [0.11, 0.83, -0.07], radius: 0.61}}, velocity: [1.3, -83, 7.1]}]}
 obstacles: [{name: floor, shape: {box: {min: [-3.1, -1.9, -2.7], max: [3.3, -0.21, 2.9]}}}]
 fabrics:
-  - {name: sheet, cloth_grid: {material: wool, nodes: [11, 11], spacing: 0.17, origin: [-0.85, 0.011, -0.85], u: [1, 0, 0], v: [0, 0, 1], radius: 0.0165}}
+  - {name: sheet, cloth_grid: {material: wool, nodes: [11, 11], spacing: 0.17, origin: [-0.85, 0.011, -0.85], u: [1, 0, 0], v: [0, 0, 1],
+                               radius: 0.0165}}
 )", si = R"(drench: 1
 units: si
 time: {dt: 7.0e-4, duration: 0.01}
@@ -154,10 +158,13 @@ grid: {cell: 0.0023}
 gravity: [0.033, -9.81, 0.017]
 porous: {fibre_diameter: 0.000113, volume_fraction: 0.37}
 materials: {wool: {young: 6.6e+5, poisson: 0.35, density: 1320, damping_viscosity: 1.0e+2, friction_angle: 29}}
-liquid: {density: 970, viscosity: 0.00087, surface_tension: 0.0713, surface_tension_force: true, sources: [{name: drop, shape: {ball: {center: [0.0011, 0.0083, -0.0007], radius: 0.0061}}, velocity: [0.013, -0.83, 0.071]}]}
+liquid:
+  {density: 970, viscosity: 0.00087, surface_tension: 0.0713, surface_tension_force: true,
+   sources: [{name: drop, shape: {ball: {center: [0.0011, 0.0083, -0.0007], radius: 0.0061}}, velocity: [0.013, -0.83, 0.071]}]}
 obstacles: [{name: floor, shape: {box: {min: [-0.031, -0.019, -0.027], max: [0.033, -0.0021, 0.029]}}}]
 fabrics:
-  - {name: sheet, cloth_grid: {material: wool, nodes: [11, 11], spacing: 0.0017, origin: [-0.0085, 0.00011, -0.0085], u: [1, 0, 0], v: [0, 0, 1], radius: 0.000165}}
+  - {name: sheet, cloth_grid: {material: wool, nodes: [11, 11], spacing: 0.0017, origin: [-0.0085, 0.00011, -0.0085], u: [1, 0, 0], v: [0, 0, 1],
+                               radius: 0.000165}}
 )";
     const auto hashAfter = [](const std::string& text) {
         Simulation simulation(readScene(sceneFileFromText(text, "units.yaml")));

@@ -47,7 +47,8 @@ double uptake(FabricSolver solver, int nodes, double cell, bool isYarns)
     Scene scene = sceneOf(solver, cell, 5.0e-4);
     scene.sources.push_back(source(Shape::ball(Vec3(0.0, 1.2, 0.0), 1.0), Vec3(0.0, -100.0, 0.0)));
     const double spacing = 3.0 / (nodes - 1);
-    if (!isYarns) scene.fabrics.push_back(piece(clothGrid({{nodes, nodes}, {spacing, spacing}, Vec3(-1.5, 0.0, -1.5), Vec3::UnitX(), Vec3::UnitZ()}), {0.0165, 0.018}));
+    const FabricGeometry square = clothGrid({{nodes, nodes}, {spacing, spacing}, Vec3(-1.5, 0.0, -1.5), Vec3::UnitX(), Vec3::UnitZ()});
+    if (!isYarns) scene.fabrics.push_back(piece(square, {0.0165, 0.018}));
     for (int n = 0; n < 15 && isYarns; ++n) {
         const double x = 0.2 * (n - 7);
         scene.fabrics.push_back(piece(strand(Vec3(x, 0.0, -1.5), Vec3(x, 0.0, 1.5), nodes - 1), {0.05, 0.05}));

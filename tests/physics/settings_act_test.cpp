@@ -83,6 +83,7 @@ const std::map<std::string, Ground> kGrounds = {
     {"transfer.keep.fabric_velocity", {kWet, {kGridSolver}, "0.5"}},
     {"transfer.keep_dt", {kPool, {kDamped}, "step"}},
     {"transfer.damp_modes", {kPool, {kDamped}}},
+    {"coupling.capture.compat_factor", {kWet, {"coupling.capture.law=published"}, "1"}},
     {"coupling.wicking.rate_scale", {kWet, {}, "0.5"}},
     {"coupling.cohesion.strength", {kWet, {}, "0.01"}},
     {"coupling.cohesion.fabric", {kWet, {"coupling.cohesion.strength=0.01"}}},

@@ -68,6 +68,7 @@ Scene splashScene(const Units& unit, FabricSolver solver)
     liquid.surfaceTension *= unit.tension();
     liquid.surfaceTensionForce = true;
     liquid.volume.rate /= unit.time;
+    scene.settings.coupling.capture.rate /= unit.time;
     scene.settings.transfer.keepDt *= unit.time;
     scene.settings.porous.fibreDiameter *= L;
     SourceSettings drop;

@@ -58,6 +58,7 @@ TEST_P(WetTwist, KeepsItsMomentumWhileYarnTakesUpWater)
     scene.settings.fabric.solver = GetParam();
     scene.settings.coupling.wicking.rateScale = 0.0;
     scene.settings.coupling.drip = false;
+    scene.settings.coupling.capture.rate = 100.0;  // 1/s: half full after five steps
     scene.fabrics.push_back(testing::pieceOf(strand(Vec3(-0.4, 0.0, 0.0), Vec3(0.4, 0.0, 0.0), 4), testing::wool(), {0.05, 0.05}));
     SourceSettings drop;
     drop.name = "drop";

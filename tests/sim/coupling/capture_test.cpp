@@ -234,7 +234,8 @@ TEST(LiquidAround, TellsHowFarLiquidIs)
         Pool pool(kCell, place);
         if (isWalled) {
             Obstacles walls;
-            walls.add(Shape::unite({Shape::box(Vec3(0.0, -9.0, 0.0), Vec3::Constant(9.0)), Shape::box(Vec3(-9.0, 0.0, 0.0), Vec3::Constant(9.0))}), {});
+            const Shape floor = Shape::box(Vec3(0.0, -9.0, 0.0), Vec3::Constant(9.0)), side = Shape::box(Vec3(-9.0, 0.0, 0.0), Vec3::Constant(9.0));
+            walls.add(Shape::unite({floor, side}), {});
             walls.moveTo(0.0, 0.0);
             const std::vector<int> unknown(pool.liquid.grid.count(), BlockGrid::kNone);
             pool.none.update(pool.liquid.grid, unknown, walls, false);

@@ -12,7 +12,8 @@ namespace {
 constexpr double kDrop = 2.0e-4;  // g
 
 struct Towel {
-    explicit Towel(const FabricPiece& piece) : settings(coarse()), fabric(testing::fabricOf(piece)), elements(fabric), drip(fabric, elements, settings, kDrop)
+    explicit Towel(const FabricPiece& piece)
+        : settings(coarse()), fabric(testing::fabricOf(piece)), elements(fabric), drip(fabric, elements, settings, kDrop)
     {
         state.fabric = restState(fabric);
         state.liquid.modeCount = 8;

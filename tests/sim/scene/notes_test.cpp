@@ -52,6 +52,21 @@ TEST(Notes, SayNothingOfThickWallsVesselsAndScenesWithoutLiquid)
     EXPECT_TRUE(notesOf(plate("lid", 0.1), false).empty());
 }
 
+TEST(Notes, NameClothWhoseVerticesAreFartherApartThanCellsOfSolverGrid)
+{
+    const auto notes = [](const std::string& solver, double spacing, double cell) {
+        const std::string grid = fmt::format("grid: {{cell: {}}}\nfabric: {{solver: {}}}\n", cell, solver);
+        const std::string cloth = fmt::format("fabrics: [{{name: sheet, cloth_grid: {{material: thread, nodes: [9, 9], spacing: {}, radius: 0.02}}}}]\n",
+                                              spacing);
+        return sim::readScene(sim::sceneFileFromText(grid + kPool + "materials: {thread: {young: 1.0e+6}}\n" + cloth, "wide.yaml")).notes;
+    };
+    const std::vector<std::string> wide = notes("grid", 0.25, 0.125);
+    ASSERT_EQ(1u, wide.size());
+    EXPECT_NE(std::string::npos, wide[0].find("vertices of fabric sheet are 0.25 cm apart, 2 cells")) << wide[0];
+    EXPECT_TRUE(notes("grid", 0.25, 0.25).empty());
+    EXPECT_TRUE(notes("vertex", 0.25, 0.125).empty());
+}
+
 TEST(Notes, ASourceThatIsAskedForNothingSaysSo)
 {
     const auto notes = [](const std::string& source) {
