@@ -202,6 +202,12 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     }
 }
 
+/// Does anything go by the liquid that vertices see?
+bool asksForLiquidAround(const CouplingSettings& coupling)
+{
+    return coupling.capture.rate > 0.0 || (coupling.drag != DragLaw::Off && coupling.dragFraction == DragFraction::Fabric);
+}
+
 /// What solids get of the liquid on its faces, now that these have the velocities that particles will read.
 void tellSolids(const State& state, const Settings& settings, double dt, const LiquidPlan& plan, const GatherSettings& gather, Workspace& work)
 {
@@ -264,7 +270,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         clock.start(Stage::Capture);
         work.coupling->vertices.sort(grid, state.fabric);
         plan.meetsFabric = !work.coupling->vertices.empty() &&
-                           work.coupling->around.find(grid, work.order, particles, work.obstacleField, work.coupling->vertices);
+                           (!asksForLiquidAround(settings.coupling) ||
+                            work.coupling->around.find(grid, work.order, particles, work.obstacleField, work.coupling->vertices));
         if (plan.meetsFabric) {
             const ExchangeWatch watch(work.coupling->fabric, state, &work.order);
             work.coupling->twist.note(work.coupling->fabric, state.fabric);

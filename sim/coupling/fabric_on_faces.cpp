@@ -13,7 +13,9 @@ namespace sim {
 namespace {
 
 constexpr double kRoundOff = 1.0e-12;  ///< relative [-]
-constexpr double kFelt = 0.56, kUnfelt = 0.63;  ///< distances (LiquidAround) of liquid that fabric feels whole, and not at all [cells]
+/// Distances (LiquidAround) of a flat surface that the vertex is on, and that is a tenth of a cell away: up to the first liquid drags fabric
+/// fully, from the second on not at all [cells]. Below those of uptake, so that fabric that is carried ahead of liquid drinks from it.
+constexpr double kFullDrag = 0.56, kNoDrag = 0.63;
 
 /// Normal to a triangle, as long as twice its area [cm^2].
 Vec3 doubleArea(const std::vector<Vec3>& x, const Vec3i& f) { return (x[f[1]] - x[f[0]]).cross(x[f[2]] - x[f[0]]); }
@@ -156,7 +158,7 @@ void FabricOnFaces::spread(const FabricState& state)
     findVolumes(state);
     if (around_) {
         scatter([&](int v) { return Vec3::Constant(envelopeOf_[v]); }, envelope);
-        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * touchedPart(around_->distanceAt(v), kFelt, kUnfelt)); }, touched);
+        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * touchedPart(around_->distanceAt(v), kFullDrag, kNoDrag)); }, touched);
     }
     takeMean(shapeOf_, isOneShape_, shape);
     if (around_ && hasYarns_) {
