@@ -172,6 +172,18 @@ void keepMomentum(const Settings& settings, const BlockGrid& grid, bool isMixed,
     takeMeans(grid, work.pressure, work.grid, change, work.free, velocity);
 }
 
+/// May what holds liquid move?
+bool isFrameMoving(bool isMixed, const Workspace& work) { return isMixed || work.obstacles.anyMoving(); }
+
+/// Cells of the liquid that solids and fabric hold, and how fast these move.
+void findHeld(const State& state, bool isMixed, Workspace& work)
+{
+    findHeldCells(state.grid, work.pressure, work.grid, work.free);
+    if (!isFrameMoving(isMixed, work)) return;
+    const Vec3 ofFabric = isMixed ? meanVelocity(work.coupling->fabric, state.fabric) : Vec3(Vec3::Zero());
+    findFrames(state.grid, work.obstacleField, work.pressure, work.grid, ofFabric, work.free);
+}
+
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
 void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
            EnergyBook& energy)
@@ -252,7 +264,8 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
     LiquidParticles& particles = state.liquid;
     BlockGrid& grid = state.grid;
 
-    work.obstacles.moveTo(state.time, state.time + dt);
+    // Particles are outside the solids where these are when the step begins.
+    work.obstacles.startAt(state.time, state.time + dt);
 
     clock.start(Stage::Sort);
     sortParticles(particles, grid, scene.domain ? &*scene.domain : nullptr, work.order, state.ledger);
@@ -321,7 +334,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     clock.start(Stage::Pressure);
     if (plan.isMixed) work.coupling->mixture.takeDisplaced(work.grid);
     keepMomentum(settings, grid, plan.isMixed, work, work.grid.faces.velocity);
-    if (settings.time.reflects()) findHeldCells(grid, work.pressure, work.grid, work.free);
+    if (settings.time.reflects()) findHeld(state, plan.isMixed, work);
     if (plan.reflects) {
         clock.start(Stage::Reflection);
         report.reflection = reflect(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, work.reflection);
@@ -343,11 +356,13 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     if (!work.obstacles.empty()) keepPlaces(particles, work.places);
     if (plan.reflects) gather.reflected = &work.reflection.velocity;
     if (settings.time.reflects()) gather.atMidpoint = &work.free.held;
+    if (settings.time.reflects() && isFrameMoving(plan.isMixed, work)) gather.frames = work.free.frames.data();
     GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gather, work.gather, particles);
     PushedOut pushed;
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
     report.maxSpeed = plan.reflects ? along : held;
     if (!work.obstacles.empty()) {
+        work.obstacles.moveTo(state.time, state.time + dt);
         const double farthest = std::max(held, along) * dt + (plan.relaxes ? work.relaxReach : 0.0) +
                                 (plan.corrects ? std::sqrt(3.0) * kLargestCorrection * grid.dx : 0.0);
         pushed = pushOutOfObstacles(work.order, grid, work.obstacleField, work.obstacles, farthest, &work.places, particles,

@@ -126,6 +126,18 @@ FabricState restState(const Fabric& fabric);
 /// The same at the pieces' velocities and wetness; what is pinned stands still.
 FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces, double liquidDensity = 1.0);
 
+/// Of all vertices, by their dry masses [cm/s].
+inline Vec3 meanVelocity(const Fabric& fabric, const FabricState& state)
+{
+    Vec3 momentum = Vec3::Zero();
+    double mass = 0.0;
+    for (std::size_t v = 0; v < state.v.size(); ++v) {
+        momentum += fabric.mass[v] * state.v[v];
+        mass += fabric.mass[v];
+    }
+    return momentum / mass;
+}
+
 /// Volume of the pores of a vertex [cm^3]: its share of the envelope less that of the fibres (model-fluid 9).
 inline double poreVolume(const Fabric& fabric, std::size_t v)
 {

@@ -60,7 +60,7 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     slot_.assign(grid.count() + 1, kOpenSlot);
     nearSolid_.clear();
     if (obstacles.empty()) return;
-    if (obstacles.anyMoving() && !anyMoved_) {
+    if (obstacles.anyDisplaced() && !anyMoved_) {
         anyMoved_ = true;
         wallVelocity_.resize(slotCount_);
     }
@@ -82,7 +82,7 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     for (int b : toCompute_)
         if (isNear(grid, b, obstacles, Obstacles::Which::All)) slot_[b] = takeSlot();
     for (int b = 0; b < grid.count(); ++b) {
-        const bool reached = obstacles.anyMoving() && isNear(grid, b, obstacles, Obstacles::Which::Moving);
+        const bool reached = obstacles.anyDisplaced() && isNear(grid, b, obstacles, Obstacles::Which::Displaced);
         const bool wasReached = slot_[b] != kOpenSlot && touchedByMoving_[slot_[b]] != 0;
         if (!reached && !wasReached) continue;
         if (slot_[b] == kOpenSlot) slot_[b] = takeSlot();

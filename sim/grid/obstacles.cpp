@@ -7,9 +7,9 @@ namespace sim {
 
 void Obstacles::add(const Shape& shape, const Motion& motion)
 {
-    Body body{shape, motion, {}, {}, {}, false};
+    Body body{shape, motion, {}, {}, {}};
     body.now = motion.transform(0.0);
-    body.before = body.now;
+    body.other = body.now;
     body.toShape = body.now.inverse();
     bodies_.push_back(std::move(body));
     const auto box = motion.isStatic() ? shape.axisBox() : std::nullopt;
@@ -20,15 +20,40 @@ void Obstacles::add(const Shape& shape, const Motion& motion)
     }
 }
 
+void Obstacles::startAt(double t0, double t1)
+{
+    begin(t0, t1);
+    place(t1, t0);
+}
+
 void Obstacles::moveTo(double t0, double t1)
 {
-    anyMoving_ = false;
-    interval_ = t1 - t0;
+    begin(t0, t1);
+    place(t0, t1);
+}
+
+/// Find what moves in a step. A step may be begun again.
+void Obstacles::begin(double t0, double t1)
+{
+    if (started_ != t0) {
+        startedBefore_ = std::min(started_, t0);
+        started_ = t0;
+    }
+    anyMoving_ = anyDisplaced_ = false;
     for (Body& body : bodies_) {
         body.moving = body.motion.moves(t0, t1);
+        body.displaced = body.motion.moves(startedBefore_, t1);
         anyMoving_ = anyMoving_ || body.moving;
-        body.before = body.motion.transform(t0);
-        body.now = body.motion.transform(t1);
+        anyDisplaced_ = anyDisplaced_ || body.displaced;
+    }
+}
+
+void Obstacles::place(double there, double now)
+{
+    interval_ = now - there;
+    for (Body& body : bodies_) {
+        body.other = body.motion.transform(there);
+        body.now = body.motion.transform(now);
         body.toShape = body.now.inverse();
     }
 }
@@ -58,7 +83,7 @@ bool Obstacles::reach(const Vec3& x, double halfEdge, double within, Which which
 {
     constexpr int kHalvings = 3;
     return std::ranges::any_of(bodies_, [&](const Body& body) {
-        return (which == Which::All || body.moving) && reaches(body.shape, body.toShape, x, halfEdge, within, kHalvings);
+        return (which == Which::All || body.displaced) && reaches(body.shape, body.toShape, x, halfEdge, within, kHalvings);
     });
 }
 
@@ -125,7 +150,7 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
 std::optional<Obstacles::Contact> Obstacles::firstContact(const Way& way, const Vec3& to, double resolution) const
 {
     return meet(to, resolution, [&](const Body& body) {
-        Vec3 x = body.moving ? Vec3(body.before.inverse() * way.start_) : Vec3(body.toShape * way.start_);
+        Vec3 x = body.moving ? Vec3(body.other.inverse() * way.start_) : Vec3(body.toShape * way.start_);
         for (int n = 0; n < way.count_; ++n) x += way.legs_[n].share * (body.toShape * way.legs_[n].to - x);
         return x;
     });
@@ -141,7 +166,7 @@ double Obstacles::farthestMove(const Vec3& x, double halfEdge) const
     double farthest = 0.0;
     for (const Body& body : bodies_) {
         if (!body.moving) continue;
-        const Eigen::Isometry3d move = body.now * body.before.inverse();
+        const Eigen::Isometry3d move = body.now * body.other.inverse();
         for (int n = 0; n < 8; ++n) {
             const Vec3 corner = x + halfEdge * Vec3(n & 1 ? 1 : -1, n & 2 ? 1 : -1, n & 4 ? 1 : -1);
             farthest = std::max(farthest, (move * corner - corner).norm());
@@ -153,8 +178,8 @@ double Obstacles::farthestMove(const Vec3& x, double halfEdge) const
 Vec3 Obstacles::velocity(const Vec3& x) const
 {
     const Body* body = nearestBody(x);
-    if (body == nullptr || !body->moving || interval_ <= 0.0) return Vec3::Zero();
-    return (x - body->before * (body->toShape * x)) / interval_;
+    if (body == nullptr || !body->moving || interval_ == 0.0) return Vec3::Zero();
+    return (x - body->other * (body->toShape * x)) / interval_;
 }
 
 std::optional<int> planeOfFaces(const BlockGrid& grid, const Obstacles::Wall& wall)

@@ -5,6 +5,7 @@
 #include "sim/shapes/shape.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,15 +16,18 @@ class Obstacles {
  public:
     void add(const Shape& shape, const Motion& motion);
 
-    /// Put everything where it is at time t1 [s]; velocities are the displacement since t0 per time.
+    /// Put everything where it is at t0 [s], when a step begins; velocities are the displacement until t1 per time.
+    void startAt(double t0, double t1);
+    /// Put everything where it is at t1 [s], when a step ends; velocities are the displacement since t0 per time.
     void moveTo(double t0, double t1);
 
     bool empty() const { return bodies_.empty(); }
     int count() const { return static_cast<int>(bodies_.size()); }
-    bool anyMoving() const { return anyMoving_; }  ///< between t0 and t1 of the last moveTo
+    bool anyMoving() const { return anyMoving_; }        ///< in the step of the last call of those
+    bool anyDisplaced() const { return anyDisplaced_; }  ///< … or in the step before it
 
     double distance(const Vec3& x) const;          ///< to the nearest solid [cm], negative inside; infinite without any
-    enum class Which { All, Moving };
+    enum class Which { All, Displaced };
     /// Does a solid come nearer than `within` to some place of the cube around x [cm]? Rather yes than no: as if it were a ball, and for meshes
     /// a little more.
     bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
@@ -78,18 +82,24 @@ class Obstacles {
     struct Body {
         Shape shape;
         Motion motion;
-        Eigen::Isometry3d now, toShape, before;
-        bool moving = false;
+        Eigen::Isometry3d now, toShape;
+        Eigen::Isometry3d other;  ///< at the other end of the step
+        bool moving = false;     ///< in this step
+        bool displaced = false;  ///< in this step or the one before
     };
     const Body* nearestBody(const Vec3& x) const;
     template <class Start>
     std::optional<Contact> meet(const Vec3& to, double resolution, Start&& start) const;
 
+    void begin(double t0, double t1);
+    void place(double there, double now);
+
     std::vector<Body> bodies_;
     std::vector<Wall> walls_;
-    double movedTo_ = 0.0;
-    bool anyMoving_ = false;
-    double interval_ = 0.0;
+    bool anyMoving_ = false, anyDisplaced_ = false;
+    double started_ = std::numeric_limits<double>::infinity();  ///< when the last step began [s] …
+    double startedBefore_ = 0.0;                                ///< … and the one before it
+    double interval_ = 0.0;                                     ///< from the other end of the step until now [s]
 };
 
 /// Number of the plane of faces that a wall stands in, counted from cell 0; nothing if it stands between two.

@@ -145,6 +145,43 @@ Vec3 meanOf(const Body& body)
     return body.sum.cwiseQuotient(body.mass.cwiseMax(std::numeric_limits<double>::min()));
 }
 
+/// Add the velocity of the solids on the lower faces of a block's cells to what holds the bodies there.
+void addHolders(const Fields& fields, const ObstacleField& obstacles, int b, std::vector<FreeLiquid::Holder>& holders)
+{
+    const BitAccess access(fields.grid, b);
+    for (int a = 0; a < kAxes; ++a)
+        for (int k = 0; k < kBlockEdge; ++k) {
+            const std::uint64_t inside = fields.liquid.inside.block(b)[k] | access.below(fields.liquid.inside, 0, a, k);
+            for (std::uint64_t left = inside & ~fields.work.unheld.block(b, a)[k]; left != 0; left &= left - 1) {
+                const int c = 64 * k + std::countr_zero(left);
+                if (obstacles.open(b, a)[c] >= 1.0) continue;
+                const Vec3 velocity(obstacles.wallVelocity(b, 0)[c], obstacles.wallVelocity(b, 1)[c], obstacles.wallVelocity(b, 2)[c]);
+                for (int body : fields.bodiesOf(b, a, c)) {
+                    if (body < 0) continue;
+                    holders[body].velocity += velocity;
+                    ++holders[body].faces;
+                }
+            }
+        }
+}
+
+/// Mean of what holds the bodies in a block, by their cells, and the number of these cells.
+FreeLiquid::Holder holderIn(const Fields& fields, int b)
+{
+    FreeLiquid::Holder sum;
+    const int one = fields.components().ofBlock(b);
+    if (one >= 0) return {fields.work.holders[one].velocity, 1};
+    if (one == -1) return sum;
+    for (int c = 0; c < kBlockCells; ++c) {
+        const int body = fields.components().of(b, c);
+        if (body < 0 || !fields.work.bodies[body].isHeld) continue;
+        sum.velocity += fields.work.holders[body].velocity;
+        ++sum.faces;
+    }
+    if (sum.faces > 0) sum.velocity /= sum.faces;
+    return sum;
+}
+
 void shiftBlock(const Fields& fields, int b)
 {
     const int one = fields.bodyOf(b);
@@ -194,6 +231,26 @@ void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const L
     if (std::ranges::all_of(work.bodies, [](const Body& body) { return body.isHeld; })) return;
     findSums(fields, work.ofBlock, work.bodies);
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t b) { shiftBlock(fields, static_cast<int>(b)); });
+}
+
+void findFrames(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const LiquidGrid& liquid,
+                const Vec3& otherwise, FreeLiquid& work)
+{
+    const Fields fields{grid, pressure, liquid, liquid.faces.velocity, work, work.change};
+    work.holders.assign(fields.components().count(), {});
+    for (int b : obstacles.blocksNearSolid()) addHolders(fields, obstacles, b, work.holders);
+    for (FreeLiquid::Holder& holder : work.holders) holder.velocity = holder.faces > 0 ? Vec3(holder.velocity / holder.faces) : otherwise;
+    work.frames.resize(grid.count());
+    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
+        FreeLiquid::Holder sum = holderIn(fields, static_cast<int>(n));
+        if (sum.faces == 0)
+            for (int neighbour : grid.neighbours(static_cast<int>(n))) {
+                const FreeLiquid::Holder beside = neighbour == grid.count() ? FreeLiquid::Holder{} : holderIn(fields, neighbour);
+                if (beside.faces == 0) continue;
+                sum.velocity += (beside.velocity - sum.velocity) / ++sum.faces;
+            }
+        work.frames[n] = sum.velocity;
+    });
 }
 
 void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work)

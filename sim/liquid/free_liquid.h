@@ -17,6 +17,13 @@ struct FreeLiquid {
     BlockBits<3> unheld;            ///< faces on which there is nothing that holds liquid
     std::vector<Body> bodies;       ///< by their number among all components
     std::vector<Body> ofBlock;      ///< sums over blocks that belong to one body
+    /// What holds a body.
+    struct Holder {
+        Vec3 velocity = Vec3::Zero();  ///< its mean over the faces of the body that solids are on [cm/s]; until all are known, their sum
+        int faces = 0;
+    };
+    std::vector<Holder> holders;    ///< of the bodies
+    std::vector<Vec3> frames;       ///< velocities of what holds the liquid of each block, and of the next blocks where it has none [cm/s]
     BlockBits<> inHeld, inFree;     ///< cells of bodies that something holds, and of others
     BlockBits<> held;               ///< cells in and beside those that something holds, but not in others
     BlockArray<double, 3> change;   ///< of velocities, by what acts within the liquid [cm/s]
@@ -31,6 +38,12 @@ void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, Free
 /// @param others  on the faces, of values' unit; may be the values
 void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
                FreeLiquid& work, BlockArray<double, 3>& values);
+
+/// Once it is known which bodies are held: how fast that moves which holds them, by blocks. What flows past a solid that moves does so as
+/// it would past the same solid at rest.
+/// @param otherwise  velocity of what else holds bodies on which there is no solid [cm/s]
+void findFrames(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const LiquidGrid& liquid,
+                const Vec3& otherwise, FreeLiquid& work);
 
 /// Once it is known what holds which body: the cells of those that are held.
 void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);

@@ -36,6 +36,7 @@ struct Context {
     const GatherTile* flipTile;  ///< of the old velocities, or null
     const GatherTile* displacementTile;  ///< or null
     int modes;                   ///< N_r
+    Vec3 frame;                  ///< in which particles move by the midpoint rule [cm/s]
 };
 
 struct LaneSums {
@@ -109,8 +110,10 @@ template <int kAxis>
     Coefficients<2> c[3];
     unroll<3>([&](auto a) { contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c[a]); });
     const double half = 0.5 * ctx.settings.dt / ctx.dx;
+    Pack past[3];
+    for (int a = 0; a < kAxes; ++a) past[a] = c[a][0][0][0] - ctx.frame[a];
     for (int a = 0; a < kAxes; ++a)
-        path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * c[0][0][0][0] + c[a][0][1][0] * c[1][0][0][0] + c[a][0][0][1] * c[2][0][0][0]);
+        path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * past[0] + c[a][0][1][0] * past[1] + c[a][0][0][1] * past[2]);
 }
 
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
@@ -259,7 +262,8 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
                               settings.reflected ? moving : tile,
                               settings.flipVelocity ? &flipTile : nullptr,
                               settings.faceDisplacement ? &displacementTile : nullptr,
-                              settings.modes};
+                              settings.modes,
+                              settings.frames ? settings.frames[block] : Vec3(Vec3::Zero())};
             if (kModes == 27 && settings.modes == 27)
                 scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(order, block, box, ctx);
             else

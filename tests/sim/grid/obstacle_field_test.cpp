@@ -234,9 +234,11 @@ TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
     std::mt19937 random(4);
     BlockGrid grid;
     ObstacleField field;
-    for (int step = 0; step < 24; ++step) {
-        const double t = step / 20.0;
-        obstacles.moveTo(t, t + 0.05);
+    for (int step = 0; step < 48; ++step) {
+        const double t = step % 24 / 20.0;
+        if (step < 24) obstacles.moveTo(t, t + 0.05);
+        else obstacles.startAt(t, t + 0.05);
+        if (step == 24) field = {};
         std::vector<Vec3i> blocks;
         for (int x = -3; x < 5; ++x)
             for (int y = -1; y < 2; ++y)

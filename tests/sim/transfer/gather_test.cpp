@@ -114,6 +114,27 @@ TEST(Midpoint, IsExactInAffineFieldsWhereItIsAskedFor)
     }
 }
 
+/// What moves by the midpoint rule in a frame that goes along goes as it does in one at rest, and as far as that has gone.
+TEST(Midpoint, IsThatOfTheFrameInWhichItIsTaken)
+{
+    const double dt = 0.05;
+    Transfers resting(randomLiquid(2000, 8)), carried(randomLiquid(2000, 8));
+    const std::vector<Vec3> frames(carried.grid().count(), Vec3(3.0, -7.0, 2.0));
+    resting.setVelocities([&](int axis, int b, int c) { return affine(faceMiddle(resting.grid(), axis, b, c))[axis]; });
+    carried.setVelocities([&](int axis, int b, int c) { return (affine(faceMiddle(carried.grid(), axis, b, c)) + frames[0])[axis]; });
+    BlockBits<> everywhere;
+    everywhere.resize(carried.grid().count());
+    for (int b = 0; b < carried.grid().count(); ++b) std::fill_n(everywhere.block(b), BlockBits<>::kWords, ~std::uint64_t{0});
+    GatherSettings settings;
+    settings.dt = dt;
+    settings.atMidpoint = &everywhere;
+    resting.toParticles(settings);
+    settings.frames = frames.data();
+    carried.toParticles(settings);
+    for (std::size_t p = 0; p < carried.liquid.particles.count; ++p)
+        EXPECT_LT((carried.liquid.particles.position(p) - resting.liquid.particles.position(p) - dt * frames[0]).norm(), 1e-13);
+}
+
 TEST(Damping, ScalesAllModesButTheMean)
 {
     const double keep = 0.37;
