@@ -2,6 +2,7 @@
 #include "app/obstacle_meshes.h"
 #include "app/parts.h"
 #include "app/read_picture_settings.h"
+#include "app/unread_pictures.h"
 #include "app/view/viewer.h"
 #include "sim/scene/load_scene.h"
 #include "sim/simulation.h"
@@ -20,6 +21,8 @@ SceneContents contentsOf(const sim::Scene& scene)
         contents.cloth = contents.cloth || !piece.faces.empty();
     }
     contents.liquid = !scene.sources.empty() || !contents.fabric();
+    contents.obstacles = !scene.obstacles.empty();
+    contents.rooms = std::ranges::any_of(scene.obstacles, &sim::ObstacleSettings::inside);
     return contents;
 }
 
@@ -30,6 +33,7 @@ SceneSetup loadScene(const SceneRequest& request)
     setup.scene = sim::readScene(file);
     setup.pictures = readPictureSettings(file);
     setup.pictures.contents = contentsOf(setup.scene);
+    for (const std::string& note : unreadPictureNotes(file.root, setup.pictures)) setup.scene.notes.push_back(note);
     setup.validation = readValidation(file, setup.scene);
     setup.precision = readPrecision(file, setup.scene);
     const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);

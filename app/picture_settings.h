@@ -103,6 +103,7 @@ struct CompareSettings {
 /// What there is to draw in the scene that the settings belong to.
 struct SceneContents {
     bool liquid = true, yarns = false, cloth = false;
+    bool obstacles = true, rooms = true;    ///< rooms: of the obstacles some are `inside: true`
     bool fabric() const { return yarns || cloth; }
 };
 

@@ -63,6 +63,7 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
       capacity_(poreCapacity(fabric, density_)),
       leastSubsteps_(settings.solver.wickingSubsteps),
       rate_(elements.size()),
+      filling_(elements.size()),
       flow_(elements.size()),
       carried_(elements.size())
 {
@@ -141,6 +142,8 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
         const int corners = elements_.corners(e);
         Slopes slopes;
         if (!isWetElement_[e] || !findSlopes(state.x, v, slopes)) return;
+        filling_[e] = 0.0;
+        for (int c = 0; c < corners; ++c) filling_[e] += state.absorbed[v[c]] / fabric_.volume[v[c]] / corners;
         Vec3 body = density_ * gravity, force = Vec3::Zero();
         for (int c = 0; c < corners; ++c) {
             body -= density_ / corners * acceleration_[v[c]];
@@ -157,18 +160,24 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
     });
 }
 
+/// Of what flows out of a corner [g/cm^3]: that of the element, so that its speed depends on no direction of the mesh, but no more than there is.
+double Wicking::fillingOf(std::size_t e, int v, const FabricState& state) const
+{
+    return std::min(filling_[e], state.absorbed[v] / fabric_.volume[v]);
+}
+
 /// No vertex gives more than it has.
-void Wicking::limitDonors(double h)
+void Wicking::limitDonors(double h, const FabricState& state)
 {
     parallelFor(part_.size(), kGrain, [&](std::size_t v) {
         if (!isActive_[v]) return;
-        double out = 0.0;  // share of what is there
+        double out = 0.0;  // [g]
         for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
             const int e = elements_.at[i];
             for (int c = 0; c < elements_.corners(e); ++c)
-                if (elements_.vertices[e][c] == static_cast<int>(v)) out += h * std::max(rate_[e][c], 0.0) / fabric_.volume[v];
+                if (elements_.vertices[e][c] == static_cast<int>(v)) out += h * std::max(rate_[e][c], 0.0) * fillingOf(e, static_cast<int>(v), state);
         }
-        part_[v] = out > 1.0 ? 1.0 / out : 1.0;
+        part_[v] = out > state.absorbed[v] ? state.absorbed[v] / out : 1.0;
     });
 }
 
@@ -176,7 +185,7 @@ void Wicking::transport(double h, FabricState& state)
 {
     const auto leaves = [&](std::size_t e, int c) {
         const int v = elements_.vertices[e][c];
-        return part_[v] * h * std::max(rate_[e][c], 0.0) / fabric_.volume[v] * state.absorbed[v];
+        return part_[v] * h * std::max(rate_[e][c], 0.0) * fillingOf(e, v, state);
     };
     parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
         if (!isWetElement_[e]) return;
@@ -232,7 +241,7 @@ void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const 
         findActive(state);
         findHeads(grid, pressure, state);
         findFlow(gravity, state);
-        limitDonors(h);
+        limitDonors(h, state);
         transport(h, state);
     }
 }

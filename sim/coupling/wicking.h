@@ -34,7 +34,8 @@ class Wicking {
     double pressureAt(const Vec3& x, const BlockGrid& grid, const BlockArray<double>& pressure) const;
     void findHeads(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state);
     void findFlow(const Vec3& gravity, const FabricState& state);
-    void limitDonors(double h);
+    double fillingOf(std::size_t e, int v, const FabricState& state) const;
+    void limitDonors(double h, const FabricState& state);
     void transport(double h, FabricState& state);
 
     const Fabric& fabric_;
@@ -52,6 +53,7 @@ class Wicking {
     std::vector<std::uint8_t> isWetElement_, isActive_;  ///< of each element: holds liquid; of each vertex: ends one that does
     std::vector<double> head_;                    ///< of each vertex: suction less the pressure of the liquid around it [dyn/cm^2]
     std::vector<std::array<double, 3>> rate_;     ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
+    std::vector<double> filling_;                 ///< of each element: mean of its corners [g/cm^3]
     std::vector<double> part_;                    ///< of what would flow out of each vertex, that it has [-]
     std::vector<double> flow_;                    ///< through an element, over its inflow's rate [g s/cm^3]
     std::vector<Vec3> carried_;                   ///< momentum of that [g/cm^2]

@@ -37,7 +37,6 @@ constexpr double kFractionOnce = 0.7;         ///< … or than this once asks fo
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 1000;
 constexpr double kMuchGain = 0.1;  ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
-constexpr int kMostTurns = 8;                 ///< of solids and of pairs in limiting a move
 
 }  // namespace
 
@@ -138,53 +137,6 @@ double VertexSolver::rmsInRadii(std::span<const Vec3> move) const
     return std::sqrt(sum / totalMass_);
 }
 
-/// Makes move_ safe.
-void VertexSolver::limit(const FabricState& state, FabricReport& report, StageClock& clock)
-{
-    if (!contact_) return;
-    const LimitReport before = limits_;
-    limitInTurn(state, clock);
-    report.listBuilds += limits_.listBuilds - before.listBuilds;
-    report.scalings += limits_.scalings - before.scalings;
-}
-
-/// Makes move_ safe from solids; did they change it?
-bool VertexSolver::keepFromSolids(const FabricState& state)
-{
-    if (guard_.empty() || !forces_) return guard_.limit(state.x, mass_, move_, guarded_);
-    unguarded_ = move_;
-    if (!guard_.limit(state.x, mass_, move_, guarded_)) return false;
-    parallelFor(move_.size(), 4096, [&](std::size_t v) { guardMove_[v] += move_[v] - unguarded_[v]; });
-    return true;
-}
-
-/// Solids and pairs of fabric each change what the other has left safe, until one has nothing more to change.
-void VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
-{
-    guardActed_ = false;
-    if (forces_ && !guard_.empty()) guardMove_.assign(move_.size(), Vec3::Zero());
-    for (int turn = 0; turn < kMostTurns; ++turn) {
-        clock.start(Stage::FabricContact);
-        const bool isChanged = keepFromSolids(state);
-        guardActed_ = guardActed_ || isChanged;
-        if (!isChanged && turn > 0) return;
-        contact_->limit(state.x, move_, limits_, clock);
-        if (!guard_.isNear()) return;
-    }
-    clock.start(Stage::FabricContact);
-    const double part = guard_.safePart(state.x, move_);
-    if (part >= 1.0) return;
-    // A part of each straight move is as safe, if solids rest.
-    if (guard_.anyMoves()) {
-        ++guarded_.left;
-        keepFromSolids(state);
-        return;
-    }
-    constexpr double kSpare = 0.95;
-    parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSpare * part; });
-    ++limits_.scalings;
-}
-
 /// Moves the fabric by move_.
 void VertexSolver::commit(FabricState& state, StageClock& clock)
 {
@@ -203,8 +155,8 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
 
 /// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin next to where they are:
 /// twist is so stiff and light that its rate tells little of where it will be, that of a halved step nothing; from there Newton wound up
-/// the free ends of yarns, a little in every step.
-void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+/// the free ends of yarns, a little in every step. False if the attempt should be redone in halves.
+bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
 {
     start_ = state;
     startEnergies_ = energies(start_, gravity);
@@ -223,16 +175,14 @@ void VertexSolver::begin(double t, double h, const Vec3& gravity, FabricState& s
     system_.shells().startStep(state.x);
     predict(t, h, gravity, state);
     obstacles_.moveTo(t, t + h);
-    guard_.moveTo(t, t + h);
     if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
 
-    limit(state, report, clock);
-    commit(state, clock);
-    guard_.rest();
+    if (!followSolids(t, h, isLast, state, report, clock)) return false;
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
         state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn);
     });
     turnHeldEdges(t + h, state);
+    return true;
 }
 
 /// What touches at x.
@@ -343,7 +293,7 @@ void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newt
 
 bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
 {
-    begin(t, h, gravity, state, report, clock);
+    if (!begin(t, h, gravity, isLast, state, report, clock)) return false;
     Newton newton;
     iterate(t, h, gravity, newton, state, report, clock);
 

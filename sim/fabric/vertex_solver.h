@@ -59,7 +59,7 @@ class VertexSolver {
     /// One attempt at a step; false if it should be redone in halves.
     bool attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
     void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
-    void begin(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    bool begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
     void predict(double t, double h, const Vec3& gravity, const FabricState& state);
     void look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
     void lookAgain(double h, FabricState& state, StageClock& clock);
@@ -68,9 +68,10 @@ class VertexSolver {
     void take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
     void commit(FabricState& state, StageClock& clock);
     double rmsInRadii(std::span<const Vec3> move) const;
-    void limit(const FabricState& state, FabricReport& report, StageClock& clock);
-    void limitInTurn(const FabricState& state, StageClock& clock);
-    bool keepFromSolids(const FabricState& state);
+    bool followSolids(double t, double h, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
+    bool limit(const FabricState& state, FabricReport& report, StageClock& clock);
+    bool limitInTurn(const FabricState& state, StageClock& clock);
+    SolidGuard::Limited keepFromSolids(const FabricState& state);
     void turnHeldEdges(double t, FabricState& state) const;
     void findRates(double h, FabricState& state) const;
     void finish(double h, FabricState& state);

@@ -79,7 +79,7 @@ double packingOf(FillSettings::Pattern pattern);
 /// Pitch of the pattern [cm].
 double particleSpacing(const FillSettings& fill, double dx);
 
-/// r* of model-fluid 5.1: what merging, relaxation and drawing take for the radius of a particle [cm].
+/// r* of model-fluid 5.1: what relaxation and drawing take for the radius of a particle [cm].
 double nominalRadius(const FillSettings& fill, double dx);
 
 /// The least distance between two particles of the pattern [cm]; 0 for a jittered lattice.

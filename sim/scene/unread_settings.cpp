@@ -71,20 +71,6 @@ bool isOf(std::string_view path, std::string_view pattern)
     return isPrefix ? path.starts_with(pattern) : path == pattern;
 }
 
-/// Where the file gives it; of what may be given for both phases, as one value, too. nullptr where it does not.
-const Node* nodeAt(const Node& root, std::string_view path)
-{
-    const Node* node = &root;
-    while (!path.empty() && node) {
-        const std::size_t dot = std::min(path.find('.'), path.size());
-        const Node* next = node->find(path.substr(0, dot));
-        if (!next && path == "liquid" && node->isScalar()) return node;
-        node = next;
-        path.remove_prefix(std::min(dot + 1, path.size()));
-    }
-    return node;
-}
-
 /// What pieces, sources and solids are given in vain.
 void noteUnreadOfBodies(Scene& scene)
 {
@@ -106,19 +92,36 @@ void noteUnreadOfBodies(Scene& scene)
     }
 }
 
-/// Of a file with variants or methods one run may leave unread what another reads.
-bool isOfSeveralRuns(const Node& root)
+}  // namespace
+
+const Node* nodeAt(const Node& root, std::string_view path)
 {
-    const Node* compare = root.find("compare");
-    return (compare && compare->find("variants")) || root.find("precision");
+    const Node* node = &root;
+    while (!path.empty() && node) {
+        const std::size_t dot = std::min(path.find('.'), path.size());
+        const Node* next = node->find(path.substr(0, dot));
+        if (!next && path == "liquid" && node->isScalar()) return node;
+        node = next;
+        path.remove_prefix(std::min(dot + 1, path.size()));
+    }
+    return node;
 }
 
-}  // namespace
+bool isOfThisRun(const Node& root, const Node& given)
+{
+    const Node* compare = root.find("compare");
+    const bool isShared = (compare && compare->find("variants")) || root.find("precision");
+    return !isShared || !given.place.source || !given.place.source->numbered;  // of the command line
+}
+
+std::string unreadNote(const Node& given, std::string_view path, std::string_view lacking)
+{
+    return fmt::format("{}: {}: has no effect here; it goes with {}", given.place.text(), path, lacking);
+}
 
 void noteUnreadSettings(const Node& root, Scene& scene)
 {
     noteUnreadOfBodies(scene);
-    const bool isShared = isOfSeveralRuns(root);
     std::vector<Reader> readers;
     addFabricReaders(scene, readers);
     addLiquidReaders(scene, readers);
@@ -130,8 +133,7 @@ void noteUnreadSettings(const Node& root, Scene& scene)
         if (given[i].value == defaults[i].value) continue;
         const auto lacking = std::ranges::find_if(readers, [&](const Reader& r) { return !r.isThere && isOf(path, r.path); });
         const Node* node = lacking == readers.end() ? nullptr : nodeAt(root, path);
-        const bool isOfThisRun = node && (!isShared || !node->place.source || !node->place.source->numbered);  // of the command line
-        if (isOfThisRun) scene.notes.push_back(fmt::format("{}: {}: has no effect here; it goes with {}", node->place.text(), path, lacking->what));
+        if (node && isOfThisRun(root, *node)) scene.notes.push_back(unreadNote(*node, path, lacking->what));
     }
 }
 

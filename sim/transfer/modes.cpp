@@ -64,14 +64,6 @@ Modes toOrthogonal(const Basis& basis, const Modes& monomial)
     });
 }
 
-Modes shifted(const Vec3& by, const Modes& monomial)
-{
-    return alongEachAxis(monomial, [&](int axis, double& c0, double& c1, double& c2) {
-        c0 += by[axis] * (c1 + by[axis] * c2);
-        c1 += 2.0 * by[axis] * c2;
-    });
-}
-
 double meanOf(const Modes& monomial)
 {
     double mean = 0.0;

@@ -96,10 +96,6 @@ Modes toMonomials(const Basis& basis, const Modes& orthogonal);
 /// The inverse: monomials to orthogonal coefficients at the offset of `basis`.
 Modes toOrthogonal(const Basis& basis, const Modes& monomial);
 
-/// The same polynomial around a place that is `by` [cells] away: shifted(by, c) at z is c at z + by. Exact, and inside every set that
-/// storedModes names.
-Modes shifted(const Vec3& by, const Modes& monomial);
-
 /// Σ_r kMeanOfMode[r] c_r: the particle's velocity component.
 double meanOf(const Modes& monomial);
 

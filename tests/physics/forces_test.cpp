@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace sim::test {
 namespace {
 
@@ -194,6 +196,31 @@ TEST_P(ForcesOf, PinsCarryAWetTowel)
     EXPECT_NEAR(mean[0].y() / mean[1].y(), 1.0, 0.02);
     EXPECT_GT(mean[0].x(), 0.0);  // the towel pulls its corners together
     EXPECT_LT(mean[1].x(), 0.0);
+}
+
+/// A wet yarn that hangs straight from one pin, and one that sags between two. What stretches them swings, a hundredth as large every 1.4 s at the slowest:
+/// that is what is left.
+TEST_P(ForcesOf, PinsCarryWetYarnsAtRest)
+{
+    for (const bool sags : {false, true}) {
+        Scene wet = scene();
+        const Vec3 end = sags ? Vec3(1.5, 5.0, 0.0) : Vec3(0.0, 3.5, 0.0);
+        FabricPiece yarn = testing::pieceOf(strand(Vec3(0.0, 5.0, 0.0), end, 10), testing::wool(), {0.05, 0.05});
+        yarn.material.young = 1.0e6;
+        yarn.material.dampingViscosity = 1.0e5;
+        yarn.wetness = 0.7;
+        yarn.pins = {pinsAt(sags ? std::vector{0, 10} : std::vector{0})};
+        wet.fabrics = {yarn};
+        wet.settings.fabric.tolerance = 1.0e-12;
+        Simulation simulation(wet);
+        for (int step = 0; step < 3500; ++step) simulation.step(1.0e9);
+        const std::vector<double>& absorbed = simulation.state().fabric.absorbed;
+        const double water = std::accumulate(absorbed.begin(), absorbed.end(), 0.0),
+                     dry = std::accumulate(simulation.fabric().mass.begin(), simulation.fabric().mass.end(), 0.0);
+        EXPECT_GT(water, 0.5 * dry);
+        const Vec3 pull = simulation.forces().pins[0].linear / simulation.forces().dt;
+        EXPECT_LT((pull / ((dry + water) * kEarthGravity) + Vec3::UnitY()).norm(), 1.0e-8) << (sags ? "between two pins" : "from one");
+    }
 }
 
 /// A slug of water flies against a sheet that pins hold.

@@ -113,11 +113,11 @@ double GridFabricSolver::partWithoutGain(double limit, double h, const Vec3& gra
 }
 
 /// Along their velocities, but not through solids: what is stopped or carried by one has the velocity of where it got.
-void GridFabricSolver::moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report)
+void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report)
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * state.v[v]; });
     GuardReport guarded;
-    if (guard_.limit(state.x, mass_, move_, guarded)) {
+    if (guard_.limitInHalves(t, h, state.x, mass_, move_, guarded)) {
         move_.swap(wanted_);
         const Mechanical wanted = energyAfter(1.0, h, gravity, state);
         move_.swap(wanted_);
@@ -295,7 +295,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
-    moveVertices(h, gravity, state, report);
+    moveVertices(t, h, gravity, state, report);
     state.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
     else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);

@@ -62,7 +62,7 @@ class GridFabricSolver {
     };
     Mechanical energyAfter(double part, double h, const Vec3& gravity, const FabricState& state);
     double partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state);
-    void moveVertices(double h, const Vec3& gravity, FabricState& state, FabricReport& report);
+    void moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     void solve(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void meetUnforeseen(double h, double bearable, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);

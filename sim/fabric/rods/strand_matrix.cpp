@@ -94,7 +94,7 @@ void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pac
 {
     const Pack* band = packs(band_, group.firstRow * kBand);
     const int n = group.rows();
-    constexpr int kWidest = kBand - 1;
+    constexpr int kFarthest = kBand - 1;  // column that a row has, counted from its diagonal
     // A row has its lower part itself; its upper part is in the rows that follow.
     const auto row = [&](int r, int before, int after) __attribute__((always_inline)) {
         Pack lower = band[r * kBand] * x[r], upper{};
@@ -102,10 +102,10 @@ void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pac
         for (int k = 1; k <= after; ++k) upper += band[(r + k) * kBand + k] * x[r + k];
         y[r] = lower + upper;
     };
-    const int middleEnd = std::max(kWidest, n - kWidest);
-    for (int r = 0; r < std::min(n, kWidest); ++r) row(r, r, std::min(n - 1 - r, kWidest));
-    for (int r = kWidest; r < middleEnd; ++r) row(r, kWidest, kWidest);
-    for (int r = middleEnd; r < n; ++r) row(r, kWidest, n - 1 - r);
+    const int middleEnd = std::max(kFarthest, n - kFarthest);
+    for (int r = 0; r < std::min(n, kFarthest); ++r) row(r, r, std::min(n - 1 - r, kFarthest));
+    for (int r = kFarthest; r < middleEnd; ++r) row(r, kFarthest, kFarthest);
+    for (int r = middleEnd; r < n; ++r) row(r, kFarthest, n - 1 - r);
 }
 
 }  // namespace sim

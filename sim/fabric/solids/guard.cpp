@@ -18,9 +18,6 @@ constexpr double kKept = 0.85;        ///< what begins nearer keeps this share o
 constexpr double kStays = 1.0e-6;     ///< … and ends no nearer than it began, but for this share [-]
 constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
 constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
-constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
-constexpr int kHelped = 3;            ///< of those in which fabric goes with the solid, until what still fails is left to its pins
-constexpr double kDrawn = 0.5;        ///< towards the solid's own motion in one of them [-]
 
 /// Around all ways; without moves, around all places.
 Eigen::AlignedBox3d boxAround(std::span<const Vec3> x, std::span<const Vec3> u)
@@ -38,6 +35,7 @@ SolidGuard::SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> o
     for (const ObstacleSettings& obstacle : obstacles) {
         if (!obstacle.collide || obstacle.shape.empty()) continue;
         Body& body = bodies_.emplace_back();
+        body.name = obstacle.name;
         body.shape = obstacle.shape;
         body.motion = obstacle.motion;
         body.steepest = obstacle.shape.steepest();
@@ -292,83 +290,6 @@ const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
     }
     std::ranges::sort(nearest_, {}, [](const NearestPoint& p) { return std::pair(p.element, p.body); });
     return nearest_;
-}
-
-/// One after the other: approaches along the normal where an element is nearest become blows without bounce.
-void SolidGuard::push(Points x, std::span<const double> mass, Moves u) const
-{
-    for (const Blocked& b : blocked_) {
-        const Body& body = bodies_[b.body];
-        const SweptElement element = swept(body, x, u, b.vertices.data(), b.corners);
-        const Vec3 at = element.at(b.weights, b.part), n = body.shape.normal(at);
-        const double excess = b.lack - n.dot(element.at(b.weights, 1.0) - at);
-        double compliance = 0.0;
-        for (int c = 0; c < b.corners; ++c)
-            if (const int v = b.vertices[c]; !fabric_->pinned[v]) compliance += b.weights[c] * b.weights[c] / mass[v];
-        if (!(excess > 0.0) || compliance == 0.0) continue;
-        const Vec3 blow = excess / compliance * (body.end.linear() * n);
-        for (int c = 0; c < b.corners; ++c)
-            if (const int v = b.vertices[c]; !fabric_->pinned[v]) u[v] += b.weights[c] / mass[v] * blow;
-    }
-}
-
-/// Draws moves of what is blocked towards going with the solid.
-void SolidGuard::draw(Points x, double share, Moves u) const
-{
-    for (const Blocked& b : blocked_) {
-        const Body& body = bodies_[b.body];
-        for (int c = 0; c < b.corners; ++c) {
-            const int v = b.vertices[c];
-            if (!fabric_->pinned[v]) u[v] += share * (body.end * (body.toBegin * x[v]) - x[v] - u[v]);
-        }
-    }
-}
-
-/// Elements that come too near although all of them that can goes with the solid: their pins take them there.
-void SolidGuard::leaveToPins()
-{
-    for (const Blocked& b : blocked_)
-        if (isHeld(b.vertices.data(), b.corners)) isLeft_[b.element] = 1;
-}
-
-bool SolidGuard::limit(Points x, std::span<const double> mass, Moves u, GuardReport& report)
-{
-    isNear_ = false;
-    if (bodies_.empty()) return false;
-    findNear(x, u);
-    if (!isNear_) return false;
-    measure(x, u);
-    bool changed = slide(x, u);
-    for (int round = 0;; ++round) {
-        if (round > 0) findNear(x, u);
-        if (round > 0 || changed) measure(x, u);
-        findBlocked(x, u);
-        if (blocked_.empty()) return changed;
-        if (round == kPushes + kDraws + kCarries) break;
-        if (round == 0) report.blocked += static_cast<int>(blocked_.size());
-        changed = true;
-        if (round < kPushes) {
-            push(x, mass, u);
-            slide(x, u);
-        } else {
-            draw(x, round < kPushes + kDraws ? kDrawn : 1.0, u);
-            if (round >= kPushes + kDraws + kHelped) leaveToPins();
-        }
-    }
-    report.left += static_cast<int>(blocked_.size());
-    return changed;
-}
-
-double SolidGuard::safePart(Points x, std::span<const Vec3> u)
-{
-    if (bodies_.empty()) return 1.0;
-    findNear(x, u);
-    if (!isNear_) return 1.0;
-    measure(x, u);
-    findBlocked(x, u);
-    double part = 1.0;
-    for (const Blocked& b : blocked_) part = std::min(part, b.part);
-    return part;
 }
 
 }  // namespace sim

@@ -5,6 +5,7 @@
 #include "sim/scene/scene.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace sim {
@@ -12,7 +13,7 @@ namespace sim {
 /// What keeping moves in front of solids took.
 struct GuardReport {
     int blocked = 0;  ///< edges and faces whose moves had to be changed
-    int left = 0;     ///< … and that still get through or too near: they are squeezed between solids
+    int left = 0;     ///< … and that still got through or came too near: fabric then rests, or goes in halves of the time
 };
 
 /// Where an edge or a face touches a solid with none of its vertices.
@@ -42,10 +43,16 @@ class SolidGuard {
     void rest();
     bool anyMoves() const;
 
-    /// Makes the moves u from x safe [cm], but for those of pinned vertices.
+    enum class Limited { Unchanged, Changed, Unsafe };
+    /// Makes the moves u from x safe [cm], but for those of pinned vertices; Unsafe, which they are only while solids move, if it cannot.
     /// @param mass  of each vertex [g]
+    Limited limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
+    /// The same while solids go on for h from t [s], in halves of the time where that takes them: u becomes where fabric gets, not how.
     /// @return whether it changed any
-    bool limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
+    bool limitInHalves(double t, double h, std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
+    static constexpr int kMostHalvings = 8;  ///< one within the other
+    /// Ends the run: the last limit() has found no safe moves, in however short a time.
+    [[noreturn]] void refuse() const;
     /// Was any fabric near a solid, in the last limit()?
     bool isNear() const { return isNear_; }
     /// Points at which edges and faces are nearer to solids than their radius, and than their vertices, by elements, then by solids, which
@@ -56,6 +63,7 @@ class SolidGuard {
 
  private:
     struct Body {
+        std::string name;
         Shape shape;
         Motion motion;
         double steepest;                               ///< slope of its distance [-]
@@ -91,6 +99,7 @@ class SolidGuard {
     void collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
     void push(Points x, std::span<const double> mass, Moves u) const;
     void draw(Points x, double share, Moves u) const;
+    bool mayCarry();
 
     const Fabric* fabric_ = nullptr;
     std::vector<Body> bodies_;
@@ -101,6 +110,11 @@ class SolidGuard {
     std::vector<char> isLeft_;                         ///< of each element: pins draw it through a solid in this step
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
+    struct Carrier {
+        int body = -1, changes = 0;                    ///< with which solid it goes in this limit(), and how often that was another one before
+    };
+    std::vector<Carrier> carriers_;                    ///< of each vertex
+    std::vector<Vec3> at_, part_;                      ///< of each vertex, on its way in halves: its place and the next move [cm]
     std::vector<std::vector<NearestPoint>> nearestOfChunk_;
     std::vector<NearestPoint> nearest_;
 };

@@ -1,7 +1,6 @@
 // Momentum and energy through the transfers (model-fluid 4.6, T5 and T10 of 14).
 #include "sim/liquid/energy.h"
 #include "sim/particles/emit.h"
-#include "sim/particles/resample.h"
 #include "tests/sim/transfer/transfers.h"
 
 #include <gtest/gtest.h>
@@ -92,20 +91,16 @@ class ParticleSet : public ::testing::TestWithParam<int> {
     /// Mass and momentum on the faces after one P2G of these particles.
     struct Totals {
         double mass;
-        Vec3 momentum, center;
+        Vec3 momentum;
         double scale;
     };
     static Totals totals(Transfers& t)
     {
         t.liquid.sort();
         t.toFaces();
-        Totals sum{0.0, t.faceMomentum(), Vec3::Zero(), t.momentumScale()};
+        Totals sum{0.0, t.faceMomentum(), t.momentumScale()};
         const LiquidParticles& p = t.liquid.particles;
-        for (std::size_t s = 0; s < p.count; ++s) {
-            sum.mass += p.mass[s];
-            sum.center += p.mass[s] * p.position(s);
-        }
-        sum.center /= sum.mass;
+        for (std::size_t s = 0; s < p.count; ++s) sum.mass += p.mass[s];
         t.liquid.moveModesHome();
         return sum;
     }
@@ -114,19 +109,11 @@ class ParticleSet : public ::testing::TestWithParam<int> {
         EXPECT_NEAR(a.mass, b.mass, 1e-13 * b.mass);
         EXPECT_LT((a.momentum - b.momentum).norm(), 1e-13 * b.scale);
     }
-    static Transfers start(std::size_t count = 2000)
+    static Transfers start()
     {
-        Transfers t(randomLiquid(count, GetParam()));
+        Transfers t(randomLiquid(2000, GetParam()));
         t.liquid.moveModesHome();
         return t;
-    }
-    static ResampleSettings resampling(double nominalMass)
-    {
-        ResampleSettings settings;
-        settings.nominalMass = nominalMass;
-        settings.nominalRadius = 0.2041 * 0.288;
-        settings.dx = 0.288;
-        return settings;
     }
 };
 INSTANTIATE_TEST_SUITE_P(Modes, ParticleSet, ::testing::Values(1, 4, 8, 11, 27));
@@ -145,39 +132,6 @@ TEST_P(ParticleSet, SwappingParticlesChangesNothing)
         p.resize(p.count - 1);
     }
     expectSame(totals(t), before);
-}
-
-TEST_P(ParticleSet, SplittingKeepsMassMomentumAndCenter)
-{
-    Transfers t = start();
-    const Totals before = totals(t);
-    const std::size_t count = t.liquid.particles.count;
-    std::uint32_t nextId = static_cast<std::uint32_t>(count);
-    ResampleSettings settings = resampling(0.2);  // masses are 0.5 … 1.5: all are split, into 3 … 8
-    settings.mergeInterval = 1000000;
-    EXPECT_TRUE(needsResampling(t.liquid.particles, settings.nominalMass));
-    resample(settings, 1, t.liquid.particles, nextId);
-    EXPECT_GT(t.liquid.particles.count, 4 * count);
-    EXPECT_EQ(nextId, t.liquid.particles.count);
-    const Totals after = totals(t);
-    expectSame(after, before);
-    EXPECT_LT((after.center - before.center).norm(), 1e-13);
-}
-
-TEST_P(ParticleSet, MergingKeepsMassMomentumAndCenter)
-{
-    Transfers t = start(20000);
-    const Totals before = totals(t);
-    const std::size_t count = t.liquid.particles.count;
-    std::uint32_t nextId = static_cast<std::uint32_t>(count);
-    ResampleSettings settings = resampling(1.2);  // masses are 0.5 … 1.5: below 0.6 they go, above 1.32 they give
-    settings.mergeInterval = 2;
-    resample(settings, 1, t.liquid.particles, nextId);
-    EXPECT_LT(t.liquid.particles.count, count - 500);
-    EXPECT_EQ(nextId, count);
-    const Totals after = totals(t);
-    expectSame(after, before);
-    EXPECT_LT((after.center - before.center).norm(), 1e-13);
 }
 
 TEST_P(ParticleSet, DeletedParticlesAreInTheLedger)

@@ -127,22 +127,6 @@ TEST(PolyPicModes, MeanOfMonomialsIsTheOrthogonalMean)
     EXPECT_NEAR(mean, c[0], 1e-14);
 }
 
-TEST(PolyPicModes, ShiftedPolynomialsAreTheSameFromElsewhere)
-{
-    RandomOffsets offsets;
-    for (int stored : {1, 4, 8, 11, 27}) {
-        Modes c{};
-        for (int r = 0; r < stored; ++r) c[r] = std::cos(1.0 + r);
-        const Vec3 by = 3.0 * offsets.next();
-        const Modes moved = shifted(by, c);
-        for (int trial = 0; trial < 10; ++trial) {
-            const Vec3 z = 2.0 * offsets.next();
-            EXPECT_NEAR(evaluateModes(z, moved), evaluateModes(Vec3(z + by), c), 1e-12);
-        }
-        for (int r = stored; r < kMaxModes; ++r) EXPECT_EQ(moved[r], 0.0);
-    }
-}
-
 // Golden data of model-fluid 14.1, computed there independently (h = 0.288, offset (0.3, −0.2, 0.1)).
 TEST(PolyPicModes, GoldenGather)
 {

@@ -1,0 +1,149 @@
+#include "sim/core/check.h"
+#include "sim/fabric/solids/guard.h"
+#include "sim/fabric/solids/in_halves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+// What is done about moves that would take fabric through a solid: blows, then moves with the solid, then resting or halves of the time.
+
+namespace sim {
+
+using namespace solids;
+
+namespace {
+
+constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
+constexpr int kHelped = 3;            ///< of those in which fabric goes with the solid, until what still fails is left to its pins
+constexpr double kDrawn = 0.5;        ///< towards the solid's own motion in one of them [-]
+constexpr int kMostCarriers = 3;      ///< with which a vertex goes in turn; one that is torn to and fro longer has no straight way between them
+
+}  // namespace
+
+/// One after the other: approaches along the normal where an element is nearest become blows without bounce.
+void SolidGuard::push(Points x, std::span<const double> mass, Moves u) const
+{
+    for (const Blocked& b : blocked_) {
+        const Body& body = bodies_[b.body];
+        const SweptElement element = swept(body, x, u, b.vertices.data(), b.corners);
+        const Vec3 at = element.at(b.weights, b.part), n = body.shape.normal(at);
+        const double excess = b.lack - n.dot(element.at(b.weights, 1.0) - at);
+        double compliance = 0.0;
+        for (int c = 0; c < b.corners; ++c)
+            if (const int v = b.vertices[c]; !fabric_->pinned[v]) compliance += b.weights[c] * b.weights[c] / mass[v];
+        if (!(excess > 0.0) || compliance == 0.0) continue;
+        const Vec3 blow = excess / compliance * (body.end.linear() * n);
+        for (int c = 0; c < b.corners; ++c)
+            if (const int v = b.vertices[c]; !fabric_->pinned[v]) u[v] += b.weights[c] / mass[v] * blow;
+    }
+}
+
+/// Draws moves of what is blocked towards going with the solid.
+void SolidGuard::draw(Points x, double share, Moves u) const
+{
+    for (const Blocked& b : blocked_) {
+        const Body& body = bodies_[b.body];
+        for (int c = 0; c < b.corners; ++c) {
+            const int v = b.vertices[c];
+            if (!fabric_->pinned[v]) u[v] += share * (body.end * (body.toBegin * x[v]) - x[v] - u[v]);
+        }
+    }
+}
+
+/// Is what is blocked, and about to go with a solid, not torn to and fro between several?
+bool SolidGuard::mayCarry()
+{
+    bool may = true;
+    for (const Blocked& b : blocked_)
+        for (int c = 0; c < b.corners; ++c) {
+            Carrier& carrier = carriers_[b.vertices[c]];
+            carrier.changes += carrier.body != b.body;
+            carrier.body = b.body;
+            may = may && carrier.changes <= kMostCarriers;
+        }
+    return may;
+}
+
+/// Elements that come too near although all of them that can goes with the solid: their pins take them there.
+void SolidGuard::leaveToPins()
+{
+    for (const Blocked& b : blocked_)
+        if (isHeld(b.vertices.data(), b.corners)) isLeft_[b.element] = 1;
+}
+
+SolidGuard::Limited SolidGuard::limit(Points x, std::span<const double> mass, Moves u, GuardReport& report)
+{
+    isNear_ = false;
+    if (bodies_.empty()) return Limited::Unchanged;
+    findNear(x, u);
+    if (!isNear_) return Limited::Unchanged;
+    measure(x, u);
+    bool changed = slide(x, u);
+    for (int round = 0;; ++round) {
+        if (round > 0) findNear(x, u);
+        if (round > 0 || changed) measure(x, u);
+        findBlocked(x, u);
+        if (blocked_.empty()) return changed ? Limited::Changed : Limited::Unchanged;
+        if (round == kPushes + kDraws) carriers_.assign(x.size(), {});
+        if (round == kPushes + kDraws + kCarries || (round >= kPushes + kDraws && anyMoves() && !mayCarry())) break;
+        if (round == 0) report.blocked += static_cast<int>(blocked_.size());
+        changed = true;
+        if (round < kPushes) {
+            push(x, mass, u);
+            slide(x, u);
+        } else {
+            draw(x, round < kPushes + kDraws ? kDrawn : 1.0, u);
+            if (round >= kPushes + kDraws + kHelped) leaveToPins();
+        }
+    }
+    report.left += static_cast<int>(blocked_.size());
+    if (anyMoves()) return Limited::Unsafe;
+    for (std::size_t v = 0; v < u.size(); ++v)
+        if (!fabric_->pinned[v]) u[v].setZero();
+    return Limited::Changed;
+}
+
+bool SolidGuard::limitInHalves(double t, double h, Points x, std::span<const double> mass, Moves u, GuardReport& report)
+{
+    at_.assign(x.begin(), x.end());
+    bool changed = false;
+    const auto go = [&](double begin, double length) {
+        moveTo(begin, begin + length);
+        part_.assign(u.begin(), u.end());
+        for (Vec3& move : part_) move *= length / h;
+        const Limited limited = limit(at_, mass, part_, report);
+        if (limited == Limited::Unsafe) return false;
+        changed = changed || limited == Limited::Changed;
+        for (std::size_t v = 0; v < at_.size(); ++v) at_[v] += part_[v];
+        return true;
+    };
+    if (!inHalves(t, h, kMostHalvings, go)) refuse();
+    moveTo(t, t + h);
+    if (!changed) return false;
+    for (std::size_t v = 0; v < at_.size(); ++v) u[v] = at_[v] - x[v];
+    return true;
+}
+
+void SolidGuard::refuse() const
+{
+    std::string names;
+    for (const Body& body : bodies_)
+        if (body.isNear) names += (names.empty() ? "" : ", ") + body.name;
+    throw RunError(fmt::format("fabric among obstacles that move ({}) is pushed through one of them: more room between them or slower motion "
+                               "would do", names));
+}
+
+double SolidGuard::safePart(Points x, std::span<const Vec3> u)
+{
+    if (bodies_.empty()) return 1.0;
+    findNear(x, u);
+    if (!isNear_) return 1.0;
+    measure(x, u);
+    findBlocked(x, u);
+    double part = 1.0;
+    for (const Blocked& b : blocked_) part = std::min(part, b.part);
+    return part;
+}
+
+}  // namespace sim
