@@ -61,7 +61,8 @@ void exchange(State& state, const Settings& settings, const Vec3& gravity, Works
             clock.start(Stage::Drip);
             const std::size_t before = particles.count;
             const ExchangeWatch watch(coupling.fabric, state, nullptr);
-            report.drippedMass = coupling.drip.drip(state);
+            work.obstacles.moveTo(state.time, state.time + dt);
+            report.drippedMass = coupling.drip.drip(state, work.obstacles);
             watch.expectKept(Vec3::Zero());
             for (std::size_t p = before; p < particles.count; ++p) {
                 report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();

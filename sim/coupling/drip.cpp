@@ -52,7 +52,7 @@ Vec3 Drip::jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t n
 
 /// All that a pool has too much comes off, in drops of about the nominal mass.
 /// @return that [g]
-double Drip::drain(std::span<const Wet> pool, State& state) const
+double Drip::drain(std::span<const Wet> pool, const Obstacles& obstacles, State& state) const
 {
     FabricState& fabric = state.fabric;
     double mass = 0.0, over = 0.0;
@@ -65,21 +65,23 @@ double Drip::drain(std::span<const Wet> pool, State& state) const
         momentum += excess * fabric.v[w.vertex];
     }
     if (mass < kLeastDrop * nominalMass_ || (mass < nominalMass_ && !(over > 0.0))) return 0.0;
+    const Vec3 middle = moment / mass;
+    if (obstacles.distance(middle) < 0.0) return 0.0;
     for (const Wet& w : pool) fabric.absorbed[w.vertex] -= excess_[w.vertex];
     const int count = std::max(1, static_cast<int>(std::lround(mass / nominalMass_)));
-    const Vec3 middle = moment / mass;
     for (int k = 0; k < count; ++k) {
         if (state.nextId == std::numeric_limits<std::uint32_t>::max())
             throw RunError("fabric has dripped more particles than can be numbered (2^32)");
         // In pairs on opposite sides, and a last one in the middle: their centre stays.
         const bool isAlone = k == count - 1 && k % 2 == 0;
-        const Vec3 offset = isAlone ? Vec3::Zero().eval() : jitter(pool, middle, k / 2, state);
+        Vec3 offset = isAlone ? Vec3::Zero().eval() : jitter(pool, middle, k / 2, state);
+        if (obstacles.distance(middle + offset) < 0.0 || obstacles.distance(middle - offset) < 0.0) offset.setZero();
         state.liquid.add(middle + (k % 2 == 0 ? 1.0 : -1.0) * offset, mass / count, state.nextId++, momentum / mass);
     }
     return mass;
 }
 
-double Drip::drip(State& state)
+double Drip::drip(State& state, const Obstacles& obstacles)
 {
     const std::vector<double>& absorbed = state.fabric.absorbed;
     parallelFor(excess_.size(), 4096, [&](std::size_t v) { excess_[v] = std::max(absorbed[v] - capacity_[v], 0.0); });
@@ -88,7 +90,7 @@ double Drip::drip(State& state)
     double sum = 0.0;
     for (std::size_t begin = 0, end; begin < wet_.size(); begin = end) {
         for (end = begin + 1; end < wet_.size() && wet_[end].cell == wet_[begin].cell; ++end) {}
-        sum += drain(std::span(wet_).subspan(begin, end - begin), state);
+        sum += drain(std::span(wet_).subspan(begin, end - begin), obstacles, state);
     }
     return sum;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/coupling/wet_elements.h"
+#include "sim/grid/obstacles.h"
 #include "sim/settings.h"
 #include "sim/state.h"
 
@@ -19,8 +20,9 @@ class Drip {
     /// @param nominalMass  of a particle [g]
     Drip(const Fabric& fabric, const WetElements& elements, const Settings& settings, double nominalMass);
 
+    /// Drops come off within the fabric, or beside it, where no solid is; fabric in a solid, where it gets without contact, keeps what it has.
     /// @return mass that came off [g]
-    double drip(State& state);
+    double drip(State& state, const Obstacles& obstacles);
 
  private:
     /// A vertex with too much, in its cell.
@@ -29,7 +31,7 @@ class Drip {
         int vertex;
     };
     void findPools(const FabricState& fabric);
-    double drain(std::span<const Wet> pool, State& state) const;
+    double drain(std::span<const Wet> pool, const Obstacles& obstacles, State& state) const;
     Vec3 jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const;
 
     const WetElements& elements_;

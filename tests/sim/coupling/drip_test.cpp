@@ -56,14 +56,14 @@ TEST(Drip, ReleasesWhatVerticesPool)
         towel.state.fabric.absorbed[0] += (count - 0.2) * kDrop;
         towel.state.fabric.absorbed[1] += 0.3 * kDrop;
         const Towel::Sums before = towel.sums();
-        EXPECT_NEAR(towel.drip.drip(towel.state), (count + 0.1) * kDrop, 1.0e-15);
+        EXPECT_NEAR(towel.drip.drip(towel.state, {}), (count + 0.1) * kDrop, 1.0e-15);
         EXPECT_EQ(towel.state.liquid.count, static_cast<std::size_t>(count));
         EXPECT_EQ(towel.state.nextId, static_cast<std::uint32_t>(count));
         const Towel::Sums after = towel.sums();
         EXPECT_NEAR(after.mass, before.mass, 1.0e-13 * before.mass);
         EXPECT_LT((after.moment - before.moment).norm(), 1.0e-13 * before.moment.norm());
         EXPECT_LT((after.momentum - before.momentum).norm(), 1.0e-13 * before.momentum.norm());
-        EXPECT_EQ(towel.drip.drip(towel.state), 0.0);  // nothing is left
+        EXPECT_EQ(towel.drip.drip(towel.state, {}), 0.0);  // nothing is left
     }
 }
 
@@ -79,7 +79,7 @@ TEST(Drip, LeavesNoPoreOverfull)
         testing::Noise noise(5);
         for (std::size_t v = 0; v < towel.fabric.vertexCount(); ++v) towel.state.fabric.absorbed[v] *= 1.0 + 0.2 * std::abs(noise());
         const Towel::Sums before = towel.sums();
-        EXPECT_GT(drip.drip(towel.state), 0.0);
+        EXPECT_GT(drip.drip(towel.state, {}), 0.0);
         const Towel::Sums after = towel.sums();
         EXPECT_NEAR(after.mass, before.mass, 1.0e-13 * before.mass);
         EXPECT_LT((after.moment - before.moment).norm(), 1.0e-13 * before.moment.norm());
@@ -95,7 +95,7 @@ TEST(Drip, ClothDripsFromItsFaces)
     Towel towel(testing::pieceOf(clothGrid({{7, 7}, {0.144, 0.144}, Vec3::Zero()}), testing::wool(), {0.017, 0.017}));
     for (std::size_t v = 0; v < towel.fabric.vertexCount(); ++v) towel.state.fabric.absorbed[v] += 3.3 * kDrop * static_cast<double>(v % 3);
     const Towel::Sums before = towel.sums();
-    const double dripped = towel.drip.drip(towel.state);
+    const double dripped = towel.drip.drip(towel.state, {});
     EXPECT_GT(dripped, 30.0 * kDrop);
     const Towel::Sums after = towel.sums();
     EXPECT_NEAR(after.mass, before.mass, 1.0e-13 * before.mass);
@@ -112,10 +112,40 @@ TEST(Drip, ClothDripsFromItsFaces)
         EXPECT_TRUE(std::abs(towel.state.liquid.position(p).y()) < 1.0e-12 || std::abs(towel.state.liquid.position(p).z()) < 1.0e-12);
 }
 
+/// Cloth that nearly touches the walls of a box on all sides, each vertex a pool of its own.
+TEST(Drip, NoDropComesOffWithinASolid)
+{
+    Towel towel(testing::pieceOf(clothGrid({{7, 7}, {0.144, 0.144}, Vec3::Zero()}), testing::wool(), {0.017, 0.017}));
+    Settings settings = Towel::coarse();
+    settings.cell = 0.1;
+    Drip drip(towel.fabric, towel.elements, settings, kDrop);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : towel.state.fabric.x) box.extend(x);
+    Obstacles obstacles;
+    obstacles.add(Shape::box(box.center(), 0.5 * box.sizes() + Vec3::Constant(0.005)).inverted(), {});
+    const Towel::Sums start = towel.sums();
+    double added = 0.0;
+    for (int step = 0; step < 20; ++step) {
+        towel.state.step = step;
+        for (std::size_t v = 0; v < towel.fabric.vertexCount(); ++v) {
+            const double more = kDrop * static_cast<double>((7 * v + 3 * static_cast<std::size_t>(step)) % 5);
+            towel.state.fabric.absorbed[v] += more;
+            added += more;
+        }
+        EXPECT_GT(drip.drip(towel.state, obstacles), 0.0);
+    }
+    EXPECT_NEAR(towel.sums().mass, start.mass + added, 1.0e-12 * added);
+    Obstacles everywhere;
+    everywhere.add(Shape::ball(box.center(), 10.0), {});
+    towel.state.fabric.absorbed[0] += 10.0 * kDrop;
+    EXPECT_EQ(drip.drip(towel.state, everywhere), 0.0);
+    for (std::size_t p = 0; p < towel.state.liquid.count; ++p) EXPECT_GE(obstacles.distance(towel.state.liquid.position(p)), 0.0);
+}
+
 TEST(Drip, FullFabricKeepsWhatItHolds)
 {
     Towel towel(testing::pieceOf(clothGrid({{5, 5}, {0.144, 0.144}, Vec3::Zero()}), testing::wool(), {0.017, 0.017}));
-    EXPECT_EQ(towel.drip.drip(towel.state), 0.0);
+    EXPECT_EQ(towel.drip.drip(towel.state, {}), 0.0);
     EXPECT_EQ(towel.state.liquid.count, 0u);
 }
 
