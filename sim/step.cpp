@@ -61,7 +61,7 @@ void exchange(State& state, const Settings& settings, const Vec3& gravity, Works
             clock.start(Stage::Drip);
             const std::size_t before = particles.count;
             const ExchangeWatch watch(coupling.fabric, state, nullptr);
-            work.obstacles.moveTo(state.time, state.time + dt);
+            work.obstacles.moveTo(state.time, state.time + dt);  // for scenes in which no liquid has moved yet
             report.drippedMass = coupling.drip.drip(state, work.obstacles);
             watch.expectKept(Vec3::Zero());
             for (std::size_t p = before; p < particles.count; ++p) {

@@ -66,10 +66,10 @@ bool VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
 /// be redone in halves of the whole step.
 bool VertexSolver::followSolids(double t, double h, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
 {
-    const std::vector<Vec3> whole = move_;
+    wholeMove_ = move_;
     const auto go = [&](double begin, double length) {
         guard_.moveTo(begin, begin + length);
-        parallelFor(whole.size(), 4096, [&](std::size_t v) { move_[v] = length / h * whole[v]; });
+        parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] = length / h * wholeMove_[v]; });
         if (!limit(state, report, clock)) return false;
         commit(state, clock);
         return true;

@@ -128,6 +128,7 @@ class VertexSolver {
     GuardReport guarded_;                        ///< … likewise
     bool guardActed_ = false;                    ///< in the last move: solids took a hand in it …
     std::vector<Vec3> guardMove_, unguarded_;    ///< … of each vertex, where forces are wanted: what they made of it, and the move before [cm]
+    std::vector<Vec3> wholeMove_;  ///< move_ of the whole step, while it is made in halves [cm]
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
     double placeRounding_ = 0.0;                 ///< by which places of the step under way are rounded [cm]
