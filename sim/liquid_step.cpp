@@ -8,6 +8,7 @@
 #include "sim/liquid/inflow.h"
 #include "sim/liquid/push_out.h"
 #include "sim/liquid/relax_at_walls.h"
+#include "sim/liquid/surface_weight.h"
 #include "sim/liquid/walls.h"
 #include "sim/transfer/scatter_bounded.h"
 
@@ -184,6 +185,19 @@ void findHeld(const State& state, bool isMixed, Workspace& work)
     findFrames(state.grid, work.obstacleField, work.pressure, work.grid, ofFabric, work.free);
 }
 
+/// Take the noise out of the weight of liquid that solids hold. Fabric that goes through it keeps what is on its faces.
+void levelHeldWeight(const State& state, const Settings& settings, Workspace& work, double fall, bool isMixed, EnergyBook& energy)
+{
+    const BlockGrid& grid = state.grid;
+    findUnheldFaces(grid, work.obstacleField, work.free);
+    findHeldBodies(grid, work.pressure, work.grid, work.free);
+    work.free.bare.resize(grid.count());
+    std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+    if (isMixed) work.coupling->mixture.clearShared(work.free.bare);
+    levelWeight(grid, work.obstacleField, work.pressure, work.free, fall * settings.gravity, work.grid, work.onSolids);
+    energy.onFaces(EnergyChange::Gravity);
+}
+
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
 void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
            EnergyBook& energy)
@@ -202,8 +216,12 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     clock.start(Stage::Pressure);
     findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
     if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    preparePressure(grid, work.grid, work.pressure);
+    const double fall = fallTime(settings.time, state, dt, plan.meetsFabric);
+    if (!work.obstacles.empty() && !settings.liquid.full && !settings.gravity.isZero(0.0))
+        levelHeldWeight(state, settings, work, fall, plan.isMixed, energy);
     if (isTense) {
-        applySurfaceSteps(grid, work.obstacleField, work.pressure, fallTime(settings.time, state, dt, plan.meetsFabric) / dt, work.surfaceTension, work.grid);
+        applySurfaceSteps(grid, work.obstacleField, work.pressure, fall / dt, work.surfaceTension, work.grid);
         energy.surfaceTension(plan.isMixed);
     }
     project(state, settings, work, dt, report, energy);

@@ -9,10 +9,11 @@ namespace sim {
 
 namespace {
 
-constexpr int kRim = 2;  ///< cells around a block that the B-splines of its faces reach
-constexpr int kEdge = kBlockEdge + 2 * kRim;
+constexpr int kRim = 2;    ///< cells around a block that the B-splines of its faces reach
+constexpr int kParts = 2;  ///< parts of a cell along an axis: the B-spline falls off within it
+constexpr int kEdge = kParts * (kBlockEdge + 2 * kRim);
 
-/// A value for each cell of a block and its rim.
+/// A value for each part of the cells of a block and its rim.
 struct RimmedBlock {
     std::array<double, kEdge * kEdge * kEdge> v;
 
@@ -20,20 +21,35 @@ struct RimmedBlock {
     double& at(const Vec3i& c) { return v[index(c.x(), c.y(), c.z())]; }
 };
 
+/// Open share of a cube, which is cut by the plane whose distance from its middle is the obstacle's.
+double openShare(const Obstacles& obstacles, const Vec3& middle, double edge, double dx)
+{
+    return std::clamp(0.5 + distanceAcrossSeams(obstacles, middle, dx) / edge, 0.0, 1.0);
+}
+
+/// Only the parts of cells that a surface cuts are looked at one by one.
 void openVolumes(const BlockGrid& grid, int block, const Obstacles& obstacles, RimmedBlock& volume)
 {
-    const Vec3 corner = grid.lowerCorner(block) + Vec3::Constant((0.5 - kRim) * grid.dx);
-    for (int k = 0; k < kEdge; ++k)
-        for (int j = 0; j < kEdge; ++j)
-            for (int i = 0; i < kEdge; ++i)
-                volume.at({i, j, k}) =
-                    std::clamp(0.5 + distanceAcrossSeams(obstacles, corner + grid.dx * Vec3(i, j, k), grid.dx) / grid.dx, 0.0, 1.0);
+    const double part = grid.dx / kParts, reach = 0.5 * std::sqrt(3.0) * grid.dx;
+    const Vec3 corner = grid.lowerCorner(block) - Vec3::Constant(kRim * grid.dx);
+    for (int k = 0; k < kEdge; k += kParts)
+        for (int j = 0; j < kEdge; j += kParts)
+            for (int i = 0; i < kEdge; i += kParts) {
+                const Vec3 middle = corner + part * Vec3(i, j, k) + Vec3::Constant(0.5 * grid.dx);
+                const double distance = distanceAcrossSeams(obstacles, middle, grid.dx);
+                for (int n = 0; n < kParts * kParts * kParts; ++n) {
+                    const Vec3i at(i + n % kParts, j + n / kParts % kParts, k + n / (kParts * kParts));
+                    volume.at(at) = distance >= reach ? 1.0 : distance <= -reach ? 0.0 :
+                                    openShare(obstacles, corner + part * (at.cast<double>() + Vec3::Constant(0.5)), part, grid.dx);
+                }
+            }
 }
 
 /// The cells behind the wall get the values of their mirror images in front.
+/// @param plane  of the wall, in parts
 void mirrorAt(const Obstacles::Wall& wall, int plane, RimmedBlock& volume)
 {
-    for (int layer = 0; layer < kRim; ++layer) {
+    for (int layer = 0; layer < kParts * kRim; ++layer) {
         const int front = wall.above ? plane - 1 - layer : plane + layer, behind = 2 * plane - 1 - front;
         if (std::min(front, behind) < 0 || std::max(front, behind) >= kEdge) continue;
         for (int v = 0; v < kEdge; ++v)
@@ -48,22 +64,27 @@ void mirrorAt(const Obstacles::Wall& wall, int plane, RimmedBlock& volume)
     }
 }
 
-/// Mean over the B-spline around the lower faces along an axis, or around the middles. What lies beyond the rim counts
-/// as nothing; the block itself does not reach it.
-void smooth(int axis, bool aroundFaces, RimmedBlock& volume)
+/// Means along one axis over the B-splines around the lower faces, or around the middles, of a block's cells: both are where parts meet.
+/// The means stand where the first parts of each line were.
+/// @param size  of what is there along the axes
+void smooth(int axis, bool aroundFaces, Vec3i& size, RimmedBlock& volume)
 {
+    static_assert(kParts == 2);
+    constexpr double kIntegral[3] = {16.0 / 48.0, 7.0 / 48.0, 1.0 / 48.0};  // of the B-spline over parts, from its middle outwards
     constexpr int kStep[3] = {1, kEdge, kEdge * kEdge};
-    const RimmedBlock from = volume;
-    const int count = static_cast<int>(from.v.size());
-    for (int c = 0; c < count; ++c) {
-        const auto v = [&](int n) {
-            const int cell = c + n * kStep[axis];
-            return cell < 0 || cell >= count ? 0.0 : from.v[cell];
-        };
-        // Integrals of the B-spline over the cells that it overlaps.
-        volume.v[c] = aroundFaces ? (v(-2) + v(1)) / 48.0 + (v(-1) + v(0)) * (23.0 / 48.0)
-                                  : (v(-1) + v(1)) / 6.0 + v(0) * (2.0 / 3.0);
-    }
+    const int u = (axis + 1) % kAxes, v = (axis + 2) % kAxes, step = kStep[axis];
+    for (int p = 0; p < size[u]; ++p)
+        for (int q = 0; q < size[v]; ++q) {
+            double* line = volume.v.data() + p * kStep[u] + q * kStep[v];
+            double mean[kBlockEdge];
+            for (int n = 0; n < kBlockEdge; ++n) {
+                const double* middle = line + (kParts * (kRim + n) + (aroundFaces ? 0 : 1)) * step;
+                mean[n] = 0.0;
+                for (int m = 0; m < 3; ++m) mean[n] += kIntegral[m] * (middle[m * step] + middle[-(m + 1) * step]);
+            }
+            for (int n = 0; n < kBlockEdge; ++n) line[n * step] = mean[n];
+        }
+    size[axis] = kBlockEdge;
 }
 
 }  // namespace
@@ -75,12 +96,13 @@ void roomOfFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, b
     if (mirrors)
         for (const Obstacles::Wall& wall : obstacles.planeWalls())
             if (const auto plane = planeOfFaces(grid, wall))
-                mirrorAt(wall, *plane - kBlockEdge * grid.coords(block)[wall.axis] + kRim, volume);
+                mirrorAt(wall, kParts * (*plane - kBlockEdge * grid.coords(block)[wall.axis] + kRim), volume);
     for (int a = 0; a < kAxes; ++a) {
         RimmedBlock smoothed = volume;
-        for (int axis = 0; axis < kAxes; ++axis) smooth(axis, axis == a, smoothed);
+        Vec3i size = Vec3i::Constant(kEdge);
+        for (int axis = 0; axis < kAxes; ++axis) smooth(axis, axis == a, size, smoothed);
         for (int c = 0; c < kBlockCells; ++c)
-            room[a * kBlockCells + c] = smoothed.at({(c & 7) + kRim, (c >> 3 & 7) + kRim, (c >> 6) + kRim});
+            room[a * kBlockCells + c] = smoothed.at({c & 7, c >> 3 & 7, c >> 6});
     }
 }
 

@@ -223,6 +223,11 @@ void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, Free
     });
 }
 
+void findHeldBodies(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work)
+{
+    findHeld({grid, pressure, liquid, liquid.faces.velocity, work, work.change}, work.ofBlock, work.bodies);
+}
+
 void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
                FreeLiquid& work, BlockArray<double, 3>& values)
 {

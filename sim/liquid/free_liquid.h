@@ -15,6 +15,7 @@ struct FreeLiquid {
         bool isHeld = false;       ///< a solid is on one of its faces, or what else was told
     };
     BlockBits<3> unheld;            ///< faces on which there is nothing that holds liquid
+    BlockBits<3> bare;              ///< faces without fabric, where that is asked for
     std::vector<Body> bodies;       ///< by their number among all components
     std::vector<Body> ofBlock;      ///< sums over blocks that belong to one body
     /// What holds a body.
@@ -31,6 +32,9 @@ struct FreeLiquid {
 
 /// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.
 void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, FreeLiquid& work);
+
+/// Which bodies something holds, by `unheld`. Needs preparePressure.
+void findHeldBodies(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);
 
 /// From values on the faces of each free piece take the mean, by mass, of others: in sum over the piece, these then did nothing. What gradients
 /// of a potential that is 0 around the piece do sums up to nothing by itself; of shortened ones, of those on faces that are taken to be fuller

@@ -36,6 +36,8 @@ void LiquidOnSolids::begin(const BlockGrid& grid, const ObstacleField& field, co
     blocks_ = field.blocksNearSolid();
     place_.assign(grid.count() + 1, BlockGrid::kNone);
     brought_.resize(static_cast<int>(blocks_.size()));
+    others_.resize(static_cast<int>(blocks_.size()));
+    shared_.resize(static_cast<int>(blocks_.size()));
     near_.resize(grid.count());
     std::fill_n(near_.block(0), static_cast<std::size_t>(grid.count()) * BlockBits<>::kWords, 0);
     parallelFor(blocks_.size(), 4, [&](std::size_t n) {
@@ -60,8 +62,6 @@ void LiquidOnSolids::clearOthers()
 {
     if (hasOthers_) return;
     hasOthers_ = true;
-    others_.resize(static_cast<int>(blocks_.size()));
-    shared_.resize(static_cast<int>(blocks_.size()));
     parallelFor(blocks_.size(), 4, [&](std::size_t n) {
         std::fill_n(others_.block(static_cast<int>(n)), BlockArray<double, 3>::kStride, 0.0);
         std::fill_n(shared_.block(static_cast<int>(n)), kAxes * BlockBits<3>::kWords, 0);

@@ -21,6 +21,12 @@ class LiquidOnSolids {
     /// Around the solve for viscosity, of whose stresses solids get those on closed faces and on walls that stick.
     void beforeViscosity(const BlockArray<double, 3>& velocity);
     void afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid);
+    /// Weight is moved between faces: then tell by how much that of each grew [g cm/s].
+    void meetLevelling() { clearOthers(); }
+    void weightGrew(int block, int axis, int cell, double impulse)
+    {
+        if (const int place = place_[block]; place != BlockGrid::kNone) others_.block(place, axis)[cell] += impulse;
+    }
     /// There is fabric on faces: then tell what each got of the liquid [g cm/s].
     void meetFabric() { clearOthers(); }
     void fabricGot(int block, int axis, int cell, double impulse)
@@ -80,7 +86,7 @@ class LiquidOnSolids {
     BlockBits<> near_;                              ///< cells whose middles are near a solid
     // By place, of rows with faces near one:
     BlockArray<double, 6> brought_;                 ///< by particles: mass [g] and momentum [g cm/s] of each face
-    BlockArray<double, 3> others_;                  ///< momentum that a face got of viscous stresses, less what it gave to fabric [g cm/s] …
+    BlockArray<double, 3> others_;                  ///< momentum that a face got of viscous stresses and of levelled weight, less what it gave to fabric [g cm/s] …
     BlockBits<3> shared_;                           ///< … if fabric is on it …
     bool hasOthers_ = false;                        ///< … where there are any of both
     BlockArray<double, 3> before_;                  ///< velocities before viscosity [cm/s]

@@ -83,8 +83,8 @@ struct RowFlux {
     return out;
 }
 
-/// Rows of the matrix and the right-hand side for one block (model-fluid 6.4).
-void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b, const LiquidGrid& liquid, PressureWorkspace& work)
+/// Rows of the matrix for one block (model-fluid 6.4).
+void assembleBlock(const BlockGrid& grid, int b, const LiquidGrid& liquid, PressureWorkspace& work)
 {
     const RowAccess rows(grid, b);
     const NeighbourBits inside(grid, liquid.inside, b);
@@ -93,7 +93,7 @@ void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b,
         for (int j = 0; j < kBlockEdge; ++j) {
             const int row = cellInBlock(0, j, k);
             const PackMask own = rowOf(inside.own, j, k);
-            Pack diagonal = zero, rhs = zero, coupling[3] = {zero, zero, zero};
+            Pack diagonal = zero, coupling[3] = {zero, zero, zero};
             if (maskBits(own) != 0) {
                 unroll<3>([&](auto a) {
                     const Pack below = rows.row(work.coefficient, a, j, k);
@@ -101,10 +101,8 @@ void assembleBlock(const BlockGrid& grid, const ObstacleField& obstacles, int b,
                     coupling[a] = select(own & rowOf(inside.below[a], j, k), below, zero);
                 });
                 diagonal = select(own, diagonal, zero);
-                rhs = select(own, rowOutflow(obstacles, liquid.faces.velocity, rows, j, k) * (-1.0 / grid.dx), zero);
             }
             std::memcpy(work.matrix.diagonal(b) + row, &diagonal, sizeof diagonal);
-            std::memcpy(work.rhs.block(b) + row, &rhs, sizeof rhs);
             for (int a = 0; a < kAxes; ++a) std::memcpy(work.matrix.coupling(a, b) + row, &coupling[a], sizeof coupling[a]);
         }
 }
@@ -141,14 +139,18 @@ void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, co
     computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.full, liquid, work);
 }
 
+void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+{
+    work.matrix.resize(grid.count());
+    parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, static_cast<int>(b), liquid, work); });
+    work.solver.prepare(grid, work.matrix);
+}
+
 SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
                           PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
 {
-    work.matrix.resize(grid.count());
-    work.rhs.resize(grid.count());
-    parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, obstacles, static_cast<int>(b), liquid, work); });
-    addInflow(inflow, work.rhs);
-    const SolveReport report = work.solver.solve(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
+    findRightHandSide(grid, obstacles, liquid, liquid.faces.velocity, inflow, work.rhs);
+    const SolveReport report = work.solver.solveAgain(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
     subtractGradient(grid, obstacles, work, pressure, liquid);
     return report;
 }
@@ -163,8 +165,9 @@ void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, co
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
                 const PackMask own = rowOf(liquid.inside.block(b), j, k);
-                const Pack out = rowOutflow(obstacles, velocity, rows, j, k) * (-1.0 / grid.dx);
-                storePack(rhs.block(b) + cellInBlock(0, j, k), select(own, out, broadcast(0.0)));
+                Pack out = broadcast(0.0);
+                if (maskBits(own) != 0) out = select(own, rowOutflow(obstacles, velocity, rows, j, k) * (-1.0 / grid.dx), out);
+                storePack(rhs.block(b) + cellInBlock(0, j, k), out);
             }
     });
     addInflow(inflow, rhs);

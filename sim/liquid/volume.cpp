@@ -37,12 +37,12 @@ double leastFill(const BlockGrid& grid, const ObstacleField& obstacles, const Ve
     return liquid.deep.test(b, c) ? 1.0 : kFillBelowSurface;
 }
 
-/// Volume that a cell lacks (negative) or has too much, relative to its own.
+/// Volume that a cell lacks (negative) or has too much, beyond noise, relative to its own.
 double volumeError(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
     const double fill = liquid.fill.block(b)[c];
-    if (fill > 1.0) return std::min(fill - 1.0, kLargestError);
-    return fill < 1.0 ? std::min(fill - leastFill(grid, obstacles, gravity, liquid, b, c), 0.0) : 0.0;
+    if (fill > 1.0) return std::clamp(fill - 1.0 - kVolumeNoise, 0.0, kLargestError);
+    return fill < 1.0 ? std::min(fill + kVolumeNoise - leastFill(grid, obstacles, gravity, liquid, b, c), 0.0) : 0.0;
 }
 
 void findSources(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, double strength,

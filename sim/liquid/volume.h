@@ -9,6 +9,10 @@ struct VolumeWorkspace {
     BlockArray<double, 3> displacement;  ///< of the lower faces [cm]
 };
 
+/// Error of a cell's volume that is not corrected, relative to its own: that is the noise of particles at rest on their lattice, and to mend it
+/// would lift them for nothing, again and again.
+inline constexpr double kVolumeNoise = 0.005;
+
 /// Farthest that one correction moves anything [cells].
 inline constexpr double kLargestCorrection = 0.2;
 

@@ -25,17 +25,16 @@ inline constexpr double kOnSurface = 1.0e-9;
 /// dense then.
 inline constexpr double kPoissonDistance = 0.83;
 
-/// Places of a lattice that a box may hold: place (i, j, k) + low is at first + pitch (i, j, k).
+/// Places of a lattice that a box may hold: place (i, j, k) + low is at first + pitch (i, j, k), axis by axis.
 struct PlaceLattice {
-    Vec3 first;
-    double pitch = 0.0;
+    Vec3 first, pitch = Vec3::Zero();  ///< pitches along the axes [cm]
     Vec3i low = Vec3i::Zero(), size = Vec3i::Zero();
 
     /// Those with index ≥ the one whose place lies `margin` pitches below the box, up to `margin` above. `origin` is
     /// place (0, 0, 0). Throws InputError when there are more than 4e8, or when the box is unbounded.
-    static PlaceLattice inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, double pitch, double margin);
+    static PlaceLattice inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& pitch, double margin);
 
-    Vec3 position(int i, int j, int k) const { return first + pitch * Vec3(i, j, k); }
+    Vec3 position(int i, int j, int k) const { return first + pitch.cwiseProduct(Vec3(i, j, k)); }
     std::uint64_t randomIndex(int i, int j, int k) const
     {
         return CounterRandom::placeIndex(i + low[0], j + low[1], k + low[2]);

@@ -26,7 +26,7 @@ class DartBoard {
     {
         const double pitch = particleSpacing(plan.fill, plan.dx);
         const Vec3 first = plan.source.bounds().min() + plan.age * plan.velocity;
-        lattice_ = PlaceLattice::inBox(plan.source.bounds(), first, pitch, 1.0);
+        lattice_ = PlaceLattice::inBox(plan.source.bounds(), first, Vec3::Constant(pitch), 1.0);
         cubes_.resize(static_cast<std::size_t>(lattice_.size.cast<double>().prod()));
     }
 
@@ -65,7 +65,7 @@ class DartBoard {
         if (cube.count == static_cast<int>(cube.x.size())) return;
         Vec3 x = lattice_.position(i, j, k);
         for (int a = 0; a < kAxes; ++a)
-            x[a] += lattice_.pitch * random_.uniform(lattice_.randomIndex(i, j, k), kAxes * round + a);
+            x[a] += lattice_.pitch[a] * random_.uniform(lattice_.randomIndex(i, j, k), kAxes * round + a);
         if (!hasRoom(i, j, k, x) || !(region_.distance(x) < 0.0) || taken_.anyNearer(x, distance_)) return;
         cube.x[cube.count++] = x;
     }

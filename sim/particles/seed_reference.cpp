@@ -21,7 +21,7 @@ std::vector<Candidate> candidates(const SeedPlan& plan, const Shape& solids, dou
     Eigen::AlignedBox3d box = plan.source.bounds();
     if (!box.isEmpty()) box = {box.min() - Vec3::Constant(pitch), box.max() + Vec3::Constant(pitch)};
     const Vec3 first = box.min() + Vec3::Constant(0.5 * pitch) + plan.age * plan.velocity;
-    const auto lattice = PlaceLattice::inBox(box, first, pitch, 0.0);
+    const auto lattice = PlaceLattice::inBox(box, first, Vec3::Constant(pitch), 0.0);
     constexpr std::uint64_t kRankDraw = 3;
     return lattice.collect<Candidate>([&](int i, int j, int k, std::vector<Candidate>& list) {
         const std::uint64_t index = lattice.randomIndex(i, j, k);

@@ -230,12 +230,17 @@ SolveReport PoissonSolver::solvePrepared(const Problem& problem, double toleranc
     return report;
 }
 
-SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
-                                 double tolerance, int maxIterations, BlockArray<double>& p)
+void PoissonSolver::prepare(const BlockGrid& grid, const PoissonMatrix& matrix)
 {
     SIM_CHECK(matrix.values.size() == (grid.count() + std::size_t{1}) * 4 * kBlockCells);
     multigrid_.build(grid, matrix);
     components_.find(grid, matrix);
+}
+
+SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
+                                 double tolerance, int maxIterations, BlockArray<double>& p)
+{
+    prepare(grid, matrix);
     return solvePrepared({grid, matrix, rhs, p}, tolerance, maxIterations);
 }
 

@@ -18,6 +18,9 @@ namespace sim {
 /// ignored, and that of p is 0.
 class PoissonSolver {
  public:
+    /// Make ready to solve with this matrix: its hierarchy and its components.
+    void prepare(const BlockGrid& grid, const PoissonMatrix& matrix);
+
     /// @param matrix, rhs   on the blocks of the grid; what rhs has in cells that are no unknowns is ignored
     /// @param tolerance     largest residual relative to the largest right-hand side [-]
     /// @param p             in: a guess (dropped if its residual is larger than the right-hand side), out: the solution; 0 in cells
@@ -26,13 +29,13 @@ class PoissonSolver {
     SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
                       double tolerance, int maxIterations, BlockArray<double>& p);
 
-    /// The same for another right-hand side and the matrix of the last solve.
+    /// The same for the matrix that was last prepared or solved.
     SolveReport solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance, int maxIterations,
                            BlockArray<double>& p);
 
     /// The preconditioner, as the last solve left it.
     Multigrid& multigrid() { return multigrid_; }
-    /// Components without a Dirichlet part in the last solve.
+    /// Components without a Dirichlet part.
     int closedComponents() const { return components_.closedCount(); }
     const ConnectedComponents& components() const { return components_; }
 

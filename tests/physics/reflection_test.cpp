@@ -75,7 +75,8 @@ TEST(Reflection, LeavesSloshingAsItIs)
     for (const Transfer& transfer : {kApic, kPoly8, kPoly27}) {
         const std::vector<double> plain = sloshingEnergies(transfer, 0.5, TimeIntegrator::Plain),
                                   reflected = sloshingEnergies(transfer, 0.5, TimeIntegrator::Reflected);
-        for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(reflected[i], plain[i], 3.0e-4) << transfer.name;
+        // Weight is levelled in the surface layer, whose noise stores up to 1e-3 of the energy (3e-4 without).
+        for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(reflected[i], plain[i], 1.0e-3) << transfer.name;
     }
 }
 

@@ -119,7 +119,9 @@ TEST(SolidsWork, IsAllThatMakesEnergyGrow)
                     std::printf("%-22s %s friction %.1f %-11s work %8.1f rise %.2e of %8.1f erg\n", stirred.name,
                                 integrator == TimeIntegrator::Plain ? "plain    " : "reflected", friction, transfer.name.c_str(), worked.work,
                                 worked.rise / worked.most, worked.most);
-                    EXPECT_LT(worked.rise, 1.0e-4 * worked.most)
+                    // The weight of the surface layer acts where its liquid would be if it were even (levelWeight). Where that is lower than the
+                    // liquid, potential energy is stored that counts as kinetic meanwhile: 1e-4 would hold without.
+                    EXPECT_LT(worked.rise, 4.0e-3 * worked.most)
                         << stirred.name << ' ' << transfer.name << ' ' << friction;
                 }
 }

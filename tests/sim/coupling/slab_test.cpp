@@ -124,6 +124,7 @@ void pressAndDrag(Stack& stack, Mixture& mixture)
     stack.find(mixture);
     findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
     mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+    preparePressure(scene.grid, scene.liquid, scene.work);
     solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     stack.moveFabric(mixture.loads(scene.liquid));
 }

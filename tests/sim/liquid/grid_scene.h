@@ -148,6 +148,7 @@ struct GridScene {
     SolveReport project(double dt)
     {
         findPressureFaces(grid, field, settings, dt, liquid, work);
+        preparePressure(grid, liquid, work);
         return solvePressure(grid, field, solver, {}, work, liquid, pressure);
     }
     double divergence() const { return largestDivergence(grid, field, liquid); }

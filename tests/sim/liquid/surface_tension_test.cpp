@@ -183,6 +183,7 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
         }
     findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
     applySurfaceSteps(scene.grid, scene.field, scene.work, 1.0, drop.work, scene.liquid);
+    preparePressure(scene.grid, scene.liquid, scene.work);
     const SolveReport report =
         solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     EXPECT_TRUE(report.converged);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -117,8 +119,32 @@ TEST(Seed, EveryPatternButTheReferenceFillsItsSource)
 TEST(Seed, ALatticeBeginsHalfAPitchInside)
 {
     const Seeds seeds = seedParticles(planOf(Shape::box({1.0, 1.0, 1.0}, {0.5, 0.5, 0.5}), Pattern::Lattice));
-    EXPECT_TRUE(seeds.positions.front().isApprox(Vec3::Constant(0.5 + 0.2 * 0.288), 1e-12));
+    EXPECT_TRUE(seeds.positions.front().isApprox(Vec3::Constant(0.5 + 0.5 / 9.0), 1e-12));
     EXPECT_EQ(seeds.positions.size(), 729u);  // 1 / .1152 = 8.7 per edge
+    const Seeds round = seedParticles(planOf(Shape::ball(Vec3::Constant(1.0), 0.7), Pattern::Lattice));
+    for (const Vec3& x : round.positions)
+        for (int a = 0; a < kAxes; ++a) EXPECT_NEAR(std::remainder(x[a] - 0.3 - 0.5 * 0.1152, 0.1152), 0.0, 1e-12);
+}
+
+/// A pool is even from the floor to its level, wherever that is, however much of its source is within solids.
+TEST(Seed, LayersLieEvenlyBetweenPlanes)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int n = 0; n < 40; ++n) {
+        const Vec3 low(unit(random), unit(random), unit(random)), size = Vec3::Constant(0.3) + 2.0 * Vec3(unit(random), unit(random), unit(random));
+        const double cut = 0.2 * unit(random) * size[1];
+        SeedPlan plan = planOf(Shape::box(low + 0.5 * size, 0.5 * size), n % 2 == 0 ? Pattern::Lattice : Pattern::Jittered);
+        plan.solids.push_back(Shape::box(low + Vec3(0.0, cut - 5.0, 0.0), Vec3::Constant(5.0)));  // up to low.y + cut
+        const Seeds seeds = seedParticles(plan);
+        const Vec3 bottom = low + Vec3(0.0, cut, 0.0), room = size - Vec3(0.0, cut, 0.0);
+        const Vec3 layers = (room / particleSpacing(plan.fill, plan.dx)).array().round().max(1.0);
+        EXPECT_EQ(countOf(seeds), layers.prod()) << n;
+        EXPECT_NEAR(seeds.volume, room.prod() / layers.prod(), 1e-3 * seeds.volume);  // as exactly as the region is measured
+        for (const Vec3& x : seeds.positions)
+            for (int a = 0; a < kAxes && plan.fill.pattern == Pattern::Lattice; ++a)
+                EXPECT_NEAR(std::remainder((x[a] - bottom[a]) / room[a] * layers[a] - 0.5, 1.0), 0.0, 1e-6);
+    }
 }
 
 TEST(Seed, TwoPerCellLieOnTheGrid)

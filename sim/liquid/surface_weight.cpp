@@ -1,0 +1,138 @@
+#include "sim/liquid/surface_weight.h"
+
+#include "sim/core/parallel.h"
+#include "sim/grid/rows.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace sim {
+
+namespace {
+
+/// Most weight that a face may get, relative to that of its own mass: next to none would be thrown about.
+constexpr double kMostWeight = 4.0;
+
+/// A column of faces along gravity, the lowest first.
+struct Column {
+    std::array<CellRef, kSurfaceColumn> face;
+    int size = 0;
+};
+
+/// Finds the columns of the surface layer along one axis.
+class SurfaceColumns {
+ public:
+    /// @param up  direction along the axis against gravity, 1 or -1
+    SurfaceColumns(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
+                   const LiquidGrid& liquid, int axis, int up)
+        : grid_(grid), obstacles_(obstacles), pressure_(pressure), bodies_(bodies), liquid_(liquid), axis_(axis), up_(up)
+    {
+    }
+
+    /// The faces of a plane of a block that have a pressure on some side and are not between deep cells.
+    std::uint64_t shallow(const BitAccess& access, int block, int k) const
+    {
+        std::uint64_t known = 0;
+        for (int j = 0; j < kBlockEdge; ++j) {
+            const Pack coefficient = loadPack(pressure_.coefficient.block(block, axis_) + cellInBlock(0, j, k));
+            known |= std::uint64_t{maskBits(coefficient > 0.0)} << (j * kBlockEdge);
+        }
+        return known & ~(liquid_.deep.block(block)[k] & access.below(liquid_.deep, 0, axis_, k));
+    }
+
+    /// The column that stands on this face: none, or of size 0, if it is not the lowest of one, or if its weight is to stay where it is.
+    Column from(const CellRef& lowest) const
+    {
+        Column column;
+        const CellRef under = beside(lowest, -up_);
+        if (!isDeep(under) && !isSolid(under)) return column;
+        if (!isHeld(lowest)) return column;
+        for (CellRef at = lowest;; at = beside(at, up_)) {
+            const bool known = isKnown(at);
+            if (!known && (!isWet(at) || isSolid(at))) break;
+            if (column.size == kSurfaceColumn || isDeep(at) || !bodies_.bare.test(at.block, at.cell, axis_)) return {};
+            column.face[column.size++] = at;
+            if (!known) break;
+        }
+        return column;
+    }
+
+ private:
+    CellRef beside(const CellRef& face, int step) const
+    {
+        if (face.block == grid_.count()) return face;
+        Vec3i at(face.cell & 7, face.cell >> 3 & 7, face.cell >> 6);
+        at[axis_] += step;
+        return cellNear(grid_, face.block, at.x(), at.y(), at.z());
+    }
+    bool exists(const CellRef& face) const { return face.block != grid_.count(); }
+    bool isKnown(const CellRef& face) const { return exists(face) && pressure_.coefficient.block(face.block, axis_)[face.cell] > 0.0; }
+    bool isWet(const CellRef& face) const { return exists(face) && liquid_.wet.test(face.block, face.cell, axis_); }
+    bool isSolid(const CellRef& face) const { return exists(face) && obstacles_.open(face.block, axis_)[face.cell] == 0.0; }
+    bool isDeep(const CellRef& face) const
+    {
+        if (!isKnown(face) || !liquid_.deep.test(face.block, face.cell)) return false;
+        const CellRef below = beside(face, -1);
+        return exists(below) && liquid_.deep.test(below.block, below.cell);
+    }
+    /// Does a solid hold the body that the face belongs to?
+    bool isHeld(const CellRef& face) const
+    {
+        const ConnectedComponents& components = pressure_.solver.components();
+        const CellRef below = beside(face, -1);
+        const int own = components.of(face.block, face.cell), other = exists(below) ? components.of(below.block, below.cell) : -1,
+                  body = std::max(own, other);  // the same, where both are, as the face moves
+        return body >= 0 && bodies_.bodies[body].isHeld;
+    }
+
+    const BlockGrid& grid_;
+    const ObstacleField& obstacles_;
+    const PressureWorkspace& pressure_;
+    const FreeLiquid& bodies_;
+    const LiquidGrid& liquid_;
+    int axis_, up_;
+};
+
+/// Put the weight of a column where its liquid would be if it were even.
+void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid, LiquidOnSolids& onSolids)
+{
+    std::array<double, kSurfaceColumn> mass;
+    double above = 0.0;
+    for (int n = 0; n < column.size; ++n) above += mass[n] = liquid.faces.sums.block(column.face[n].block, FaceFields::kMass + axis)[column.face[n].cell];
+    double rest = above;
+    for (int n = 0; n < column.size; ++n) {
+        const auto [block, cell] = column.face[n];
+        above -= mass[n];
+        const double full = liquid.fullMass * obstacles.room(block, axis)[cell], least = rest - kMostWeight * above,
+                     weight = n + 1 == column.size ? rest : std::clamp(full, least, std::min(rest, kMostWeight * mass[n]));
+        rest -= weight;
+        const double change = gravityStep * (weight / mass[n] - 1.0);
+        liquid.faces.velocity.block(block, axis)[cell] += change;
+        liquid.unpressed.block(block, axis)[cell] += change;
+        onSolids.weightGrew(block, axis, cell, mass[n] * change);
+    }
+}
+
+}  // namespace
+
+void levelWeight(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
+                 const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids& onSolids)
+{
+    if (std::ranges::none_of(bodies.bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
+    onSolids.meetLevelling();
+    for (int a = 0; a < kAxes; ++a) {
+        if (gravityStep[a] == 0.0) continue;
+        const SurfaceColumns columns(grid, obstacles, pressure, bodies, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
+        parallelFor(grid.count(), 4, [&](std::size_t n) {
+            const int b = static_cast<int>(n);
+            const BitAccess access(grid, b);
+            for (int k = 0; k < kBlockEdge; ++k)
+                for (std::uint64_t left = columns.shallow(access, b, k); left != 0; left &= left - 1) {
+                    const Column column = columns.from({b, 64 * k + std::countr_zero(left)});
+                    if (column.size > 1) level(column, obstacles, a, gravityStep[a], liquid, onSolids);
+                }
+        });
+    }
+}
+
+}  // namespace sim

@@ -1,0 +1,52 @@
+#include "tests/physics/runs.h"
+
+#include <gtest/gtest.h>
+
+namespace sim::test {
+namespace {
+
+/// A pool of so many cells' depth in a tank 8 cells wide.
+Scene pool(const Transfer& transfer, double cell, double depth, double spacing, TimeIntegrator integrator)
+{
+    Scene scene = tankScene(transfer, cell, {8.0, 16.0, 8.0}, Vec3::Zero(), {8.0, depth, 8.0});
+    scene.settings.time.mode = TimeMode::Fixed;
+    scene.settings.time.dt = 4.0e-3;
+    scene.settings.time.integrator = integrator;
+    scene.sources[0].fill.spacing = spacing;
+    return scene;
+}
+
+/// A pool at rest stays at rest and keeps its level and its energy, wherever the level is between the faces of the grid, whatever the transfer, the
+/// cell and the pitch of the particles.
+TEST(Rest, OfAPoolLasts)
+{
+    struct Case {
+        Transfer transfer;
+        double cell, depth, spacing;
+        TimeIntegrator integrator;
+    };
+    constexpr auto kReflected = TimeIntegrator::Reflected, kPlain = TimeIntegrator::Plain;
+    for (const Case& c : {Case{kPoly8, 0.5, 6.0, 0.4, kReflected}, {kPoly8, 0.5, 6.2, 0.4, kReflected}, {kPoly8, 0.5, 6.8, 0.4, kPlain},
+                          {kPoly27, 0.4, 7.37, 0.4, kReflected}, {kApic, 0.25, 6.51, 0.5, kReflected}, {kPic, 0.5, 5.13, 0.4, kPlain},
+                          {kFlip, 1.0, 6.0, 0.4, kPlain}, {kPoly11, 0.5, 2.6, 0.4, kReflected}, {kPoly8, 0.5, 7.2, 0.3, kReflected}}) {
+        const Scene scene = pool(c.transfer, c.cell, c.depth, c.spacing, c.integrator);
+        Simulation simulation(scene);
+        const Energies start = simulation.energies();
+        const double mass = std::pow(8.0, 2) * c.depth * std::pow(c.cell, 3), level = c.depth * c.cell;
+        double fastest = 0.0;
+        Energies now;
+        while (simulation.state().time < 4.0) {
+            now = simulation.step(4.0).energies;
+            fastest = std::max(fastest, std::sqrt(2.0 * now.kinetic / mass));
+        }
+        const double sunk = (start.potential - now.potential) / (0.5 * mass * 981.0 * level);
+        std::printf("%-11s cell %.2f cm, %.2f cells deep, pitch %.1f: at most %.2e cm/s, sunk by %.1e\n", c.transfer.name.c_str(), c.cell, c.depth,
+                    c.spacing, fastest, sunk);
+        EXPECT_LT(fastest, 0.1) << c.transfer.name << ' ' << c.depth;
+        EXPECT_NEAR(sunk, 0.0, 2.0e-3) << c.transfer.name << ' ' << c.depth;
+        EXPECT_LT(now.total() - start.total(), 5.0e-4 * 0.5 * mass * 981.0 * level) << c.transfer.name << ' ' << c.depth;
+    }
+}
+
+}  // namespace
+}  // namespace sim::test

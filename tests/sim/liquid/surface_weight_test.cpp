@@ -1,0 +1,112 @@
+#include "sim/liquid/surface_weight.h"
+
+#include "tests/sim/liquid/grid_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace sim::test {
+namespace {
+
+constexpr int kFloor = 0, kWide = 12;
+constexpr double kStep = 1.0e-3;          // [s]
+const Vec3 kFall(0.0, -981.0 * kStep, 0.0);
+
+/// Liquid in a tank, up to a level above its floor or as a block in mid-air [cells], in whose surface layer mass has been moved up or down within
+/// columns at random.
+GridScene unevenLiquid(bool isHeld, double level, std::mt19937& random)
+{
+    GridScene scene({-3, -3, -3}, {15, 24, 15});
+    scene.add(tankOfCells(scene, {0, kFloor, 0}, {kWide, 22, kWide}));
+    const Vec3 from = scene.corner({3, 5, 3}), to = scene.corner({9, 0, 9});
+    const double high = scene.corner({0, kFloor, 0}).y() + level * scene.grid.dx;
+    scene.fill([&](const Vec3& x) {
+        const double sides = isHeld ? -1.0e9 : std::max({from.x() - x.x(), x.x() - to.x(), from.z() - x.z(), x.z() - to.z(), from.y() - x.y()});
+        return std::max(x.y() - high, sides);
+    });
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const int top = static_cast<int>(std::lround(level));
+    for (int k = 0; k < kWide; ++k)
+        for (int i = 0; i < kWide; ++i) {
+            const auto mass = [&](int j) -> double& {
+                const CellRef ref = scene.at({i, j, k});
+                return scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + 1)[ref.cell];
+            };
+            for (int j = std::max(top - 2, 1); j < top; ++j) {
+                if (!(mass(j) > 0.0) || !(mass(j + 1) > 0.0)) continue;
+                const double moved = 0.3 * unit(random) * std::min(mass(j), mass(j + 1));
+                mass(j) -= moved;
+                mass(j + 1) += moved;
+            }
+        }
+    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+    preparePressure(scene.grid, scene.liquid, scene.work);
+    scene.setVelocities([](const Vec3&) { return kFall; });
+    scene.liquid.unpressed = scene.liquid.faces.velocity;
+    return scene;
+}
+
+void levelIn(GridScene& scene)
+{
+    LiquidOnSolids onSolids;
+    onSolids.begin(scene.grid, scene.field, scene.obstacles, scene.liquid.faces);
+    FreeLiquid bodies;
+    findUnheldFaces(scene.grid, scene.field, bodies);
+    findHeldBodies(scene.grid, scene.work, scene.liquid, bodies);
+    bodies.bare.resize(scene.grid.count());
+    std::fill_n(bodies.bare.block(0), static_cast<std::size_t>(scene.grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+    levelWeight(scene.grid, scene.field, scene.work, bodies, kFall, scene.liquid, onSolids);
+}
+
+double largestSpeed(GridScene& scene)
+{
+    double largest = 0.0;
+    scene.forEachFace([&](int a, const Vec3i& c) {
+        const CellRef ref = scene.at(c);
+        if (scene.work.coefficient.block(ref.block, a)[ref.cell] > 0.0) largest = std::max(largest, std::abs(scene.velocity(a, c)));
+    });
+    return largest;
+}
+
+/// What is in the surface layer may lie there as unevenly as it likes: columns that weigh the same stay at rest, and weigh what they did.
+TEST(SurfaceWeight, ColumnsThatWeighTheSameStayAtRest)
+{
+    std::mt19937 random(21);
+    std::uniform_real_distribution<double> levels(1.5, 16.0);
+    for (int n = 0; n < 30; ++n) {
+        const double level = levels(random);
+        GridScene scene = unevenLiquid(true, level, random), asItLies = scene;
+        levelIn(scene);
+        for (int k = 0; k < kWide; ++k)
+            for (int i = 0; i < kWide; ++i) {
+                double moved = 0.0, weight = 0.0;
+                for (int j = 1; j < 22; ++j) {
+                    const CellRef ref = scene.at({i, j, k});
+                    const double mass = scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + 1)[ref.cell];
+                    moved += mass * (scene.velocity(1, {i, j, k}) - kFall.y());
+                    weight += mass * std::abs(kFall.y());
+                    if (mass > 0.0) EXPECT_LT(scene.velocity(1, {i, j, k}), 1.0e-12) << "weight pulls up, level " << level;
+                    EXPECT_EQ(scene.velocity(1, {i, j, k}), scene.liquid.unpressed.block(ref.block, 1)[ref.cell]);
+                }
+                EXPECT_NEAR(moved, 0.0, 1.0e-12 * weight) << "level " << level;
+            }
+        solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+        solvePressure(asItLies.grid, asItLies.field, asItLies.solver, {}, asItLies.work, asItLies.liquid, asItLies.pressure);
+        EXPECT_LT(largestSpeed(scene), 1.0e-9 * std::abs(kFall.y())) << "level " << level;
+        EXPECT_GT(largestSpeed(asItLies), 1.0e-3 * std::abs(kFall.y())) << "level " << level;
+    }
+}
+
+TEST(SurfaceWeight, OfFreeLiquidIsLeftWhereItIs)
+{
+    std::mt19937 random(22);
+    for (double level : {9.0, 11.3, 14.8}) {
+        GridScene scene = unevenLiquid(false, level, random);
+        levelIn(scene);
+        scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(scene.velocity(a, c), kFall[a]); });
+    }
+}
+
+}  // namespace
+}  // namespace sim::test
