@@ -95,17 +95,18 @@ FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v,
     return report;
 }
 
-void FaceSystem::balance(std::span<const int> groupOfBlock, int groups, FaceVector& v)
+void FaceSystem::balance(const BlockArray<double, 3>& start, std::span<const int> groupOfBlock, int groups, FaceVector& v)
 {
+    impulses(q_);
     left_.assign(groups, Vec3::Zero());
     moving_.assign(groups, Vec3::Zero());
     for (int b = 0; b < blocks(); ++b) {
         const int group = groupOfBlock[b];
         if (group < 0) continue;
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = mass_.block(b, a), *r = residual_.faces.block(b, a);
+            const double *m = mass_.block(b, a), *impulse = q_.faces.block(b, a), *first = start.block(b, a), *last = v.faces.block(b, a);
             for (int c = 0; c < kBlockCells; ++c)
-                if (m[c] > 0.0) left_[group][a] += r[c], moving_[group][a] += m[c];
+                if (m[c] > 0.0) left_[group][a] += impulse[c] + m[c] * (first[c] - last[c]), moving_[group][a] += m[c];
         }
     }
     parallelFor(blocks(), 8, [&](std::size_t n) {

@@ -79,10 +79,11 @@ class FaceSystem {
     ///                  nearest to the solution in A's norm; or null
     FaceSolveReport solve(const FaceTolerance& tolerance, FaceVector& v, const BlockArray<double, 3>* expected = nullptr);
 
-    /// Moves the faces of each group of blocks alike, so that what the last solve has left of the balance of forces sums to nothing over them:
-    /// the fabric's own forces do not answer to moving all of it.
+    /// Moves the faces of each group of blocks alike, so that its momentum is that which it started with and the impulses: the fabric's own forces
+    /// do not change it, but what iterations leave of their balance does.
+    /// @param start         velocities that the last solve started from [cm/s]
     /// @param groupOfBlock  below `groups`; −1 for blocks that are left alone
-    void balance(std::span<const int> groupOfBlock, int groups, FaceVector& v);
+    void balance(const BlockArray<double, 3>& start, std::span<const int> groupOfBlock, int groups, FaceVector& v);
 
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
     AlignedArray<double>& onVertices(const FaceVector& u);
