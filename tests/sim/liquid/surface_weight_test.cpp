@@ -35,7 +35,7 @@ GridScene unevenLiquid(bool isHeld, double level, std::mt19937& random)
             };
             for (int j = std::max(top - 2, 1); j < top; ++j) {
                 if (!(mass(j) > 0.0) || !(mass(j + 1) > 0.0)) continue;
-                const double moved = 0.3 * unit(random) * std::min(mass(j), mass(j + 1));
+                const double moved = 0.12 * unit(random) * std::min(mass(j), mass(j + 1));
                 mass(j) -= moved;
                 mass(j + 1) += moved;
             }
@@ -69,7 +69,7 @@ double largestSpeed(GridScene& scene)
     return largest;
 }
 
-/// What is in the surface layer may lie there as unevenly as it likes: columns that weigh the same stay at rest, and weigh what they did.
+/// However unevenly a surface layer lies, within what one face may bear for another: columns that weigh the same stay at rest, and weigh what they did.
 TEST(SurfaceWeight, ColumnsThatWeighTheSameStayAtRest)
 {
     std::mt19937 random(21);
