@@ -191,10 +191,12 @@ void levelHeldWeight(const State& state, const Settings& settings, Workspace& wo
     const BlockGrid& grid = state.grid;
     findUnheldFaces(grid, work.obstacleField, work.free);
     findHeldBodies(grid, work.pressure, work.grid, work.free);
-    work.free.bare.resize(grid.count());
-    std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-    if (isMixed) work.coupling->mixture.clearShared(work.free.bare);
-    levelWeight(grid, work.obstacleField, work.pressure, work.free, fall * settings.gravity, work.grid, work.onSolids);
+    if (isMixed) {
+        work.free.bare.resize(grid.count());
+        std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+        work.coupling->mixture.clearShared(work.free.bare);
+    }
+    levelWeight(grid, work.obstacleField, work.pressure, work.free, isMixed ? &work.free.bare : nullptr, fall * settings.gravity, work.grid, work.onSolids);
     energy.onFaces(EnergyChange::Gravity);
 }
 

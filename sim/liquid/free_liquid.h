@@ -15,7 +15,7 @@ struct FreeLiquid {
         bool isHeld = false;       ///< a solid is on one of its faces, or what else was told
     };
     BlockBits<3> unheld;            ///< faces on which there is nothing that holds liquid
-    BlockBits<3> bare;              ///< faces without fabric, where that is asked for
+    BlockBits<3> bare;              ///< faces without fabric, of steps with fabric in liquid
     std::vector<Body> bodies;       ///< by their number among all components
     std::vector<Body> ofBlock;      ///< sums over blocks that belong to one body
     /// What holds a body.

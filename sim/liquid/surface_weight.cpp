@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-/// Most weight that a face may get, relative to that of its own mass: more would store energy in sprays (SolidsWork: .5 % of it with 4, .24 % so).
+/// Most weight that a face may get, relative to that of its own mass: more would store energy in sprays (SolidsWork: .5 % of it with 4, .24 % so) [-].
 constexpr double kMostWeight = 1.5;
 
 /// A column of faces along gravity, the lowest first.
@@ -24,8 +24,8 @@ class SurfaceColumns {
  public:
     /// @param up  direction along the axis against gravity, 1 or -1
     SurfaceColumns(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
-                   const LiquidGrid& liquid, int axis, int up)
-        : grid_(grid), obstacles_(obstacles), pressure_(pressure), bodies_(bodies), liquid_(liquid), axis_(axis), up_(up)
+                   const BlockBits<3>* bare, const LiquidGrid& liquid, int axis, int up)
+        : grid_(grid), obstacles_(obstacles), pressure_(pressure), bodies_(bodies), bare_(bare), liquid_(liquid), axis_(axis), up_(up)
     {
     }
 
@@ -50,7 +50,7 @@ class SurfaceColumns {
         for (CellRef at = lowest;; at = beside(at, up_)) {
             const bool known = isKnown(at);
             if (!known && (!isWet(at) || isSolid(at))) break;
-            if (column.size == kSurfaceColumn || isDeep(at) || !bodies_.bare.test(at.block, at.cell, axis_)) return {};
+            if (column.size == kSurfaceColumn || isDeep(at) || (bare_ != nullptr && !bare_->test(at.block, at.cell, axis_))) return {};
             column.face[column.size++] = at;
             if (!known) break;
         }
@@ -89,6 +89,7 @@ class SurfaceColumns {
     const ObstacleField& obstacles_;
     const PressureWorkspace& pressure_;
     const FreeLiquid& bodies_;
+    const BlockBits<3>* bare_;
     const LiquidGrid& liquid_;
     int axis_, up_;
 };
@@ -116,13 +117,13 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
 }  // namespace
 
 void levelWeight(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
-                 const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids& onSolids)
+                 const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids& onSolids)
 {
     if (std::ranges::none_of(bodies.bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
     onSolids.meetLevelling();
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
-        const SurfaceColumns columns(grid, obstacles, pressure, bodies, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
+        const SurfaceColumns columns(grid, obstacles, pressure, bodies, bare, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
         parallelFor(grid.count(), 4, [&](std::size_t n) {
             const int b = static_cast<int>(n);
             const BitAccess access(grid, b);

@@ -10,7 +10,7 @@ struct VolumeWorkspace {
 };
 
 /// Error of a cell's volume that is not corrected, relative to its own: that is the noise of particles at rest on their lattice, and to mend it
-/// would lift them for nothing, again and again.
+/// would lift them for nothing, again and again [-].
 inline constexpr double kVolumeNoise = 0.005;
 
 /// Farthest that one correction moves anything [cells].

@@ -54,9 +54,7 @@ void levelIn(GridScene& scene)
     FreeLiquid bodies;
     findUnheldFaces(scene.grid, scene.field, bodies);
     findHeldBodies(scene.grid, scene.work, scene.liquid, bodies);
-    bodies.bare.resize(scene.grid.count());
-    std::fill_n(bodies.bare.block(0), static_cast<std::size_t>(scene.grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-    levelWeight(scene.grid, scene.field, scene.work, bodies, kFall, scene.liquid, onSolids);
+    levelWeight(scene.grid, scene.field, scene.work, bodies, nullptr, kFall, scene.liquid, onSolids);
 }
 
 double largestSpeed(GridScene& scene)
