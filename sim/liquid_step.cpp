@@ -245,8 +245,8 @@ void tellSolids(const State& state, const Settings& settings, double dt, const L
 {
     if (plan.isMixed && (work.fabric || work.gridFabric)) {
         work.onSolids.meetFabric();
-        work.coupling->mixture.forEachImpulseOnFabric(
-            [&](int b, int a, int c, double impulse) { work.onSolids.fabricGot(b, a, c, impulse); });
+        work.coupling->mixture.forEachImpulseTaken(
+            [&](int b, int a, int c, double impulse) { work.onSolids.fabricTook(b, a, c, impulse); });
     }
     const LiquidOnSolids::Outcome outcome{.velocity = plan.reflects ? work.reflection.velocity : work.grid.faces.velocity,
                                           .liquid = work.grid,

@@ -27,6 +27,7 @@ Mixture::Mixture(const Fabric& fabric, const LiquidAround& around, const Setting
 {
     loads_.drag.resize(fabric.vertexCount());
     loads_.impulse.resize(fabric.vertexCount());
+    if (reacts()) reactionOf_.resize(fabric.vertexCount());
 }
 
 bool Mixture::findShared(const BlockGrid& grid)
@@ -43,10 +44,12 @@ bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const 
     dt_ = dt;
     onFaces_.spread(state);
     if (faces) onFaces_.takeVelocity(*faces);
-    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &onFabric_, &pull_, &push_})
+    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_,
+                     &push_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, obstacles, liquid);
     if (settings_.capillary) suck(grid, obstacles, state, liquid);
+    if (reacts()) react();
     mix(gravity, obstacles, liquid);
     addDisplaced(liquid);
     return true;
@@ -77,16 +80,28 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
 void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid)
 {
     suction_.find(vertices_, state, grid, liquidBlock_, liquid);
+    Faces& perSlope = reaction_;  // until it is known
+    parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(perSlope.block(static_cast<int>(b)), Faces::kStride, 0.0); });
     const double cell = std::pow(onFaces_.grid().dx, 3);
     forEachShared([&](int b, int m, int a, int c) {
         const double mass = liquidMass_.block(b, a)[c], volume = mass / liquidDensity_;
         const double fibres = onFaces_.fibres.block(b, a)[c], held = onFaces_.solid.block(b, a)[c] - fibres;
         const double saturation = fibres < cell ? std::clamp((volume + held) / (cell - fibres), 0.0, 1.0) : 0.0;
         const double along = suctionAlongAxis(onFaces_.shape.block(b, a)[c], onFaces_.squares.block(b, a)[c]);
-        const double impulse = dt_ * volume * saturation * obstacles.open(m, a)[c] * along * suction_.slope(onFaces_.grid(), b, a, c);
+        const double factor = dt_ * volume * saturation * obstacles.open(m, a)[c] * along;
+        const double impulse = factor * suction_.slope(onFaces_.grid(), b, a, c);
+        perSlope.block(b, a)[c] = factor;
         sucked_.block(b, a)[c] = impulse;
         predicted_.block(b, a)[c] += impulse / mass;
     });
+}
+
+/// … and is drawn by it.
+void Mixture::react()
+{
+    suction_.react(vertices_, reaction_, reactionOf_);
+    parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(reaction_.block(static_cast<int>(b)), Faces::kStride, 0.0); });
+    onFaces_.scatter([&](int v) { return reactionOf_[v]; }, reaction_);
 }
 
 /// Drag, and what both phases together do (MixtureSplit).
@@ -109,8 +124,8 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
         if (!settings_.pressureOnFabric) face.fabricVolume = 0.0;
 
         const MixtureSplit split = splitMixture(face);
-        const double back = settings_.capillary && settings_.capillaryReaction ? sucked_.block(b, a)[c] / face.fabricMass : 0.0;
-        const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * free * gravity[a] - back;
+        const double back = reacts() ? reaction_.block(b, a)[c] / face.fabricMass : 0.0;
+        const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * free * gravity[a] + back;
         liquidVolume_.block(b, a)[c] = face.liquidVolume;
         drag_.block(b, a)[c] = face.drag;
         mixed_.block(b, a)[c] = split.ofLiquid * predicted_.block(b, a)[c] + split.ofFabric * fabric;
@@ -165,7 +180,6 @@ void Mixture::applyPressure(const LiquidGrid& liquid)
         push_.block(b, a)[c] = push;
         onFabric_.block(b, a)[c] = drag * mass / (mass + drag);
         pull_.block(b, a)[c] = onFabric_.block(b, a)[c] * u;
-        if (settings_.capillary && settings_.capillaryReaction) pull_.block(b, a)[c] -= sucked_.block(b, a)[c];
     });
 }
 
@@ -193,6 +207,8 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
     onFaces_.gather(onFabric_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
     onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
     if (settings_.pressureOnFabric) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
+    if (reacts())
+        for (std::size_t v = 0; v < reactionOf_.size(); ++v) loads_.impulse[v] += reactionOf_[v];
     return loads_;
 }
 
@@ -201,6 +217,12 @@ FaceLoads Mixture::faceLoads(const LiquidGrid& liquid)
     applyPressure(liquid);
     if (settings_.pressureOnFabric)
         forEachShared([&](int b, int, int a, int c) { pull_.block(b, a)[c] -= onFaces_.solid.block(b, a)[c] * push_.block(b, a)[c]; });
+    if (reacts())
+        parallelFor(liquidBlock_.size(), [&](std::size_t b) {
+            double* pull = pull_.block(static_cast<int>(b));
+            const double* reaction = reaction_.block(static_cast<int>(b));
+            for (std::size_t i = 0; i < Faces::kStride; ++i) pull[i] += reaction[i];
+        });
     return {onFaces_.grid(), onFabric_, pull_};
 }
 
@@ -224,12 +246,12 @@ void Mixture::separate(LiquidGrid& liquid) const
     });
 }
 
-/// Drag and the reaction of suction, what it got of the pressure's impulse; of the fabric's velocity at the end of the step.
-double Mixture::impulseOnFabric(int block, int axis, int cell) const
+/// By the fabric's velocity at the end of the step.
+double Mixture::impulseTaken(int block, int axis, int cell) const
 {
     const double mass = liquidMass_.block(block, axis)[cell], drag = drag_.block(block, axis)[cell];
     double impulse = mass * drag / (mass + drag) * (predicted_.block(block, axis)[cell] - onFaces_.velocity.block(block, axis)[cell]);
-    if (settings_.capillary && settings_.capillaryReaction) impulse -= sucked_.block(block, axis)[cell];
+    if (settings_.capillary) impulse -= sucked_.block(block, axis)[cell];
     if (settings_.pressureOnFabric) impulse -= onFaces_.solid.block(block, axis)[cell] * push_.block(block, axis)[cell];
     return impulse;
 }
@@ -256,6 +278,12 @@ EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<
     EnergyChanges sum;
     for (std::size_t n = 0; n < liquidBlock_.size(); ++n) {
         const int b = static_cast<int>(n), m = liquidBlock_[b];
+        if (reacts()) {
+            double byReaction = 0.0;
+            for (std::size_t i = 0; i < Faces::kStride; ++i) byReaction += reaction_.block(b)[i] * onFaces_.velocity.block(b)[i];
+            sum[EnergyChange::Suction] += byReaction;
+            sum[EnergyChange::Drag] -= byReaction;
+        }
         if (m == BlockGrid::kNone) continue;
         for (int a = 0; a < kAxes; ++a)
             for (int c = 0; c < kBlockCells; ++c) {
@@ -265,10 +293,9 @@ EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<
                 const double push = push_.block(b, a)[c], onLiquid = liquidVolume_.block(b, a)[c] * push;
                 const double onFabric = settings_.pressureOnFabric ? onFaces_.solid.block(b, a)[c] * push : 0.0;
                 const double sucked = settings_.capillary ? sucked_.block(b, a)[c] : 0.0;
-                const double back = settings_.capillaryReaction ? sucked : 0.0;
                 sum[EnergyChange::Pressure] -= onLiquid * u + onFabric * fabric;
-                sum[EnergyChange::Suction] += sucked * u - back * fabric;
-                sum[EnergyChange::Drag] += drag_.block(b, a)[c] * (fabric - u) * u + (onFabric + back) * fabric;
+                sum[EnergyChange::Suction] += sucked * u;
+                sum[EnergyChange::Drag] += drag_.block(b, a)[c] * (fabric - u) * u + onFabric * fabric;
                 sum[EnergyChange::Implicit] -= 0.5 * mass * std::pow(u - before.block(m, a)[c], 2);
             }
     }

@@ -41,11 +41,12 @@ class Mixture {
     /// What pressure and surface tension did to liquid and fabric together on these faces, as a change of the liquid's velocity alone [cm/s].
     void pairChange(BlockArray<double, 3>& change) const;
 
-    /// After separate: call f(liquid's block, axis, cell, impulse) with what the fabric got on each shared face [g cm/s], blocks in parallel.
+    /// After separate: call f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure took from the
+    /// liquid of each shared face [g cm/s], blocks in parallel.
     template <class F>
-    void forEachImpulseOnFabric(F&& f) const
+    void forEachImpulseTaken(F&& f) const
     {
-        forEachShared([&](int b, int m, int a, int c) { f(m, a, c, impulseOnFabric(b, a, c)); });
+        forEachShared([&](int b, int m, int a, int c) { f(m, a, c, impulseTaken(b, a, c)); });
     }
 
     /// Set what the liquid has on these faces to 0.
@@ -73,8 +74,10 @@ class Mixture {
     void applyPressure(const LiquidGrid& liquid);
     void separate(LiquidGrid& liquid) const;
     double dragOn(int block, int axis, int cell, double liquidVolume, double room) const;
+    bool reacts() const { return settings_.capillary && settings_.capillaryReaction; }
     double speedAt(int block, int axis, int cell) const;
-    double impulseOnFabric(int block, int axis, int cell) const;
+    double impulseTaken(int block, int axis, int cell) const;
+    void react();
     /// body(block, liquid's block, axis, cell) for the shared faces, blocks in parallel.
     template <class Body>
     void forEachShared(Body&& body) const
@@ -109,9 +112,11 @@ class Mixture {
     Faces drag_;                                     ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
     Faces predicted_;                                ///< u_f*, later ũ_f: after the pressure [cm/s]
     Faces mixed_, mobility_;                         ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
-    Faces sucked_;                                   ///< impulse of suction on the liquid [g cm/s]
+    Faces sucked_;                                   ///< impulse of suction on the liquid [g cm/s] …
+    Faces reaction_;                                 ///< … and on the fabric, of all its faces
+    std::vector<Vec3> reactionOf_;                   ///< the same of each vertex
     Faces onFabric_;                                 ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
-    Faces pull_;                                     ///< D' ũ_f, less the reaction of suction [g cm/s]
+    Faces pull_;                                     ///< D' ũ_f [g cm/s]
     Faces push_;                                     ///< dt ∇p [g/(cm^2 s)]
     LiquidLoads loads_;
 };

@@ -36,6 +36,11 @@ Suction::Suction(const Fabric& fabric, const Settings& settings)
         strength_.push_back(PorousLaw({settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling).suctionOfPores());
 }
 
+double Suction::pullOf(std::size_t vertex) const
+{
+    return (fabric_.volume[vertex] - poreVolume(fabric_, vertex)) * strength_[fabric_.vertexMaterial[vertex]];
+}
+
 void Suction::find(const SortedVertices& vertices, const FabricState& state, const BlockGrid& grid, std::span<const int> liquidBlock,
                    const LiquidGrid& liquid)
 {
@@ -50,7 +55,7 @@ void Suction::find(const SortedVertices& vertices, const FabricState& state, con
             for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
                 const std::size_t v = vertices.particles.id[s];
                 const double pores = poreVolume(fabric_, v), fibres = fabric_.volume[v] - pores, held = state.absorbed[v] / density_;
-                const double pull = fibres * strength_[fabric_.vertexMaterial[v]];
+                const double pull = pullOf(v);
                 CellStencil(vertices.particles.position(s), corner, vertices.grid.dx)
                     .forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                         volumes_.block(b, kFibres)[c] += weight * fibres;
@@ -82,6 +87,40 @@ double Suction::slope(const BlockGrid& grid, int block, int axis, int cell) cons
     --below[axis];
     const CellRef ref = cellNear(grid, block, below[0], below[1], below[2]);
     return (suction_.block(block)[cell] - suction_.block(ref.block)[ref.cell]) / grid.dx;
+}
+
+void Suction::react(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse)
+{
+    const BlockGrid& grid = vertices.grid;
+    back_.resize(grid.count());
+    parallelFor(grid.count(), [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        for (int c = 0; c < kBlockCells; ++c) {
+            const double pull = volumes_.block(b, kPull)[c], perPull = pull > 0.0 ? suction_.block(b)[c] / (pull * grid.dx) : 0.0;
+            for (int a = 0; a < kAxes; ++a) {
+                double& back = back_.block(b, a)[c];
+                back = 0.0;
+                if (perPull == 0.0) continue;
+                std::array<int, kAxes> above = placeOf(c);
+                ++above[a];
+                const CellRef upper = cellNear(grid, b, above[0], above[1], above[2]);
+                back = perPull * (perSlope.block(upper.block, a)[upper.cell] - perSlope.block(b, a)[c]);
+            }
+        }
+    });
+    std::ranges::fill(impulse, Vec3::Zero());
+    parallelFor(grid.count(), [&](std::size_t n) {
+        const int block = static_cast<int>(n);
+        for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
+            const std::size_t v = vertices.particles.id[s];
+            Vec3 sum = Vec3::Zero();
+            CellStencil(vertices.particles.position(s), grid.lowerCorner(block), grid.dx)
+                .forEach(grid.neighbours(block), [&](int b, int c, double weight) {
+                    for (int a = 0; a < kAxes; ++a) sum[a] += weight * back_.block(b, a)[c];
+                });
+            impulse[v] = pullOf(v) * sum;
+        }
+    });
 }
 
 }  // namespace sim

@@ -4,6 +4,8 @@
 #include "sim/coupling/sorted_vertices.h"
 #include "sim/liquid/liquid_grid.h"
 
+#include <span>
+
 namespace sim {
 
 /// Capillary suction of fabric on the liquid around: P = P_c (1 − S) in the cells that vertices reach (model-fluid 8.1). S is how full a
@@ -17,8 +19,15 @@ class Suction {
               const LiquidGrid& liquid);
     /// dP/da at the lower face of a cell along an axis [dyn/cm^3].
     double slope(const BlockGrid& grid, int block, int axis, int cell) const;
+    /// What draws is drawn: each vertex gets, by its own part of P in the cells that it reaches, the opposite of what it makes of slopes. All
+    /// vertices together get what liquid gets, and none more than goes with its volume, however little of it a face with much liquid has.
+    /// @param perSlope  of each face: impulse on its liquid for a slope of 1 [g cm/s per dyn/cm^3]
+    /// @param impulse   of each vertex [g cm/s]
+    void react(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse);
 
  private:
+    double pullOf(std::size_t vertex) const;
+
     enum Kind { kFibres, kPull, kPores, kHeld, kKinds };  ///< fibres [cm^3], they times P_c (1 - φ)/φ [dyn cm], pores, what they hold [cm^3]
 
     const Fabric& fabric_;
@@ -26,6 +35,7 @@ class Suction {
     double density_;                             ///< of the liquid [g/cm^3]
     BlockArray<double, kKinds> volumes_;
     BlockArray<double> suction_;                 ///< of each cell [dyn/cm^2]
+    BlockArray<double, 3> back_;                 ///< of each cell: impulse for a pull of 1 [g cm/s per dyn cm]
 };
 
 }  // namespace sim

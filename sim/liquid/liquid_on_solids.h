@@ -27,9 +27,9 @@ class LiquidOnSolids {
     {
         if (const int place = place_[block]; place != BlockGrid::kNone) others_.block(place, axis)[cell] += impulse;
     }
-    /// There is fabric on faces: then tell what each got of the liquid [g cm/s].
+    /// There is fabric on faces: then tell what fabric and suction took from the liquid of each [g cm/s].
     void meetFabric() { clearOthers(); }
-    void fabricGot(int block, int axis, int cell, double impulse)
+    void fabricTook(int block, int axis, int cell, double impulse)
     {
         const int place = place_[block];
         if (place == BlockGrid::kNone) return;

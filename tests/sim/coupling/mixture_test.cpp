@@ -50,12 +50,16 @@ struct Bath {
     /// A step of the two without pressure.
     void exchange(Mixture& mixture)
     {
+        blendWithoutPressure(mixture);
+        moveFabric(mixture.loads(scene.liquid));
+        mixture.separate(state, scene.liquid);
+    }
+    void blendWithoutPressure(Mixture& mixture)
+    {
         BlockArray<double, 3> noPressure;
         noPressure.resize(scene.grid.count());
         for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
         mixture.blend(scene.field, scene.liquid, noPressure);
-        moveFabric(mixture.loads(scene.liquid));
-        mixture.separate(state, scene.liquid);
     }
     bool find(Mixture& mixture)
     {
@@ -106,10 +110,7 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
     fabric.spread(bath.state);
     const Vec3 liquidBefore = mixture.liquidMomentum(scene.liquid);
     const double energyBefore = mixture.kinetic(scene.liquid.faces.velocity);
-    BlockArray<double, 3> noPressure;
-    noPressure.resize(scene.grid.count());
-    for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
-    mixture.blend(scene.field, scene.liquid, noPressure);
+    bath.blendWithoutPressure(mixture);
     const FaceLoads loads = mixture.faceLoads(scene.liquid);
     Vec3 gained = Vec3::Zero();
     double gainedEnergy = 0.0;
@@ -188,6 +189,48 @@ TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
         EXPECT_GT(up.y(), std::abs(up.x()) + std::abs(up.z()));
         if (reacts) EXPECT_LT(bath.momentum(mixture).norm(), 1.0e-13 * up.norm());
         else EXPECT_EQ(bath.fabricMomentum(), Vec3::Zero().eval());
+    }
+}
+
+/// A face with hardly any fabric beside much liquid: what is drawn through it, the vertices that draw have to bear, not the little on the face.
+TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
+{
+    testing::Noise noise(11);
+    for (int n = 0; n < 12; ++n) {
+        Bath bath(DragLaw::Off);
+        const double dx = bath.scene.grid.dx, beyond = std::pow(10.0, -1.0 - n % 4) * dx;
+        Vec3 shift = dx * noise.vector();
+        const int axis = n % kAxes;  // along it a vertex reaches a face by as little
+        shift[axis] += (std::ceil(bath.state.x[0][axis] / dx) - 0.5) * dx + beyond - bath.state.x[0][axis] - shift[axis];
+        for (Vec3& x : bath.state.x) x += shift;
+        for (Vec3& v : bath.state.v) v.setZero();
+        bath.settings.coupling.capillary = bath.settings.coupling.capillaryReaction = true;
+        fillBelow(bath, bath.scene.corner(Vec3i(8, 8, 8)).y() + dx * noise());
+        Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+        ASSERT_TRUE(bath.find(mixture));
+        bath.blendWithoutPressure(mixture);
+        double fastest = 0.0;  // cm/s
+        const LiquidLoads& loads = mixture.loads(bath.scene.liquid);
+        for (std::size_t v = 0; v < bath.fabric.vertexCount(); ++v)
+            fastest = std::max(fastest, loads.impulse[v].cwiseAbs().maxCoeff() / bath.fabric.mass[v]);
+        ASSERT_GT(fastest, 0.0);
+        FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
+        fabric.spread(bath.state);
+        const FaceLoads onFaces = mixture.faceLoads(bath.scene.liquid);
+        double fastestFace = 0.0;
+        Vec3 sum = Vec3::Zero();
+        for (int b = 0; b < fabric.grid().count(); ++b)
+            for (int a = 0; a < kAxes; ++a)
+                for (int c = 0; c < kBlockCells; ++c) {
+                    const double mass = fabric.mass.block(b, a)[c], impulse = onFaces.impulse.block(b, a)[c];
+                    sum[a] += impulse;
+                    if (mass > 0.0) fastestFace = std::max(fastestFace, std::abs(impulse) / mass);
+                    else EXPECT_EQ(impulse, 0.0);
+                }
+        EXPECT_LE(fastestFace, fastest * (1.0 + 1.0e-9)) << n;
+        mixture.separate(FabricFaces{fabric.grid(), fabric.velocity}, bath.scene.liquid);
+        const Vec3 drawn = mixture.liquidMomentum(bath.scene.liquid);
+        EXPECT_LT((sum + drawn).norm(), 1.0e-12 * drawn.norm());
     }
 }
 
