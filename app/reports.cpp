@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace app {
 
@@ -151,10 +152,12 @@ Json reportJson(const RunSummary& s)
                  {"particles", s.particles},
                  {"particles_mean", s.particleSum / steps},
                  {"cells", s.cells},
+                 {"cell", s.cell},
                  {"iterations", {{"mean", static_cast<double>(s.totalIterations) / steps}, {"max", s.maxIterations}, {"total", s.totalIterations}}},
                  {"fabric",
                   {{"vertices", s.fabricVertices},
                    {"elements", s.fabricElements},
+                   {"mass", s.fabricMass},
                    {"iterations_mean", static_cast<double>(s.fabricIterations) / steps},
                    {"halvings", s.fabricHalvings},
                    {"shortened", s.fabricShortened},
@@ -255,6 +258,7 @@ void Reports::describe(const SceneSetup& setup, std::string contentHash, int thr
     summary_.title = setup.scene.title;
     summary_.variant = setup.variant;
     summary_.label = setup.label;
+    summary_.cell = setup.scene.settings.cell;
     summary_.forceNames = ForceNames(setup.scene);
     summary_.contentHash = std::move(contentHash);
     summary_.version = DRENCH_VERSION;
@@ -280,6 +284,7 @@ void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const 
     if (energyLedger_) energyLedger_->initial(state.time, energies);
     summary_.particles = state.liquid.count;
     summary_.fabricVertices = fabric.vertexCount();
+    summary_.fabricMass = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     summary_.fabricElements = fabric.edges.size() + fabric.faces.size();
     if (energy_)
         energy_->add(energyRow(state.time, energies, state.liquid.count, state.ledger.emittedMass - state.ledger.leftMass,

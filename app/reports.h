@@ -43,6 +43,8 @@ struct RunSummary {
     double particleSum = 0.0;                ///< over the steps
     std::int64_t totalIterations = 0, maxIterations = 0;
     std::size_t fabricVertices = 0, fabricElements = 0;   ///< elements: edges of yarns and faces of cloth
+    double fabricMass = 0.0;                 ///< dry [g]
+    double cell = 0.0;                       ///< [cm]
     std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
     double leastTakenFraction = 1.0;         ///< of the moves that the fabric's Newton asked for, over the steps [-]
     std::int64_t takenBack = 0;              ///< steps that turned out bad and were made again

@@ -22,7 +22,7 @@ namespace {
 //   xxh3 0123456789abcdef
 constexpr std::size_t kHeaderBytes = 512;
 constexpr std::string_view kMagic = "Drench checkpoint ";
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 
 std::string checksum(std::string_view content) { return hexDigits(XXH3_64bits(content.data(), content.size())); }
 
@@ -81,6 +81,7 @@ void visitSummary(V& v, Summary& s)
     v.number("logs/most_iterations", "-", s.maxIterations);
     v.number("logs/fabric_vertices", "-", s.fabricVertices);
     v.number("logs/fabric_elements", "-", s.fabricElements);
+    v.number("logs/fabric_mass", "g", s.fabricMass);
     v.number("logs/fabric_iterations", "-", s.fabricIterations);
     v.number("logs/fabric_halvings", "-", s.fabricHalvings);
     v.number("logs/fabric_shortened", "-", s.fabricShortened);

@@ -30,6 +30,17 @@ struct Energy {
     double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
 };
 
+/// Kinetic energy [erg] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
+double unfeltEnergy(const std::filesystem::path& folder, double liquidMass, double time)
+{
+    constexpr double kUnfelt = 1.0e-9;
+    std::ifstream in(folder / "report.json");
+    const json report = in ? json::parse(in, nullptr, false) : json();
+    if (!report.is_object() || !(time > 0.0)) return 0.0;
+    const double mass = liquidMass + report.at("fabric").value("mass", 0.0), speed = kUnfelt * report.value("cell", 0.0) / time;
+    return 0.5 * mass * speed * speed;
+}
+
 /// From energy_ledger.csv: what of the energy's rise nothing outside of liquid and fabric has paid for.
 Energy energyOf(const std::filesystem::path& csv)
 {
@@ -80,7 +91,8 @@ RunCourse courseOf(const std::filesystem::path& folder)
         if (mass == 0.0) mass = step.at("ledger").value("liquid_mass", 0.0);
     }
     const Energy energy = energyOf(folder / "energy_ledger.csv");
-    if (energy.largestKinetic > 0.0) course.energyGain = energy.gain / energy.largestKinetic;
+    const double scale = std::max(energy.largestKinetic, unfeltEnergy(folder, mass, course.time));
+    if (scale > 0.0) course.energyGain = energy.gain / scale;
     if (mass > 0.0) course.commonSpeed = std::sqrt(2.0 * energy.largestKinetic / mass);
     return course;
 }

@@ -14,6 +14,15 @@ FabricEnergies elasticEnergies(const FabricState& state, const Rods& rods, const
     return e;
 }
 
+const FabricEnergies& ElasticEnergies::at(const FabricState& state, const Rods& rods, const Shells& shells)
+{
+    if (state.x != x_ || state.theta != theta_ || state.reference != reference_ || state.referenceTwist != referenceTwist_) {
+        x_ = state.x, theta_ = state.theta, reference_ = state.reference, referenceTwist_ = state.referenceTwist;
+        energies_ = elasticEnergies(state, rods, shells);
+    }
+    return energies_;
+}
+
 FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const FabricEnergies& elastic, const Vec3& gravity)
 {
     FabricEnergies e = elastic;

@@ -12,6 +12,17 @@ namespace sim {
 /// Elastic energies (model-fabric 6.6); the others are 0.
 FabricEnergies elasticEnergies(const FabricState& state, const Rods& rods, const Shells& shells);
 
+/// The same, which remembers where it was asked last: a step asks for where the one before has ended.
+class ElasticEnergies {
+ public:
+    const FabricEnergies& at(const FabricState& state, const Rods& rods, const Shells& shells);
+
+ private:
+    std::vector<Vec3> x_, reference_;
+    std::vector<double> theta_, referenceTwist_;
+    FabricEnergies energies_;
+};
+
 /// With kinetic and potential energy and that of contact; what pins hold is not among them.
 FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const FabricEnergies& elastic, const Vec3& gravity);
 

@@ -2,7 +2,6 @@
 
 #include "sim/core/parallel.h"
 #include "sim/fabric/contact/spring_step.h"
-#include "sim/fabric/energies.h"
 #include "sim/fabric/felt_acceleration.h"
 #include "sim/fabric/held.h"
 #include "sim/fabric/pins.h"
@@ -318,14 +317,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
 
 FabricEnergies VertexSolver::energies(const FabricState& state, const Vec3& gravity) const
 {
-    if (state.x != known_.x || state.theta != known_.theta || state.reference != known_.reference || state.referenceTwist != known_.referenceTwist) {
-        known_.x = state.x;
-        known_.reference = state.reference;
-        known_.theta = state.theta;
-        known_.referenceTwist = state.referenceTwist;
-        known_.energies = elasticEnergies(state, system_.rods(), system_.shells());
-    }
-    return fabricEnergies(fabric_, state, known_.energies, gravity);
+    return fabricEnergies(fabric_, state, elastic_.at(state, system_.rods(), system_.shells()), gravity);
 }
 
 double VertexSolver::leastDistance() const { return contact_ ? contact_->leastDistance() : std::numeric_limits<double>::infinity(); }

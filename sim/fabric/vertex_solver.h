@@ -2,6 +2,7 @@
 
 #include "sim/fabric/cohesion.h"
 #include "sim/fabric/contact/contact.h"
+#include "sim/fabric/energies.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/groups.h"
 #include "sim/fabric/liquid_loads.h"
@@ -112,14 +113,7 @@ class VertexSolver {
     std::vector<Vec3> missing_, groupInertia_;   ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
     std::vector<Vec3> restReference_;            ///< of each yarn edge
 
-    /// The last state whose elastic energies were asked for: a step begins where the one before has ended.
-    struct Known {
-        std::vector<Vec3> x, reference;
-        std::vector<double> theta, referenceTwist;
-        FabricEnergies energies;
-    };
-    mutable Known known_;
-
+    mutable ElasticEnergies elastic_;
     bool booksEnergy_ = false;
     Forces* forces_ = nullptr;                   ///< where they are wanted
     const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …

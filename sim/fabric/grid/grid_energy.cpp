@@ -47,7 +47,7 @@ void GridFabricSolver::bookSolve(double h, const Vec3& gravity, const FabricStat
     }
     const double kinetic = facesKinetic(last) + twistKinetic;
     changes[EnergyChange::Contact] = system_.contactWork(velocity_);
-    const VertexStiffness::Work work = stiffness_.work(state, h, system_.onVertices(velocity_));
+    const VertexStiffness::Work work = stiffness_.work(h, system_.onVertices(velocity_));
     changes[EnergyChange::Damping] = work.damping;
     changes[EnergyChange::Obstacles] = work.obstacles;
     changes[EnergyChange::Pins] = work.pins;

@@ -2,7 +2,6 @@
 
 #include "sim/core/parallel.h"
 #include "sim/fabric/contact/spring_step.h"
-#include "sim/fabric/energies.h"
 #include "sim/fabric/felt_acceleration.h"
 
 #include <algorithm>
@@ -21,9 +20,6 @@ constexpr int kMaxIterations = 200, kMostIterations = 20000;
 constexpr double kBearable = 0.1;  ///< of feltAcceleration [-]
 /// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
-/// Energy that contact may come to hold without having been solved for, relative to that of the motion and of a step's fall [-].
-constexpr double kUnforeseen = 0.01;
-constexpr int kMostRepeats = 3;  ///< of a solve, to take such contact in
 
 }  // namespace
 
@@ -223,34 +219,10 @@ void GridFabricSolver::spread(FabricState& state, StageClock& clock)
     particles_.toFaces(mass_, points_, state);
 }
 
-void GridFabricSolver::solve(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report)
+/// How the fabric will move by motion_, where contact matters that makes more than a share of the solve's tolerance.
+StepOutlook GridFabricSolver::outlookOn(double h, const FaceTolerance& tolerance) const
 {
-    const FaceSolveReport solve = system_.solve(tolerance, velocity_, expected);
-    ++report.newton;
-    report.iterations += solve.iterations;
-    report.speedError = solve.speedError;
-}
-
-/// Elements that are pressed by the solved motion though nobody expected it, by the fabric's own forces, would store energy that nothing has
-/// given: with them among the others the step is solved again. Leaves in motion_ what was solved for.
-void GridFabricSolver::meetUnforeseen(double h, double bearable, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report)
-{
-    for (int repeat = 0;; ++repeat) {
-        system_.findMotion(velocity_.faces, motion_);
-        const StepOutlook found{motion_, h, particles_.grid().dx, kNegligible * tolerance.wanted / h};
-        if (repeat == kMostRepeats || contact_.unforeseen(found) <= bearable) return;
-        contact_.takeIn(state, found);
-        system_.assemble();
-        expected_.resize(system_.blocks());
-        parallelFor(system_.blocks(), 8, [&](std::size_t b) {
-            const int block = static_cast<int>(b);
-            const double *first = start_.block(block), *last = velocity_.faces.block(block);
-            for (int c = 0; c < kAxes * kBlockCells; ++c) expected_.block(block)[c] = last[c] - first[c];
-        });
-        velocity_.faces = start_;
-        std::ranges::copy(state.omega, velocity_.twist.begin());
-        solve(tolerance, &expected_, report);
-    }
+    return {motion_, h, particles_.grid().dx, kNegligible * tolerance.wanted / h};
 }
 
 FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock,
@@ -259,6 +231,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     FabricReport report;
     const double felt = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
+    const FaceTolerance until{tolerance, kMaxIterations, kBearable * felt * h, kMostIterations};
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
@@ -269,7 +242,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
         if (!obstacles_.empty()) touching = touchObstacles(t, h, gravity, state);
-        const StepOutlook outlook{motion_, h, particles_.grid().dx, kNegligible * tolerance / h};
+        const StepOutlook outlook = outlookOn(h, until);
         contact_.assemble(state, &outlook);
     }
 
@@ -278,10 +251,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     system_.assemble();
 
     clock.start(Stage::FabricSolve);
-    start_ = velocity_.faces;
-    const FaceTolerance until{tolerance, kMaxIterations, kBearable * felt * h, kMostIterations};
-    solve(until, expectedChange(state), report);
-    if (settings_.contact) meetUnforeseen(h, kUnforeseen * kinetic, until, state, report);
+    solve(h, kinetic, until, state, report);
     keepMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
@@ -318,7 +288,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 
 FabricEnergies GridFabricSolver::energies(const FabricState& state, const Vec3& gravity) const
 {
-    return fabricEnergies(fabric_, state, elasticEnergies(state, stiffness_.rods(), stiffness_.shells()), gravity);
+    return fabricEnergies(fabric_, state, elastic_.at(state, stiffness_.rods(), stiffness_.shells()), gravity);
 }
 
 }  // namespace sim

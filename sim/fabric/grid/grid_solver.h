@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/energies.h"
 #include "sim/fabric/grid/face_system.h"
 #include "sim/fabric/groups.h"
 #include "sim/fabric/liquid_loads.h"
@@ -64,8 +65,12 @@ class GridFabricSolver {
     double partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state);
     void moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
-    void solve(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
-    void meetUnforeseen(double h, double bearable, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    void solve(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
+    void solveAgain(const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    void meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
+    StepOutlook outlookOn(double h, const FaceTolerance& tolerance) const;
     void findGroups(std::span<const ObstacleContact> touching);
     void keepMomentum(std::span<const ObstacleContact> touching);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
@@ -104,6 +109,7 @@ class GridFabricSolver {
     std::vector<Vec3> byLiquid_;       ///< of each vertex: impulse per mass [cm/s]
     FabricState trial_;                ///< places and frames where a move would take the fabric
     FabricMotion motion_;
+    mutable ElasticEnergies elastic_;
 };
 
 }  // namespace sim

@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/pins.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,7 +18,7 @@ VertexStiffness::VertexStiffness(const Fabric& fabric, const FabricSettings& set
       restReference_(restState(fabric).reference)
 {
     strands_.resize(rods_.layout());
-    gradient_.resize(unknowns_.size);
+    for (AlignedArray<double>* u : {&gradient_, &reached_, &product_}) u->resize(unknowns_.size);
     clothIn_.resize(4 * shells_.vertices().size());
     findShared();
     findPinStiffness(fabric);
@@ -89,15 +90,22 @@ void VertexStiffness::findPins(const FabricState& state, double end)
 }
 
 /// Gradient and derivatives of the material's own forces.
-void VertexStiffness::sumInner(const FabricState& state, double h)
+void VertexStiffness::sumInner(const FabricState& at, double h)
 {
     gradient_.fill(0.0);
-    if (!rods_.empty()) rods_.forces(state, h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
+    if (!rods_.empty()) rods_.forces(at, h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
     if (!shells_.empty()) {
         cloth_.clear();
-        shells_.forces(state.x, h, unknowns_.slot, gradient_.data(), &cloth_);
+        shells_.forces(at.x, h, unknowns_.slot, gradient_.data(), &cloth_);
     }
     addToOwners(gradient_);
+}
+
+/// To the gradient, what pins and obstacles do at the state.
+void VertexStiffness::addHolds()
+{
+    for (const Spring& s : springs_) addToPoint(gradient_, s, s.gradient);
+    for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
 }
 
 void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
@@ -106,6 +114,8 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     springs_.clear();
     rods_.startStep(state);
     shells_.startStep(state.x);
+    at_ = &state;
+    reached_.fill(0.0);
     sumInner(state, h);
     findPins(state, t + h);
     for (const ObstacleContact& contact : obstacles) {
@@ -115,35 +125,62 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
         // Known at the predicted position; by its derivative, at the present one.
         springs_.push_back({v, share, contact.stiffness, contact.gradient - contact.stiffness * (h * ahead)});
     }
-    for (const Spring& s : springs_) addToPoint(gradient_, s, s.gradient);
-    for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
+    addHolds();
 }
 
-VertexStiffness::Work VertexStiffness::work(const FabricState& state, double h, AlignedArray<double>& u)
+void VertexStiffness::assembleAt(const FabricState& there, double h, AlignedArray<double>& u)
 {
-    AlignedArray<double> product;
-    product.resize(unknowns_.size);
-    const auto given = [&](auto&& multiply) {
-        multiply();
-        double sum = 0.0;
-        for (std::size_t i = 0; i < product.size(); ++i) sum -= u[i] * (h * gradient_[i] + h * h * product[i]);
-        return sum;
-    };
+    at_ = &there;
+    std::ranges::copy(u, reached_.begin());
+    sumInner(there, h);
+    tellFromStart(h);
+    addHolds();
+}
+
+/// The gradient at at_ becomes what it would be at the start of the step if K were the same all the way.
+void VertexStiffness::tellFromStart(double h)
+{
+    multiplyInner(reached_, product_);
+    for (std::size_t i = 0; i < product_.size(); ++i) gradient_[i] -= h * product_[i];
+}
+
+VertexStiffness::Work VertexStiffness::workOfHolds(double h, const AlignedArray<double>& u) const
+{
     Work work;
-    const double all = given([&] { multiply(u, product); });
     for (std::size_t i = 0; i < springs_.size(); ++i) {
         const Spring& s = springs_[i];
         const Vec3 mean = atPoint(u, s);
-        (i < pinStiffness_.size() ? work.pins : work.obstacles) -=
-            mean.dot(h * s.gradient + h * h * (s.stiffness * mean));
+        (i < pinStiffness_.size() ? work.pins : work.obstacles) -= mean.dot(h * s.gradient + h * h * (s.stiffness * mean));
     }
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
         const double speed = u[unknowns_.twistSlot[heldEdges_[i]]];
         work.pins -= speed * (h * heldTorque_[i] + h * h * heldStiffness_[i] * speed);
     }
-    sumInner(state, std::numeric_limits<double>::infinity());
-    work.elastic = given([&] { multiplyInner(u, product); });
-    work.damping = all - work.pins - work.obstacles - work.elastic;
+    return work;
+}
+
+/// −u·(h gradient + h² product_).
+double VertexStiffness::workOfProduct(double h, const AlignedArray<double>& u) const
+{
+    return -parallelSum(u.size(), [&](std::size_t i) { return u[i] * (h * gradient_[i] + h * h * product_[i]); });
+}
+
+double VertexStiffness::innerWork(double h, AlignedArray<double>& u) const
+{
+    multiply(u, product_);
+    const Work holds = workOfHolds(h, u);
+    return workOfProduct(h, u) - holds.pins - holds.obstacles;
+}
+
+VertexStiffness::Work VertexStiffness::work(double h, AlignedArray<double>& u)
+{
+    Work work = workOfHolds(h, u);
+    const double inner = innerWork(h, u);
+    sumInner(*at_, std::numeric_limits<double>::infinity());
+    tellFromStart(h);
+    multiplyInner(u, product_);
+    work.elastic = workOfProduct(h, u);
+    work.damping = inner - work.elastic;
     return work;
 }
 

@@ -12,8 +12,8 @@
 
 namespace sim {
 
-/// Forces on the vertices and twist angles at the start of a step and their Gauss-Newton derivatives K: rods, shells,
-/// the springs of pins (model-fabric 6.1) and obstacles. Vectors are laid out by VertexUnknowns; what shared vertices
+/// Forces on the vertices and twist angles and their Gauss-Newton derivatives K: rods, shells, the springs of pins (model-fabric 6.1) and
+/// obstacles; where a step begins, or as they are elsewhere told by moves from there. Vectors are laid out by VertexUnknowns; what shared vertices
 /// have in strands that do not own them is filled in by multiply.
 class VertexStiffness {
  public:
@@ -28,17 +28,23 @@ class VertexStiffness {
     void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
                   std::span<const Vec3> predicted);
 
+    /// The same with the material's own forces as they are at `there`, which velocities u lead to in that step; these forces are told from the
+    /// start on all the same. `there` must stay until the next assemble.
+    void assembleAt(const FabricState& there, double h, AlignedArray<double>& u);
+
     /// Energy gradient [dyn, dyn cm].
     const AlignedArray<double>& gradient() const { return gradient_; }
     /// out = K in, forces per displacement. `in` is completed for shared vertices.
     void multiply(AlignedArray<double>& in, AlignedArray<double>& out) const;
-    /// Energy that forces give to moves h u, −u·(h gradient + h² K u), in assemble's step of h [s] from the state: all that the material's own
+    /// Energy that forces give to moves h u, −u·(h gradient + h² K u), in assemble's step of h [s]: all that the material's own
     /// forces, its damping, obstacles and pins do. Elastic forces are told apart, their energy is the fabric's. What is multiplied with
     /// afterwards is undamped, until the next assemble.
     struct Work {
         double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
     };
-    Work work(const FabricState& state, double h, AlignedArray<double>& u);
+    Work work(double h, AlignedArray<double>& u);
+    /// Of the material's own forces and its damping alone, by what is assembled [erg].
+    double innerWork(double h, AlignedArray<double>& u) const;
     /// Impulses h gradient + h² K u with which the vertices' velocities u pull at what holds them: call onPin(number among Fabric::Pins, impulse),
     /// onEdge(held edge, impulse on its twist) and onObstacle(number among assemble's contacts, impulse).
     void pulls(double h, const AlignedArray<double>& u, auto&& onPin, auto&& onEdge, auto&& onObstacle) const
@@ -91,7 +97,11 @@ class VertexStiffness {
     void copyFromOwners(AlignedArray<double>& u) const;
     void forEachGroup(AlignedArray<double>& u, auto&& body) const;
     void multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const;
-    void sumInner(const FabricState& state, double h);
+    void sumInner(const FabricState& at, double h);
+    void addHolds();
+    void tellFromStart(double h);
+    double workOfProduct(double h, const AlignedArray<double>& u) const;
+    Work workOfHolds(double h, const AlignedArray<double>& u) const;
     void multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const;
     void findPins(const FabricState& state, double end);
     /// Of what the vertices have, at a spring's point.
@@ -121,6 +131,9 @@ class VertexStiffness {
     std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm] …
     std::vector<double> heldTorque_;     ///< … and gradient at the state
     AlignedArray<double> gradient_;
+    const FabricState* at_ = nullptr;  ///< where the material's forces are known …
+    AlignedArray<double> reached_;     ///< … by these velocities [cm/s, 1/s]
+    mutable AlignedArray<double> product_;
 };
 
 }  // namespace sim

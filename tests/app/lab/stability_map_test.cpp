@@ -54,6 +54,20 @@ TEST(StabilityMap, EnergyMayRiseOnlyByWhatIsDoneFromOutside)
     EXPECT_TRUE(logs.judged().isStable) << logs.judged().why;
 }
 
+/// Fabric at rest without weight: all of its motion is round-off.
+TEST(StabilityMap, MotionThatIsNoneGainsNothing)
+{
+    Logs logs;
+    logs.steps(1.0e-3, 0.0);
+    const auto judge = [&](double cell) {
+        test::writeFile(logs.folder / "report.json", fmt::format(R"({{"cell":{},"fabric":{{"mass":1}}}})", cell));
+        test::writeFile(logs.folder / "energy_ledger.csv", "time_s,total_erg,kinetic_erg\n0,1e-27,0\n1e-3,5e-27,1e-33\n");
+        return logs.judged().isStable;
+    };
+    EXPECT_TRUE(judge(0.1));    // 1e-14 erg would be a billionth of a cell
+    EXPECT_FALSE(judge(1e-9));  // 1e-30
+}
+
 TEST(StabilityMap, WhatObstaclesTookIsGone)
 {
     Logs logs;
