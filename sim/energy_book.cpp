@@ -59,7 +59,9 @@ void EnergyBook::surfaceTension(bool isMixed)
     if (!changes_) return;
     pulled_ = work_.grid.faces.velocity;
     parallelFor(pulled_.size(), 4096, [&](std::size_t i) { pulled_.block(0)[i] -= fallen_.block(0)[i]; });
-    if (isMixed) work_.coupling->mixture.clearShared(pulled_);
+    if (!isMixed) return;
+    pulledMixture_ = pulled_;
+    work_.coupling->mixture.clearShared(pulled_);
 }
 
 double EnergyBook::workOfSurfaceTension() const
@@ -173,6 +175,11 @@ void EnergyBook::solved(bool isMixed, double dt, const Vec3& gravity, const Fabr
         const Mixture& mixture = work_.coupling->mixture;
         *changes_ += mixture.energyChanges(work_.grid, fallen_);
         alone -= mixture.kinetic(work_.grid.faces.velocity) - mixture.kinetic(fallen_);
+        if (pulledMixture_.size() > 0) {
+            const double tension = mixture.workOf(pulledMixture_, work_.grid);
+            book(EnergyChange::SurfaceTension, tension);
+            book(EnergyChange::Pressure, -tension);  // the mixture takes it for a part of the pressure
+        }
     }
     const double tension = workOfSurfaceTension();
     book(EnergyChange::SurfaceTension, tension);

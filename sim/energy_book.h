@@ -61,7 +61,8 @@ class EnergyBook {
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
-    BlockArray<double, 3> pulled_;  ///< by how much surface tension changed velocities [cm/s], if it acts
+    BlockArray<double, 3> pulled_;         ///< by how much surface tension changed velocities [cm/s], if it acts: of faces that only liquid is on,
+    BlockArray<double, 3> pulledMixture_;  ///< … and of all, where others are shared
     Energy last_;
     double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
     double lag_ = 0.0;  ///< of potential energy behind the present places [erg]

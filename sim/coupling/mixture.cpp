@@ -302,6 +302,23 @@ EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<
     return sum;
 }
 
+double Mixture::workOf(const BlockArray<double, 3>& change, const LiquidGrid& liquid) const
+{
+    return parallelSum(liquidBlock_.size(), [&](std::size_t n) {
+        const int b = static_cast<int>(n), m = liquidBlock_[b];
+        double sum = 0.0;
+        if (m == BlockGrid::kNone) return sum;
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                const double mobility = mobility_.block(b, a)[c];
+                if (!(liquidMass_.block(b, a)[c] > 0.0 && mobility > 0.0)) continue;
+                const double onFabric = settings_.pressureOnFabric ? onFaces_.solid.block(b, a)[c] * onFaces_.velocity.block(b, a)[c] : 0.0;
+                sum += change.block(m, a)[c] / mobility * (liquidVolume_.block(b, a)[c] * liquid.faces.velocity.block(m, a)[c] + onFabric);
+            }
+        return sum;
+    });
+}
+
 /// Σ of(mass, velocity) over the shared faces of a block.
 template <class Of>
 double Mixture::sumOver(const BlockArray<double, 3>& velocity, int block, int axis, Of&& of) const

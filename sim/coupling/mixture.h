@@ -59,6 +59,8 @@ class Mixture {
     /// part of what acted between both: with the work of all that liquid did to the fabric these are pressure, suction and drag.
     /// @param before  the liquid's velocities when nothing but gravity had acted
     EnergyChanges energyChanges(const LiquidGrid& liquid, const BlockArray<double, 3>& before) const;
+    /// Work on liquid and fabric of a pressure that changes the mixture's velocities by so much [erg].
+    double workOf(const BlockArray<double, 3>& change, const LiquidGrid& liquid) const;
     /// Kinetic energy of the liquid on the shared faces at these velocities [erg].
     double kinetic(const BlockArray<double, 3>& velocity) const;
     /// Are both phases on the lower face of a cell?

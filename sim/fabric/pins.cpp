@@ -31,6 +31,20 @@ double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, doub
     return state.theta[edge] + std::remainder(angle - state.theta[edge], 2.0 * kPi);
 }
 
+double pinTurn(const Fabric& fabric, std::span<const Vec3> restReference, double t0, double t1, const FabricState& state, int edge)
+{
+    const std::optional<std::size_t> pin = pinOfEdge(fabric, edge);
+    const Motion* motion = pin ? &fabric.pins.motions[fabric.pins.motion[*pin]] : nullptr;
+    if (!motion || !motion->moves(t0, t1)) return 0.0;
+    const Vec3& tangent = state.tangent[edge];
+    const auto across = [&](double t) -> Vec3 {
+        const Vec3 first = motion->transform(t).linear() * restReference[edge];
+        return first - first.dot(tangent) * tangent;
+    };
+    const Vec3 from = across(t0), to = across(t1);
+    return std::atan2(tangent.dot(from.cross(to)), from.dot(to));
+}
+
 std::optional<std::size_t> pinOfEdge(const Fabric& fabric, int edge)
 {
     for (int v : fabric.edges.vertices[edge]) {
@@ -38,6 +52,28 @@ std::optional<std::size_t> pinOfEdge(const Fabric& fabric, int edge)
         if (pin != fabric.pins.vertex.end() && *pin == v) return static_cast<std::size_t>(pin - fabric.pins.vertex.begin());
     }
     return std::nullopt;
+}
+
+std::vector<int> nearestPins(const Fabric& fabric)
+{
+    std::vector<int> pin(fabric.vertexCount(), -1), reached = fabric.pins.vertex;
+    for (int v : reached) pin[v] = v;
+    std::vector<std::vector<int>> beside(reached.empty() ? 0 : fabric.vertexCount());
+    const auto link = [&](int a, int b) {
+        beside[a].push_back(b);
+        beside[b].push_back(a);
+    };
+    if (reached.empty()) return pin;
+    for (const Vec2i& e : fabric.edges.vertices) link(e[0], e[1]);
+    for (const Vec3i& f : fabric.faces.vertices)
+        for (int k = 0; k < 3; ++k) link(f[k], f[(k + 1) % 3]);
+    for (std::size_t n = 0; n < reached.size(); ++n)
+        for (int v : beside[reached[n]])
+            if (pin[v] < 0) {
+                pin[v] = pin[reached[n]];
+                reached.push_back(v);
+            }
+    return pin;
 }
 
 }  // namespace sim

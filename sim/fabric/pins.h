@@ -17,6 +17,13 @@ std::vector<Vec3> pinTargets(const Fabric& fabric, double t);
 double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state,
                  int edge);
 
+/// By how much the pin of a held edge turns about it from t0 to t1 [rad], as the edge is in this state. The angle itself changes also as the edge
+/// tilts, where the pin gives nothing.
+double pinTurn(const Fabric& fabric, std::span<const Vec3> restReference, double t0, double t1, const FabricState& state, int edge);
+
+/// Of each vertex, the pinned one that the fewest edges lead to; −1 where no edges do.
+std::vector<int> nearestPins(const Fabric& fabric);
+
 /// The pin that a held edge's frame follows, by its number among Fabric::Pins: that of the first of its vertices with one.
 std::optional<std::size_t> pinOfEdge(const Fabric& fabric, int edge);
 

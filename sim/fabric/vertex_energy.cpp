@@ -1,4 +1,5 @@
 #include "sim/fabric/energies.h"
+#include "sim/fabric/pins.h"
 #include "sim/fabric/vertex_solver.h"
 
 #include <algorithm>
@@ -87,8 +88,13 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
         changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
-        if (!fabric_.pinned[v] && !isHeld[v]) continue;
+        if (!fabric_.pinned[v] && !isHeld[v] && nearestPin_[v] < 0) continue;
         const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
+        if (!fabric_.pinned[v] && !isHeld[v]) {
+            // Forces within the fabric sum up to nothing, and so do their errors: what Newton has left of the balance of a free vertex, pins have.
+            changes[EnergyChange::Pins] += byHolder.dot(state.v[nearestPin_[v]]);
+            continue;
+        }
         const double work = byHolder.dot(state.v[v]);
         // Solids at rest only take: what Newton has left of the balance where they hold is the step's own.
         const EnergyChange bySolid = work > 0.0 && !solidsMove_ ? EnergyChange::Implicit : EnergyChange::Obstacles;
@@ -97,7 +103,9 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double inertia = twistInertia(fabric_, state.absorbed, e), faster = state.omega[e] - start_.omega[e];
         changes[EnergyChange::Implicit] -= 0.5 * inertia * faster * faster;
-        if (fabric_.edges.twistHeld[e]) changes[EnergyChange::Pins] += (inertia * faster + h * gradient.byAngle[e]) * state.omega[e];
+        if (!fabric_.edges.twistHeld[e]) continue;
+        const double turn = pinTurn(fabric_, restReference_, startTime_, startTime_ + h, state, static_cast<int>(e));
+        changes[EnergyChange::Pins] += (inertia * faster / h + gradient.byAngle[e]) * turn;
     }
     return changes;
 }

@@ -46,14 +46,14 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
       system_(fabric, settings),
       cohesion_(std::move(cohesion)),
       groups_(fabric),
-      restReference_(restState(fabric).reference)
+      restReference_(restState(fabric).reference),
+      nearestPin_(nearestPins(fabric))
 {
     if (settings.contact) {
         contact_.emplace(fabric, cohesion_ ? &*cohesion_ : nullptr);
         obstacles_ = FabricObstacles(fabric, obstacles, cohesion_ ? &*cohesion_ : nullptr);
         guard_ = SolidGuard(fabric, obstacles);
     }
-    solidsMove_ = std::ranges::any_of(obstacles, [](const ObstacleSettings& obstacle) { return !obstacle.motion.isStatic(); });
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
     mass_.resize(fabric.vertexCount());
@@ -158,22 +158,24 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
 bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
 {
     start_ = state;
+    startTime_ = t;
     startEnergies_ = energies(start_, gravity);
     startIsLookedAt_ = false;
     unseenAtStart_ = 0.0;
-    isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
-    // Where something drives the fabric, a step is halved for the sake of stiffer springs; what drives it gives what they take.
-    springStep_ = isDriven_ && h < wholeStep_ ? h
-                                              : springStepFor(start_.springStep, h, start_.stored.springs(),
-                                                              kStiffeningGain * felt(startEnergies_.kinetic, h));
-    state.springStep = springStep_;
-    limits_ = {};
-    guarded_ = {};
     clock.start(Stage::FabricElastic);
     system_.rods().startStep(state);
     system_.shells().startStep(state.x);
     predict(t, h, gravity, state);
     obstacles_.moveTo(t, t + h);
+    guard_.moveTo(t, t + h);
+    solidsMove_ = guard_.movesNear(state.x, move_);
+    isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
+    // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (slowDriven).
+    const double bearable = isDriven_ && h < wholeStep_ ? 1.0 : kStiffeningGain;
+    springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * felt(startEnergies_.kinetic, h));
+    state.springStep = springStep_;
+    limits_ = {};
+    guarded_ = {};
     if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
 
     if (!followSolids(t, h, isLast, state, report, clock)) return false;

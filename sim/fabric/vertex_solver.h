@@ -112,6 +112,7 @@ class VertexSolver {
     std::vector<Vec3> momentum_;                 ///< … and of each piece, at its start [g cm/s]
     std::vector<Vec3> missing_, groupInertia_;   ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
     std::vector<Vec3> restReference_;            ///< of each yarn edge
+    std::vector<int> nearestPin_;                ///< of each vertex (nearestPins)
 
     mutable ElasticEnergies elastic_;
     bool booksEnergy_ = false;
@@ -128,10 +129,11 @@ class VertexSolver {
     double placeRounding_ = 0.0;                 ///< by which places of the step under way are rounded [cm]
     double feltAcceleration_ = 0.0;              ///< feltAcceleration of the step under way [cm/s^2]
     FabricState start_;                          ///< of the attempt under way, to go back to
+    double startTime_ = 0.0;                     ///< … when that is [s]
     FabricEnergies startEnergies_;               ///< … and its energies
     double unseenAtStart_ = 0.0;                 ///< energy of contact there that the step before has not seen [erg] …
     bool startIsLookedAt_ = false;               ///< … once it was looked for
-    bool solidsMove_ = false;                    ///< some of them, at some time
+    bool solidsMove_ = false;                    ///< those near the fabric, in the attempt
     bool isDriven_ = false;                      ///< by solids, or pins that move in the attempt under way
     bool hasMovedSinceLook_ = false;             ///< along system_'s last move
     double springStep_ = 0.0;                    ///< of the attempt (springStepFor) [s]

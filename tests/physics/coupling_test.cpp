@@ -88,7 +88,7 @@ TEST_P(DropOnCloth, IsNotReflectedWhereItMeetsCloth)
     EXPECT_GT(momentaOf(simulation).fabric.y() / start.y(), 0.02);
     EXPECT_GT(reflected, 5);
     EXPECT_LT(2 * reflected, steps - 5);
-    EXPECT_LT(steps, 70);
+    EXPECT_LT(steps, 80);  // 60 were there none that meet the cloth at once
 }
 
 /// Surface tension acts on both phases where the cloth is: left out there, the rest of the surface would pull the drop along, by 3 %. The
@@ -116,6 +116,36 @@ TEST_P(DropOnCloth, SurfaceTensionMakesNoMomentum)
     std::printf("momentum off by %.2e, energy not booked %.2e\n", (end.liquid + end.fabric - start).norm() / start.norm(),
                 (last - energy - booked) / energy);
     EXPECT_NEAR(last - energy, booked, 2.0e-3 * energy);  // two Newton iterations of the cloth
+}
+
+/// What surface tension gives where cloth is, it gives by name: the pressure, which follows it, only takes. A drop amid yarns, at rest.
+TEST(DropAmidYarns, PressureTakesWhatSurfaceTensionGives)
+{
+    Scene scene;
+    scene.name = "amid yarns";
+    scene.settings.cell = 0.1;
+    scene.settings.gravity.setZero();
+    scene.settings.liquid.surfaceTensionForce = true;
+    scene.settings.liquid.surfaceTension = 400.0;
+    scene.settings.coupling.capture.rate = 0.0;
+    scene.settings.coupling.capillary = false;
+    WovenYarns shape;
+    shape.yarns = {10, 10};
+    shape.spacing = 0.1;
+    shape.amplitude = 0.02;
+    scene.fabrics = {testing::pieceOf(wovenYarns(shape), testing::wool(), {0.015, 0.015})};
+    SourceSettings drop;
+    drop.name = "drop";
+    drop.emissions.emplace_back();
+    drop.shape = Shape::capsule(Vec3(0.45, 0.0, 0.47), Vec3(0.52, 0.02, 0.45), 0.09);
+    scene.sources = {drop};
+    Simulation simulation(scene);
+    simulation.bookEnergy();
+    EnergyChanges sum;
+    for (int n = 1; n <= 20; ++n) {
+        sum += *simulation.step(n * 5.0e-4).energyChanges;
+        EXPECT_LT(sum[EnergyChange::Pressure], 0.1 * sum[EnergyChange::SurfaceTension]) << "step " << n;  // the phases slip, which it has no part in
+    }
 }
 
 /// Free, absorbed and lost liquid are together what was there (model-fluid 9.4), at every step.

@@ -16,6 +16,7 @@ namespace {
 constexpr double kCore = 0.57;        ///< distance that is kept, as between pairs of fabric [radii]
 constexpr double kKept = 0.85;        ///< what begins nearer keeps this share of its distance on the way: less than kNearestError leaves [-] …
 constexpr double kStays = 1.0e-6;     ///< … and ends no nearer than it began, but for this share [-]
+constexpr double kPushed = 4.0;       ///< distance within which a solid may push [radii]
 constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
 constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
 
@@ -79,12 +80,19 @@ bool SolidGuard::anyMoves() const
     return std::ranges::any_of(bodies_, [](const Body& body) { return body.isNear && body.moves; });
 }
 
-/// Solids whose boxes the fabric meets on its way.
-void SolidGuard::findNear(Points x, std::span<const Vec3> u)
+bool SolidGuard::movesNear(Points x, std::span<const Vec3> u)
+{
+    if (bodies_.empty()) return false;
+    findNear(x, u, kPushed);
+    return anyMoves();
+}
+
+/// Solids whose boxes the fabric meets on its way, or comes as near as so many radii.
+void SolidGuard::findNear(Points x, std::span<const Vec3> u, double radii)
 {
     isNear_ = false;
     const Eigen::AlignedBox3d fabric = boxAround(x, u);
-    const double reach = std::ranges::max(fabric_->radius);
+    const double reach = radii * std::ranges::max(fabric_->radius);
     for (Body& body : bodies_) {
         const Eigen::AlignedBox3d solid = body.shape.bounds();
         Eigen::AlignedBox3d seen;

@@ -41,7 +41,9 @@ class SolidGuard {
     void moveTo(double t0, double t1);
     /// … and those after them while they rest there.
     void rest();
-    bool anyMoves() const;
+    bool anyMoves() const;  ///< of those near the fabric in the last limit()
+    /// Does a solid that moves come near the box around these moves, so that it may push?
+    bool movesNear(std::span<const Vec3> x, std::span<const Vec3> u);
 
     enum class Limited { Unchanged, Changed, Unsafe };
     /// Makes the moves u from x safe [cm], but for those of pinned vertices; Unsafe, which they are only while solids move, if it cannot.
@@ -82,7 +84,7 @@ class SolidGuard {
     using Moves = std::span<Vec3>;
     using Points = std::span<const Vec3>;
 
-    void findNear(Points x, std::span<const Vec3> u);
+    void findNear(Points x, std::span<const Vec3> u, double radii = 1.0);
     void measure(Points x, std::span<const Vec3> u);
     solids::SweptElement swept(const Body& body, Points x, std::span<const Vec3> u, const int* vertices, int corners) const;
     bool slide(Points x, Moves u);

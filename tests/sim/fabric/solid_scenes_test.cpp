@@ -208,13 +208,13 @@ TEST(FabricAtSolids, PinsThatAreLedThroughATableTakeNothingElseThrough)
         pins.motion.addTranslation(0.0, 0.1, Vec3(0.0, -0.4, 0.0), 0.0, 0.0);
         piece.pins = {pins};
         SolidRun run({piece}, {table}, kind);
-        for (int i = 0; i < 55; ++i) {  // from 71 on the cloth is pulled out of all proportion
+        for (int i = 0; i < 50; ++i) {  // later the cloth is pulled out of all proportion, and springs may not become stiffer than its motion pays for
             run.step(1.0e-3);
             for (std::size_t v = 1; v < run.state.x.size(); ++v)
                 ASSERT_GT(run.state.x[v].y(), 0.5 * kRadius) << "step " << i << " solver " << int(kind);
             ASSERT_EQ(run.report.shortened, 0) << "step " << i << " solver " << int(kind);
         }
-        EXPECT_LT(run.state.x[0].y(), -0.1);
+        EXPECT_LT(run.state.x[0].y(), -0.09);
         EXPECT_LT(run.state.x[80].y(), 0.05);  // the far corner has fallen
     }
 }

@@ -1,0 +1,103 @@
+#include "tests/physics/fabric_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numeric>
+
+// What holds and drives fabric gives it what the book says, and what is far from it nothing.
+
+namespace sim::test {
+namespace {
+
+using testing::Noise;
+using testing::pieceOf;
+
+FabricPiece yarn(Noise& noise, const Vec3& from, const Vec3& along)
+{
+    FabricPiece piece = pieceOf(strand(from, from + along, 8 + static_cast<int>(4.0 * std::abs(noise()))), testing::wool(), {0.03, 0.025});
+    piece.material.young = std::pow(10.0, 7.0 + 0.5 * noise());
+    return piece;
+}
+
+/// A clamp at rest does no work, however the yarn that it keeps from turning tilts about it.
+TEST(FabricWork, PinsAtRestGiveNothing)
+{
+    Noise noise(5);
+    for (int n = 0; n < 12; ++n) {
+        FabricPiece piece = yarn(noise, Vec3::Zero(), Vec3(1.0, 0.2 * noise(), 0.2 * noise()));
+        piece.pins = {pinned(n % 2 == 0 ? std::vector<int>{0} : std::vector<int>{0, 1}, true)};
+        FabricSettings settings = withoutContact();
+        settings.newton = 1 + n % 3;
+        FabricRun run(piece, settings);
+        for (Vec3& v : run.state.v) v = 10.0 * noise.vector();
+        run.solver.bookEnergy();
+        for (int i = 0; i < 40; ++i) EXPECT_EQ((*run.step(2.0e-3).energyChanges)[EnergyChange::Pins], 0.0) << "yarn " << n << " step " << i;
+        EXPECT_GT(run.energies().twisting, 0.0);
+    }
+}
+
+/// Yarns that are led as a whole: errors of their stiff forces, as few iterations leave them, are forces within them, which give nothing.
+TEST(FabricWork, PinsThatLeadGiveWhatIsGot)
+{
+    Noise noise(9);
+    for (int n = 0; n < 12; ++n) {
+        const Vec3 along = Vec3(0.5, 0.0, 0.1 * noise());
+        FabricPiece piece = yarn(noise, Vec3::Zero(), along);
+        piece.radius = {0.013, 0.013};
+        piece.material.density = 0.3;
+        Motion motion;
+        motion.addOscillation(4.0e-3, 1.0, (along + 0.05 * noise.vector()).normalized(), 0.06, 13.0 + 4.0 * noise());
+        piece.pins = {pinned({0, 1}, n % 2 == 0, motion)};
+        FabricSettings settings = withoutContact();
+        settings.newton = 1;
+        FabricRun run(piece, settings);
+        run.solver.bookEnergy();
+        double given = 0.0, kinetic = 0.0, least = run.energies().total(), rise = 0.0;
+        for (int i = 0; i < 60; ++i) {
+            given += (*run.step(1.0e-3).energyChanges)[EnergyChange::Pins];
+            const double own = run.energies().total() - given;
+            rise = std::max(rise, own - least);
+            least = std::min(least, own);
+            kinetic = std::max(kinetic, run.energies().kinetic);
+        }
+        EXPECT_LT(rise, 0.01 * kinetic) << "yarn " << n;
+    }
+}
+
+/// Yarns and a sheet that fall onto each other do so alike whether a solid moves somewhere else or not.
+TEST(FabricWork, SolidsThatMoveElsewhereChangeNothing)
+{
+    ClothGrid grid;
+    grid.nodes = Vec2i(9, 9);
+    grid.spacing = {0.12, 0.12};
+    FabricPiece sheet = pieceOf(clothGrid(grid), testing::wool(), {0.02, 0.02});
+    sheet.pins = {pinned({0, 8, 72, 80})};
+    std::vector<FabricPiece> pieces = {sheet};
+    Noise noise(2);
+    for (int n = 0; n < 3; ++n) {
+        pieces.push_back(yarn(noise, Vec3(-0.2, 0.15 + 0.1 * n, 0.3 + 0.1 * n), Vec3(1.4, 0.05, 0.2 * n)));
+        pieces.back().velocity = Vec3(0.0, -80.0, 0.0);
+    }
+    FabricSettings settings;
+    settings.maxHalvings = 4;
+    const auto endOf = [&](std::vector<ObstacleSettings> solids) {
+        FabricRun run(pieces, settings, std::move(solids));
+        int halvings = 0;
+        for (int i = 0; i < 40; ++i) halvings += run.step(2.0e-3).halvings;
+        EXPECT_GT(halvings, 0);
+        return run.state;
+    };
+    ObstacleSettings ball;
+    ball.shape = Shape::ball(Vec3(30.0, 0.0, 0.0), 1.0);
+    const FabricState still = endOf({ball});
+    ball.motion.addOscillation(0.0, 10.0, Vec3::UnitY(), 2.0, 5.0);
+    const FabricState moved = endOf({ball});
+    for (std::size_t v = 0; v < still.x.size(); ++v) {
+        EXPECT_EQ(still.x[v], moved.x[v]) << v;
+        EXPECT_EQ(still.v[v], moved.v[v]) << v;
+    }
+}
+
+}  // namespace
+}  // namespace sim::test
