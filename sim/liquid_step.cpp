@@ -154,9 +154,8 @@ void correct(State& state, const Settings& settings, Workspace& work, bool isMix
     takeMeans(grid, work.pressure, work.grid, work.volume.displacement, work.free, work.volume.displacement);
 }
 
-/// Pressure and surface tension leave free liquid the momentum that it has; what liquid and fabric do to each other
-/// cancels on their faces.
-/// @param velocity  of the faces, after all of these
+/// Pressure and surface tension leave free liquid, and fabric that it carries along, the momentum that they have.
+/// @param velocity  of the faces, after both
 void keepMomentum(const Settings& settings, const BlockGrid& grid, bool isMixed, Workspace& work, BlockArray<double, 3>& velocity)
 {
     BlockArray<double, 3>& change = work.free.change;
@@ -168,9 +167,11 @@ void keepMomentum(const Settings& settings, const BlockGrid& grid, bool isMixed,
         for (std::size_t i = 0; i < BlockArray<double, 3>::kStride; ++i) by[i] = now[i] - before[i];
     });
     findUnheldFaces(grid, work.obstacleField, work.free);
-    if (isMixed && settings.coupling.pressureOnFabric) work.coupling->mixture.pairChange(change);
+    const bool carries = isMixed && settings.coupling.pressureOnFabric;
+    if (carries) work.coupling->mixture.toPairs(work.grid, change);
     else if (isMixed) work.coupling->mixture.clearShared(work.free.unheld);
     takeMeans(grid, work.pressure, work.grid, change, work.free, velocity);
+    if (carries) work.coupling->mixture.fromPairs(work.grid);
 }
 
 /// May what holds liquid move?
@@ -231,7 +232,9 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     if (plan.corrects) {
         clock.start(Stage::Volume);
         correct(state, settings, work, plan.isMixed, report);
+        clock.start(Stage::Pressure);
     }
+    keepMomentum(settings, grid, plan.isMixed, work, work.grid.faces.velocity);
 }
 
 /// Does anything go by the liquid that vertices see?
@@ -353,7 +356,6 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
     BlockGrid& grid = state.grid;
     clock.start(Stage::Pressure);
     if (plan.isMixed) work.coupling->mixture.takeDisplaced(work.grid);
-    keepMomentum(settings, grid, plan.isMixed, work, work.grid.faces.velocity);
     if (settings.time.reflects()) findHeld(state, plan.isMixed, work);
     if (plan.reflects) {
         clock.start(Stage::Reflection);

@@ -231,7 +231,7 @@ std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
     try {
         report = sim::step(state_, scene_, work_, dt);
     } catch (const RunError& error) {
-        return Fault{Stage::Sort, error.what(), ""};
+        return Fault{work_.failedStage, error.what(), ""};
     }
     if (auto fault = check_->broken(state_, report)) return fault;
     return work_.kept ? check_->rash(state_, report) : std::nullopt;

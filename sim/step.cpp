@@ -103,11 +103,10 @@ bool mayReflect(const State& state, const TimeSettings& time, const Workspace& w
     return time.reflects() && hasLiquid(state) && !(work.coupling && reachesLiquid(state.grid, state.fabric));
 }
 
-StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
+namespace {
+
+void step(State& state, const Scene& scene, Workspace& work, double dt, StepReport& report, StageClock& clock)
 {
-    StepReport report;
-    report.dt = dt;
-    StageClock clock(report);
     EnergyBook energy(state, scene.settings, work, report);
     const bool reflects = mayReflect(state, scene.settings.time, work) && !state.reflected;
 
@@ -141,6 +140,21 @@ StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
     state.reflected = report.isReflected = plan.reflects;
     report.energies.potential += potentialLag(state, scene.settings);
     energy.finished();
+}
+
+}  // namespace
+
+StepReport step(State& state, const Scene& scene, Workspace& work, double dt)
+{
+    StepReport report;
+    report.dt = dt;
+    StageClock clock(report);
+    try {
+        step(state, scene, work, dt, report, clock);
+    } catch (const RunError&) {
+        work.failedStage = clock.last();
+        throw;
+    }
     return report;
 }
 

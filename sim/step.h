@@ -54,6 +54,7 @@ struct Workspace {
     LiquidOnSolids onSolids;                               ///< by the faces of the liquid …
     ChunkSums<Impulse> pushedSolids;                       ///< … and by particles kept out of solids [g cm/s]
     MomentumBook momentum;
+    Stage failedStage = Stage::Emit;                       ///< in which a step ended that threw
     bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
     std::unique_ptr<VertexSolver> fabric;                  ///< by the scene's solver one of these three, where there is fabric

@@ -149,9 +149,12 @@ class StageClock {
     {
         stop();
         stage_ = static_cast<int>(stage);
+        last_ = stage;
         report_.stageRan[stage_] = true;
         begin_ = std::chrono::steady_clock::now();
     }
+    /// The one that was started last.
+    Stage last() const { return last_; }
     void stop()
     {
         if (stage_ < 0) return;
@@ -162,6 +165,7 @@ class StageClock {
  private:
     StepReport& report_;
     int stage_ = -1;
+    Stage last_ = Stage::Emit;
     std::chrono::steady_clock::time_point begin_;
 };
 

@@ -147,12 +147,19 @@ void Mixture::takeDisplaced(LiquidGrid& liquid) const
     forEachShared([&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] = liquidMass_.block(b, a)[c]; });
 }
 
-void Mixture::pairChange(BlockArray<double, 3>& change) const
+void Mixture::toPairs(LiquidGrid& liquid, BlockArray<double, 3>& change) const
 {
     forEachShared([&](int b, int m, int a, int c) {
-        const double pushed = liquidVolume_.block(b, a)[c] + onFaces_.solid.block(b, a)[c];
-        change.block(m, a)[c] = -pushed * push_.block(b, a)[c] / liquidMass_.block(b, a)[c];
+        const double mobility = mobility_.block(b, a)[c], pushed = liquidVolume_.block(b, a)[c] + onFaces_.solid.block(b, a)[c];
+        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] = mobility > 0.0 ? pushed / mobility : 0.0;
+        change.block(m, a)[c] = liquid.faces.velocity.block(m, a)[c] - mixed_.block(b, a)[c];
     });
+}
+
+void Mixture::fromPairs(LiquidGrid& liquid) const
+{
+    takeDisplaced(liquid);
+    addDisplaced(liquid);
 }
 
 void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient)

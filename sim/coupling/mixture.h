@@ -38,8 +38,10 @@ class Mixture {
 
     /// The mass of the liquid's faces is that of the liquid alone again, where room that fabric takes up counted as full.
     void takeDisplaced(LiquidGrid& liquid) const;
-    /// What pressure and surface tension did to liquid and fabric together on these faces, as a change of the liquid's velocity alone [cm/s].
-    void pairChange(BlockArray<double, 3>& change) const;
+    /// Before the fabric's loads are told: masses of these faces become those with which both phases together answer to a push, and changes what
+    /// pressure and surface tension did to the mixture [cm/s]; a further change of the mixture's velocity acts on both.
+    void toPairs(LiquidGrid& liquid, BlockArray<double, 3>& change) const;
+    void fromPairs(LiquidGrid& liquid) const;
 
     /// After separate: call f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure took from the
     /// liquid of each shared face [g cm/s], blocks in parallel.

@@ -1,5 +1,8 @@
+#include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/fabric/vertex_solver.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +23,8 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 }
 
 namespace {
+
+constexpr double kMuchUnpaid = 0.02;  ///< energy from nothing, relative to what the fabric holds, that ends the run [-]
 
 /// What pins, solids and the liquid did for the fabric [erg].
 double given(const EnergyChanges& changes)
@@ -66,6 +71,26 @@ EnergyChanges VertexSolver::slowDriven(double h, const Vec3& gravity, FabricStat
     slowDown(now.total() - startEnergies_.total() - given(changes), state);
     changes[EnergyChange::Implicit] += energies(state, gravity).kinetic - now.kinetic;
     return changes;
+}
+
+/// Ends the run if what leads the fabric takes it where it cannot follow: all of its motion would not pay for what the step stretched it by,
+/// nor can it go back as pins and solids cannot.
+void VertexSolver::refuseJam(const EnergyChanges& changes, const Vec3& gravity, const FabricState& state) const
+{
+    const FabricEnergies now = energies(state, gravity);
+    const double unpaid = now.total() - startEnergies_.total() - given(changes);
+    if (unpaid <= kMuchUnpaid * now.internal() || unpaid <= now.kinetic) return;
+    Vec3 place = state.x[0];
+    double longest = 0.0;
+    const auto look = [&](int a, int b) {
+        const double stretched = (state.x[a] - state.x[b]).norm() / (fabric_.rest[a] - fabric_.rest[b]).norm();
+        if (stretched > longest) longest = stretched, place = 0.5 * (state.x[a] + state.x[b]);
+    };
+    for (const Vec2i& e : fabric_.edges.vertices) look(e[0], e[1]);
+    for (const Vec3i& f : fabric_.faces.vertices)
+        for (int k = 0; k < 3; ++k) look(f[k], f[(k + 1) % 3]);
+    throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} "
+                               "times its length; other or slower motions, more room or shorter steps would do", place.x(), place.y(), place.z(), longest));
 }
 
 /// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of

@@ -33,6 +33,7 @@ constexpr double kFrictionError = 0.05;       ///< with which a step may end: mo
 constexpr double kFeltFriction = 0.2;         ///< … and below which friction is too little to matter [feltAcceleration]
 constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
 constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
+constexpr int kDrivenHalvings = 2;            ///< of steps in which something drives the fabric, at least as many as these may be made
 constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 1000;
 constexpr double kMuchGain = 0.1;  ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
@@ -86,7 +87,7 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
 
 void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
-    if (attempt(t, h, gravity, level >= settings_.maxHalvings, state, report, clock)) return;
+    if (attempt(t, h, level, gravity, state, report, clock)) return;
     ++report.halvings;
     start_.lastFraction = state.lastFraction;
     state = start_;
@@ -292,8 +293,9 @@ void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newt
     }
 }
 
-bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
+bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
+    bool isLast = level >= settings_.maxHalvings;
     if (!begin(t, h, gravity, isLast, state, report, clock)) return false;
     Newton newton;
     iterate(t, h, gravity, newton, state, report, clock);
@@ -303,6 +305,8 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
                          limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled ||
                          (newton.gain > kMuchGain && !newton.isQuiet);
     state.lastFraction = fraction;
+    // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
+    if (isDriven_) isLast = isLast && level >= kDrivenHalvings;
     if (isShort && !isLast) return false;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
@@ -312,6 +316,7 @@ bool VertexSolver::attempt(double t, double h, const Vec3& gravity, bool isLast,
     if (mayHaveGained && !isDriven_) giveNoEnergy(t, h, gravity, state, report, clock);
     std::optional<EnergyChanges> changes;
     if (mayHaveGained && isDriven_) changes = slowDriven(h, gravity, state);
+    if (isShort && isDriven_) refuseJam(*changes, gravity, state);
     if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, gravity, state);
     if (forces_) tellForces(h, gravity, state);
     return true;

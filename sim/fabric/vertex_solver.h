@@ -58,7 +58,7 @@ class VertexSolver {
     };
 
     /// One attempt at a step; false if it should be redone in halves.
-    bool attempt(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
+    bool attempt(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     bool begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
     void predict(double t, double h, const Vec3& gravity, const FabricState& state);
@@ -81,6 +81,7 @@ class VertexSolver {
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
     void iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
+    void refuseJam(const EnergyChanges& changes, const Vec3& gravity, const FabricState& state) const;
     EnergyChanges slowDriven(double h, const Vec3& gravity, FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     void slowDown(double energy, FabricState& state) const;

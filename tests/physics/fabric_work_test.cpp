@@ -1,3 +1,4 @@
+#include "sim/core/check.h"
 #include "tests/physics/fabric_runs.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +64,46 @@ TEST(FabricWork, PinsThatLeadGiveWhatIsGot)
         }
         EXPECT_LT(rise, 0.01 * kinetic) << "yarn " << n;
     }
+}
+
+/// A sheet that pins tear against a solid holds no energy that nothing gave: the run ends and tells where.
+TEST(FabricWork, AJamEndsTheRunWhereItGains)
+{
+    int jams = 0;
+    for (int n = 0; n < 6; ++n) {
+        Noise noise(20 + n);
+        ClothGrid grid;
+        grid.nodes = Vec2i(10, 10);
+        grid.spacing = {0.12, 0.12};
+        FabricPiece piece = pieceOf(clothGrid(grid), testing::wool(), {0.02, 0.02});
+        piece.material.young = 3.0e8;
+        Motion motion;
+        motion.addTranslation(0.0, 0.02, Vec3(0.2 * noise(), -3.0, 0.2 * noise()), 0.0, 0.0);
+        piece.pins = {pinned({0, 9, 90, 99}, false, motion)};
+        ObstacleSettings ball;
+        ball.name = "ball";
+        ball.shape = Shape::ball(Vec3(0.54 + 0.1 * noise(), -0.4, 0.54), 0.3);
+        FabricSettings settings;
+        settings.maxHalvings = n % 3;
+        settings.newton = 1 + n % 2;
+        FabricRun run(piece, settings, {ball});
+        run.solver.bookEnergy();
+        double given = 0.0, kinetic = 0.0, rise = 0.0;
+        const double start = run.energies().total();
+        try {
+            for (int i = 0; i < 30; ++i) {
+                const EnergyChanges changes = *run.step(1.0e-3).energyChanges;
+                given += changes[EnergyChange::Pins] + std::max(0.0, changes[EnergyChange::Obstacles]);
+                kinetic = std::max(kinetic, run.energies().kinetic);
+                rise = std::max(rise, run.energies().total() - start - given);
+            }
+        } catch (const RunError& error) {
+            ++jams;
+            EXPECT_NE(std::string(error.what()).find("jammed"), std::string::npos) << error.what();
+        }
+        EXPECT_LT(rise, 0.01 * kinetic) << "sheet " << n;
+    }
+    EXPECT_GT(jams, 0);
 }
 
 /// Yarns and a sheet that fall onto each other do so alike whether a solid moves somewhere else or not.
