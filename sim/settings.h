@@ -106,7 +106,7 @@ struct FabricSettings {
     int newton = 2;                   ///< Newton iterations per step, vertex only
     double tolerance = 0.0;           ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5e-3 of gravity times the step
     bool contact = true;              ///< fabric touches itself and obstacles
-    int maxHalvings = 4;              ///< of a step that could not be taken, vertex only
+    int maxHalvings = 4;              ///< of a step that could not be taken, vertex only; of driven fabric at least 2 are made
 };
 
 /// What fabric is like inside: fibres and the pores between them.

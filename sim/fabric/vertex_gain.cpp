@@ -24,7 +24,8 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 
 namespace {
 
-constexpr double kMuchUnpaid = 0.02;  ///< energy from nothing, relative to what the fabric holds, that ends the run [-]
+constexpr double kMuchUnpaid = 0.02;  ///< energy from nothing, relative to what the fabric holds, that ends the run …
+constexpr double kTorn = 1.1;         ///< … where fabric is so many times as long as at rest [-]
 
 /// What pins, solids and the liquid did for the fabric [erg].
 double given(const EnergyChanges& changes)
@@ -89,6 +90,7 @@ void VertexSolver::refuseJam(const EnergyChanges& changes, const Vec3& gravity, 
     for (const Vec2i& e : fabric_.edges.vertices) look(e[0], e[1]);
     for (const Vec3i& f : fabric_.faces.vertices)
         for (int k = 0; k < 3; ++k) look(f[k], f[(k + 1) % 3]);
+    if (longest < kTorn) return;
     throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} "
                                "times its length; other or slower motions, more room or shorter steps would do", place.x(), place.y(), place.z(), longest));
 }

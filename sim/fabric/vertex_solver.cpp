@@ -303,7 +303,7 @@ bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, F
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
                          limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled ||
-                         (newton.gain > kMuchGain && !newton.isQuiet);
+                         (newton.gain > kMuchGain && (isDriven_ || !newton.isQuiet));
     state.lastFraction = fraction;
     // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
     if (isDriven_) isLast = isLast && level >= kDrivenHalvings;

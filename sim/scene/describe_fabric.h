@@ -62,7 +62,7 @@ void describe(V& v, FabricSettings& f)
     v.numberOr("tolerance", f.tolerance, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0e3),
                "Left out: 1e-2 of the residual with solver vertex, 5e-3 of gravity times the step with grid");
     v.fixed([&](auto& w) { w.flag("contact", f.contact, "Fabric touches itself and obstacles"); });
-    v.integer("max_halvings", f.maxHalvings, 0, 30, "Of a step that could not be taken, solver vertex only");
+    v.integer("max_halvings", f.maxHalvings, 0, 30, "Of a step that could not be taken, solver vertex only; where pins or solids drive the fabric, two at least");
 }
 
 class SectionReader;
