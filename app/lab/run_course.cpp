@@ -33,7 +33,7 @@ struct Energy {
 /// Kinetic energy [erg] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
 double unfeltEnergy(const std::filesystem::path& folder, double liquidMass, double time)
 {
-    constexpr double kUnfelt = 1.0e-9;
+    constexpr double kUnfelt = 1.0e-9;  // cells
     std::ifstream in(folder / "report.json");
     const json report = in ? json::parse(in, nullptr, false) : json();
     if (!report.is_object() || !(time > 0.0)) return 0.0;

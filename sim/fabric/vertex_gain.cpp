@@ -24,7 +24,7 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 
 namespace {
 
-constexpr double kMuchUnpaid = 0.02;  ///< energy from nothing, relative to what the fabric holds, that ends the run …
+constexpr double kMuchUnpaid = 0.02;  ///< energy from nothing, relative to what the fabric holds, that ends the run [-] …
 constexpr double kTorn = 1.1;         ///< … where fabric is so many times as long as at rest [-]
 
 /// What pins, solids and the liquid did for the fabric [erg].
