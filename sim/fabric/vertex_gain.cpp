@@ -24,9 +24,6 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 
 namespace {
 
-constexpr double kMuchUnpaid = 0.02;  ///< energy from nothing, relative to what the fabric holds, that ends the run [-] …
-constexpr double kTorn = 1.1;         ///< … where fabric is so many times as long as at rest [-]
-
 /// What pins, solids and the liquid did for the fabric [erg].
 double given(const EnergyChanges& changes)
 {
@@ -63,24 +60,23 @@ double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& stat
     return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - unseenAtStart_) / scale;
 }
 
-/// Where pins or solids drive the fabric, what it has at the end of a step beyond what they gave is taken from its motion. Returns the book of
-/// the step.
-EnergyChanges VertexSolver::slowDriven(double h, const Vec3& gravity, FabricState& state) const
+/// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
+/// that cannot pay it goes on to owe. Returns the book of the step.
+EnergyChanges VertexSolver::payOwed(double h, const Vec3& gravity, FabricState& state) const
 {
     EnergyChanges changes = energyChanges(h, gravity, state);
-    const FabricEnergies now = energies(state, gravity);
-    slowDown(now.total() - startEnergies_.total() - given(changes), state);
-    changes[EnergyChange::Implicit] += energies(state, gravity).kinetic - now.kinetic;
+    const double due = start_.owed + energies(state, gravity).total() - startEnergies_.total() - given(changes);
+    const double paid = slowDown(due, state);
+    changes[EnergyChange::Implicit] -= paid;
+    state.owed = std::max(0.0, due - paid);
     return changes;
 }
 
-/// Ends the run if what leads the fabric takes it where it cannot follow: all of its motion would not pay for what the step stretched it by,
-/// nor can it go back as pins and solids cannot.
-void VertexSolver::refuseJam(const EnergyChanges& changes, const Vec3& gravity, const FabricState& state) const
+/// Ends the run if what leads the fabric takes it where it cannot follow: it owes more than all of its motion has, nor can it go back as pins
+/// and solids cannot.
+void VertexSolver::refuseJam(double h, const Vec3& gravity, const FabricState& state) const
 {
-    const FabricEnergies now = energies(state, gravity);
-    const double unpaid = now.total() - startEnergies_.total() - given(changes);
-    if (unpaid <= kMuchUnpaid * now.internal() || unpaid <= now.kinetic) return;
+    if (state.owed <= felt(energies(state, gravity).kinetic, h)) return;
     Vec3 place = state.x[0];
     double longest = 0.0;
     const auto look = [&](int a, int b) {
@@ -90,7 +86,6 @@ void VertexSolver::refuseJam(const EnergyChanges& changes, const Vec3& gravity, 
     for (const Vec2i& e : fabric_.edges.vertices) look(e[0], e[1]);
     for (const Vec3i& f : fabric_.faces.vertices)
         for (int k = 0; k < 3; ++k) look(f[k], f[(k + 1) % 3]);
-    if (longest < kTorn) return;
     throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} "
                                "times its length; other or slower motions, more room or shorter steps would do", place.x(), place.y(), place.z(), longest));
 }
@@ -104,7 +99,10 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
         const FabricEnergies now = energies(state, gravity);
         return now.total() - now.kinetic;
     };
-    if (resting() <= allowed) return slowDown(energies(state, gravity).total() - allowed, state);
+    if (resting() <= allowed) {
+        slowDown(energies(state, gravity).total() - allowed, state);
+        return;
+    }
     std::vector<Vec3> way(state.x.size());
     std::vector<double> turn(state.theta.size());
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
@@ -128,8 +126,9 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
     slowDown(energies(state, gravity).total() - allowed, state);
 }
 
-/// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift.
-void VertexSolver::slowDown(double energy, FabricState& state) const
+/// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift. Returns what
+/// it took.
+double VertexSolver::slowDown(double energy, FabricState& state) const
 {
     const std::vector<Vec3> drift = driftOfPieces(state);
     const auto relative = [&](std::size_t v) { return Vec3(state.v[v] - drift[groups_.pieceOf(static_cast<int>(v))]); };
@@ -138,12 +137,13 @@ void VertexSolver::slowDown(double energy, FabricState& state) const
         if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * relative(v).squaredNorm();
     for (std::size_t e = 0; e < state.omega.size(); ++e)
         if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * twistInertia(fabric_, state.absorbed, e) * state.omega[e] * state.omega[e];
-    if (!(energy > 0.0 && kinetic > 0.0)) return;
+    if (!(energy > 0.0 && kinetic > 0.0)) return 0.0;
     const double lost = 1.0 - std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
     for (std::size_t v = 0; v < state.v.size(); ++v)
         if (!fabric_.pinned[v]) state.v[v] -= lost * relative(v);
     for (std::size_t e = 0; e < state.omega.size(); ++e)
         if (!fabric_.edges.twistHeld[e]) state.omega[e] *= 1.0 - lost;
+    return std::min(energy, kinetic);
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.
