@@ -137,7 +137,7 @@ double EnergyBook::workAgainst(const BlockArray<double>& pressure, double dt) co
     });
 }
 
-double EnergyBook::workOnFollowers() const
+double EnergyBook::workOnFollowers(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio) const
 {
     if (!work_.obstacles.anyMoving()) return 0.0;
     const ObstacleField& field = work_.obstacleField;
@@ -149,18 +149,21 @@ double EnergyBook::workOnFollowers() const
             for (int c = 0; c < kBlockCells; ++c) {
                 const double mass = mass_.block(b, a)[c], wall = field.wallVelocity(b, a)[c];
                 if (!(mass > 0.0) || wall == 0.0 || field.open(b, a)[c] > 0.0) continue;
-                work += mass * (work_.grid.faces.velocity.block(b, a)[c] - fallen_.block(b, a)[c]) * wall;
+                const double change = read.block(b, a)[c] - fallen_.block(b, a)[c];
+                work += mass * ((1.0 - flipRatio) * change - flipRatio * fall[a]) * wall;
             }
         return work;
     });
 }
 
-void EnergyBook::walls()
+void EnergyBook::walls(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio)
 {
     if (!changes_) return;
-    const double work = workOnFollowers();
-    book(EnergyChange::Solids, work);
+    const WallFaces::Led& led = work_.wallFaces.led;
+    const double work = workOnFollowers(read, fall, flipRatio) + (1.0 - flipRatio) * led.work, lifted = -fall.dot(led.heavy);
+    book(EnergyChange::Solids, work + lifted);
     book(EnergyChange::Walls, -work);
+    book(EnergyChange::Gravity, -lifted);  // what the walls hold of the liquid's weight does not act on the faces
     after(EnergyChange::Walls);
 }
 

@@ -32,7 +32,10 @@ class EnergyBook {
     /// @param gravity  that acted on the fabric: meanGravity [cm/s^2]
     void solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric);
     /// Faces behind walls have got their velocities.
-    void walls();
+    /// @param read       velocities that the particles get [cm/s]
+    /// @param fall       what weight made of velocities [cm/s]
+    /// @param flipRatio  share of their own velocities that the particles keep: what walls replace on faces does not reach it [-]
+    void walls(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio);
     /// The step is over.
     void finished();
 
@@ -52,7 +55,7 @@ class EnergyBook {
     /// Of moving solids against the liquid's pressure on them over dt: what flows out of cells through what is closed of their faces [erg].
     double workAgainst(const BlockArray<double>& pressure, double dt) const;
     /// Of moving solids on the faces behind them, which get their velocity: impulse times velocity [erg].
-    double workOnFollowers() const;
+    double workOnFollowers(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio) const;
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
 
     const State& state_;

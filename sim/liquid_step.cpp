@@ -363,14 +363,15 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
         keepMomentum(settings, grid, plan.isMixed, work, work.reflection.velocity);
         energy.reflected(dt);
     }
+    GatherSettings gather = gatherSettings(scene, work, dt);
     if (!work.obstacles.empty()) {
         clock.start(Stage::Walls);
         finishAtWalls(grid, settings.liquid, plan, work);
-        energy.walls();
+        energy.walls(plan.reflects ? work.reflection.velocity : work.grid.faces.velocity,
+                     fallTime(settings.time, state, dt, plan.meetsFabric) * settings.gravity, gather.flipRatio);
     }
 
     clock.start(Stage::GridToParticles);
-    GatherSettings gather = gatherSettings(scene, work, dt);
     if (plan.relaxes) gather.displacement = work.displacement.data();
     if (plan.corrects) gather.faceDisplacement = &work.volume.displacement;
     if (!work.obstacles.empty()) tellSolids(state, settings, dt, plan, gather, work);

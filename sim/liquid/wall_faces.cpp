@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <functional>
 
 namespace sim {
 
@@ -122,6 +123,24 @@ void WallFaces::find(const BlockGrid& grid, const ObstacleField& field, const Ob
     }
     findLayers(grid, field, faces);
     findFollowers(grid, obstacles, friction, faces);
+}
+
+WallFaces::Led WallFaces::ledByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const
+{
+    const auto ofBlock = [&](std::size_t n) {
+        const int b = blocks_[n];
+        Led sum;
+        for (const Follower& f : followers_[n]) {
+            if (f.share == 0.0) continue;
+            const double mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face],
+                         momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face],
+                         weighs = mass - weightless.block(b, f.axis)[f.face], wall = field.wallVelocity(b, f.axis)[f.face];
+            sum.work += (1.0 - f.share) * (mass * wall - momentum) * wall;
+            sum.heavy[f.axis] += (1.0 - f.share) * weighs * wall;
+        }
+        return sum;
+    };
+    return parallelReduce(blocks_.size(), Led{}, ofBlock, std::plus<>());
 }
 
 void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces)

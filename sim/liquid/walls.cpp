@@ -177,8 +177,16 @@ void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, double 
 
 void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid)
 {
+    const bool moves = obstacles.anyMoving();
+    if (moves) {
+        liquid.weightless.resize(grid.count());
+        parallelFor(field.blocksNearSolid().size(), 8, [&](std::size_t n) {
+            std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0);
+        });
+    }
     foldAtPlaneWalls(grid, obstacles, friction, liquid.faces, liquid.weightless);
     followers.find(grid, field, obstacles, friction, liquid.faces);
+    followers.led = moves ? followers.ledByWalls(field, liquid.faces, liquid.weightless) : WallFaces::Led{};
     followers.fold(grid, field, liquid.faces);
 }
 
