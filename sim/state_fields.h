@@ -82,6 +82,7 @@ void visitFabric(V& v, Fabric& fabric)
     v.number("fabric/spring_step", "s", fabric.springStep);
     v.number("fabric/taken_fraction", "-", fabric.lastFraction);
     v.number("fabric/owed_energy", "erg", fabric.owed);
+    v.number("fabric/most_kinetic_energy", "erg", fabric.mostKinetic);
     visitGrips(v, "fabric/friction_on_fabric", fabric.onFabric);
     v.list("fabric/across", "-", fabric.across);
     v.list("fabric/velocity_modes", "cm/s", fabric.modes);

@@ -99,7 +99,8 @@ struct FabricState {
 
     // Of solver vertex only.
     double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
-    double owed = 0.0;                    ///< energy that it gained from nothing and that its motion could not pay for yet [erg]
+    double owed = 0.0;                    ///< energy that it gained from nothing and that its motion could not pay for yet [erg] …
+    double mostKinetic = 0.0;             ///< … beside the largest kinetic energy of all steps' starts [erg]
     Grips onFabric;                       ///< friction between primitives, as contact/primitives.h counts them
 
     // Of solver grid only; empty until its first step.

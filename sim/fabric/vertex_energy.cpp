@@ -96,8 +96,8 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
             continue;
         }
         const double work = byHolder.dot(state.v[v]);
-        // Solids at rest only take: what Newton has left of the balance where they hold is the step's own.
-        const EnergyChange bySolid = work > 0.0 && !solidsMove_ ? EnergyChange::Implicit : EnergyChange::Obstacles;
+        // Solids at rest do no work on what they hold: what Newton has left of the balance there is the step's own.
+        const EnergyChange bySolid = solidsMove_ ? EnergyChange::Obstacles : EnergyChange::Implicit;
         changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += work;
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {

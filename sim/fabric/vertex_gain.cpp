@@ -24,6 +24,8 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 
 namespace {
 
+constexpr double kMostOwed = 0.01;  ///< with which a run may go on, of the largest kinetic energy: what its energies are held to [-]
+
 /// What pins, solids and the liquid did for the fabric [erg].
 double given(const EnergyChanges& changes)
 {
@@ -72,11 +74,11 @@ EnergyChanges VertexSolver::payOwed(double h, const Vec3& gravity, FabricState& 
     return changes;
 }
 
-/// Ends the run if what leads the fabric takes it where it cannot follow: it owes more than all of its motion has, nor can it go back as pins
-/// and solids cannot.
+/// Ends the run if what leads the fabric takes it where it cannot follow: it owes more than all of its motion has, and than can be let pass, nor
+/// can it go back as pins and solids cannot.
 void VertexSolver::refuseJam(double h, const Vec3& gravity, const FabricState& state) const
 {
-    if (state.owed <= felt(energies(state, gravity).kinetic, h)) return;
+    if (state.owed <= std::max(felt(energies(state, gravity).kinetic, h), kMostOwed * state.mostKinetic)) return;
     Vec3 place = state.x[0];
     double longest = 0.0;
     const auto look = [&](int a, int b) {
