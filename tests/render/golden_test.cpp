@@ -18,12 +18,6 @@ namespace {
 using namespace render;
 namespace fs = std::filesystem;
 
-// Another Mesa, LLVM or processor rounds differently: single samples on the edges of spheres flip, which leaves the
-// mean above 0.995. A light that moves, a lost label or a tank drawn solid go below 0.98 or spoil some window.
-constexpr double kMeanSimilarity = 0.98;
-constexpr double kLowestSimilarity = 0.6;
-constexpr double kColorDifference = 1.5;           // of 255, on average: hues, which the similarity does not see
-
 void expectLikeGolden(const Image& actual, const std::string& name)
 {
     const fs::path golden = fs::path(RENDER_TEST_GOLDEN_DIR) / (name + ".png");
@@ -37,16 +31,14 @@ void expectLikeGolden(const Image& actual, const std::string& name)
     ASSERT_TRUE(fs::exists(golden)) << golden << " is missing; DRENCH_ACCEPT_GOLDENS=1 writes it";
     const Image expected = readPng(golden);
     const bool sameSize = actual.width == expected.width && actual.height == expected.height;
-    const Similarity similarity = sameSize ? structuralSimilarity(actual, expected) : Similarity{};
-    const double colorDifference = sameSize ? meanColorDifference(actual, expected) : 255.0;
-    if (similarity.mean >= kMeanSimilarity && similarity.lowest >= kLowestSimilarity &&
-        colorDifference <= kColorDifference)
-        return;
+    const ImageDifference difference = sameSize ? compareImages(actual, expected) : ImageDifference{};
+    if (sameSize && isWithin(difference, ImageTolerance{})) return;
     fs::create_directories(folder);
     writePng(actual, folder / "actual.png");
     if (sameSize) writePng(differenceImage(actual, expected), folder / "diff.png");
-    ADD_FAILURE() << name << ": mean similarity " << similarity.mean << ", lowest " << similarity.lowest
-                  << ", colour difference " << colorDifference << "\n  expected " << golden << "\n  actual   "
+    ADD_FAILURE() << name << ": mean similarity " << difference.similarity.mean << ", lowest " << difference.similarity.lowest << " at ("
+                  << difference.similarity.x << ", " << difference.similarity.y << "), share of pixels that differ " << difference.color.share
+                  << (sameSize ? "" : "; another size") << "\n  expected " << golden << "\n  actual   "
                   << folder / "actual.png" << "\n  diff     " << folder / "diff.png"
                   << "\n  to accept the new picture: DRENCH_ACCEPT_GOLDENS=1";
 }

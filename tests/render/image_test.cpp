@@ -113,6 +113,8 @@ TEST(Similarity, SamePictureIsOneAndOthersAreLess)
     const Similarity spot = structuralSimilarity(spotted, image);
     EXPECT_LT(spot.mean, 0.999);
     EXPECT_LT(spot.lowest, 0.7) << "the worst window sees a small thing";
+    EXPECT_NEAR(spot.x, 21, 5) << "and tells where";
+    EXPECT_NEAR(spot.y, 21, 5);
 
     Image shifted(image.width, image.height);
     paste(image, 2, 0, shifted);
@@ -127,7 +129,22 @@ TEST(Similarity, ConstantPicturesFollowTheClosedForm)
     const double c1 = 2.55 * 2.55;
     const double expected = (2.0 * 100 * 150 + c1) / (100.0 * 100 + 150.0 * 150 + c1);
     EXPECT_NEAR(structuralSimilarity(a, b).mean, expected, 1e-9);
-    EXPECT_NEAR(meanColorDifference(a, b), 50.0, 1e-12);
+}
+
+TEST(Similarity, ColorsAreCountedWhereTheyCanBeSeen)
+{
+    const Image image(10, 10, {100, 100, 100});
+    Image changed = image;
+    fill(changed, {2, 3, 4, 1}, {100, 100, 104});
+    EXPECT_EQ(colorDifference(image, changed).share, 0.0);
+    EXPECT_EQ(colorDifference(image, changed).largest, 4);
+    fill(changed, {7, 5, 2, 1}, {100, 91, 100});
+    const ColorDifference difference = colorDifference(image, changed);
+    EXPECT_DOUBLE_EQ(difference.share, 0.02);
+    EXPECT_EQ(difference.largest, 9);
+    EXPECT_EQ(difference.x, 7);
+    EXPECT_EQ(difference.y, 5);
+    EXPECT_THROW(colorDifference(image, Image(3, 3)), std::invalid_argument);
 }
 
 TEST(Similarity, DifferenceImageIsRedWhereAndOnlyWhereTheyDiffer)
