@@ -216,6 +216,21 @@ void describe(V& v, OutputSettings& o)
 }
 
 template <class V>
+void describe(V& v, Tolerance& t)
+{
+    const Range share = Range::between(0.0, 1.0);
+    v.number("mean_ssim", t.pictures.meanSsim, Quantity::None, share, "Pictures: mean structural similarity, at least");
+    v.number("lowest_ssim", t.pictures.lowestSsim, Quantity::None, Range::between(-1.0, 1.0), "Pictures: lowest similarity of a window, at least");
+    v.number("pixels", t.pictures.pixels, Quantity::None, share, "Pictures: share of pixels that differ by more than 4 of 255, at most");
+    v.integer("largest", t.pictures.largest, 0, 255, "Pictures: largest difference of a channel, of 255; 0 = the same to the last bit");
+    v.number("series", t.series, Quantity::None, Range::atLeast(0.0), "Numbers in logs and reports: difference relative to the largest of the column, at most");
+    v.texts("ignore", t.ignore, "Columns that are not judged, each with those below it: [iterations, fabric]");
+    v.number("position", t.position, Quantity::Length, Range::atLeast(0.0), "Particles and vertices, by id: difference of positions, at most");
+    v.number("velocity", t.velocity, Quantity::Velocity, Range::atLeast(0.0), "Particles and vertices: difference of velocities, at most");
+    v.number("mass", t.mass, Quantity::Mass, Range::atLeast(0.0), "Particles, and what vertices have absorbed: difference of masses, at most");
+}
+
+template <class V>
 void describe(V& v, CompareSettings& c)
 {
     v.text("name", c.name, "Name of the comparison; left out: the scene's");
@@ -225,8 +240,7 @@ void describe(V& v, CompareSettings& c)
             "What is made of the runs");
     v.onlyRuns("sync", "time", {}, "Pictures of equal simulated time stand side by side");
     v.text("reference", c.reference, "Label of the variant the others are held against");
-    v.later("tolerance", "a comparison shows runs side by side and judges none; remove the key, or give the scene a section validate, whose "
-                         "checks have tolerances");
+    v.section("tolerance", c.tolerance, "What drench diff takes for the same");
 }
 
 }  // namespace app

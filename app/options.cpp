@@ -121,6 +121,20 @@ void addExport(CLI::App& program, Options& options)
     verb->callback([&options] { options.verb = Verb::Export; });
 }
 
+void addDiff(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("diff", "tell whether two results are the same: exit code 0 same, 1 different, 2 cannot be compared");
+    verb->add_option("A", options.diff.a, "what is expected: a picture, a folder of pictures, a video, a run, a series, a report or a state")->required();
+    verb->add_option("B", options.diff.b, "what is held against it")->required();
+    verb->add_option("--tolerances", options.diff.tolerances,
+                     "a file of tolerances, or a scene with compare.tolerance (default: tolerance.yaml beside A, or the scene of A's run)");
+    verb->add_option("--set", options.sets, "a tolerance: key=value")->take_all()->allow_extra_args(false);
+    verb->add_flag("--subset", options.diff.subset, "A has only some of B's pictures: the others do not count");
+    verb->add_option("--out", options.out, "folder for diff.html and pictures of what differs (default: none are made)");
+    verb->add_option("--threads", options.threads, "threads (default: all)")->check(CLI::Range(1, kMaxThreads));
+    verb->callback([&options] { options.verb = Verb::Diff; });
+}
+
 void addSweep(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand(
@@ -197,6 +211,7 @@ void addVerbs(CLI::App& program, Options& options)
 
     addRender(program, options);
     addExport(program, options);
+    addDiff(program, options);
     addSweep(program, options);
     addStress(program, options);
     addImport(program, options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/diff/diff_options.h"
 #include "app/import/import_options.h"
 #include "app/scene_setup.h"
 
@@ -11,7 +12,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff };
 
 /// The command line.
 struct Options {
@@ -54,6 +55,8 @@ struct Options {
     std::optional<std::size_t> task;     ///< sweep: do this run alone, as a job of Slurm's does
 
     ImportOptions import;                ///< import: what may be decided this way or that; its result goes to `out`
+
+    DiffOptions diff;                    ///< diff: what is compared, and how
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;

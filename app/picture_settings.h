@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/diff/tolerance.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -98,6 +100,7 @@ struct CompareSettings {
     CompareLayout layout = CompareLayout::Columns;
     bool video = true, sheet = false, energyPlot = true, table = true;
     std::string reference;                  ///< label of the baseline, if any
+    Tolerance tolerance;                    ///< what drench diff takes for the same
 };
 
 /// What there is to draw in the scene that the settings belong to.

@@ -17,6 +17,7 @@ int runVerbPaper(const Options& options, const Parts& parts);
 int runVerbValidate(const Options& options, const Parts& parts);
 int runVerbStress(const Options& options, const Parts& parts);
 int runVerbRender(const Options& options, const Parts& parts);
+int runVerbDiff(const Options& options, const Parts& parts);
 int runVerbExport(const Options& options, const Parts& parts);
 int runVerbSweep(const Options& options, const Parts& parts);
 int runVerbImport(const Options& options, const Parts& parts);

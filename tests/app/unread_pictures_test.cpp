@@ -55,6 +55,8 @@ const std::map<std::string, InVain> kKeys = {
     {"output.video.codec", {{"output.frames=none"}, kAll, "output.frames png"}},
     {"compare.layout", {{}, kAll, kVariants}},
     {"compare.products", {{}, kAll, kVariants}},
+    {"compare.tolerance.mean_ssim", {}}, {"compare.tolerance.lowest_ssim", {}}, {"compare.tolerance.pixels", {}}, {"compare.tolerance.largest", {}},
+    {"compare.tolerance.series", {}}, {"compare.tolerance.ignore", {}}, {"compare.tolerance.position", {}}, {"compare.tolerance.velocity", {}}, {"compare.tolerance.mass", {}},
 };
 
 /// The keys of printed sections, with what is given them.

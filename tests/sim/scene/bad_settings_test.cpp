@@ -264,8 +264,7 @@ solver: {wicking_substeps: auto}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 compare: {tolerance: 0.1}
 )",
-     "bad.yaml:3: compare.tolerance: a comparison shows runs side by side and judges none; remove the key, or give the scene a section "
-     "validate, whose checks have tolerances"},
+     "bad.yaml:3: compare.tolerance: needs a map of keys, not \"0.1\""},
     {"MeshCache", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {mesh: {file: a.obj, cache: a.sdf}}}]}
 )",

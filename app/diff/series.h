@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/diff/finding.h"
+#include "app/diff/tolerance.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// Numbers by column, one of each per row: a log of a run, or its report as one row. A row that lacks a column has NaN in it.
+struct Series {
+    std::string name;                                  ///< of the file
+    std::vector<std::string> columns;                  ///< in their order in the file
+    std::map<std::string, std::vector<double>> values; ///< of each column, one per row
+    std::size_t rows = 0;
+    std::vector<double> times;                         ///< of each row [s]; empty where the file has none
+};
+
+/// A table of numbers: .csv with names in its first line, or .jsonl with an object per line. Columns of objects are named like
+/// "energy/total", elements of lists like "force[0]". How long things took is left out.
+/// Throws InputError "file:line: …" at what is no number.
+Series readSeries(const std::filesystem::path& file);
+
+/// The numbers of report.json, without those that depend on the machine and the clock. Throws InputError.
+Series readReportNumbers(const std::filesystem::path& file);
+
+/// By column: the largest difference, relative to the largest number of A in the column (in the whole vector, for one of its
+/// components), and when it is. Rows of equal times are held against each other; without times those of equal number.
+std::vector<DiffFinding> diffSeries(const Series& a, const Series& b, const Tolerance& tolerance);
+
+}  // namespace app
