@@ -21,7 +21,7 @@ constexpr std::string_view kPageHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <style>
 body { font: 15px/1.45 "DejaVu Sans", sans-serif; color: #222; margin: 2em auto; max-width: 1500px; padding: 0 1em; }
-h1 { font-size: 1.4em } h2 { font-size: 1.1em; margin-top: 2em } figure { margin: 1.5em 0 } img { width: 100%; border: 1px solid #ccc }
+h1 { font-size: 1.4em } h2 { font-size: 1.1em; margin-top: 2em } figure { margin: 1.5em 0 } img { max-width: 100%; border: 1px solid #ccc }
 table { border-collapse: collapse; font-size: 13px } td, th { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd }
 td:first-child, th:first-child, td.words { text-align: left } .differs { color: #b00000 } .same { color: #207020 }
 </style>

@@ -88,10 +88,10 @@ std::string wordsOf(const PictureDiff& diff, const render::ImageTolerance& toler
     if (!diff.problem.empty()) return fmt::format("{}: {}", diff.pair.name, diff.problem);
     const auto& [similarity, color] = diff.difference;
     return fmt::format("{}: mean SSIM {:.4f}{}, lowest {:.4f}{} at ({}, {}), {:.3g} % of pixels over {}/255{}, largest difference {}{} at ({}, {})",
-                       diff.pair.name, similarity.mean, missed(similarity.mean < tolerance.meanSsim, "not", tolerance.meanSsim),
-                       similarity.lowest, missed(similarity.lowest < tolerance.lowestSsim, "not", tolerance.lowestSsim), similarity.x, similarity.y,
-                       100.0 * color.share, render::kVisibleStep, missed(color.share > tolerance.pixels, "not", 100.0 * tolerance.pixels),
-                       color.largest, missed(color.largest > tolerance.largest, "not", tolerance.largest), color.x, color.y);
+                       diff.pair.name, similarity.mean, missed(similarity.mean < tolerance.meanSsim, "at least", tolerance.meanSsim),
+                       similarity.lowest, missed(similarity.lowest < tolerance.lowestSsim, "at least", tolerance.lowestSsim), similarity.x, similarity.y,
+                       100.0 * color.share, render::kVisibleStep, missed(color.share > tolerance.pixels, "at most", 100.0 * tolerance.pixels),
+                       color.largest, missed(color.largest > tolerance.largest, "at most", tolerance.largest), color.x, color.y);
 }
 
 void drawPanels(const PicturePair& pair, const fs::path& target)
