@@ -31,7 +31,7 @@ TEST(Viewer, ShowsWhatARunDraws)
     ASSERT_EQ(window.height, drawn.height);
     // Two drivers round edges differently.
     EXPECT_GT(render::structuralSimilarity(rightHalf(window), rightHalf(drawn)).mean, 0.98);
-    EXPECT_LT(render::meanColorDifference(rightHalf(window), rightHalf(drawn)), 2.0 / 255.0);
+    EXPECT_LT(render::colorDifference(rightHalf(window), rightHalf(drawn)).share, 0.01);
 }
 
 TEST(Viewer, LooksAsItDidWithItsPanels)
