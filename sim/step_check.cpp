@@ -49,7 +49,7 @@ std::string placeAndSpeed(const Vec3& x, double speed)
     return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) cm with {:.3g} cm/s", x.x(), x.y(), x.z(), speed);
 }
 
-/// Corners of a box around all blocks of the liquid and all vertices [cm].
+/// Corners of a box around all blocks of the liquid and all vertices; the origin where there is neither [cm].
 std::array<Vec3, 8> cornersAround(const State& state)
 {
     Eigen::AlignedBox3d box;
@@ -58,7 +58,8 @@ std::array<Vec3, 8> cornersAround(const State& state)
         const Vec3 corner = state.grid.lowerCorner(b);
         box.extend(corner).extend(corner + Vec3::Constant(kBlockEdge * state.grid.dx));
     }
-    std::array<Vec3, 8> corners{};
+    std::array<Vec3, 8> corners;
+    corners.fill(Vec3::Zero());
     if (box.isEmpty()) return corners;
     for (int c = 0; c < 8; ++c) corners[c] = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
     return corners;

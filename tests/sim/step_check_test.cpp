@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 // What a step is reproached with.
 
 namespace sim::test {
@@ -98,6 +100,34 @@ TEST(StepCheck, LetsPinsDrive)
     EXPECT_FALSE(driven.rash());
     driven.report.energies.fabric.kinetic += 1.0e8;   // far more than being thrown at the pin's speed
     EXPECT_TRUE(driven.rash());
+}
+
+/// Leaves what is not a number where the next functions have their variables.
+[[gnu::noinline]] void spoilStack()
+{
+    volatile double spoilt[4096];
+    for (volatile double& x : spoilt) x = std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST(StepCheck, FindsNothingWhereNothingIsLeft)
+{
+    Scene scene = tankScene(kPoly8, 1.0, {8.0, 8.0, 8.0}, {0.0, 0.0, 0.0}, {8.0, 4.0, 8.0});
+    scene.settings.time.mode = TimeMode::Adaptive;
+    ObstacleSettings plate;
+    plate.name = "plate";
+    plate.shape = Shape::box(Vec3(4.0, 4.0, 4.0), Vec3(1.0, 0.1, 1.0));
+    plate.motion.addRotation(0.0, 1.0, Vec3::UnitX(), 3.0, Vec3(4.0, 4.0, 4.0), Motion::Frame::World, 0.0, 0.0);
+    scene.obstacles.push_back(plate);
+    const Fabric none;
+    const StepCheck check(scene, none);
+    State state;
+    state.time = 0.5;
+    StepReport report;
+    report.dt = 1.0e-3;
+    check.start(report.energies, state.memory);
+    spoilStack();
+    const std::optional<Fault> fault = check.rash(state, report);
+    EXPECT_FALSE(fault) << fault->what;
 }
 
 TEST(StepCheck, SeesWhatWentTooFar)
