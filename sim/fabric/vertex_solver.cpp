@@ -161,7 +161,7 @@ bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, F
     start_ = state;
     startTime_ = t;
     startEnergies_ = energies(start_, gravity);
-    state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
+    start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
     startIsLookedAt_ = false;
     unseenAtStart_ = 0.0;
     clock.start(Stage::FabricElastic);
