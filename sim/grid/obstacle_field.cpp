@@ -6,7 +6,6 @@
 #include "sim/grid/seams.h"
 
 #include <cmath>
-#include <limits>
 
 namespace sim {
 
@@ -20,18 +19,22 @@ void ObstacleField::resizeSlots(int count)
     centerDistance_.resize(count);
     owner_.resize(count);
     touchedByMoving_.resize(count);
-    if (slotCount_ == 0 && count > 0)
-        for (int c = 0; c < kBlockCells; ++c) {
-            centerDistance_.block(kOpenSlot)[c] = std::numeric_limits<double>::infinity();
-            owner_.block(kOpenSlot)[c] = 0;
-            blocked_.block(kOpenSlot)[c / 64] = 0;
-            for (int a = 0; a < kAxes; ++a) {
-                open_.block(kOpenSlot, a)[c] = room_.block(kOpenSlot, a)[c] = 1.0;
-                wallVelocity_.block(kOpenSlot, a)[c] = 0.0;
-                closed_.block(kOpenSlot, a)[c / 64] = 0;
-            }
-        }
     slotCount_ = count;
+}
+
+void ObstacleField::makeOpenSlot(double dx)
+{
+    resizeSlots(1);
+    for (int c = 0; c < kBlockCells; ++c) {
+        centerDistance_.block(kOpenSlot)[c] = kExactDistance * dx;
+        owner_.block(kOpenSlot)[c] = 0;
+        blocked_.block(kOpenSlot)[c / 64] = 0;
+        for (int a = 0; a < kAxes; ++a) {
+            open_.block(kOpenSlot, a)[c] = room_.block(kOpenSlot, a)[c] = 1.0;
+            wallVelocity_.block(kOpenSlot, a)[c] = 0.0;
+            closed_.block(kOpenSlot, a)[c / 64] = 0;
+        }
+    }
 }
 
 int ObstacleField::takeSlot()
@@ -55,7 +58,7 @@ bool ObstacleField::isNear(const BlockGrid& grid, int block, const Obstacles& ob
 void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors)
 {
     isFolded_ = false;
-    if (slotCount_ == 0) resizeSlots(1);
+    if (slotCount_ == 0) makeOpenSlot(grid.dx);
     oldSlot_.swap(slot_);
     slot_.assign(grid.count() + 1, kOpenSlot);
     nearSolid_.clear();
@@ -63,6 +66,8 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     if (obstacles.anyDisplaced() && !anyMoved_) {
         anyMoved_ = true;
         wallVelocity_.resize(slotCount_);
+        // Slots that were computed while everything rested are not computed again before something that moves reaches them.
+        std::fill_n(wallVelocity_.block(0), static_cast<std::size_t>(slotCount_) * BlockArray<double, 3>::kStride, 0.0);
     }
 
     toCompute_.clear();

@@ -49,6 +49,7 @@ class ObstacleField {
 
     int takeSlot();
     void resizeSlots(int count);
+    void makeOpenSlot(double dx);
     static bool isNear(const BlockGrid& grid, int block, const Obstacles& obstacles, Obstacles::Which which);
     void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors);
     static bool isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis);

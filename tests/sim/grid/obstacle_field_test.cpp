@@ -2,9 +2,11 @@
 #include "sim/grid/open_faces.h"
 
 #include "sim/core/units.h"
+#include "tests/sim/grid/random_solids.h"
 #include "tests/sim/liquid/grid_scene.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 namespace sim::test {
 namespace {
@@ -205,6 +207,51 @@ TEST(ObstacleField, OpenFractionsOfABallCloseItsSurface)
             const double z = 0.1 * plane - Vec3(0.02, -0.03, 0.01)[a];
             EXPECT_NEAR(area, kPi * (1.0 - z * z), 0.01);
         }
+}
+
+TEST(ObstacleField, TellsDistancesUpToItsReachInEveryBlock)
+{
+    Chance chance(17);
+    for (const Kind& kind : kSolidKinds)
+        for (int n = 0; n < 4; ++n) {
+            GridScene scene({-16, -16, -16}, {16, 16, 16}, 0.2, chance.inCube(1.0));
+            scene.add(kind.make(chance).moved(chance.turn(1.0)));
+            const double reach = ObstacleField::kExactDistance * scene.grid.dx;
+            scene.forEachCell([&](const Vec3i& c) {
+                const double told = scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell];
+                ASSERT_LE(told, reach) << kind.name << " at cell " << c.transpose();
+                // Where parts of a solid meet, its depth is counted from its surface and not from the parts' own.
+                const double distance = scene.obstacles.distance(scene.middle(c));
+                if (distance <= 0.0) return;
+                ASSERT_NEAR(told, std::min(distance, reach), 1.0e-12)
+                    << kind.name << " at cell " << c.transpose();
+            });
+        }
+}
+
+TEST(ObstacleField, WallsThatRestDoNotMoveOnceOthersDo)
+{
+    constexpr int kFill = 0x80;  // new memory is filled with its complement
+    GridScene scene({-16, -16, -16}, {16, 16, 16}, 0.2, Vec3::Zero());
+    mallopt(M_PERTURB, kFill);
+    scene.obstacles.add(Shape::ball({-1.5, -1.5, -1.5}, 1.0), {});
+    Motion motion;
+    motion.addTranslation(0.5, 1.0, {0.1, 0.0, 0.0}, 0.0, 0.0);
+    scene.obstacles.add(Shape::ball({2.0, 2.0, 2.0}, 0.5), motion);
+    std::vector<int> same(scene.grid.count(), BlockGrid::kNone);
+    for (const double t : {0.0, 0.25, 0.75}) {
+        scene.obstacles.moveTo(t, t + 0.01);
+        scene.field.update(scene.grid, same, scene.obstacles, false);
+        std::iota(same.begin(), same.end(), 0);
+    }
+    mallopt(M_PERTURB, 0);
+    int moving = 0;
+    scene.forEachFace([&](int a, const Vec3i& c) {
+        const double u = scene.field.wallVelocity(scene.at(c).block, a)[scene.at(c).cell];
+        if (scene.middle(c).maxCoeff() < 0.0) ASSERT_EQ(u, 0.0) << "axis " << a << ", cell " << c.transpose();
+        moving += u != 0.0;
+    });
+    EXPECT_GT(moving, 0);
 }
 
 /// Everything a field tells of a block.
