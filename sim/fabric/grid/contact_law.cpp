@@ -66,6 +66,11 @@ Vec3 returned(const ContactModuli& m, const Vec3& r)
     return {share * r[0], share * r[1], std::max(r[2], kLeastThickness)};
 }
 
+Vec3 eased(const Vec3& r, double share)
+{
+    return {share * r[0], share * r[1], 1.0 - share * (1.0 - r[2])};
+}
+
 }  // namespace sheet
 
 namespace yarn {
@@ -225,6 +230,16 @@ Strain returned(const ContactModuli& m, const Strain& r)
     else
         kept.bottomRows<2>() = section.u * slid(section, share.across).sigma.asDiagonal() * section.vt;
     return kept;
+}
+
+Strain eased(const Strain& r, double share)
+{
+    if (share == 1.0) return r;
+    const Section section = sectionOf(r);
+    Strain eased;
+    eased.row(0) = share * r.row(0);
+    eased.bottomRows<2>() = section.u * Vector2d((share * section.log).array().exp()).asDiagonal() * section.vt;
+    return eased;
 }
 
 }  // namespace yarn

@@ -48,6 +48,8 @@ Vec3 stiffness(const ContactModuli& m, const Vec3& r, const Vec3& last);
 double held(const ContactModuli& m, const Vec3& r);
 /// r after separation and friction.
 Vec3 returned(const ContactModuli& m, const Vec3& r);
+/// r with a share of its strain, which has at most the square of that share of its energy.
+Vec3 eased(const Vec3& r, double share);
 
 }  // namespace sheet
 
@@ -92,6 +94,8 @@ Section slid(const Section& section, double across);
 /// Leaves `across` of what K has beside the answer to scaling the whole section.
 void slide(const Section& section, double across, SectionStiffness& k);
 Strain returned(const ContactModuli& m, const Strain& r);
+/// R with a share of its strain and of log σ, which has the square of that share of its energy.
+Strain eased(const Strain& r, double share);
 
 }  // namespace yarn
 

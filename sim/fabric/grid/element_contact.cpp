@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <limits>
 
 namespace sim {
 
@@ -229,23 +230,39 @@ double ElementContact::energy() const
     return sum;
 }
 
-double ElementContact::carry(std::span<const Mat3> g, double h, FabricState& state) const
+/// What an element may store after a motion: no more than it did, and than the stresses that the step was solved with took [erg]. Of those that
+/// were left out it is known that all of them gain nothing to speak of (unforeseen).
+double ElementContact::mostAfter(std::size_t e, const StepOutlook& moved) const
+{
+    if (!stress_[e].isActive) return std::numeric_limits<double>::infinity();
+    const Local& at = local_[e];
+    const std::array<Vec3, 2> moves = expectedMoves(e, at, moved), &first = stress_[e].stress;
+    const Vec3 last0 = first[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
+               last1 = first[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1];
+    return std::max(0.0, stress_[e].energy + last0.dot(moves[0]) + last1.dot(moves[1]));
+}
+
+double ElementContact::carry(const StepOutlook& moved, FabricState& state) const
 {
     return parallelSum(size(), [&](std::size_t e) {
         const ContactModuli& m = moduli_[material_[e]];
-        const Mat3 step = h * g[e], carried = Mat3::Identity() + step + 0.5 * (step * step);
+        const Mat3 step = moved.h * moved.motion.gradient[e], carried = Mat3::Identity() + step + 0.5 * (step * step);
         const Vec3& x0 = state.x[corners_[e][0]];
         const Vec3 t0 = state.x[corners_[e][1]] - x0;
+        const double most = mostAfter(e, moved);
+        const auto excess = [&](double energy) { return energy > most ? std::sqrt(most / energy) : 1.0; };
         Vec3* d = state.across.data() + direction(e);
         if (isEdge(e)) {
-            const std::array<Vec3, 2> moved = {carried * d[0], carried * d[1]};
-            const Mat3 q = yarn::frameOf(t0, moved[0]);
-            const yarn::Strain r = yarn::returned(m, yarnStrain(q, moved));
+            const std::array<Vec3, 2> between = {carried * d[0], carried * d[1]};
+            const Mat3 q = yarn::frameOf(t0, between[0]);
+            yarn::Strain r = yarn::returned(m, yarnStrain(q, between));
+            r = yarn::eased(r, excess(volume_[e] * yarn::energy(m, r, yarn::sectionOf(r))));
             for (int k = 0; k < 2; ++k) d[k] = q * r.col(k);
             return volume_[e] * yarn::energy(m, r, yarn::sectionOf(r));
         }
         const Mat3 q = sheet::frameOf(t0, state.x[corners_[e][2]] - x0);
-        const Vec3 r = sheet::returned(m, q.transpose() * (carried * d[0]));
+        Vec3 r = sheet::returned(m, q.transpose() * (carried * d[0]));
+        r = sheet::eased(r, excess(volume_[e] * sheet::energy(m, r)));
         d[0] = q * r;
         return volume_[e] * sheet::energy(m, r);
     });

@@ -302,6 +302,32 @@ TEST(GridContactLaw, PartingTakesStressNoFurtherThanToZero)
     }
 }
 
+/// However far motions go beyond what was expected, and beyond what a linear answer is good for.
+TEST(GridContactLaw, StoresNoMoreThanTheSolvedStressesTook)
+{
+    constexpr double h = 1.0e-3;
+    Noise noise(31);
+    const auto gradient = [&](double strain) -> Mat3 { return strain / h * Mat3::NullaryExpr([&] { return noise(); }); };
+    for (int n = 0; n < 100; ++n) {
+        Pressed pressed(wool(), 0.7 + 0.3 * std::abs(noise()), gradient(0.3));
+        pressed.assemble(h);
+        for (Mat3& g : pressed.motion.gradient) g += gradient(n % 2 == 0 ? 0.01 : 1.0);
+        std::vector<double> most;
+        for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
+            const std::array<Vec3, 2> last = pressed.lastStress(e, h);
+            const ElementContact::Local& at = pressed.contact.local(e);
+            const double work = h * (last[0].dot(pressed.motion.gradient[e] * at.d[0]) + last[1].dot(pressed.motion.gradient[e] * at.d[1]));
+            most.push_back(std::max(0.0, pressed.contact.stress(e).energy + work));
+            if (!pressed.contact.stress(e).isActive) most.back() = std::numeric_limits<double>::infinity();
+        }
+        const double told = pressed.contact.carry({pressed.motion, h, kCell, 0.0}, pressed.state);
+        pressed.contact.assemble(pressed.state);
+        EXPECT_NEAR(pressed.contact.energy(), told, 1.0e-12 * told);
+        for (std::size_t e = 0; e < pressed.contact.size(); ++e)
+            EXPECT_LE(pressed.contact.stress(e).energy, most[e] * (1.0 + 1.0e-9)) << "state " << n << ", element " << e;
+    }
+}
+
 TEST(GridContactLaw, WhatWouldNotBeFeltIsLeftOut)
 {
     constexpr double h = 1.0e-3;
