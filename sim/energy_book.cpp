@@ -54,6 +54,14 @@ void EnergyBook::onFaces(EnergyChange change)
     after(change);
 }
 
+void EnergyBook::viscosity(double bySolids)
+{
+    if (!changes_) return;
+    book(EnergyChange::Solids, bySolids);
+    book(EnergyChange::Viscosity, -bySolids);
+    onFaces(EnergyChange::Viscosity);
+}
+
 void EnergyBook::surfaceTension(bool isMixed)
 {
     if (!changes_) return;

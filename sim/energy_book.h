@@ -17,6 +17,8 @@ class EnergyBook {
     void toGrid();
     /// Gravity, or viscosity, has acted on the faces.
     void onFaces(EnergyChange change);
+    /// Viscosity has, through which solids that move did this work [erg].
+    void viscosity(double bySolids);
     /// Surface tension has acted there, too, but not yet the pressure that holds against it.
     /// On faces that liquid and fabric share its work is part of the pressure's.
     void surfaceTension(bool isMixed);

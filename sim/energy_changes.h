@@ -22,7 +22,7 @@ enum class EnergyChange {
     Contact,           ///< of fabric with itself, beyond the energy that it holds (FabricState::stored). Solver grid: with friction
     Friction,          ///< of fabric on fabric
     Obstacles,         ///< on fabric, with friction, and on what contact with them holds
-    Solids,            ///< moving ones on the liquid: by its pressure on them, by what follows them at walls, by contact
+    Solids,            ///< moving ones on the liquid: by its pressure on them, by its viscosity, by what follows them at walls, by contact
     Pins,
     FabricToGrid,      ///< solver grid: from vertices to faces …
     FabricToVertices,  ///< … and back, with the fading of velocities

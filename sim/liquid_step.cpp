@@ -120,8 +120,9 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
         clock.start(Stage::Viscosity);
         if (!work.obstacles.empty()) work.onSolids.beforeViscosity(work.grid.faces.velocity);
         report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
-        if (!work.obstacles.empty()) work.onSolids.afterViscosity(grid, work.obstacleField, work.viscosity.system, work.grid);
-        energy.onFaces(EnergyChange::Viscosity);
+        const double bySolids =
+            work.obstacles.empty() ? 0.0 : work.onSolids.afterViscosity(grid, work.obstacleField, work.viscosity.system, work.grid);
+        energy.viscosity(bySolids);
     }
     work.grid.unpressed = work.grid.faces.velocity;
 }

@@ -21,8 +21,6 @@ using nlohmann::json;
 constexpr std::array<std::string_view, 4> kFromOutside = {"sources_erg", "suction_erg", "solids_erg", "pins_erg"};
 /// With friction, which takes. Where a solve was cut short its forces are booked with more than they took: what is not gone was not taken.
 constexpr std::string_view kObstacles = "obstacles_erg";
-/// What only gives, counted where it does: it gives where walls move.
-constexpr std::string_view kGivesOnly = "viscosity_erg";
 /// The energy of a surface is in no sum. It gives by its own work and by that of the pressure that it makes; what it takes is not lost.
 constexpr std::string_view kSurface = "surface_tension_erg", kPressure = "pressure_erg";
 
@@ -59,7 +57,6 @@ Energy energyOf(const std::filesystem::path& csv)
             if (names[i] == "total_erg") total = value;
             if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
             if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
-            if (names[i] == kGivesOnly) paid += std::max(0.0, value);
             if (names[i] == kObstacles) obstacles = value;
             if (names[i] == kSurface) surface = value;
             if (names[i] == kPressure) pressure = value;

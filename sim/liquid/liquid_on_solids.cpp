@@ -77,26 +77,30 @@ void LiquidOnSolids::beforeViscosity(const BlockArray<double, 3>& velocity)
     });
 }
 
-void LiquidOnSolids::afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid)
+double LiquidOnSolids::afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid)
 {
     const bool sticks = system.wall.size() > 0;
-    parallelFor(blocks_.size(), [&](std::size_t n) {
+    return parallelSum(blocks_.size(), [&](std::size_t n) {
         const int b = blocks_[n], place = static_cast<int>(n);
+        double work = 0.0;
         for (int a = 0; a < kAxes; ++a) {
             const double *mass = liquid.faces.sums.block(b, FaceFields::kMass + a), *u = liquid.faces.velocity.block(b, a),
                          *before = before_.block(place, a), *wall = field.wallVelocity(b, a);
             double* others = others_.block(place, a);
             for (int c = 0; c < kBlockCells; ++c) {
-                others[c] += mass[c] * (u[c] - before[c]);
-                if (sticks) others[c] -= system.wall.block(b, a)[c] * (wall[c] - u[c]);
-                if (!isClosed(field, {b, c}, a)) continue;
-                // The cells on both sides pull at the face by their normal strains.
-                const CellRef above = cellBeside(grid, b, c, a, 1), below = cellBeside(grid, b, c, a, -1);
-                const double own = velocityAt(field, liquid, {b, c}, a);
-                others[c] += system.normal.block(b, a)[c] * (velocityAt(field, liquid, above, a) - own) -
-                             system.normal.block(below.block, a)[below.cell] * (own - velocityAt(field, liquid, below, a));
+                double onSolid = sticks ? system.wall.block(b, a)[c] * (u[c] - wall[c]) : 0.0;
+                if (isClosed(field, {b, c}, a)) {
+                    // The cells on both sides pull at the face by their normal strains.
+                    const CellRef above = cellBeside(grid, b, c, a, 1), below = cellBeside(grid, b, c, a, -1);
+                    const double own = velocityAt(field, liquid, {b, c}, a);
+                    onSolid += system.normal.block(b, a)[c] * (velocityAt(field, liquid, above, a) - own) -
+                               system.normal.block(below.block, a)[below.cell] * (own - velocityAt(field, liquid, below, a));
+                }
+                others[c] += mass[c] * (u[c] - before[c]) + onSolid;
+                work -= onSolid * wall[c];
             }
         }
+        return work;
     });
 }
 

@@ -20,7 +20,8 @@ class LiquidOnSolids {
     void begin(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, const FaceFields& faces);
     /// Around the solve for viscosity, of whose stresses solids get those on closed faces and on walls that stick.
     void beforeViscosity(const BlockArray<double, 3>& velocity);
-    void afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid);
+    /// @return  work that those of them which move did on the liquid by it [erg]
+    double afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid);
     /// Weight is moved between faces: then tell by how much that of each grew [g cm/s].
     void meetLevelling() { clearOthers(); }
     void weightGrew(int block, int axis, int cell, double impulse)

@@ -1,5 +1,7 @@
+#include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/viscosity.h"
 #include "tests/sim/fixtures.h"
+#include "tests/sim/grid/random_solids.h"
 #include "tests/sim/liquid/grid_scene.h"
 
 #include <gtest/gtest.h>
@@ -216,6 +218,33 @@ TEST(Viscosity, TakesEnergyAtWallsToo)
             last = viscous.energy();
         }
     }
+}
+
+TEST(Viscosity, AddsNoMoreEnergyThanTheWorkOfWallsThatMove)
+{
+    Chance chance(8);
+    double given = 0.0;
+    for (int n = 0; n < 60; ++n) {
+        ViscousScene viscous({-8, -8, -8}, {16, 16, 16});
+        GridScene& scene = viscous.scene;
+        scene.settings.wallFriction = n % 3 == 0 ? 0.0 : chance.between(0.1, 1.0);
+        const Kind& kind = kSolidKinds[n % 9];
+        scene.obstacles.add(kind.make(chance).moved(chance.turn(1.5)), randomMotion(chance, 50.0, 30.0));
+        scene.obstacles.moveTo(0.0, 1.0e-3);
+        scene.updateObstacles();
+        scene.fill([](const Vec3& x) { return (x - kMiddle).norm() - 2.4; });
+        scene.setRandomVelocities(n % 2 == 0 ? 0.0 : 20.0, n);
+        viscous.solve(0.0);
+        const double before = viscous.energy();
+        LiquidOnSolids onSolids;
+        onSolids.begin(scene.grid, scene.field, scene.obstacles, scene.liquid.faces);
+        onSolids.beforeViscosity(scene.liquid.faces.velocity);
+        ASSERT_TRUE(viscous.solve(1.0e-3).converged);
+        const double work = onSolids.afterViscosity(scene.grid, scene.field, viscous.work.system, scene.liquid), after = viscous.energy();
+        EXPECT_LE(after, before + work + 1.0e-10 * (before + after)) << kind.name << ", state " << n << ", work " << work;
+        given = std::max(given, (after - before) / after);
+    }
+    EXPECT_GT(given, 0.5);
 }
 
 /// Honey at 10^4 P in long steps: as stiff as any scene will be.
