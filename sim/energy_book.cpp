@@ -175,6 +175,17 @@ void EnergyBook::walls(const BlockArray<double, 3>& read, const Vec3& fall, doub
     after(EnergyChange::Walls);
 }
 
+void EnergyBook::solidsGave()
+{
+    if (!changes_ || !work_.obstacles.anyMoving()) return;
+    const MomentumBook::Borne& borne = work_.momentum.borneOfLiquid();
+    double work = -borne.bySolid.dot(work_.obstacles.velocity(borne.place));
+    for (int n = 0; n < work_.obstacles.count(); ++n) work += work_.onSolids.on(n).work;
+    const double more = work - (*changes_)[EnergyChange::Solids];
+    book(EnergyChange::Solids, more);
+    book(EnergyChange::Pressure, -more);
+}
+
 void EnergyBook::solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric)
 {
     if (!changes_) return;

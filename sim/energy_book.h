@@ -38,6 +38,9 @@ class EnergyBook {
     /// @param fall       what weight made of velocities [cm/s]
     /// @param flipRatio  share of their own velocities that the particles keep: what walls replace on faces does not reach it [-]
     void walls(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio);
+    /// What solids got of the liquid on its faces is known, and so what those that move did to it: impulse times velocity on each face. That is exact
+    /// where the parts booked before, by pressure, viscosity and walls, are not; the pressure's row has what they lack.
+    void solidsGave();
     /// The step is over.
     void finished();
 

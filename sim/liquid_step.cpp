@@ -393,11 +393,11 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
                                      work.pushedSolids);
         sums.kinetic -= pushed.lost;
     }
-    energy.toParticles(dt, pushed);
-
     const WeightSums weights = weightSums(particles, settings.gravity);
     const Vec3 weight = weights.mass * fallTime(settings.time, state, dt, plan.meetsFabric) * settings.gravity;
     work.momentum.liquidMoved(sums.momentum, weight, work.onSolids, work.pushedSolids);
+    energy.solidsGave();
+    energy.toParticles(dt, pushed);
     report.energies = {sums.kinetic, plan.flips ? 0.0 : sums.modal, weights.potential, {}};
     report.liquidMass = weights.mass;
     report.particles = particles.count;

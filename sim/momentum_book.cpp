@@ -191,8 +191,10 @@ void MomentumBook::liquidMoved(const Vec3& now, const Vec3& weight, const Liquid
         if (solid.pressed > most.pressed) most = solid, bearer = static_cast<int>(n);
     }
     const Vec3 missing = now - liquid_;
+    borneOfLiquid_ = {};
     if (bearer >= 0) {
-        forces_.obstacles[bearer].liquid += Impulse::at(most.moment / most.pressed, -missing);
+        borneOfLiquid_ = {-missing, most.moment / most.pressed};
+        forces_.obstacles[bearer].liquid += Impulse::at(borneOfLiquid_.place, -missing);
         forces_.balance.borne -= missing;
     } else forces_.balance.unresolved += missing;
     liquid_ = now;

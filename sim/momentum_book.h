@@ -39,6 +39,11 @@ class MomentumBook {
     /// @param now     momentum that they had before they were kept out [g cm/s]
     /// @param weight  what weight gave to the faces [g cm/s]
     void liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed);
+    /// What a solid had to bear of it beyond forces, and where.
+    struct Borne {
+        Vec3 bySolid = Vec3::Zero(), place = Vec3::Zero();  ///< [g cm/s], [cm]
+    };
+    const Borne& borneOfLiquid() const { return borneOfLiquid_; }
     void finish();
 
  private:
@@ -62,6 +67,7 @@ class MomentumBook {
     Forces forces_;
     Vec3 liquid_ = Vec3::Zero();                 ///< momentum that the liquid should have by what has been booked; until it is on the faces the
                                                  ///< change of it since the start of the step [g cm/s]
+    Borne borneOfLiquid_;                        ///< in the last step
     Vec3 leftSoFar_ = Vec3::Zero();              ///< Ledger::leftMomentum at the start of the step [g cm/s]
     std::vector<Piece> pieces_;                  ///< as they were when they were last looked at …
     std::vector<Impulse> before_;                ///< … and their momenta before that

@@ -157,15 +157,16 @@ void LiquidOnSolids::addRow(const BlockGrid& grid, const ObstacleField& field, s
     const int b = blocks_[place];
     Vec3 x = grid.lowerCorner(b) + grid.dx * Vec3(0.5, (row >> 3 & 7) + 0.5, (row >> 6) + 0.5);
     x[axis] -= 0.5 * grid.dx;
-    const auto add = [&](int solid, double got, double pressed, const Vec3& gotAt, const Vec3& pressedAt) {
-        sums[solid] += {{-got * Vec3::Unit(axis), -gotAt.cross(Vec3::Unit(axis))}, pressed, pressedAt};
+    const auto add = [&](int solid, double got, double pressed, const Vec3& gotAt, const Vec3& pressedAt, double work) {
+        sums[solid] += {{-got * Vec3::Unit(axis), -gotAt.cross(Vec3::Unit(axis))}, pressed, pressedAt, work};
     };
+    const Pack work = on.got * loadPack(field.wallVelocity(b, axis) + row);
     if (solids_ == 1) {
         constexpr Pack kPlaces = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
         const Pack got = select(maskOfBits(faces), on.got, broadcast(0.0)), pressed = select(maskOfBits(faces), on.pressed, broadcast(0.0));
         const double allGot = sumLanes(got), allPressed = sumLanes(pressed);
         add(0, allGot, allPressed, allGot * x + grid.dx * sumLanes(got * kPlaces) * Vec3::UnitX(),
-            allPressed * x + grid.dx * sumLanes(pressed * kPlaces) * Vec3::UnitX());
+            allPressed * x + grid.dx * sumLanes(pressed * kPlaces) * Vec3::UnitX(), sumLanes(select(maskOfBits(faces), work, broadcast(0.0))));
         return;
     }
     for (; faces != 0; faces &= faces - 1) {
@@ -173,7 +174,8 @@ void LiquidOnSolids::addRow(const BlockGrid& grid, const ObstacleField& field, s
         const CellRef below = cellBeside(grid, b, c, axis, -1);
         const bool isOwn = field.centerDistance(b)[c] <= field.centerDistance(below.block)[below.cell];
         const Vec3 at = x + grid.dx * i * Vec3::UnitX();
-        add(isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at);
+        add(isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at,
+            work[i]);
     }
 }
 

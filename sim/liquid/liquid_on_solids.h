@@ -57,11 +57,13 @@ class LiquidOnSolids {
         Impulse impulse;
         double pressed = 0.0;           ///< [g cm/s]
         Vec3 moment = Vec3::Zero();     ///< of it [g cm^2/s]
+        double work = 0.0;              ///< of the solid, if it moves, on the liquid [erg]
         OnSolid& operator+=(const OnSolid& other)
         {
             impulse += other.impulse;
             pressed += other.pressed;
             moment += other.moment;
+            work += other.work;
             return *this;
         }
     };

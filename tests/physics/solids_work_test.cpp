@@ -145,6 +145,8 @@ Scene plateThroughDrop(unsigned seed, const Transfer& transfer)
     scene.settings.time.integrator = seed % 4 < 2 ? TimeIntegrator::Plain : TimeIntegrator::Reflected;
     scene.settings.liquid.wallFriction = std::array{0.0, 0.2, 0.5, 0.92, 1.0}[seed % 5];
     scene.settings.liquid.volume.rate = scene.settings.liquid.relax.rate = 0.0;
+    scene.settings.liquid.solveViscosity = seed % 6 == 5;
+    scene.settings.liquid.viscosity = 30.0;
     SourceSettings drop;
     drop.shape = Shape::box(Vec3::Zero(), kCell * Vec3(1.5, 1.0, 1.2));
     Emission emission;
@@ -161,8 +163,8 @@ Scene plateThroughDrop(unsigned seed, const Transfer& transfer)
 
 TEST(SolidsWork, IsAllThatMakesTheEnergyOfAFewParticlesGrow)
 {
-    // Reflected steps next to walls along which liquid slips gain up to 4.5e-3 without it.
-    constexpr double kAllowed = 6.0e-3;
+    // 1.2e-3 are reached with FLIP, whose particles keep velocities that its faces do not have.
+    constexpr double kAllowed = 2.0e-3;
     for (const Transfer& transfer : {kPic, kFlip, kApic, kPoly27}) {
         double largest = 0.0;
         for (unsigned seed = 0; seed < 40; ++seed) {
