@@ -89,6 +89,16 @@ void EnergyBook::after(EnergyChange change)
     last_ = now;
 }
 
+void EnergyBook::taken(EnergyChange change)
+{
+    if (!changes_) return;
+    const Energy now = look();
+    const double lifted = std::max(0.0, now.potential - last_.potential - settings_.gravity.dot(now.fabricMoment - last_.fabricMoment));
+    book(EnergyChange::Suction, lifted);
+    book(change, -lifted);
+    after(change);
+}
+
 void EnergyBook::sorted()
 {
     isSorted_ = true;

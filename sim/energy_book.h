@@ -30,6 +30,8 @@ class EnergyBook {
     void toParticles(double dt, const PushedOut& pushed);
     /// All that has changed since the last look.
     void after(EnergyChange change);
+    /// Fabric has taken liquid up, or moved some within itself: where pores lift it that is suction's work; velocities mix.
+    void taken(EnergyChange change);
     /// Liquid and fabric have been solved for, over dt [s].
     /// @param gravity  that acted on the fabric: meanGravity [cm/s^2]
     void solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric);

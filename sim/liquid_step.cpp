@@ -228,6 +228,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
         applySurfaceSteps(grid, work.obstacleField, work.pressure, fall / dt, work.surfaceTension, work.grid);
         energy.surfaceTension(plan.isMixed);
     }
+    if (!work.obstacles.empty()) work.gainAtWalls.begin(work.obstacleField, work.grid.faces.velocity);
     project(state, settings, work, dt, report, energy);
 
     if (plan.corrects) {
@@ -236,6 +237,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
         clock.start(Stage::Pressure);
     }
     keepMomentum(settings, grid, plan.isMixed, work, work.grid.faces.velocity);
+    if (!work.obstacles.empty()) work.gainAtWalls.bound(work.obstacleField, work.grid.faces.velocity);
 }
 
 /// Does anything go by the liquid that vertices see?
@@ -247,7 +249,7 @@ bool asksForLiquidAround(const CouplingSettings& coupling)
 /// What solids get of the liquid on its faces, now that these have the velocities that particles will read.
 void tellSolids(const State& state, const Settings& settings, double dt, const LiquidPlan& plan, const GatherSettings& gather, Workspace& work)
 {
-    if (plan.isMixed && (work.fabric || work.gridFabric)) {
+    if (plan.isMixed) {
         work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseTaken(
             [&](int b, int a, int c, double impulse) { work.onSolids.fabricTook(b, a, c, impulse); });
@@ -316,7 +318,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
             work.coupling->twist.keep(work.coupling->fabric, state.fabric);
             watch.expectKept(work.coupling->capture.toPins());
             work.momentum.exchanged(state, work.coupling->capture.toPinsByVertex());
-            energy.after(EnergyChange::Capture);
+            energy.taken(EnergyChange::Capture);
         }
     }
 
@@ -362,6 +364,7 @@ void finishLiquid(State& state, const Scene& scene, Workspace& work, double dt, 
         clock.start(Stage::Reflection);
         report.reflection = reflect(grid, work.obstacleField, settings.solver, work.inflow, work.pressure, work.grid, work.reflection);
         keepMomentum(settings, grid, plan.isMixed, work, work.reflection.velocity);
+        if (!work.obstacles.empty()) work.gainAtWalls.bound(work.obstacleField, work.reflection.velocity);
         energy.reflected(dt);
     }
     GatherSettings gather = gatherSettings(scene, work, dt);

@@ -56,7 +56,7 @@ void exchange(State& state, const Settings& settings, const Vec3& gravity, Works
             watch.expectKept(coupling.wicking.toPins());
         }
         work.momentum.exchanged(state, coupling.wicking.toPinsByVertex());
-        energy.after(EnergyChange::Wicking);
+        energy.taken(EnergyChange::Wicking);
         if (settings.coupling.drip) {
             clock.start(Stage::Drip);
             const std::size_t before = particles.count;

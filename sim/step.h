@@ -8,6 +8,7 @@
 #include "sim/liquid/free_liquid.h"
 #include "sim/liquid/walls.h"
 #include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/gain_at_walls.h"
 #include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/reflection.h"
@@ -51,6 +52,7 @@ struct Workspace {
     double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
     std::unique_ptr<KeptState> kept;                       ///< mode adaptive: the state before the step
+    GainAtWalls gainAtWalls;
     LiquidOnSolids onSolids;                               ///< by the faces of the liquid …
     ChunkSums<Impulse> pushedSolids;                       ///< … and by particles kept out of solids [g cm/s]
     MomentumBook momentum;

@@ -61,9 +61,12 @@ std::string whatEscaped(const std::filesystem::path& file, const std::filesystem
     atStart.moveTo(0.0, 0.0);
     const auto startsOutside = [&](const sim::Vec3& x) { return atStart.distance(x) >= 0.0 && (!vessel || vessel->contains(x)); };
     Escapes particles{obstacles, vessel, tolerance}, vertices{obstacles, vessel, tolerance};
-    for (std::size_t p = 0; p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
+    const bool feelsSolids = scene.settings.fabric.contact;
+    // Fabric that feels no solid drips wherever it has got to.
+    const bool mayDripAnywhere = !feelsSolids && !scene.fabrics.empty() && scene.settings.coupling.drip;
+    for (std::size_t p = 0; !mayDripAnywhere && p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
     const sim::Simulation start(scene);
-    for (std::size_t v = 0; scene.settings.fabric.contact && v < state.fabric.x.size(); ++v)
+    for (std::size_t v = 0; feelsSolids && v < state.fabric.x.size(); ++v)
         if (!start.fabric().pinned[v] && startsOutside(start.state().fabric.x[v])) vertices.look(state.fabric.x[v]);
     return particles.text("particles") + vertices.text("vertices");
 }

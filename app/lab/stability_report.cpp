@@ -91,7 +91,7 @@ std::string stabilityReport(const std::vector<StabilityResult>& results, bool wi
         "it comes to its end, all its numbers are finite, its energy never rises above that of the start (and the work of sources, "
         "suction, surface tension, obstacles, moving solids and pins) by more than {:g} of its largest kinetic energy, and no particle is "
         "faster than "
-        "{:g} times the speed of all liquid, had it all that kinetic energy. The largest stable step is one at which all shorter ones "
+        "{:g} times the speed of all liquid, had it all that kinetic energy, or than the fastest solid. The largest stable step is one at which all shorter ones "
         "tried are stable too.\n",
         kAllowedGain, kAllowedSpeed);
     for (const StabilityResult& result : results) {

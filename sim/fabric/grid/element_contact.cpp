@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <limits>
 
 namespace sim {
 
@@ -230,26 +229,27 @@ double ElementContact::energy() const
     return sum;
 }
 
-/// What an element may store after a motion: no more than it did, and than the stresses that the step was solved with took [erg]. Of those that
-/// were left out it is known that all of them gain nothing to speak of (unforeseen).
-double ElementContact::mostAfter(std::size_t e, const StepOutlook& moved) const
+/// What an element may store after a motion: no more than it did, and than the stresses that the step was solved with took [erg].
+/// @param leftOut  share of what they gain that elements may keep which were left out [0..1]
+double ElementContact::mostAfter(std::size_t e, const StepOutlook& moved, double leftOut) const
 {
-    if (!stress_[e].isActive) return std::numeric_limits<double>::infinity();
     const Local& at = local_[e];
+    if (!stress_[e].isActive) return stress_[e].energy + leftOut * std::max(0.0, energyAfter(e, moved));
     const std::array<Vec3, 2> moves = expectedMoves(e, at, moved), &first = stress_[e].stress;
     const Vec3 last0 = first[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
                last1 = first[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1];
     return std::max(0.0, stress_[e].energy + last0.dot(moves[0]) + last1.dot(moves[1]));
 }
 
-double ElementContact::carry(const StepOutlook& moved, FabricState& state) const
+double ElementContact::carry(const StepOutlook& moved, double mostUnforeseen, FabricState& state) const
 {
+    const double unmet = unforeseen(moved), leftOut = unmet > mostUnforeseen ? mostUnforeseen / unmet : 1.0;
     return parallelSum(size(), [&](std::size_t e) {
         const ContactModuli& m = moduli_[material_[e]];
         const Mat3 step = moved.h * moved.motion.gradient[e], carried = Mat3::Identity() + step + 0.5 * (step * step);
         const Vec3& x0 = state.x[corners_[e][0]];
         const Vec3 t0 = state.x[corners_[e][1]] - x0;
-        const double most = mostAfter(e, moved);
+        const double most = mostAfter(e, moved, leftOut);
         const auto excess = [&](double energy) { return energy > most ? std::sqrt(most / energy) : 1.0; };
         Vec3* d = state.across.data() + direction(e);
         if (isEdge(e)) {

@@ -70,9 +70,10 @@ class ElementContact {
     const Stress& stress(std::size_t e) const { return stress_[e]; }
     /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (model-fabric 3.3, 3.5). What is stored of it grows by
     /// no more than the work that the solved stresses took: where the motion went further than its linearisation, strain yields.
-    /// @param moved  by the step; x of the state is already that of its end
-    /// @return       energy of contact with these directions [erg]
-    double carry(const StepOutlook& moved, FabricState& state) const;
+    /// @param moved           by the step; x of the state is already that of its end
+    /// @param mostUnforeseen  energy that elements may come to hold together which were left out [erg]
+    /// @return                energy of contact with these directions [erg]
+    double carry(const StepOutlook& moved, double mostUnforeseen, FabricState& state) const;
 
     /// Corners of an element; −1 for the third of an edge.
     const std::array<int, 3>& corners(std::size_t e) const { return corners_[e]; }
@@ -96,7 +97,7 @@ class ElementContact {
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
     void listActive();
     double energyAfter(std::size_t e, const StepOutlook& outlook) const;
-    double mostAfter(std::size_t e, const StepOutlook& moved) const;
+    double mostAfter(std::size_t e, const StepOutlook& moved, double leftOut) const;
     Stress assembleElement(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
     {
         return isEdge(e) ? assembleEdge(e, state, outlook, at) : assembleFace(e, state, outlook, at);

@@ -13,8 +13,6 @@ namespace {
 /// Elastic energy from nothing that a step may leave, relative to that of the motion: more asks for another iteration [-].
 constexpr double kNoGain = 1.0e-3;
 constexpr int kMostNewton = 8;  ///< iterations
-/// Energy that contact may come to hold without having been solved for, relative to that of the motion and of a step's fall [-].
-constexpr double kUnforeseen = 0.01;
 constexpr int kMostRepeats = 3;  ///< of a solve, to take such contact in
 
 }  // namespace

@@ -279,7 +279,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::FabricStrain);
     const ContactEnergy before = state.stored;
     state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
-    if (settings_.contact) state.stored.pressed = contact_.carry(outlookOn(h, until), state);
+    if (settings_.contact) state.stored.pressed = contact_.carry(outlookOn(h, until), kUnforeseen * kinetic, state);
     if (booksEnergy_) bookVertices(gravity, before, state, *report.energyChanges);
     return report;
 }

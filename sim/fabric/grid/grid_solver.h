@@ -84,6 +84,9 @@ class GridFabricSolver {
     void tellGuard(double h, const FabricState& state) const;
     void tellLiquid(const FabricState& state, const FaceLoads& loads);
 
+    /// Energy that contact may come to hold without having been solved for, relative to that of the motion and of a step's fall [-].
+    static constexpr double kUnforeseen = 0.01;
+
     const Fabric& fabric_;
     FabricSettings settings_;
     VertexStiffness stiffness_;

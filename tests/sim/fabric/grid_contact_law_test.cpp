@@ -310,7 +310,7 @@ TEST(GridContactLaw, StoresNoMoreThanTheSolvedStressesTook)
     const auto gradient = [&](double strain) -> Mat3 { return strain / h * Mat3::NullaryExpr([&] { return noise(); }); };
     for (int n = 0; n < 100; ++n) {
         Pressed pressed(wool(), 0.7 + 0.3 * std::abs(noise()), gradient(0.3));
-        pressed.assemble(h);
+        pressed.assemble(h, n % 4 == 0 ? 1.0e30 : 0.0);  // of which all are left out
         for (Mat3& g : pressed.motion.gradient) g += gradient(n % 2 == 0 ? 0.01 : 1.0);
         std::vector<double> most;
         for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
@@ -318,9 +318,9 @@ TEST(GridContactLaw, StoresNoMoreThanTheSolvedStressesTook)
             const ElementContact::Local& at = pressed.contact.local(e);
             const double work = h * (last[0].dot(pressed.motion.gradient[e] * at.d[0]) + last[1].dot(pressed.motion.gradient[e] * at.d[1]));
             most.push_back(std::max(0.0, pressed.contact.stress(e).energy + work));
-            if (!pressed.contact.stress(e).isActive) most.back() = std::numeric_limits<double>::infinity();
+            if (!pressed.contact.stress(e).isActive) most.back() = pressed.contact.stress(e).energy;
         }
-        const double told = pressed.contact.carry({pressed.motion, h, kCell, 0.0}, pressed.state);
+        const double told = pressed.contact.carry({pressed.motion, h, kCell, 0.0}, 0.0, pressed.state);
         pressed.contact.assemble(pressed.state);
         EXPECT_NEAR(pressed.contact.energy(), told, 1.0e-12 * told);
         for (std::size_t e = 0; e < pressed.contact.size(); ++e)

@@ -1,0 +1,39 @@
+#include "sim/liquid/gain_at_walls.h"
+
+#include "sim/core/parallel.h"
+
+#include <algorithm>
+
+namespace sim {
+
+void GainAtWalls::begin(const ObstacleField& field, const BlockArray<double, 3>& velocity)
+{
+    const std::vector<int>& blocks = field.blocksNearSolid();
+    before_.resize(static_cast<int>(blocks.size()));
+    parallelFor(blocks.size(), 4, [&](std::size_t n) {
+        std::copy_n(velocity.block(blocks[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n)));
+    });
+}
+
+void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& velocity) const
+{
+    const std::vector<int>& blocks = field.blocksNearSolid();
+    parallelFor(blocks.size(), 4, [&](std::size_t n) {
+        const int b = blocks[n];
+        for (int a = 0; a < kAxes; ++a) {
+            const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a), *wall = field.wallVelocity(b, a);
+            double* u = velocity.block(b, a);
+            for (int row = 0; row < kBlockCells; row += kLanes) {
+                const Pack opened = loadPack(open + row), roomed = loadPack(room + row), w = loadPack(wall + row), after = loadPack(u + row);
+                const Pack from = loadPack(before + row) - w, to = after - w;
+                const Pack most = from * from + opened / roomed * (to * to - from * from);
+                const PackMask gains = (opened > 0.0) & (opened < roomed) & (to * to > most);
+                if (maskBits(gains) == 0) continue;
+                const Pack size = sqrtPack(maxPack(most, broadcast(0.0)));
+                storePack(u + row, select(gains, w + select(to < 0.0, -size, size), after));
+            }
+        }
+    });
+}
+
+}  // namespace sim
