@@ -24,7 +24,7 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 
 namespace {
 
-constexpr double kStretched = 1.1;  ///< to this times its length and more: by what leads it [-]
+constexpr double kStretched = 1.1;  ///< to this times its length and more: worth telling [-]
 constexpr double kMostOwed = 0.01;  ///< with which a run may go on, of the largest kinetic energy: what its energies are held to [-]
 
 /// What pins, solids and the liquid did for the fabric [erg].
@@ -89,11 +89,11 @@ void VertexSolver::refuseJam(double h, const Vec3& gravity, const FabricState& s
     for (const Vec2i& e : fabric_.edges.vertices) look(e[0], e[1]);
     for (const Vec3i& f : fabric_.faces.vertices)
         for (int k = 0; k < 3; ++k) look(f[k], f[(k + 1) % 3]);
-    if (longest < kStretched)
-        throw RunError(fmt::format("fabric has come to hold {:.3g} erg that nothing gave to it, as its forces were not brought into balance; shorter steps, more "
-                                   "fabric.newton or more fabric.max_halvings would do", state.owed));
-    throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} "
-                               "times its length; other or slower motions, more room or shorter steps would do", place.x(), place.y(), place.z(), longest));
+    const std::string stretched = longest < kStretched ? ""
+                                                       : fmt::format("; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} times its length",
+                                                                     place.x(), place.y(), place.z(), longest);
+    throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow in steps of this length, and it has come to hold {:.3g} erg that "
+                               "nothing gave to it{}; other or slower motions, more room or shorter steps would do", state.owed, stretched));
 }
 
 /// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of

@@ -204,14 +204,6 @@ void FaceSystem::impulses(FaceVector& q)
     });
 }
 
-double FaceSystem::kinetic(const BlockArray<double, 3>& v0, const FaceVector& v) const
-{
-    return 0.5 * forEachFacePack([&](std::size_t i, Pack& sum) {
-        const Pack m = mass(true, i), change = v.pack(true, i) - loadPack(v0.block(0) + i);
-        sum += select(m > 0.0, m * (change * change), broadcast(0.0));
-    });
-}
-
 void FaceSystem::gatherVertices(const BlockArray<double, 3>& u, std::span<Vec3> atVertices)
 {
     const BlockPoints& vertices = particles_->vertices();

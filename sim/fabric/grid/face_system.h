@@ -87,8 +87,6 @@ class FaceSystem {
 
     /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
     AlignedArray<double>& onVertices(const FaceVector& u);
-    /// Of the faces' motion from v0 to v, with the liquid's drag as mass [erg].
-    double kinetic(const BlockArray<double, 3>& v0, const FaceVector& v) const;
     /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness
     /// [erg].
     double contactWork(const FaceVector& u);

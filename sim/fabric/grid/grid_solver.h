@@ -69,6 +69,7 @@ class GridFabricSolver {
     void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void solveAgain(const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     void meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    double kineticOfChange();
     double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
     StepOutlook outlookOn(double h, const FaceTolerance& tolerance) const;
     void findGroups(std::span<const ObstacleContact> touching);

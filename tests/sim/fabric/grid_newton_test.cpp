@@ -38,5 +38,41 @@ TEST(GridFabric, StruckFabricGainsNothing)
     }
 }
 
+/// Nor when liquid that is heavier than the fabric draws it together, by suction that differs from face to face: what it has then is the work of the
+/// liquid.
+TEST(GridFabric, FabricThatLiquidDrawsGainsNothingElse)
+{
+    constexpr double kEdge = 0.144, kStep = 2.0e-3;  // cm, s
+    Noise noise(5);
+    for (int n = 0; n < 48; ++n) {
+        FabricPiece piece = n % 2 == 0 ? cloth(7) : weave(4);
+        PinGroup ends;
+        ends.vertices = {0, static_cast<int>(piece.points.size()) - 1};
+        if (n % 5 > 0) piece.pins = {ends};
+        piece.material.young = 6.0e8;
+        piece.material.density = 0.2;
+        GridRun run({piece}, gridSettings(n % 4 < 2 ? TransferMethod::Apic : TransferMethod::PolyPic));
+        run.solver.bookEnergy();
+        StepReport report;
+        StageClock clock(report);
+        const double start = run.energies().total(), heavier = std::pow(10.0, 1.0 + noise()), edges = 5.0 * std::abs(noise());
+        run.solver.spread(run.state, clock);
+        const BlockGrid grid = run.solver.faces().grid;
+        BlockArray<double, 3> drag, impulse;
+        for (BlockArray<double, 3>* of : {&drag, &impulse}) of->resize(grid.count());
+        for (int b = 0; b < grid.count(); ++b)
+            for (int a = 0; a < kAxes; ++a)
+                for (int c = 0; c < kBlockCells; ++c) {
+                    drag.block(b, a)[c] = n % 3 == 0 ? 0.0 : heavier * run.fabric.mass[1];
+                    impulse.block(b, a)[c] = heavier * run.fabric.mass[1] * (edges * noise()) * kEdge / kStep;
+                }
+        const FaceLoads loads{grid, drag, impulse};
+        const FabricReport done = run.solver.advance(0.0, kStep, Vec3::Zero(), run.state, clock, &loads);
+        const double work = (*done.energyChanges)[EnergyChange::Drag], pins = (*done.energyChanges)[EnergyChange::Pins];
+        const double gained = run.energies().total() - start - work - pins;
+        EXPECT_LT(gained, 1.0e-3 * work) << "state " << n << ", drawn by " << edges << " edges";
+    }
+}
+
 }  // namespace
 }  // namespace sim::testing
