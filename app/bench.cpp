@@ -1,5 +1,6 @@
 #include "app/bench.h"
 
+#include "app/provenance/provenance.h"
 #include "app/statistics.h"
 #include "sim/core/check.h"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <string_view>
 #include <thread>
 
@@ -117,15 +117,8 @@ std::filesystem::path machineFolder(const Options& options)
 
 std::string machineName()
 {
-    std::ifstream info("/proc/cpuinfo");
-    std::string name = "unknown";
-    for (std::string line; std::getline(info, line);)
-        if (line.starts_with("model name")) {
-            name = line.substr(std::min(line.find(':') + 1, line.size()));
-            break;
-        }
     std::string slug;
-    for (const unsigned char c : name + fmt::format(" {} cores", std::thread::hardware_concurrency())) {
+    for (const unsigned char c : processorName() + fmt::format(" {} cores", std::thread::hardware_concurrency())) {
         if (std::isalnum(c) != 0)
             slug += static_cast<char>(std::tolower(c));
         else if (!slug.empty() && slug.back() != '_')

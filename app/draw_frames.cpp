@@ -1,8 +1,11 @@
 #include "app/draw_frames.h"
 
+#include "app/provenance/provenance.h"
 #include "app/scene_look.h"
 #include "render/compose.h"
 #include "render/renderer.h"
+
+#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -18,24 +21,38 @@ struct Drawer {
     std::optional<Eigen::AlignedBox3d> everything;
 };
 
-Picture pictureOf(render::Image&& image)
+/// What a picture says of itself: the same for the same state, whenever it is drawn.
+render::PngTexts textsOf(const std::string& scene, const FrameSnapshot& snapshot)
 {
-    return [image = std::make_shared<const render::Image>(std::move(image))](const std::filesystem::path& file) {
-        render::writePng(*image, file);
+    return {{"Software", programName()},
+            {"Scene", scene},
+            {"Time", fmt::format("{:.9g} s", snapshot.time)},
+            {"State hash", hexDigits(snapshot.stateHash)}};
+}
+
+Picture pictureOf(render::Image&& image, render::PngTexts texts)
+{
+    return [image = std::make_shared<const render::Image>(std::move(image)), texts = std::move(texts)](const std::filesystem::path& file) {
+        render::writePng(*image, file, texts);
     };
 }
 
 }  // namespace
 
+std::string offscreenRendererName()
+{
+    const std::unique_ptr<render::GlContext> context = render::makeOsMesaContext();
+    return context->versionName() + ", " + context->rendererName();
+}
+
 DrawFrame startOffscreenRenderer(const SceneSetup& setup, bool asPanel)
 {
     const render::Look look = lookOf(setup.pictures, setup.label, asPanel);
-    return [drawer = std::make_shared<Drawer>(), look,
-            settings = setup.pictures.render.camera](FrameSnapshot& snapshot) {
+    return [drawer = std::make_shared<Drawer>(), look, scene = setup.scene.name, settings = setup.pictures.render.camera](FrameSnapshot& snapshot) {
         const render::FrameView view = snapshot.view();
         if (!drawer->everything) drawer->everything = render::bounds(view);
         const double aspect = static_cast<double>(look.width) / look.height;
-        return pictureOf(drawer->renderer.draw(view, cameraAt(settings, view.time, *drawer->everything, aspect), look));
+        return pictureOf(drawer->renderer.draw(view, cameraAt(settings, view.time, *drawer->everything, aspect), look), textsOf(scene, snapshot));
     };
 }
 
@@ -64,7 +81,7 @@ void writeRgbPng(const RgbPicture& picture, const std::filesystem::path& file)
 {
     render::Image image(picture.width, picture.height);
     image.pixels = picture.rgb;
-    render::writePng(image, file);
+    render::writePng(image, file, {{"Software", programName()}});
 }
 
 }  // namespace app

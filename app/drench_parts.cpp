@@ -28,8 +28,11 @@ SceneContents contentsOf(const sim::Scene& scene)
 
 SceneSetup loadScene(const SceneRequest& request)
 {
-    const sim::SceneFile file = sim::loadSceneFile(request.file, {.variant = request.variant, .set = request.sets});
+    const sim::LoadOptions options = {.variant = request.variant, .set = request.sets};
+    const sim::SceneFile file = request.text ? sim::sceneFileFromText(*request.text, request.file, options) : sim::loadSceneFile(request.file, options);
     SceneSetup setup;
+    setup.request = request;
+    setup.texts = file.texts;
     setup.scene = sim::readScene(file);
     setup.pictures = readPictureSettings(file);
     setup.pictures.contents = contentsOf(setup.scene);
@@ -84,6 +87,7 @@ Parts drenchParts()
                 [](const SceneSetup& setup, const sim::State& state) { return std::make_unique<RealSimulation>(setup.scene, state); },
             .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
             .startRenderer = startOffscreenRenderer,
+            .drawnBy = offscreenRendererName,
             .putSideBySide = putSideBySide,
             .writePng = writeRgbPng,
 #ifdef DRENCH_WINDOWS

@@ -24,9 +24,11 @@ FrameSink::FrameSink(const SceneSetup& setup, const Parts& parts, const std::fil
         folder);
 }
 
-void FrameSink::take(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, std::int64_t frame)
+void FrameSink::take(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, std::int64_t frame,
+                     std::uint64_t stateHash)
 {
     auto snapshot = pipeline_->borrow();
+    snapshot->stateHash = stateHash;
     snapshot->number = frame;
     fillIn(state, fabric, contacts, *snapshot);
     pipeline_->submit(std::move(snapshot));

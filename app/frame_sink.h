@@ -17,7 +17,8 @@ class FrameSink {
     ///                   frames everything
     FrameSink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& folder, bool asPanel, bool fromStart);
 
-    void take(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, std::int64_t frame);
+    /// @param stateHash  of the whole state, of which `state` may hold what pictures need only
+    void take(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, std::int64_t frame, std::uint64_t stateHash);
     /// Wait until all pictures are files, or throw why not.
     void drain() { pipeline_->drain(); }
     /// The same; no more will come.

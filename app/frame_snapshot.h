@@ -64,6 +64,7 @@ struct FrameSnapshot {
 
     std::int64_t number = 0;                      ///< 0 is the initial state
     double time = 0.0;                            ///< [s]
+    std::uint64_t stateHash = 0;                  ///< of the state that it is of
     std::vector<Eigen::Vector3f> positions;       ///< of the particles [cm]
     std::vector<float> values;                    ///< one per position: its speed [cm/s] or pressure [dyn/cm^2]
     float radius = 0.0f;                          ///< of a particle [cm]

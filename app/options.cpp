@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include "app/provenance/provenance.h"
 #include "sim/core/check.h"
 
 #include <CLI/CLI.hpp>
@@ -160,7 +161,7 @@ void addSweep(CLI::App& program, Options& options)
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
-    program.set_version_flag("--version", DRENCH_VERSION);
+    program.set_version_flag("--version", programName());
 
     auto* run = program.add_subcommand("run", "run a scene, or one of its variants, to its end");
     addScene(*run, options)->required(false);
@@ -171,11 +172,14 @@ void addVerbs(CLI::App& program, Options& options)
     run->add_option("--from-frame", options.fromFrame, "go on from the checkpoint of this frame (default: the last one)")
         ->check(CLI::NonNegativeNumber)
         ->needs(resume);
+    run->add_option("--again", options.again, "repeat the run of this report.json, and say whether it ends the same: exit code 0 same, 1 different");
     run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
     run->callback([&options] {
         options.verb = Verb::Run;
-        if (options.scene.empty() == options.resume.empty()) throw CLI::RequiredError("either scene or --resume");
+        if (!options.scene.empty() + !options.resume.empty() + !options.again.empty() != 1) throw CLI::RequiredError("either scene, --resume or --again");
         if (!options.resume.empty() && !options.variants.empty()) throw CLI::ExcludesError("--resume", "--variant");
+        if (!options.again.empty() && !options.variants.empty()) throw CLI::ExcludesError("--again", "--variant");
+        if (!options.again.empty() && !options.sets.empty()) throw CLI::ExcludesError("--again", "--set");
     });
 
     auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");

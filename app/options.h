@@ -26,6 +26,7 @@ struct Options {
     bool frames = true, video = true;
     bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
     std::filesystem::path resume;        ///< run: go on with the run in this folder
+    std::filesystem::path again;         ///< run: repeat the run of this report.json
     std::optional<std::int64_t> fromFrame;  ///< run: from this frame's checkpoint; nothing: the last one
     bool force = false;                  ///< compare, paper: redo variants that are done
     bool quick = false;                  ///< paper, validate, bench precision, stress: shortened

@@ -56,6 +56,8 @@ struct Parts {
     std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
     /// Called on the thread that will draw. Panels of a comparison have no label, time and colour bar of their own.
     std::function<DrawFrame(const SceneSetup&, bool asPanel)> startRenderer;
+    /// What draws, with its version, as a run tells it. Loads it.
+    std::function<std::string()> drawnBy;
     /// Pictures of one time [s], one per variant, put together into one; always of the same size for the same panels.
     std::function<RgbPicture(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
     std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;   ///< whole or not at all

@@ -166,11 +166,10 @@ Json reportJson(const RunSummary& s)
                  {"largest_cfl", s.largestCfl},
                  {"mass_error", s.massError},
                  {"state_hash", s.stateHash},
-                 {"threads", s.threads},
-                 {"version", s.version},
                  {"content_hash", s.contentHash}});
     if (s.forces.time > 0.0) json["forces"] = forcesJson(s.forceNames, s.forces);
     if (s.energyLedger) json["energy_ledger"] = ledgerJson(*s.energyLedger);
+    json["provenance"] = Json::parse(s.provenance);
     return json;
 }
 
@@ -228,7 +227,7 @@ try {
     return std::nullopt;
 }
 
-Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads)
+Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance)
     : folder_(folder), begin_(setup.scene.settings.time.start), gravity_(setup.scene.settings.gravity)
 {
     const auto& output = setup.pictures.output;
@@ -236,10 +235,11 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.energy) energy_.emplace(folder / "energy.csv");
     if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv");
     if (energy_) energy_->add(kEnergyHeader);
-    describe(setup, std::move(contentHash), threads);
+    describe(setup, std::move(contentHash), std::move(provenance));
 }
 
-Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads, const LogsSoFar& before)
+Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
+                 const LogsSoFar& before)
     : folder_(folder), summary_(before.summary), begin_(setup.scene.settings.time.start), before_(before.summary.wallSeconds),
       gravity_(setup.scene.settings.gravity)
 {
@@ -249,10 +249,10 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.ledger)
         energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes,
                               before.summary.energyLedger.value_or(EnergyLedger::Summary()));
-    describe(setup, std::move(contentHash), threads);
+    describe(setup, std::move(contentHash), std::move(provenance));
 }
 
-void Reports::describe(const SceneSetup& setup, std::string contentHash, int threads)
+void Reports::describe(const SceneSetup& setup, std::string contentHash, std::string provenance)
 {
     summary_.scene = setup.scene.name;
     summary_.title = setup.scene.title;
@@ -261,8 +261,7 @@ void Reports::describe(const SceneSetup& setup, std::string contentHash, int thr
     summary_.cell = setup.scene.settings.cell;
     summary_.forceNames = ForceNames(setup.scene);
     summary_.contentHash = std::move(contentHash);
-    summary_.version = DRENCH_VERSION;
-    summary_.threads = threads;
+    summary_.provenance = std::move(provenance);
     writeReport();
 }
 

@@ -32,7 +32,7 @@ std::string stageTable(const StageTimes& times);
 
 /// What report.json says about a run.
 struct RunSummary {
-    std::string scene, variant, label, title, contentHash, version;
+    std::string scene, variant, label, title, contentHash;
     RunStatus status = RunStatus::Running;
     std::string reason;                      ///< why it did not get to its end, one line
     std::int64_t steps = 0, frames = 0;
@@ -54,7 +54,7 @@ struct RunSummary {
     ForceTotals forces;
     std::optional<EnergyLedger::Summary> energyLedger;    ///< where it was asked for
     std::string stateHash;
-    int threads = 0;
+    std::string provenance;                  ///< see provenanceOf()
 };
 
 /// The numbers of report.json, as a comparison reads them back.
@@ -82,10 +82,11 @@ struct LogsSoFar {
 class Reports {
  public:
     /// Writes a report.json that says "running".
-    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads);
+    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance);
 
     /// The same of a run that is gone on with in its folder: what its logs say of later steps is forgotten.
-    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, int threads, const LogsSoFar& before);
+    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
+            const LogsSoFar& before);
 
     /// The state before the first step: the first row of energy.csv.
     void initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies);
@@ -99,7 +100,7 @@ class Reports {
     LogsSoFar soFar() const;
 
  private:
-    void describe(const SceneSetup& setup, std::string contentHash, int threads);
+    void describe(const SceneSetup& setup, std::string contentHash, std::string provenance);
     double wallSeconds() const;
     void writeReport();
     const std::filesystem::path folder_;

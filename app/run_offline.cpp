@@ -5,6 +5,7 @@
 #include "app/frame_sink.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
+#include "app/provenance/provenance.h"
 #include "app/shut_sources.h"
 #include "sim/core/check.h"
 
@@ -21,30 +22,31 @@ namespace {
 /// What a run leaves of its frames, as far as it is wanted: pictures, geometry and states.
 class Frames {
  public:
-    Frames(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
-        : geometry_(setup, parts, options.out),
-          states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash()})
+    Frames(const SceneSetup& setup, const Parts& parts, const RunOptions& options, const std::string& provenance)
+        : geometry_(setup, parts, options.out, provenance),
+          states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash(), provenance})
     {
         if (options.frames) pictures_.emplace(setup, parts, options.out, options.asPanel, options.from == nullptr);
     }
     void take(const Steppable& simulation, std::int64_t frame)
     {
-        if (pictures_) pictures_->take(simulation.state(), simulation.fabric(), simulation.contacts(), frame);
+        const std::uint64_t hash = simulation.stateHash();
+        if (pictures_) pictures_->take(simulation.state(), simulation.fabric(), simulation.contacts(), frame, hash);
         geometry_.take(simulation.state(), simulation.fabric(), frame);
-        states_.picture(simulation.state(), frame);
+        states_.picture(simulation.state(), frame, hash);
     }
     /// If it is time for one, or the run will not go on.
     void checkpoint(const Steppable& simulation, std::int64_t frame, bool isStopped, const Reports& reports)
     {
         if (!isStopped && !states_.isDue(frame)) return;
         if (pictures_) pictures_->drain();  // what a checkpoint follows on is there
-        states_.checkpoint(simulation.state(), frame, reports.soFar());
+        states_.checkpoint(simulation.state(), frame, simulation.stateHash(), reports.soFar());
     }
     /// The run has failed after this state, which is a good one. Whatever prevents to keep it, the failure is what counts.
     void keepLastGood(const Steppable& simulation, std::int64_t frame, const Reports& reports)
     try {
         if (pictures_) pictures_->drain();
-        states_.checkpoint(simulation.state(), frame, reports.soFar());
+        states_.checkpoint(simulation.state(), frame, simulation.stateHash(), reports.soFar());
     } catch (const std::exception&) {
     }
     void finish()
@@ -111,15 +113,15 @@ try {
 bool goesOnInItsFolder(const RunOptions& options) { return options.from && !options.isBranch; }
 
 /// The logs of a run that begins, or of one that is gone on with, in a folder without anything later.
-Reports openReports(const SceneSetup& setup, const RunOptions& options)
+Reports openReports(const SceneSetup& setup, const RunOptions& options, const std::string& provenance)
 {
     if (goesOnInItsFolder(options)) {
-        Reports reports(options.out, setup, options.contentHash, options.threads, options.from->origin.logs);
+        Reports reports(options.out, setup, options.contentHash, provenance, options.from->origin.logs);
         forgetLaterThan(options.from->origin.frame, options.out);
         return reports;
     }
     claimFolder(options.out, {setup.scene.name, setup.variant});
-    return Reports(options.out, setup, options.contentHash, options.threads);
+    return Reports(options.out, setup, options.contentHash, provenance);
 }
 
 std::unique_ptr<Steppable> startOrResume(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
@@ -143,10 +145,12 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
     // First what the user may have got wrong: earlier results stay until this run can begin.
     const auto simulation = startOrResume(setup, parts, options);
     const std::int64_t first = options.from ? options.from->origin.frame : 0;
-    Reports reports = openReports(setup, options);
+    const std::string provenance =
+        provenanceOf(setup, options.threads, options.frames ? parts.drawnBy() : "", options.from ? options.from->origin.provenance : "");
+    Reports reports = openReports(setup, options, provenance);
     try {
         writeWhole(options.out / "resolved.yaml", setup.resolved);
-        Frames kept(setup, parts, options);
+        Frames kept(setup, parts, options, provenance);
         if (!goesOnInItsFolder(options)) {
             reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
             kept.take(*simulation, first);

@@ -4,6 +4,7 @@
 #include "app/lab/validation.h"
 #include "app/picture_settings.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/scene_file.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +19,7 @@ struct SceneRequest {
     std::string file;
     std::string variant;            ///< one of the scene's; empty: the file as written
     std::vector<std::string> sets;  ///< "dotted.key=value", applied last
+    std::optional<std::string> text = {};  ///< what stands in for the content of the file, which is not read then
 };
 
 /// One scene file, read and resolved, with what it says about pictures and files.
@@ -30,6 +32,8 @@ struct SceneSetup {
     std::string label;                ///< stands in its pictures; empty where the file is run as written
     std::string resolved;             ///< every setting with its unit, as `check` prints it
     std::string identity;             ///< the part of it that the run itself depends on: equal text, equal run
+    SceneRequest request;             ///< what was asked for
+    std::vector<sim::SceneText> texts;  ///< as its file and those that it includes have it
 };
 
 /// What makes two runs the same: the resolved scene, how its pictures are drawn, and the program that ran it, as 16

@@ -35,14 +35,14 @@ StoredRun openStoredRun(const fs::path& folder, const std::vector<std::string>& 
 }
 
 bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted,
-                  const std::function<void(const sim::State&, std::int64_t frame)>& f)
+                  const std::function<void(const Checkpoint&)>& f)
 {
     const std::int64_t first = run.frames.front(), last = run.frames.back();
     Progress progress(stderr, run.setup.label, frameTime(run.setup, first), frameTime(run.setup, last), last);
     for (const std::int64_t frame : run.frames) {
         if (stopWanted()) return false;
         const Checkpoint stored = loadCheckpoint(stateFile(run.folder, run.kind, frame));
-        f(stored.state, frame);
+        f(stored);
         progress.frameDone();
         progress.stepDone(stored.state.time, run.setup.pictures.output.every, 0.0);
     }
@@ -53,7 +53,9 @@ bool drawStoredRun(const StoredRun& run, const fs::path& out, bool asPanel, cons
 {
     const sim::Fabric fabric = sim::assembleFabric(run.setup.scene.fabrics);
     FrameSink sink(run.setup, parts, out, asPanel, run.frames.front() == 0);
-    const bool ended = forEachState(run, stopWanted, [&](const sim::State& state, std::int64_t frame) { sink.take(state, fabric, nullptr, frame); });
+    const bool ended = forEachState(run, stopWanted, [&](const Checkpoint& stored) {
+        sink.take(stored.state, fabric, nullptr, stored.origin.frame, stored.origin.stateHash);
+    });
     sink.finish();
     return ended;
 }

@@ -25,7 +25,7 @@ StoredRun openStoredRun(const std::filesystem::path& folder, const std::vector<s
 
 /// All states of a run in order, one after the other. True unless stopWanted said so on the way.
 bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted,
-                  const std::function<void(const sim::State&, std::int64_t frame)>& f);
+                  const std::function<void(const Checkpoint&)>& f);
 
 /// Make pictures of all states anew, into a folder of their own, as the run's settings say. True unless it was stopped.
 bool drawStoredRun(const StoredRun& run, const std::filesystem::path& out, bool asPanel, const Parts& parts,

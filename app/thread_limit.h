@@ -2,7 +2,9 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/version.h>
 
+#include <string>
 #include <utility>
 
 namespace app {
@@ -16,5 +18,8 @@ auto withThreads(int threads, Body&& body)
     tbb::task_arena arena(threads);
     return arena.execute(std::forward<Body>(body));
 }
+
+/// Of the library that is loaded.
+inline std::string tbbVersion() { return TBB_runtime_version(); }
 
 }  // namespace app

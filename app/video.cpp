@@ -45,6 +45,16 @@ std::filesystem::path ffmpegProgram()
 
 bool canMakeVideos() { return findProgram("ffmpeg").has_value(); }
 
+std::string videoProgramVersion()
+{
+    // Called without arguments it says "ffmpeg version 5.1.6-0+deb12u1 Copyright …" before it complains.
+    constexpr std::string_view kBegin = "ffmpeg version ";
+    const std::string words = runChild(ffmpegProgram(), {}).errorText;
+    if (!words.starts_with(kBegin)) return "unknown";
+    const std::size_t end = words.find_first_of(" \n", kBegin.size());
+    return words.substr(kBegin.size(), end == std::string::npos ? end : end - kBegin.size());
+}
+
 VideoWriter::VideoWriter(std::filesystem::path target, const VideoFormat& format)
     : target_(std::move(target)), part_(partFile(target_)),
       pictureBytes_(std::size_t{3} * static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height))

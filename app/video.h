@@ -15,6 +15,9 @@ namespace app {
 /// Is there an ffmpeg to make videos with?
 bool canMakeVideos();
 
+/// Of that ffmpeg, in its own words. Needs canMakeVideos().
+std::string videoProgramVersion();
+
 /// Players give up on wider videos: wider pictures are scaled down to it [pixels].
 inline constexpr int kMaxVideoWidth = 4096;
 

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace render {
@@ -41,9 +43,12 @@ void paste(const Image& source, int x, int y, Image& target);
 /// color over the pixel with the given opacity 0 … 1. Pixels outside the image are ignored.
 void blend(Image& image, int x, int y, Rgb color, float opacity);
 
+/// What a PNG says beside its pixels: keywords of 1 to 79 characters, each with its text; both Latin-1.
+using PngTexts = std::vector<std::pair<std::string, std::string>>;
+
 /// Write a PNG under a temporary name beside `path`, then rename: a reader never sees half a picture.
 /// Throws std::runtime_error naming the path and the reason (no such folder, disk full, ...); nothing is left behind.
-void writePng(const Image& image, const std::filesystem::path& path);
+void writePng(const Image& image, const std::filesystem::path& path, const PngTexts& texts = {});
 
 /// Read any PNG as 8-bit RGB; transparency is laid over white. Throws std::runtime_error naming path and reason.
 Image readPng(const std::filesystem::path& path);

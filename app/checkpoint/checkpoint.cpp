@@ -22,7 +22,7 @@ namespace {
 //   xxh3 0123456789abcdef
 constexpr std::size_t kHeaderBytes = 512;
 constexpr std::string_view kMagic = "Drench checkpoint ";
-constexpr int kVersion = 7;
+constexpr int kVersion = 8;
 
 std::string checksum(std::string_view content) { return hexDigits(XXH3_64bits(content.data(), content.size())); }
 
@@ -114,6 +114,7 @@ template <class V, class Origin>
 void visitOrigin(V& v, Origin& origin)
 {
     v.number("program", "-", origin.program);
+    v.number("state_hash", "-", origin.stateHash);
     v.number("frame", "-", origin.frame);
     visitLogs(v, origin.logs);
 }
@@ -137,6 +138,7 @@ void saveCheckpoint(const CheckpointOrigin& origin, const sim::State& state, con
     hdf5.text("variant", origin.variant);
     hdf5.text("label", origin.label);
     hdf5.text("trajectory", origin.trajectory);
+    hdf5.text("provenance", origin.provenance);
     FieldWriter writer(hdf5);
     visitOrigin(writer, origin);
     sim::visitState(writer, state);
@@ -155,6 +157,7 @@ Checkpoint loadCheckpoint(const std::filesystem::path& file)
         checkpoint.origin.variant = hdf5.text("variant");
         checkpoint.origin.label = hdf5.text("label");
         checkpoint.origin.trajectory = hdf5.text("trajectory");
+        checkpoint.origin.provenance = hdf5.text("provenance");
         FieldReader reader(hdf5);
         visitOrigin(reader, checkpoint.origin);
         sim::visitState(reader, checkpoint.state);

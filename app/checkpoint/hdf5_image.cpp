@@ -123,6 +123,13 @@ std::string Hdf5Writer::finish()
     });
 }
 
+std::string hdf5Version()
+{
+    unsigned major = 0, minor = 0, release = 0;
+    H5get_libversion(&major, &minor, &release);
+    return fmt::format("{}.{}.{}", major, minor, release);
+}
+
 struct Hdf5Reader::File {
     H5::H5File file;
 

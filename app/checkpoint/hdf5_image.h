@@ -22,6 +22,9 @@ constexpr NumberType numberType()
     else return std::is_signed_v<T> ? NumberType::Int64 : NumberType::Uint64;
 }
 
+/// Of the library that is loaded: "1.10.8".
+std::string hdf5Version();
+
 /// Makes an HDF5 file in memory: tables of numbers, each with its unit as an attribute, and texts. Names are paths;
 /// groups on their way are made. Nothing is written to disk here: the library does not survive a full one.
 class Hdf5Writer {

@@ -44,10 +44,11 @@ StateKeeper::StateKeeper(fs::path runFolder, const SceneSetup& setup, Checkpoint
 
 bool StateKeeper::isDue(std::int64_t frame) const { return every_ > 0 && (frame % every_ == 0 || frame == last_); }
 
-void StateKeeper::checkpoint(const sim::State& state, std::int64_t frame, const LogsSoFar& logs)
+void StateKeeper::checkpoint(const sim::State& state, std::int64_t frame, std::uint64_t stateHash, const LogsSoFar& logs)
 {
     fs::create_directories(stateFolder(folder_, StateKind::ForGoingOn));
     origin_.frame = frame;
+    origin_.stateHash = stateHash;
     origin_.logs = logs;
     saveCheckpoint(origin_, state, stateFile(folder_, StateKind::ForGoingOn, frame));
     if (keep_ == 0) return;
@@ -56,12 +57,13 @@ void StateKeeper::checkpoint(const sim::State& state, std::int64_t frame, const 
         fs::remove(stateFile(folder_, StateKind::ForGoingOn, there[i]));
 }
 
-void StateKeeper::picture(const sim::State& state, std::int64_t frame)
+void StateKeeper::picture(const sim::State& state, std::int64_t frame, std::uint64_t stateHash)
 {
     if (!pictures_) return;
     fs::create_directories(stateFolder(folder_, StateKind::ForPictures));
     copyForPictures(state, lean_);
     origin_.frame = frame;
+    origin_.stateHash = stateHash;
     origin_.logs = {};
     saveCheckpoint(origin_, lean_, stateFile(folder_, StateKind::ForPictures, frame));
 }

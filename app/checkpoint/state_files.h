@@ -23,15 +23,15 @@ std::vector<std::int64_t> storedFrames(const std::filesystem::path& runFolder, S
 /// Writes the states that a run is to keep.
 class StateKeeper {
  public:
-    /// @param origin  of the run; frame and logs are filled in for each state
+    /// @param origin  of the run; frame, hash and logs are filled in for each state
     StateKeeper(std::filesystem::path runFolder, const SceneSetup& setup, CheckpointOrigin origin);
 
     /// Is there to be a checkpoint of this frame?
     bool isDue(std::int64_t frame) const;
     /// A checkpoint; older ones beyond those that are kept are removed once it is there.
-    void checkpoint(const sim::State& state, std::int64_t frame, const LogsSoFar& logs);
+    void checkpoint(const sim::State& state, std::int64_t frame, std::uint64_t stateHash, const LogsSoFar& logs);
     /// The state of a frame for pictures, if the scene asks for it.
-    void picture(const sim::State& state, std::int64_t frame);
+    void picture(const sim::State& state, std::int64_t frame, std::uint64_t stateHash);
 
  private:
     const std::filesystem::path folder_;

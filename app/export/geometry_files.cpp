@@ -19,7 +19,7 @@ std::optional<std::int64_t> frameOfGeometry(const std::string& name)
 {
     static const std::regex kPattern(
         R"((?:(?:liquid|surface|yarns|cloth|obstacle_\w+)(?:_(\d{5,})\.(?:vtp|ply)|\.pvd)|)"
-        R"(frame_(\d{5,})\.(?:obj|usda)|(?:animation|topology)\.usda)(?:\.part)?)");
+        R"(frame_(\d{5,})\.(?:obj|usda)|(?:animation|topology)\.usda|provenance\.json)(?:\.part)?)");
     std::smatch match;
     if (!std::regex_match(name, match, kPattern)) return std::nullopt;
     const std::string digits = match[1].str() + match[2].str();

@@ -11,6 +11,9 @@ namespace app {
 /// Where the geometry of a run is: geometry/ below its folder.
 std::filesystem::path geometryFolder(const std::filesystem::path& runFolder);
 
+/// Beside the geometry: on what it was made, and from what.
+inline constexpr std::string_view kGeometryProvenance = "provenance.json";
+
 /// "liquid_00012.vtp"
 std::string geometryFileName(std::string_view part, std::int64_t frame, std::string_view extension);
 

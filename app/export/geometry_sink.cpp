@@ -1,12 +1,13 @@
 #include "app/export/geometry_sink.h"
 
 #include "app/export/geometry_files.h"
+#include "app/output_files.h"
 
 #include <utility>
 
 namespace app {
 
-GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder)
+GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder, const std::string& provenance)
     : density_(setup.scene.settings.liquid.density)
 {
     const OutputSettings& output = setup.pictures.output;
@@ -16,6 +17,7 @@ GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const st
     std::vector<FrameTime> earlier;  // of a run that is gone on with
     for (const std::int64_t frame : geometryFrames(runFolder)) earlier.push_back({frame, frameTime(setup, frame)});
     exporter_.emplace(geometryFolder(runFolder), output.geometryFormats, output.every, std::move(earlier));
+    writeWhole(geometryFolder(runFolder) / kGeometryProvenance, provenance + '\n');
 }
 
 void GeometrySink::take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame)

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace app {
@@ -13,7 +14,8 @@ namespace app {
 /// Writes the frames of one scene as geometry, below a run's folder, or does nothing where the scene wants none.
 class GeometrySink {
  public:
-    GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder);
+    /// @param provenance  of what it writes, see provenanceOf(); goes into a file beside the geometry
+    GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder, const std::string& provenance);
 
     /// @param fabric  what state.fabric is the state of
     void take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame);

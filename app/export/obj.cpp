@@ -1,5 +1,7 @@
 #include "app/export/obj.h"
 
+#include "app/provenance/provenance.h"
+
 #include <fmt/format.h>
 
 namespace app {
@@ -26,7 +28,7 @@ void writeCells(const ExportPart& part, std::size_t first, fmt::memory_buffer& o
 std::string objFile(const ExportFrame& frame)
 {
     fmt::memory_buffer out;
-    fmt::format_to(fmt::appender(out), "# Drench: lengths in cm, time {} s\n", frame.time);
+    fmt::format_to(fmt::appender(out), "# {}: lengths in cm, time {} s\n", programName(), frame.time);
     std::size_t first = 1;
     for (const ExportPart& part : frame.parts) {
         fmt::format_to(fmt::appender(out), "o {}\ng {}\n", part.name, part.name);

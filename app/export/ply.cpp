@@ -1,6 +1,7 @@
 #include "app/export/ply.h"
 
 #include "app/export/binary.h"
+#include "app/provenance/provenance.h"
 #include "sim/core/parallel.h"
 
 #include <fmt/format.h>
@@ -37,8 +38,8 @@ void writeProperties(const ExportArray& array, std::string& header)
 std::string headerOf(const ExportPart& part, double time, std::size_t edges)
 {
     std::string header =
-        fmt::format("ply\nformat binary_little_endian 1.0\ncomment Drench: {}\ncomment time {} s\nelement vertex {}\n",
-                    unitsOf(part), time, part.positions.size());
+        fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}: {}\ncomment time {} s\nelement vertex {}\n",
+                    programName(), unitsOf(part), time, part.positions.size());
     for (const char axis : {'x', 'y', 'z'}) header += fmt::format("property float {}\n", axis);
     for (const ExportArray& array : part.arrays) writeProperties(array, header);
     if (part.kind == ExportPart::Kind::Triangles)

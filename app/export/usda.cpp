@@ -1,6 +1,7 @@
 #include "app/export/usda.h"
 
 #include "app/export/geometry_files.h"
+#include "app/provenance/provenance.h"
 #include "sim/core/units.h"
 
 #include <fmt/format.h>
@@ -60,11 +61,11 @@ void writeHead(const std::string& more, double secondsPerFrame, Layer& layer)
     // Most times per frame are decimals: 1 / 0.004 shall read 250.
     const double rate = std::round(1e6 / secondsPerFrame) / 1e6;
     layer.add(
-        "#usda 1.0\n(\n    defaultPrim = \"{}\"\n    doc = \"Drench: lengths in cm, velocities in cm/s, volumes in "
+        "#usda 1.0\n(\n    defaultPrim = \"{}\"\n    doc = \"{}: lengths in cm, velocities in cm/s, volumes in "
         "cm^3, "
         "absorbed liquid in g; a time code is a frame of {} s\"\n{}    metersPerUnit = 0.01\n"
         "    timeCodesPerSecond = {}\n    upAxis = \"Y\"\n)\n\n",
-        kRoot, secondsPerFrame, more, rate);
+        kRoot, programName(), secondsPerFrame, more, rate);
 }
 
 /// Diameters [cm]: of yarns, or of balls that have the particles' volumes; null where the part has no such thing.

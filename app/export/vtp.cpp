@@ -3,6 +3,7 @@
 #include "app/export/binary.h"
 #include "app/export/compress.h"
 #include "app/export/geometry_files.h"
+#include "app/provenance/provenance.h"
 
 #include <fmt/format.h>
 
@@ -83,7 +84,7 @@ std::string vtpFile(const ExportPart& part, double time)
     using Kind = ExportPart::Kind;
     VtpText out;
     out.line("<?xml version=\"1.0\"?>");
-    out.line(fmt::format("<!-- Drench: {}, time in s -->", unitsOf(part)));
+    out.line(fmt::format("<!-- {}: {}, time in s -->", programName(), unitsOf(part)));
     out.line(
         R"(<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">)");
     out.line("<PolyData>");
@@ -111,9 +112,10 @@ std::string vtpFile(const ExportPart& part, double time)
 
 std::string pvdFile(std::string_view part, std::span<const FrameTime> frames)
 {
-    std::string out =
-        "<?xml version=\"1.0\"?>\n<!-- Drench: timestep in s -->\n"
-        "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+    std::string out = fmt::format(
+        "<?xml version=\"1.0\"?>\n<!-- {}: timestep in s -->\n"
+        "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        programName());
     for (const FrameTime& frame : frames)
         out += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time,
                            geometryFileName(part, frame.number, kVtpExtension));

@@ -1,6 +1,7 @@
 #include "app/export/geometry_files.h"
 #include "app/export/geometry_sink.h"
 #include "app/interrupt.h"
+#include "app/provenance/provenance.h"
 #include "app/stored_run.h"
 #include "app/thread_limit.h"
 #include "app/verbs/verbs.h"
@@ -19,10 +20,10 @@ int runVerbExport(const Options& options, const Parts& parts)
     const std::filesystem::path out = options.out.empty() ? run.folder : options.out;
     const sim::Fabric fabric = sim::assembleFabric(run.setup.scene.fabrics);
     forgetGeometryLaterThan(-1, out);
-    GeometrySink sink(run.setup, parts, out);
+    const std::string ofRun = loadCheckpoint(stateFile(run.folder, run.kind, run.frames.front())).origin.provenance;
+    GeometrySink sink(run.setup, parts, out, provenanceOf(run.setup, options.threads, "", ofRun));
     const bool ended = withThreads(options.threads, [&] {
-        return forEachState(run, stopWanted,
-                            [&](const sim::State& state, std::int64_t frame) { sink.take(state, fabric, frame); });
+        return forEachState(run, stopWanted, [&](const Checkpoint& stored) { sink.take(stored.state, fabric, stored.origin.frame); });
     });
     if (!ended) {
         spdlog::error("stopped by the user; what was written is in {}", geometryFolder(out).string());

@@ -2,6 +2,7 @@
 #include "app/interrupt.h"
 #include "app/output_files.h"
 #include "app/progress.h"
+#include "app/provenance/repeat.h"
 #include "app/resume.h"
 #include "app/run_offline.h"
 #include "app/statistics.h"
@@ -47,16 +48,18 @@ try {
 /// A run that was done without pictures and is gone on with has none either.
 bool hasPictures(const std::filesystem::path& folder) { return !numbersIn(folder, "frame_", ".png").empty(); }
 
-int runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Parts& parts)
+RunSummary runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Parts& parts)
 {
-    const RunSummary summary = withThreads(options.threads, [&] { return runTellingWhatIsKept(setup, run, parts); });
+    RunSummary summary = withThreads(options.threads, [&] { return runTellingWhatIsKept(setup, run, parts); });
     if (run.frames && options.video && summary.status == RunStatus::Done && hasPictures(run.out)) makeVideo(run.out, setup.pictures.output);
     printOutcome(summary, run.out);
     if (!options.asPanel) fmt::print("{}", stageTable(summary.times));
-    if (summary.status == RunStatus::Done) return 0;
-    spdlog::error("stopped by the user after frame {}; go on with drench run --resume {}", summary.frames, run.out.string());
-    return 1;
+    if (summary.status != RunStatus::Done)
+        spdlog::error("stopped by the user after frame {}; go on with drench run --resume {}", summary.frames, run.out.string());
+    return summary;
 }
+
+int exitCodeOf(const RunSummary& summary) { return summary.status == RunStatus::Done ? 0 : 1; }
 
 int goOn(const Options& options, const Parts& parts)
 {
@@ -72,7 +75,24 @@ int goOn(const Options& options, const Parts& parts)
     run.isBranch = resumed.isBranch;
     if (resumed.checkpoint.origin.program != programHash())
         spdlog::warn("{} was begun by another build of this program: what follows may differ in its last digits", options.resume.string());
-    return runToItsEnd(resumed.setup, run, options, parts);
+    return exitCodeOf(runToItsEnd(resumed.setup, run, options, parts));
+}
+
+/// Beside the report, where the results of its run are, unless --out says so.
+int runAgain(const Options& options, const Parts& parts)
+{
+    const RunToRepeat repeated = readRunToRepeat(options.again);
+    SceneSetup setup = parts.loadScene(repeated.request);
+    setup.variant = repeated.variant;
+    setup.label = repeated.label;
+    RunOptions run = runOptions(options, setup);
+    if (options.out.empty()) run.out = repeated.report.parent_path() / "again";
+    if (std::filesystem::weakly_canonical(run.out) == std::filesystem::weakly_canonical(repeated.report).parent_path())
+        throw sim::InputError(fmt::format("--out {}: there are the results of the run itself; choose another folder", run.out.string()));
+    const RunSummary again = runToItsEnd(setup, run, options, parts);
+    if (again.status != RunStatus::Done) throw sim::InputError("stopped before the run could be compared");
+    fmt::print("{}\n", verdictOf(repeated, again));
+    return isSame(repeated, again) ? 0 : 1;
 }
 
 }  // namespace
@@ -80,9 +100,10 @@ int goOn(const Options& options, const Parts& parts)
 int runVerbRun(const Options& options, const Parts& parts)
 {
     if (!options.resume.empty()) return goOn(options, parts);
+    if (!options.again.empty()) return runAgain(options, parts);
     const SceneSetup setup = parts.loadScene(options.request());
     tellNotes(setup);
-    return runToItsEnd(setup, runOptions(options, setup), options, parts);
+    return exitCodeOf(runToItsEnd(setup, runOptions(options, setup), options, parts));
 }
 
 }  // namespace app

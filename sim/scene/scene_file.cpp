@@ -47,6 +47,7 @@ class IncludeReader {
 
     Node read(const std::string& text, const fs::path& path)
     {
+        texts_.push_back({path.string(), text});
         auto source = std::make_shared<TextSource>();
         source->name = path.string();
         source->bounds = bounds_;
@@ -72,6 +73,9 @@ class IncludeReader {
         mergeOver(merged, root);
         return merged;
     }
+
+    /// All that was read, in that order.
+    std::vector<SceneText> takeTexts() { return std::move(texts_); }
 
  private:
     Node readIncluded(const Node& name, const fs::path& from)
@@ -122,6 +126,7 @@ class IncludeReader {
     ReadingBounds bounds_;
     std::vector<fs::path> open_;
     std::size_t included_ = 0;
+    std::vector<SceneText> texts_;
 };
 
 void applyAll(const std::vector<Override>& changes, Node& root)
@@ -152,9 +157,12 @@ SceneFile finish(Node root, bool isSi, const fs::path& path, const LoadOptions& 
 
 SceneFile sceneFileFromText(const std::string& text, const fs::path& name, const LoadOptions& options)
 {
-    Node root = IncludeReader(options.bounds).read(text, name);
+    IncludeReader reader(options.bounds);
+    Node root = reader.read(text, name);
     const bool isSi = root.place.source->isSi;
-    return finish(std::move(root), isSi, name, options);
+    SceneFile file = finish(std::move(root), isSi, name, options);
+    file.texts = reader.takeTexts();
+    return file;
 }
 
 SceneFile loadSceneFile(const fs::path& path, const LoadOptions& options)

@@ -15,6 +15,11 @@ struct LoadOptions {
     ReadingBounds bounds = {};     ///< of the file and all that it includes
 };
 
+/// One file as it stands.
+struct SceneText {
+    std::string file, text;
+};
+
 /// A scene file as one tree: includes merged, variant and overrides applied, nothing validated but syntax.
 /// sim::readScene and app's settings of pictures read it, each their sections.
 struct SceneFile {
@@ -22,6 +27,7 @@ struct SceneFile {
     Node root;                           ///< a map
     std::vector<SceneVariant> variants;  ///< all of them, as written in the file
     std::string variant;                 ///< the one applied; empty if none
+    std::vector<SceneText> texts;        ///< of the file, then of all that it includes
 };
 
 /// Reads a scene file: includes first, then the variant, then the overrides. Throws InputError.

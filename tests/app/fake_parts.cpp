@@ -190,6 +190,7 @@ Parts toyParts(const ToySettings& toy)
     parts.resumeSimulation = [toy](const SceneSetup&, const sim::State& state) { return std::make_unique<ToySimulation>(toy, state); };
     parts.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
     parts.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
+    parts.drawnBy = [] { return "toy"; };
     parts.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };
     parts.writePng = writePicture;
     return parts;

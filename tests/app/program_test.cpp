@@ -99,7 +99,7 @@ TEST_F(Program, RunWritesIntoTheVariantsFolder)
 {
     EXPECT_TRUE(run({"run", "toy.yaml", "--variant", "b", "--threads", "3"}).ok());
     EXPECT_EQ(reportOf("out/toy/b").at("variant"), "b");
-    EXPECT_EQ(reportOf("out/toy/b").at("threads"), 3);
+    EXPECT_EQ(reportOf("out/toy/b").at("provenance").at("threads"), 3);
     EXPECT_TRUE(run({"run", "toy.yaml", "--no-frames", "--set", "duration=0.01"}).ok());
     EXPECT_NEAR(reportOf("out/toy/default").at("simulated_time").get<double>(), 0.01, 1e-12);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/toy/default" / frameFileName(0)));

@@ -180,8 +180,8 @@ TEST(RunOffline, ReportHasWhatScriptsMeasure)
     EXPECT_EQ(report.at("iterations").at("max"), 15);
     EXPECT_EQ(report.at("mass_error"), 0.0);
     EXPECT_EQ(report.at("state_hash").get<std::string>().size(), 16u);
-    EXPECT_EQ(report.at("threads"), 2);
-    EXPECT_EQ(report.at("version"), DRENCH_VERSION);
+    EXPECT_EQ(report.at("provenance").at("threads"), 2);
+    EXPECT_EQ(report.at("provenance").at("version"), DRENCH_VERSION);
     EXPECT_EQ(report.at("content_hash"), "0123");
 }
 

@@ -59,7 +59,7 @@ TEST(RunWithGeometry, AnotherRunTakesAwayWhatTheLastHasLeft)
     for (const auto& entry : std::filesystem::directory_iterator(geometry))
         names.insert(entry.path().filename().string());
     EXPECT_EQ(names, (std::set<std::string>{"frame_7.obj", "liquid.pvd", "liquid_00000.vtp", "liquid_00001.vtp",
-                                            "liquid_00002.vtp", "liquid_surface.vtp", "notes.txt"}));
+                                            "liquid_00002.vtp", "liquid_surface.vtp", "notes.txt", "provenance.json"}));
     for (const char* others : {"notes.txt", "liquid_surface.vtp", "frame_7.obj"})
         std::filesystem::remove(geometry / others);
     runToy(shorter, folder.path(), false);

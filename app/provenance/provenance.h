@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/scene_setup.h"
+
+#include <string>
+
+namespace app {
+
+/// "Drench 0.1.0 (1d5edce9…)": what makes results, as short as pictures and geometry say it.
+std::string programName();
+
+/// The processor as it calls itself; "unknown" where it does not.
+std::string processorName();
+
+/// On what a run is made, and from what, as a text of JSON: program, compiler, machine, libraries, command line, start, the scene as
+/// written and resolved.
+/// @param drawnBy  what draws the pictures, with its version; empty without pictures
+/// @param before   the same text of the run that is gone on with, or whose states are used; empty for one from the start
+std::string provenanceOf(const SceneSetup& setup, int threads, const std::string& drawnBy, const std::string& before);
+
+}  // namespace app
