@@ -136,6 +136,14 @@ void addDiff(CLI::App& program, Options& options)
     verb->callback([&options] { options.verb = Verb::Diff; });
 }
 
+void addSchema(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("schema", "write the JSON schema of scene files or studies, by which editors complete and check them");
+    verb->add_option("kind", options.scene, "scene (default) or study")->check(CLI::IsMember({"scene", "study"}));
+    verb->add_option("--out", options.out, "file to write (default: to standard output)");
+    verb->callback([&options] { options.verb = Verb::Schema; });
+}
+
 void addSweep(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand(
@@ -216,6 +224,7 @@ void addVerbs(CLI::App& program, Options& options)
     addRender(program, options);
     addExport(program, options);
     addDiff(program, options);
+    addSchema(program, options);
     addSweep(program, options);
     addStress(program, options);
     addImport(program, options);

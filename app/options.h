@@ -12,13 +12,13 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff, Schema };
 
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
     std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; …
-                                         ///< for render and export a folder; for sweep a study
+                                         ///< for render and export a folder; for sweep a study; for schema what it is of
     std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
     std::vector<std::string> sets;       ///< "dotted.key=value"
     std::filesystem::path out;           ///< empty: out/<scene>/<variant>

@@ -29,6 +29,26 @@ struct Study {
     std::vector<std::string> parameters() const;
 };
 
+/// The keys of a study's file that are words and numbers.
+struct StudyFields {
+    std::string name, scene, variant;
+    int retries = 1;
+};
+
+/// The declaration of all its keys; see sim/scene/describe.h.
+template <class V>
+void describe(V& v, StudyFields& s)
+{
+    v.text("study", s.name, "Name of the study, and of the folder of its results; left out: that of the file");
+    v.needs("scene", "the file of the scene that is run, relative to the study, like scene: drop.yaml");
+    v.text("scene", s.scene, "Its scene, relative to this file");
+    v.text("variant", s.variant, "Of the scene; left out: the scene as written");
+    v.other("set", "What all runs set: dotted keys and values");
+    v.needs("runs", "what is tried, like runs: {grid.cell: [0.3, 0.4]}");
+    v.other("runs", "Dotted keys with lists of values, of which all combinations are run, or a list of runs");
+    v.integer("retries", s.retries, 0, 100, "Times that a failed run is tried again");
+}
+
 /// Reads a study's file:
 ///
 ///     study: dam_cells                       # its name

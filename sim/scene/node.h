@@ -40,7 +40,7 @@ struct Node {
     std::string called() const;
 };
 
-/// Reads one YAML document. Anchors and aliases are copied out; depth, size and number of values are bounded.
+/// Reads one YAML document. Anchors and aliases are copied out and merge keys (<<) followed; depth, size and number of values are bounded.
 /// Throws InputError at the line of what is wrong: syntax, bytes that are no text, tabs as indentation, a key given
 /// twice.
 Node parseYaml(const std::string& text, const std::shared_ptr<const TextSource>& source);

@@ -14,6 +14,7 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kMaxDepth = 48;       // maps and lists inside each other; a scene needs about ten
+constexpr const char* kMergeKey = "<<";     // of YAML 1.1: the map has the keys of others, too
 
 /// Builds the tree; bounded in depth and size, so that no file can ask for more memory than its own order of magnitude.
 class TreeBuilder : public YAML::EventHandler {
@@ -70,6 +71,7 @@ class TreeBuilder : public YAML::EventHandler {
         std::string key;
         Place keyPlace;
         bool hasKey = false;
+        std::vector<Node> merged = {};    ///< maps behind the key <<
     };
     struct Anchored {
         Node node;
@@ -113,6 +115,7 @@ class TreeBuilder : public YAML::EventHandler {
     {
         Open done = std::move(stack_.back());
         stack_.pop_back();
+        addMerged(done.merged, done.node);
         if (done.anchor != 0) anchors_[done.anchor] = {done.node, count_ - done.countBefore};
         attach(std::move(done.node));
     }
@@ -129,12 +132,35 @@ class TreeBuilder : public YAML::EventHandler {
             parent.node.items.push_back(std::move(node));
         } else if (!parent.hasKey) {
             takeKey(parent, std::move(node));
+        } else if (parent.key == kMergeKey) {
+            node.place = parent.keyPlace;
+            parent.merged = mapsToMerge(std::move(node));
+            parent.hasKey = false;
         } else {
             node.place = parent.keyPlace;
             parent.node.keys.push_back(std::move(parent.key));
             parent.node.items.push_back(std::move(node));
             parent.hasKey = false;
         }
+    }
+
+    /// What stands behind <<: one map, or a list of them.
+    static std::vector<Node> mapsToMerge(Node node)
+    {
+        std::vector<Node> maps;
+        if (node.isList()) maps = std::move(node.items);
+        else maps.push_back(std::move(node));
+        for (const Node& map : maps)
+            if (!map.isMap()) fail(map.place, fmt::format("<< merges maps, like <<: *sheet with a map that has the anchor &sheet, not {}", map.called()));
+        return maps;
+    }
+
+    /// Gives the map the keys that it has not itself; of what several have, the first counts.
+    static void addMerged(const std::vector<Node>& maps, Node& node)
+    {
+        for (const Node& map : maps)
+            for (std::size_t i = 0; i < map.keys.size(); ++i)
+                if (!node.find(map.keys[i])) node.at(map.keys[i], map.items[i].place) = map.items[i];
     }
 
     void takeKey(Open& parent, Node node)

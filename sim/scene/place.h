@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ struct ReadingBounds {
     std::size_t regionBoxes = 100'000;     ///< into which a source is cut to measure its volume
 };
 
+class KeyList;
+
 /// One scene file, or one override of the command line, as messages name it.
 struct TextSource {
     std::string name;             ///< "scenes/drop.yaml", or "--set time.dt=1e-3"
@@ -26,6 +29,7 @@ struct TextSource {
     bool isSi = false;            ///< unit system of its bare numbers: cgs, or si
     std::string directory = ".";  ///< what the file names in it are relative to
     ReadingBounds bounds = {};
+    std::function<void(const KeyList&)> listener = {};  ///< hears of every map that is read what keys it may have
 };
 
 /// Where in the user's text a value stands. Survives merging, so that every complaint can name a line.

@@ -181,26 +181,31 @@ void apply(const ReadTransform& transform, const char* key, ReadShape& body)
 /// The one key of the shape that says what body it is.
 std::string shapeKind(const Node& node, const std::string& path)
 {
-    static const std::vector<std::string> kKinds = {"box",  "rounded_box", "ball",      "capsule",  "cylinder",
-                                                    "mesh", "union",       "intersect", "subtract", "invert"};
     if (!node.isMap())
         fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path,
                                      node.called()));
-    std::vector<std::string> known = kKinds;
+    std::vector<std::string> known = shapeKinds();
     known.insert(known.end(), {"rotate", "translate"});
     SectionReader(node, path).refuseKeysBut(known);
     std::string kind;
-    for (const std::string& candidate : kKinds) {
+    for (const std::string& candidate : shapeKinds()) {
         if (!node.find(candidate)) continue;
         if (!kind.empty())
             fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
         kind = candidate;
     }
-    if (kind.empty()) fail(node.place, fmt::format("{}: names no body; it takes one of {}", path, listed(kKinds)));
+    if (kind.empty()) fail(node.place, fmt::format("{}: names no body; it takes one of {}", path, listed(shapeKinds())));
     return kind;
 }
 
 }  // namespace
+
+const std::vector<std::string>& shapeKinds()
+{
+    static const std::vector<std::string> kKinds = {"box",  "rounded_box", "ball",      "capsule",  "cylinder",
+                                                    "mesh", "union",       "intersect", "subtract", "invert"};
+    return kKinds;
+}
 
 ReadShape readShape(const Node& node, const std::string& path, double cell)
 {

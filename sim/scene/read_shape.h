@@ -21,6 +21,9 @@ struct ReadShape {
 /// @param cell  grid cell [cm]; meshes are sampled at half of it unless they say otherwise
 ReadShape readShape(const Node& node, const std::string& path, double cell);
 
+/// "box", "ball", …: the keys that say what body a shape is.
+const std::vector<std::string>& shapeKinds();
+
 struct ReadMotion {
     Motion motion;
     std::string text;

@@ -2,6 +2,7 @@
 
 #include "sim/core/types.h"
 #include "sim/scene/choice.h"
+#include "sim/scene/key_list.h"
 #include "sim/scene/node.h"
 #include "sim/scene/range.h"
 #include "sim/scene/units.h"
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-// Visitors of the declarations in describe.h: KeyList learns which keys there are, SectionReader fills a struct.
+// Visitor of the declarations in describe.h that fills a struct.
 
 namespace sim {
 
@@ -28,72 +29,6 @@ const std::string& readText(const Node& node, const std::string& path);
 std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words);
 void readNamedFlags(const Node& node, const std::string& path, std::span<const NamedFlag> flags);
 std::vector<std::string> readTexts(const Node& node, const std::string& path);
-
-/// Collects the keys that a declaration knows; reads nothing.
-class KeyList {
- public:
-    std::vector<std::string> keys;
-    std::vector<std::string> laterKeys;  ///< known, and refused in this version
-
-    void number(const char* key, double&, Quantity, Range, const char*) { add(key); }
-    void numberOr(const char* key, double&, double, Quantity, Range, const char*) { add(key); }
-    void numberOrWord(const char* key, double&, const char*, bool&, Quantity, Range, const char*) { add(key); }
-    void integer(const char* key, int&, int, int, const char*) { add(key); }
-    void seed(const char* key, std::uint64_t&, const char*) { add(key); }
-    void flag(const char* key, bool&, const char*) { add(key); }
-    void text(const char* key, std::string&, const char*) { add(key); }
-    void texts(const char* key, std::vector<std::string>&, const char*) { add(key); }
-    template <class E>
-    void choice(const char* key, E&, const char*)
-    {
-        add(key);
-    }
-    void vector(const char* key, Vec3&, Quantity, const char*) { add(key); }
-    void pair(const char* key, std::array<double, 2>&, Quantity, Range, const char*) { add(key); }
-    void numberOrPair(const char* key, std::array<double, 2>&, Quantity, Range, const char*) { add(key); }
-    void pixels(const char* key, int&, int&, int, int, const char*) { add(key); }
-    void counts(const char* key, Eigen::Vector2i&, int, int, const char*) { add(key); }
-    void color(const char* key, Eigen::Vector3f&, const char*) { add(key); }
-    void flags(const char* key, std::initializer_list<NamedFlag>, const char*) { add(key); }
-    void either(const char* key, bool&, const char*, const char*, const char*) { add(key); }
-    template <class T>
-    void section(const char* key, T&, const char*)
-    {
-        add(key);
-    }
-    template <class Fields>
-    void group(const char* key, const char*, Fields)
-    {
-        add(key);
-    }
-    template <class T, class Field>
-    void perPhase(const char* key, T&, T&, Field)
-    {
-        add(key);
-    }
-    template <class Fields>
-    void when(bool, Fields fields)
-    {
-        fields(*this);
-    }
-    template <class Fields>
-    void fixed(Fields fields)
-    {
-        fields(*this);
-    }
-    template <class Action>
-    void whenReading(Action)
-    {
-    }
-    void onlyRuns(const char* key, const char*, std::initializer_list<const char*>, const char*) { add(key); }
-    void later(const char* key, const char*) { laterKeys.emplace_back(key); }
-    void other(const char* key, const char*) { add(key); }
-    void needs(const char*, const char*) {}
-    void require(bool, const char*, const std::string&) {}
-
- private:
-    void add(const char* key) { keys.emplace_back(key); }
-};
 
 /// Fills a struct from a map. What the map does not say keeps its value; a value that is wrong throws InputError.
 class SectionReader {
@@ -233,7 +168,8 @@ class SectionReader {
         SectionReader reader(*node, path);
         KeyList known;
         fields(known);
-        reader.refuseKeysBut(known.keys, known.laterKeys);
+        if (const auto& source = node->place.source; source && source->listener) source->listener(known);
+        reader.refuseKeysBut(known.names(), known.laterKeys);
         fields(reader);
     }
 

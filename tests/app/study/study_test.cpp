@@ -129,9 +129,9 @@ TEST_F(StudyRuns, AStoppedStudyGoesOn)
 
 TEST_F(StudyRuns, MistakesAreToldWithTheirLine)
 {
-    expectRefused("scene: small.yaml\n", "a study needs runs");
-    expectRefused("runs: {transfer.modes: [4]}\n", "a study needs scene");
-    expectRefused("scene: small.yaml\nrunns: {transfer.modes: [4]}\n", "study.yaml:2: unknown key \"runns\" of a study (did you mean \"runs\"?)");
+    expectRefused("scene: small.yaml\n", "runs is missing");
+    expectRefused("runs: {transfer.modes: [4]}\n", "scene is missing");
+    expectRefused("scene: small.yaml\nrunns: {transfer.modes: [4]}\n", "study.yaml:2: unknown key \"runns\" (did you mean \"runs\"?)");
     expectRefused("scene: small.yaml\nruns: 7\n", "study.yaml:2: runs must list variants");
     expectRefused("scene: nowhere.yaml\nruns: {transfer.modes: [4]}\n", "nowhere.yaml");
     expectRefused("scene: small.yaml\nruns: {transfer.modes: [4, 400]}\n", "transfer.modes");

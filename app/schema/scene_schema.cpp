@@ -1,0 +1,155 @@
+#include "app/describe_picture.h"
+#include "app/lab/precision.h"
+#include "app/lab/validation.h"
+#include "app/schema/ask_reader.h"
+#include "app/schema/body_schemas.h"
+#include "app/schema/schema.h"
+#include "app/study/study.h"
+#include "sim/scene/describe.h"
+#include "sim/scene/describe_fabric.h"
+#include "sim/scene/read_changes.h"
+
+#include <fmt/format.h>
+
+namespace app {
+
+namespace {
+
+using sim::DeclaredKey;
+using sim::KeyList;
+using sim::Node;
+
+constexpr const char* kDraft = "http://json-schema.org/draft-07/schema#";
+
+template <class Fields>
+SchemaJson declaredMap(Fields fields)
+{
+    KeyList list;
+    fields(list);
+    return mapSchema(list.keys, SchemaOf::Section);
+}
+
+/// Dotted keys of a scene, or sections, each with a value.
+SchemaJson settingsSchema() { return {{"type", "object"}, {"propertyNames", {{"pattern", "^[^=]+$"}}}}; }
+
+/// A list of maps that give dotted keys values, or a map of dotted keys to lists of values.
+SchemaJson variantsSchema() { return {{"anyOf", {listSchema(settingsSchema(), 1), namedSchema(listSchema(SchemaJson::object(), 1))}}}; }
+
+SchemaJson liquidSchema()
+{
+    sim::LiquidSettings values;
+    SchemaJson schema = declaredMap([&](KeyList& v) { describe(v, values); });
+    SchemaJson presets = SchemaJson::array();
+    for (const sim::LiquidPreset& preset : sim::liquidPresets()) presets.push_back(preset.name);
+    presets.push_back("none");
+    schema["properties"]["preset"]["enum"] = presets;
+    schema["properties"]["sources"].update(listSchema(definitionOf("source")));
+    return schema;
+}
+
+SchemaJson compareSchema()
+{
+    CompareSettings values;
+    SchemaJson schema = declaredMap([&](KeyList& v) { describe(v, values); });
+    schema["properties"]["variants"].update(variantsSchema());
+    return schema;
+}
+
+SchemaJson changesSchema()
+{
+    const auto keys = keysAskedFor("changes: [{}]", [](const Node& node) { sim::readChanges(node, {}); });
+    SchemaJson change = mapSchema(keys, SchemaOf::Body);
+    change["properties"]["set"].update(settingsSchema());
+    return listSchema(change);
+}
+
+/// Keys of the last map that the reader of a section comes to: what stands behind them are words and formulas.
+template <class Read>
+SchemaJson lastAskedFor(const std::string& text, Read read)
+{
+    sim::SceneFile file;
+    return mapSchema(keysAskedFor(text,
+                                  [&](const Node& node) {
+                                      file.root = node;
+                                      read(file, sim::Scene());
+                                  }),
+                     SchemaOf::Body);
+}
+
+/// @param list  of what is read as the scene runs
+template <class Read>
+SchemaJson readingsSchema(const std::string& section, const std::string& list, Read read)
+{
+    SchemaJson schema = lastAskedFor(section + ": {}", read);
+    schema["properties"][list].update(listSchema(lastAskedFor(section + ": {every: 1, " + list + ": [{}]}", read)));
+    return schema;
+}
+
+SchemaJson precisionSchema()
+{
+    SchemaJson schema = readingsSchema("precision", "errors", readPrecision);
+    for (const char* key : {"published", "quick"})
+        schema["properties"][key].update(
+            lastAskedFor(fmt::format("precision: {{every: 1, errors: [{{read: t, expect: 1}}], {}: {{}}}}", key), readPrecision));
+    return schema;
+}
+
+SchemaJson sceneProperties()
+{
+    sim::Settings settings;
+    sim::Scene scene;
+    sim::FabricMaterial material;
+    RenderSettings render;
+    OutputSettings output;
+    KeyList top;
+    describe(top, settings);
+    describeFabric(top, settings);
+    SchemaJson properties = {{"drench", {{"const", 1}, {"description", "Schema version"}}},
+                             {"units", {{"enum", {"cgs", "si"}}, {"default", "cgs"}, {"description", "Of bare numbers in this file"}}},
+                             {"include", {{"type", {"string", "array"}}, {"items", {{"type", "string"}}}, {"description", "Scene files that this one is laid over"}}},
+                             {"scene", declaredMap([&](KeyList& v) { describeNames(v, scene); })}};
+    properties.update(mapSchema(top.keys, SchemaOf::Section)["properties"]);
+    SchemaJson& transfer = properties["transfer"];
+    const SchemaJson method = transfer["properties"]["method"];
+    transfer = {{"anyOf", {method, transfer}}};
+    properties.update({{"liquid", liquidSchema()},
+                       {"materials", namedSchema(declaredMap([&](KeyList& v) { describe(v, material); }))},
+                       {"fabrics", listSchema(definitionOf("fabric"))},
+                       {"obstacles", listSchema(definitionOf("obstacle"))},
+                       {"domain", definitionOf("shape")},
+                       {"motion", {{"anyOf", {namedSchema(definitionOf("motion")), listSchema(definitionOf("named_motion_piece"))}}}},
+                       {"changes", changesSchema()},
+                       {"render", declaredMap([&](KeyList& v) { describe(v, render); })},
+                       {"output", declaredMap([&](KeyList& v) { describe(v, output); })},
+                       {"compare", compareSchema()},
+                       {"validate", readingsSchema("validate", "checks", readValidation)},
+                       {"precision", precisionSchema()}});
+    return properties;
+}
+
+}  // namespace
+
+/// A file that includes others need not say what they do: nothing is required of a whole one.
+std::string sceneSchema()
+{
+    const SchemaJson schema = {{"$schema", kDraft},
+                               {"title", "Drench scene"},
+                               {"type", "object"},
+                               {"properties", sceneProperties()},
+                               {"additionalProperties", false},
+                               {"definitions", bodyDefinitions()}};
+    return schema.dump(1) + '\n';
+}
+
+std::string studySchema()
+{
+    SchemaJson schema = {{"$schema", kDraft}, {"title", "Drench study"}};
+    StudyFields values;
+    schema.update(declaredMap([&](KeyList& v) { describe(v, values); }));
+    schema["properties"]["set"].update(settingsSchema());
+    schema["properties"]["runs"].update(variantsSchema());
+    schema["required"] = {"scene", "runs"};
+    return schema.dump(1) + '\n';
+}
+
+}  // namespace app
