@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sim {
 
@@ -18,16 +19,18 @@ void GainAtWalls::begin(const ObstacleField& field, const BlockArray<double, 3>&
 void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& velocity) const
 {
     const std::vector<int>& blocks = field.blocksNearSolid();
-    // Along slanted walls some faces gain what others lose.
+    // Along slanted walls that rest some faces gain what others lose; walls that move are bounded face by face.
     const double gained = parallelSum(blocks.size(), [&](std::size_t n) {
         const int b = blocks[n];
         double sum = 0.0;
         for (int a = 0; a < kAxes; ++a) {
             const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a), *wall = field.wallVelocity(b, a),
                          *u = velocity.block(b, a);
-            for (int c = 0; c < kBlockCells; ++c)
-                if (open[c] > 0.0 && open[c] != room[c] && u[c] != before[c])
-                    sum += room[c] * ((u[c] - wall[c]) * (u[c] - wall[c]) - (before[c] - wall[c]) * (before[c] - wall[c]));
+            for (int c = 0; c < kBlockCells; ++c) {
+                if (!(open[c] > 0.0) || open[c] == room[c] || u[c] == before[c]) continue;
+                if (wall[c] != 0.0) return std::numeric_limits<double>::infinity();
+                sum += room[c] * (u[c] * u[c] - before[c] * before[c]);
+            }
         }
         return sum;
     });
