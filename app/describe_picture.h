@@ -208,6 +208,7 @@ void describe(V& v, OutputSettings& o)
             "Files of data: geometry: vtp (ParaView), ply, obj, usda");
     v.flag("geometry_surface", o.geometrySurface, "A mesh of the liquid's surface in them, too");
     v.require(formats.any(), "geometry_format", "names no format; there is vtp, ply, obj, usda");
+    v.other("probes", "What is read as the run goes, into probes.csv");
     v.group("video", "", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");
         w.text("codec", o.videoCodec, "Video codec, as ffmpeg names it");

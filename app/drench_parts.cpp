@@ -39,6 +39,7 @@ SceneSetup loadScene(const SceneRequest& request)
     for (const std::string& note : unreadPictureNotes(file.root, setup.pictures)) setup.scene.notes.push_back(note);
     setup.validation = readValidation(file, setup.scene);
     setup.precision = readPrecision(file, setup.scene);
+    setup.probes = readProbes(file, setup.scene, setup.pictures.output.every);
     const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);
     if (variant != setup.pictures.compare.variants.end()) {
         setup.variant = variant->name;

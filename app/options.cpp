@@ -136,6 +136,16 @@ void addDiff(CLI::App& program, Options& options)
     verb->callback([&options] { options.verb = Verb::Diff; });
 }
 
+void addProbe(CLI::App& program, Options& options)
+{
+    auto* verb = program.add_subcommand("probe", "read probes of a run afterwards, from the states it has stored (output.data: [states])");
+    verb->add_option("folder", options.scene, "folder of the run")->required();
+    verb->add_option("probes", options.probes, "a file (YAML) of what stands in output.probes (default: as the scene says)");
+    verb->add_option("--set", options.sets, "override a key of output: dotted.key=value")->take_all()->allow_extra_args(false);
+    verb->add_option("--out", options.out, "folder of table and plot (default: probes, in the run's)");
+    verb->callback([&options] { options.verb = Verb::Probe; });
+}
+
 void addSchema(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand("schema", "write the JSON schema of scene files or studies, by which editors complete and check them");
@@ -224,6 +234,7 @@ void addVerbs(CLI::App& program, Options& options)
     addRender(program, options);
     addExport(program, options);
     addDiff(program, options);
+    addProbe(program, options);
     addSchema(program, options);
     addSweep(program, options);
     addStress(program, options);

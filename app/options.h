@@ -12,7 +12,7 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff, Schema };
+enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff, Schema, Probe };
 
 /// The command line.
 struct Options {
@@ -50,6 +50,7 @@ struct Options {
     double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
 
     std::vector<std::string> formats;    ///< export: of geometry files; none: as the scene says
+    std::filesystem::path probes;        ///< probe: a file with the section; empty: as the scene says
     int jobs = 1;                        ///< sweep: runs side by side
     bool onSlurm = false;                ///< sweep: hand them to Slurm …
     bool wait = true;                    ///< … and wait until it has done them

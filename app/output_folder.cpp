@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kRunFiles = {"report.json", "steps.jsonl", "energy.csv", "energy_ledger.csv", "video.mp4", "resolved.yaml"};
+constexpr std::array<std::string_view, 9> kRunFiles = {"report.json", "steps.jsonl", "energy.csv", "energy_ledger.csv", "probes.csv",
+                                                      "probes.png",  "probes.gp",   "video.mp4",  "resolved.yaml"};
 
 /// Files with numbers that a run leaves in its folder, and in folders below.
 struct NumberedFiles {

@@ -81,6 +81,7 @@ struct OutputSettings {
     bool geometry = false;                  ///< geometry/ with every frame's liquid, fabric and obstacles, as …
     GeometryFormats geometryFormats;        ///< … these
     bool geometrySurface = false;           ///< with a mesh of the liquid's surface
+    std::string probes;                     ///< the section of what is read as a run goes, on one line; empty: none
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
 };

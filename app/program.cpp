@@ -31,6 +31,7 @@ int runVerb(const Options& options, const Parts& parts)
         case Verb::Stress: return runVerbStress(options, parts);
         case Verb::Render: return runVerbRender(options, parts);
         case Verb::Diff: return runVerbDiff(options, parts);
+        case Verb::Probe: return runVerbProbe(options, parts);
         case Verb::Schema: return runVerbSchema(options, parts);
         case Verb::Export: return runVerbExport(options, parts);
         case Verb::Sweep: return runVerbSweep(options, parts);

@@ -64,6 +64,8 @@ PictureSettings readPictureSettings(const sim::SceneFile& file)
     sim::SectionReader::read(root.find("render"), "render", [&](auto& v) { describe(v, settings.render); });
     sim::SectionReader::read(root.find("output"), "output", [&](auto& v) { describe(v, settings.output); });
     sim::SectionReader::read(root.find("compare"), "compare", [&](auto& v) { describe(v, settings.compare); });
+    if (const Node* output = root.find("output"))
+        if (const Node* probes = output->find("probes")) settings.output.probes = probes->flow();
     settings.compare.variants = variantsOf(file);
     checkReference(root, settings.compare);
     checkEnergyPlot(root, settings);
@@ -75,7 +77,10 @@ std::string printPictureSettings(const PictureSettings& settings)
     PictureSettings copy = settings;
     sim::SectionWriter w;
     w.section("render", copy.render, "");
-    w.section("output", copy.output, "");
+    w.below("output", "", [&](sim::SectionWriter& inner) {
+        describe(inner, copy.output);
+        if (!copy.output.probes.empty()) inner.line("probes", copy.output.probes, "What is read as the run goes, into probes.csv");
+    });
     w.below("compare", "", [&](sim::SectionWriter& inner) {
         describe(inner, copy.compare);
         writeVariants(inner, copy.compare.variants);

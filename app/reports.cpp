@@ -1,5 +1,6 @@
 #include "app/reports.h"
 
+#include "app/parts.h"
 #include "app/peak_memory.h"
 #include "app/statistics.h"
 #include "app/stopwatch.h"
@@ -235,11 +236,12 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.energy) energy_.emplace(folder / "energy.csv");
     if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv");
     if (energy_) energy_->add(kEnergyHeader);
+    if (setup.probes) probes_.emplace(folder / kProbesFile, *setup.probes, begin_);
     describe(setup, std::move(contentHash), std::move(provenance));
 }
 
 Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
-                 const LogsSoFar& before)
+                 const LogsSoFar& before, double time)
     : folder_(folder), summary_(before.summary), begin_(setup.scene.settings.time.start), before_(before.summary.wallSeconds),
       gravity_(setup.scene.settings.gravity)
 {
@@ -249,6 +251,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.ledger)
         energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes,
                               before.summary.energyLedger.value_or(EnergyLedger::Summary()));
+    if (setup.probes) probes_.emplace(folder / kProbesFile, *setup.probes, begin_, time, before.probesBytes, before.sinceReading);
     describe(setup, std::move(contentHash), std::move(provenance));
 }
 
@@ -275,11 +278,17 @@ LogsSoFar Reports::soFar() const
     if (steps_) soFar.stepsBytes = steps_->size();
     if (energy_) soFar.energyBytes = energy_->size();
     if (energyLedger_) soFar.ledgerBytes = energyLedger_->size();
+    if (probes_) soFar.probesBytes = probes_->size();
+    if (probes_) soFar.sinceReading = probes_->sinceReading();
     return soFar;
 }
 
-void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies)
+void Reports::initial(const Steppable& simulation)
 {
+    const sim::State& state = simulation.state();
+    const sim::Fabric& fabric = simulation.fabric();
+    const sim::Energies energies = simulation.energies();
+    if (probes_) probes_->initial(simulation);
     if (energyLedger_) energyLedger_->initial(state.time, energies);
     summary_.particles = state.liquid.count;
     summary_.fabricVertices = fabric.vertexCount();
@@ -290,8 +299,11 @@ void Reports::initial(const sim::State& state, const sim::Fabric& fabric, const 
                                publishedEnergy(state.fabric, energies, gravity_)));
 }
 
-void Reports::step(const sim::State& state, const sim::StepReport& report, const sim::Forces& forces)
+void Reports::step(const Steppable& simulation, const sim::StepReport& report)
 {
+    const sim::State& state = simulation.state();
+    const sim::Forces& forces = simulation.forces();
+    if (probes_) probes_->step(simulation, report.isReflected);
     if (steps_) steps_->add(stepLine(state, report, summary_.forceNames, forces));
     summary_.forces.add(forces, report.isReflected);
     if (energyLedger_) energyLedger_->step(state.time, report);

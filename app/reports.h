@@ -3,6 +3,7 @@
 #include "app/energy_ledger.h"
 #include "app/force_log.h"
 #include "app/output_files.h"
+#include "app/probes/probe_log.h"
 #include "app/scene_setup.h"
 #include "sim/state.h"
 
@@ -74,7 +75,8 @@ std::optional<RunResult> readReport(const std::filesystem::path& folder);
 /// How far the logs of a run have come.
 struct LogsSoFar {
     RunSummary summary;
-    std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0;  ///< of steps.jsonl, energy.csv, energy_ledger.csv
+    std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0, probesBytes = 0;  ///< of steps.jsonl, energy.csv, energy_ledger.csv, probes.csv
+    ForceTotals sinceReading = {};  ///< of probes
 };
 
 /// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is
@@ -84,13 +86,14 @@ class Reports {
     /// Writes a report.json that says "running".
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance);
 
-    /// The same of a run that is gone on with in its folder: what its logs say of later steps is forgotten.
+    /// The same of a run that is gone on with in its folder: what its logs say of steps later than `time` [s] is forgotten.
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
-            const LogsSoFar& before);
+            const LogsSoFar& before,
+            double time);
 
-    /// The state before the first step: the first row of energy.csv.
-    void initial(const sim::State& state, const sim::Fabric& fabric, const sim::Energies& energies);
-    void step(const sim::State& state, const sim::StepReport& report, const sim::Forces& forces);
+    /// The state before the first step: the first rows of energy.csv and probes.csv.
+    void initial(const Steppable& simulation);
+    void step(const Steppable& simulation, const sim::StepReport& report);
     void frameDone() { ++summary_.frames; }
 
     /// Write report.json as it stands; `reason` for runs that did not get to their end.
@@ -106,6 +109,7 @@ class Reports {
     const std::filesystem::path folder_;
     std::optional<LineFile> steps_, energy_;       ///< those the scene's output.data asks for
     std::optional<EnergyLedger> energyLedger_;     ///< likewise
+    std::optional<ProbeLog> probes_;               ///< where the scene has some
     RunSummary summary_;
     double begin_ = 0.0;                           ///< [s]
     double before_ = 0.0;                          ///< wall seconds of the run until it was gone on with

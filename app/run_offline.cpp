@@ -3,6 +3,7 @@
 #include "app/checkpoint/state_files.h"
 #include "app/export/geometry_sink.h"
 #include "app/frame_sink.h"
+#include "app/gnuplot.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/provenance/provenance.h"
@@ -70,7 +71,7 @@ void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& 
         const auto begin = std::chrono::steady_clock::now();
         const sim::StepReport report = simulation.step(until);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        reports.step(state, report, simulation.forces());
+        reports.step(simulation, report);
         shut.look(state);
         progress.stepDone(state.time, report.dt, seconds.count());
     }
@@ -116,7 +117,7 @@ bool goesOnInItsFolder(const RunOptions& options) { return options.from && !opti
 Reports openReports(const SceneSetup& setup, const RunOptions& options, const std::string& provenance)
 {
     if (goesOnInItsFolder(options)) {
-        Reports reports(options.out, setup, options.contentHash, provenance, options.from->origin.logs);
+        Reports reports(options.out, setup, options.contentHash, provenance, options.from->origin.logs, options.from->state.time);
         forgetLaterThan(options.from->origin.frame, options.out);
         return reports;
     }
@@ -152,7 +153,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
         writeWhole(options.out / "resolved.yaml", setup.resolved);
         Frames kept(setup, parts, options, provenance);
         if (!goesOnInItsFolder(options)) {
-            reports.initial(simulation->state(), simulation->fabric(), simulation->energies());
+            reports.initial(*simulation);
             kept.take(*simulation, first);
         }
         const bool ended = runFramesOrKeepState(setup, options, first, *simulation, kept, reports);
@@ -163,6 +164,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
         reportFailure(reports, error.what());
         throw;
     }
+    if (setup.probes && canPlot()) plotProbes(*setup.probes, setup.scene.title, options.out);
     return reports.summary();
 }
 

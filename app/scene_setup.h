@@ -3,6 +3,7 @@
 #include "app/lab/precision.h"
 #include "app/lab/validation.h"
 #include "app/picture_settings.h"
+#include "app/probes/probes.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/scene_file.h"
 
@@ -28,6 +29,7 @@ struct SceneSetup {
     PictureSettings pictures;
     std::optional<Validation> validation;
     std::optional<Precision> precision;
+    std::optional<Probes> probes;
     std::string variant = "default";  ///< names its output folder
     std::string label;                ///< stands in its pictures; empty where the file is run as written
     std::string resolved;             ///< every setting with its unit, as `check` prints it

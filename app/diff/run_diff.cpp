@@ -67,7 +67,7 @@ std::vector<DiffFinding> diffRuns(const fs::path& a, const fs::path& b, const To
     findings.push_back(hashFinding(reportA.stateHash, reportB.stateHash, states, tolerance));
     if (!states.isEmpty()) append(states.findings(tolerance), findings);
     append(std::move(more), findings);
-    for (const char* log : {"energy.csv", "energy_ledger.csv", "steps.jsonl"}) {
+    for (const char* log : {"energy.csv", "energy_ledger.csv", "probes.csv", "steps.jsonl"}) {
         const bool inA = fs::exists(a / log), inB = fs::exists(b / log);
         if (inA && inB) append(diffSeries(readSeries(a / log), readSeries(b / log), tolerance), findings);
         else if (inA || inB) findings.push_back(onlyOne(log, inA));

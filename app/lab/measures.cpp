@@ -113,6 +113,7 @@ std::vector<sim::FormulaNames::Function> Measures::names()
     Names names;
     addLiquid(names);
     addFabric(names);
+    addPoints(names);
     if (flow_) addFlow(names);
     for (int a = 0; a < kAxes; ++a) {
         addLiquidAlong(a, names);

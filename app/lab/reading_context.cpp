@@ -101,6 +101,7 @@ ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& 
     readFlow(section.find("flow"), context, measures);
     context.reading.functions = measures.names();
     context.reading.ofNames = measures.forces();
+    context.reading.ofNames.push_back(measures.flux());
     return context;
 }
 

@@ -1,6 +1,7 @@
 #include "app/describe_picture.h"
 #include "app/lab/precision.h"
 #include "app/lab/validation.h"
+#include "app/probes/probes.h"
 #include "app/schema/ask_reader.h"
 #include "app/schema/body_schemas.h"
 #include "app/schema/schema.h"
@@ -85,6 +86,25 @@ SchemaJson readingsSchema(const std::string& section, const std::string& list, R
     return schema;
 }
 
+SchemaJson probesSchema()
+{
+    const auto read = [](const sim::SceneFile& file, const sim::Scene& scene) { readProbes(file, scene, 1.0); };
+    const auto within = [&](const std::string& probes) { return lastAskedFor("output: {probes: {" + probes + "}}", read); };
+    SchemaJson schema = within(""), reading = within("readings: [{}]");
+    reading["properties"]["along"].update(within("readings: [{read: 1, along: {}}]"));
+    schema["properties"]["hoops"].update(namedSchema(within("hoops: {a: {}}, readings: []")));
+    schema["properties"]["readings"].update(listSchema(reading, 1));
+    return schema;
+}
+
+SchemaJson outputSchema()
+{
+    OutputSettings values;
+    SchemaJson schema = declaredMap([&](KeyList& v) { describe(v, values); });
+    schema["properties"]["probes"].update(probesSchema());
+    return schema;
+}
+
 SchemaJson precisionSchema()
 {
     SchemaJson schema = readingsSchema("precision", "errors", readPrecision);
@@ -100,7 +120,6 @@ SchemaJson sceneProperties()
     sim::Scene scene;
     sim::FabricMaterial material;
     RenderSettings render;
-    OutputSettings output;
     KeyList top;
     describe(top, settings);
     describeFabric(top, settings);
@@ -120,7 +139,7 @@ SchemaJson sceneProperties()
                        {"motion", {{"anyOf", {namedSchema(definitionOf("motion")), listSchema(definitionOf("named_motion_piece"))}}}},
                        {"changes", changesSchema()},
                        {"render", declaredMap([&](KeyList& v) { describe(v, render); })},
-                       {"output", declaredMap([&](KeyList& v) { describe(v, output); })},
+                       {"output", outputSchema()},
                        {"compare", compareSchema()},
                        {"validate", readingsSchema("validate", "checks", readValidation)},
                        {"precision", precisionSchema()}});

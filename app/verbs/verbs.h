@@ -19,6 +19,7 @@ int runVerbStress(const Options& options, const Parts& parts);
 int runVerbRender(const Options& options, const Parts& parts);
 int runVerbDiff(const Options& options, const Parts& parts);
 int runVerbExport(const Options& options, const Parts& parts);
+int runVerbProbe(const Options& options, const Parts& parts);
 int runVerbSchema(const Options& options, const Parts& parts);
 int runVerbSweep(const Options& options, const Parts& parts);
 int runVerbImport(const Options& options, const Parts& parts);

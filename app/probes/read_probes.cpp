@@ -1,0 +1,131 @@
+#include "app/lab/reading_context.h"
+#include "app/probes/probes.h"
+#include "sim/scene/read_list.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace app {
+
+namespace {
+
+using sim::Node;
+using sim::Vec3;
+
+constexpr const char* kProbesPath = "output.probes";
+constexpr int kMostPoints = 10'000;
+
+/// What a table and a plot can show in one cell of their heads.
+std::string wordIn(const Node& map, const char* key, const std::string& path, const std::string& otherwise)
+{
+    const Node* node = map.find(key);
+    const std::string text = node ? sim::readText(*node, sim::joinPath(path, key)) : otherwise;
+    if (text.find_first_of(",\"\n[]") != std::string::npos)
+        sim::fail(node->place, fmt::format("{}.{}: stands in the head of a CSV file: no commas, quotes and brackets", path, key));
+    return text;
+}
+
+/// Points at equal distances along a straight line, its ends included.
+std::vector<Vec3> pointsAlong(const Node& node, const std::string& path)
+{
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    int count = 11;
+    sim::SectionReader::read(&node, path, [&](auto& v) {
+        v.needs("from", "one end of the line, like from: [0, 0, 0]");
+        v.vector("from", from, sim::Quantity::Length, "One end of the line");
+        v.needs("to", "the other end of the line, like to: [10, 0, 0]");
+        v.vector("to", to, sim::Quantity::Length, "The other end of the line");
+        v.integer("points", count, 2, kMostPoints, "So many points, the ends included");
+    });
+    std::vector<Vec3> points;
+    for (int i = 0; i < count; ++i) points.emplace_back(from + (to - from) * i / (count - 1.0));
+    return points;
+}
+
+Hoop hoopIn(const Node& node, const std::string& path)
+{
+    Hoop hoop;
+    sim::SectionReader::read(&node, path, [&](auto& v) {
+        v.needs("center", "a point in its plane, like center: [0, 2, 0]");
+        v.vector("center", hoop.center, sim::Quantity::Length, "A point of the plane, the middle of the hoop");
+        v.needs("normal", "the direction through it that counts as positive, like normal: [0, -1, 0]");
+        v.vector("normal", hoop.normal, sim::Quantity::None, "Direction through it that counts as positive");
+        v.numberOr("radius", hoop.radius, std::numeric_limits<double>::infinity(), sim::Quantity::Length, sim::Range::above(0.0),
+                   "Of a hoop; left out: the whole plane");
+        v.require(hoop.normal.norm() > 0.0, "normal", "must be a direction, like [0, -1, 0]");
+    });
+    hoop.normal.normalize();
+    return hoop;
+}
+
+void readHoops(const Node* node, Measures& measures)
+{
+    if (!node) return;
+    const std::string path = sim::joinPath(kProbesPath, "hoops");
+    if (!node->isMap()) sim::fail(node->place, path + ": needs names and hoops, like {outlet: {center: [0, 2, 0], normal: [0, -1, 0]}}, not " + node->called());
+    for (std::size_t i = 0; i < node->keys.size(); ++i)
+        measures.addHoop(node->keys[i], hoopIn(node->items[i], sim::joinPath(path, node->keys[i])));
+}
+
+Probe probeIn(const Node& node, const std::string& path, std::size_t number, const ReadingContext& context)
+{
+    sim::SectionReader section(node, path);
+    sim::SectionReader::read(&node, path, [](auto& v) {
+        v.other("name", "What tables and plots call it");
+        v.other("unit", "As tables and plots show it");
+        v.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
+        v.other("read", "A formula of what is read, as in validate");
+        v.other("along", "Read at points along a line, x, y, z in the formula");
+    });
+    sim::FormulaNames names = context.reading;
+    Probe probe{.name = wordIn(node, "name", path, fmt::format("probe {}", number)), .unit = wordIn(node, "unit", path, "-"), .read = sim::Formula("0"), .points = {}};
+    if (const Node* along = node.find("along")) {
+        probe.points = pointsAlong(*along, sim::joinPath(path, "along"));
+        names.variables.insert(names.variables.end(), {"x", "y", "z"});
+    }
+    probe.read = readFormula(*node.find("read"), sim::joinPath(path, "read"), names);
+    return probe;
+}
+
+}  // namespace
+
+std::vector<std::string> Probes::columns() const
+{
+    std::vector<std::string> names = {"time_s"};
+    for (const Probe& probe : all) {
+        if (probe.points.empty()) names.push_back(fmt::format("{} [{}]", probe.name, probe.unit));
+        for (const Vec3& x : probe.points)
+            names.push_back(fmt::format("{} at {:.4g} cm [{}]", probe.name, (x - probe.points.front()).norm(), probe.unit));
+    }
+    return names;
+}
+
+std::optional<Probes> readProbes(const sim::SceneFile& file, const sim::Scene& scene, double framesEvery)
+{
+    const Node* output = file.root.find("output");
+    const Node* node = output ? output->find("probes") : nullptr;
+    if (!node) return std::nullopt;
+    if (node->place.source && node->place.source->isSi)
+        sim::fail(node->place, fmt::format("{}: formulas know centimetres only; write the file in units: cgs", kProbesPath));
+    sim::SectionReader section(*node, kProbesPath);
+    sim::SectionReader::read(node, kProbesPath, [](auto& v) {
+        v.other("every", "Time between readings; left out: that between frames");
+        v.other("let", "Names for formulas");
+        v.other("flow", "Of which flow_error and flow_part tell");
+        v.other("hoops", "Planes and hoops through which flux(\"name\") is read");
+        v.needs("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
+        v.other("readings", "What is read");
+    });
+    Probes probes{.every = framesEvery, .all = {}, .measures = std::make_shared<Measures>(scene)};
+    readHoops(node->find("hoops"), *probes.measures);
+    const ReadingContext context = readContext(section, scene, *probes.measures);
+    if (node->find("every")) probes.every = readInterval(section, context);
+    const std::string path = sim::joinPath(kProbesPath, "readings");
+    const Node& readings = *sim::listAt(node, "readings", path, "[{name: height, unit: cm, read: liquid_y}]");
+    if (readings.items.empty()) sim::fail(readings.place, path + ": needs a list of at least one");
+    for (std::size_t i = 0; i < readings.items.size(); ++i) probes.all.push_back(probeIn(readings.items[i], fmt::format("{}.{}", path, i), i + 1, context));
+    return probes;
+}
+
+}  // namespace app

@@ -1,0 +1,135 @@
+// Numbers that are read as a scene runs, or afterwards from its states, by the program itself.
+
+#include "app/csv.h"
+#include "app/gnuplot.h"
+#include "tests/app/checkpoint/small_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace app::test {
+namespace {
+
+constexpr const char* kProbesOfAll = R"yaml({every: 4.0e-3,
+  hoops: {plane: {center: [0, 0.5, 0], normal: [0, -1, 0]}, aside: {center: [9, 0.5, 0], normal: [0, -1, 0], radius: 1}},
+  readings: [{name: height, unit: cm, read: liquid_y}, {name: through, unit: g/s, read: flux("plane")}, {name: aside, unit: g/s, read: flux("aside")},
+             {name: wetness, unit: "-", read: "saturation_at(x, y, z)", along: {from: [-1, 0, 0], to: [1, 0, 0], points: 5}}, {read: "vertex_y(14)", unit: cm}]})yaml";
+
+class ProbedRuns : public testing::Test, protected SmallRuns {
+ protected:
+    static std::string probes(const std::string& all) { return "output.probes=" + all; }
+    /// Columns of a table by name.
+    std::map<std::string, std::vector<double>> table(const std::string& file) const
+    {
+        std::map<std::string, std::vector<double>> columns;
+        const std::vector<std::string> lines = linesOf(folder / file), names = csvCells(lines.at(0));
+        for (std::size_t row = 1; row < lines.size(); ++row) {
+            const std::vector<std::string> cells = csvCells(lines[row]);
+            for (std::size_t c = 0; c < names.size(); ++c)
+                columns[names[c]].push_back(c < cells.size() && !cells[c].empty() ? std::stod(cells[c]) : std::nan(""));
+        }
+        return columns;
+    }
+};
+
+TEST_F(ProbedRuns, AreTheRunsThatTheyWouldBeWithout)
+{
+    ASSERT_EQ(run("without").code, 0);
+    for (const char* every : {"1.0e-3", "7.0e-3"}) {
+        ASSERT_EQ(run("with", {"--no-frames", "--set", probes(kProbesOfAll), "--set", std::string("output.probes.every=") + every}).code, 0);
+        EXPECT_EQ(hash("with"), hash("without"));
+        const auto read = table("with/probes.csv");
+        const std::vector<double>& times = read.at("time_s");
+        EXPECT_EQ(read.size(), 1u + 4 + 5);
+        for (const char* name : {"height [cm]", "through [g/s]", "wetness at 0.5 cm [-]", "probe 5 [cm]"}) EXPECT_EQ(read.at(name).size(), times.size()) << name;
+        for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GE(std::floor(times[i] / std::stod(every) + 1e-6), std::floor(times[i - 1] / std::stod(every) + 1e-6) + 1.0);
+        EXPECT_NEAR(times.back(), 0.08, std::stod(every));
+    }
+}
+
+TEST_F(ProbedRuns, StoppedAndGoneOnWithHaveTheSameReadings)
+{
+    const std::vector<std::string> more = {"--no-frames", "--set", probes(kProbesOfAll)};
+    std::vector<std::string> half = more;
+    half.insert(half.end(), {"--set", "time.duration=0.041"});
+    ASSERT_EQ(run("whole", more).code, 0);
+    ASSERT_EQ(run("half", half).code, 0);
+    ASSERT_EQ(resume("half", {"--no-frames", "--set", "time.duration=0.08"}).code, 0);
+    EXPECT_EQ(contentOf(folder / "whole" / "probes.csv"), contentOf(folder / "half" / "probes.csv"));
+    EXPECT_EQ(canPlot(), std::filesystem::exists(folder / "half" / "probes.png"));
+}
+
+/// What states hold is read from them as it was when the run was there.
+TEST_F(ProbedRuns, HaveTheSameReadingsAfterwards)
+{
+    ASSERT_EQ(run("run", {"--no-frames", "--set", probes(kProbesOfAll)}).code, 0);
+    writeFile(folder / "probes.yaml", kProbesOfAll);
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"probe", "run"}, {"probe", "run", "probes.yaml"}}) {
+        std::filesystem::remove_all(folder / "run" / "probes");
+        const ChildExit end = drench(arguments);
+        ASSERT_EQ(end.code, 0) << end.errorText;
+        const auto then = table("run/probes.csv"), now = table("run/probes/probes.csv");
+        ASSERT_EQ(now.size(), then.size());
+        for (const auto& [name, values] : now)
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const std::vector<double>& times = then.at("time_s");
+                const auto row = std::ranges::find_if(times, [&](double t) { return std::abs(t - now.at("time_s")[i]) < 1e-9; });
+                if (row == times.end()) continue;  // a frame between two steps of one reflection
+                const double was = then.at(name)[static_cast<std::size_t>(row - times.begin())];
+                EXPECT_TRUE(values[i] == was || (std::isnan(values[i]) && std::isnan(was))) << name << " at " << *row << ": " << values[i] << ", " << was;
+            }
+    }
+}
+
+/// All that passes a plane has been above it: what goes through is what the mass above loses. The plane lies between layers of particles.
+TEST_F(ProbedRuns, FluxIsTheRateAtWhichMassGoesThrough)
+{
+    const std::string both = "{every: 1.0e-3, hoops: {plane: {center: [0, 0.82, 0], normal: [0, -2, 0]}, hoop: {center: [0.2, 0.82, 0], normal: [0, 1, 0], radius: 5},"
+                             " aside: {center: [9, 0.82, 0], normal: [0, 1, 0], radius: 5}}, readings: [{name: through, read: flux(\"plane\")},"
+                             " {name: hoop, read: flux(\"hoop\")}, {name: aside, read: flux(\"aside\")}, {name: above, read: \"mass_y(0.82, 100)\"}]}";
+    ASSERT_EQ(run("run", {"--no-frames", "--set", probes(both), "--set", "time.integrator=plain", "--set", "time.dt=5.0e-4"}).code, 0);
+    const auto read = table("run/probes.csv");
+    const std::vector<double>&time = read.at("time_s"), &through = read.at("through [-]"), &above = read.at("above [-]");
+    double gone = 0.0;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        gone += 0.5 * (through[i] + through[i - 1]) * (time[i] - time[i - 1]);
+        EXPECT_EQ(read.at("hoop [-]")[i], -through[i]);
+        EXPECT_EQ(read.at("aside [-]")[i], 0.0);
+    }
+    EXPECT_NEAR(gone, above.front() - above.back(), 0.03 * above.front());
+    EXPECT_GT(above.front(), 0.1);
+}
+
+TEST_F(ProbedRuns, MistakesAreToldInOneLineBeforeAnythingIsBegun)
+{
+    const auto refused = [&](const std::string& section, const std::string& mentions) {
+        const ChildExit end = run("run", {"--set", probes(section)});
+        EXPECT_EQ(end.code, 2) << section;
+        EXPECT_EQ(std::ranges::count(end.errorText, '\n'), 1) << end.errorText;
+        EXPECT_NE(end.errorText.find(mentions), std::string::npos) << end.errorText;
+        EXPECT_FALSE(std::filesystem::exists(folder / "run")) << section;
+    };
+    refused("{}", "output.probes.readings is missing");
+    refused("{readings: []}", "needs a list of at least one");
+    refused("{readings: [{name: a}]}", "read is missing");
+    refused("{readings: [{read: liquid_w}]}", "liquid_w");
+    refused("{readings: [{read: 'x'}]}", "x");
+    refused("{readings: [{read: 'flux(\"gate\")'}]}", "there is no hoop \"gate\"");
+    refused("{readings: [{read: 'force_x(\"gate\")'}]}", "no obstacle and no fabric");
+    refused("{every: 0, readings: [{read: liquid_y}]}", "above 0 s");
+    refused("{readings: [{read: liquid_y, name: 'a, b'}]}", "no commas");
+    refused("{readings: [{read: 'x', along: {from: [0, 0, 0]}}]}", "to is missing");
+    refused("{hoops: {a: {center: [0, 0, 0], normal: [0, 0, 0]}}, readings: [{read: t}]}", "must be a direction");
+    ASSERT_EQ(run("run", {"--no-frames"}).code, 0);
+    for (const char* read : {"energy", "front_x(0)", "force_x(\"sheet\")"}) {
+        writeFile(folder / "probes.yaml", std::string("readings: [{read: '") + read + "'}]");
+        const ChildExit end = drench({"probe", "run", "probes.yaml"});
+        EXPECT_EQ(end.code, 2) << read;
+        EXPECT_NE(end.errorText.find("stored states do not tell of"), std::string::npos) << end.errorText;
+        EXPECT_FALSE(std::filesystem::exists(folder / "run" / "probes" / "probes.csv")) << read;
+    }
+}
+
+}  // namespace
+}  // namespace app::test
