@@ -2,17 +2,21 @@
 
 #include "app/child_process.h"
 #include "app/compare_table.h"
+#include "app/diff/series.h"
 #include "app/energy_plot.h"
 #include "app/gnuplot.h"
 #include "app/output_files.h"
+#include "app/progress.h"
 #include "app/reports.h"
 #include "app/resume.h"
+#include "app/stopwatch.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 namespace app {
@@ -118,6 +122,20 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
     return arguments;
 }
 
+std::string whatWasSeen(const std::vector<ComparedRun>& runs)
+{
+    std::vector<RunOutcome> outcomes;
+    for (const ComparedRun& run : runs) {
+        const auto report = readReport(run.folder);
+        const auto csv = run.folder / "energy.csv";
+        if (!report || !std::filesystem::exists(csv)) continue;
+        const Series energies = readSeries(csv);
+        const std::vector<double>& total = energies.values.at("total_erg");
+        if (total.size() > 1 && total.front() > 0.0) outcomes.push_back({run.setup.label, total.back() / total.front(), report->wallSeconds});
+    }
+    return outcomeSentence(std::move(outcomes));
+}
+
 FrameSequence sequenceOf(const ComparedRun& run)
 {
     const std::vector<std::int64_t> frames = numbersIn(run.folder, "frame_", ".png");
@@ -132,9 +150,11 @@ FrameSequence sequenceOf(const ComparedRun& run)
 std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
                                 const std::function<bool()>& stopWanted)
 {
+    const auto begin = std::chrono::steady_clock::now();
     std::vector<ComparedRun> done;
     for (std::size_t n = 0; n < runs.size() && !stopWanted(); ++n) {
-        const std::string head = fmt::format("[{}/{}] {}", n + 1, runs.size(), runs[n].setup.label);
+        const std::string soFar = n > 0 ? fmt::format(", {} so far", formatDuration(secondsSince(begin))) : "";
+        const std::string head = fmt::format("[{}/{}] {}{}", n + 1, runs.size(), runs[n].setup.label, soFar);
         if (!options.force && isDone(runs[n], withFrames)) {
             fmt::print("{}: already there, in {}\n", head, runs[n].folder.string());
         } else {

@@ -38,6 +38,9 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
 std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
                                 const std::function<bool()>& stopWanted);
 
+/// What was seen of runs that are done, in one sentence; "" where they have written no energies.
+std::string whatWasSeen(const std::vector<ComparedRun>& runs);
+
 /// Its pictures, as they are there.
 FrameSequence sequenceOf(const ComparedRun& run);
 

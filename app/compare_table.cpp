@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace app {
 
@@ -66,6 +67,16 @@ std::string compareTable(const std::string& title, const std::vector<RunResult>&
     const auto found = std::ranges::find(runs, reference, &RunResult::label);
     const RunResult* base = reference.empty() || found == runs.end() ? nullptr : &*found;
     return fmt::format("# {}\n\n{}\n{}", title, runTable(runs, base), stageRows(runs));
+}
+
+std::string outcomeSentence(std::vector<RunOutcome> runs)
+{
+    std::ranges::stable_sort(runs, std::ranges::greater(), &RunOutcome::energyKept);
+    std::string sentence;
+    for (const RunOutcome& run : runs)
+        sentence += fmt::format("{} {} {:.1f} % in {}", sentence.empty() ? "Energy kept and time taken:" : ",", run.label, 100.0 * run.energyKept,
+                                formatDuration(run.wallSeconds));
+    return sentence.empty() ? "" : sentence + ".";
 }
 
 }  // namespace app

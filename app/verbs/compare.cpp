@@ -4,6 +4,7 @@
 #include "app/output_folder.h"
 #include "app/verbs/verbs.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace app {
@@ -36,6 +37,7 @@ int runVerbCompare(const Options& options, const Parts& parts)
     if (stopWanted()) return 1;
     if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, stopWanted);
     if (stopWanted()) return 1;
+    if (const std::string seen = whatWasSeen(done); !seen.empty()) fmt::print("{}\n", seen);
     if (done.size() == runs.size()) return 0;
     spdlog::error("{} of {} variants did not get to their end", runs.size() - done.size(), runs.size());
     return 1;

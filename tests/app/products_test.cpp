@@ -97,6 +97,13 @@ TEST(CompareTable, WithoutReferenceThereIsNoRatio)
 const std::string kEnergies = "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g\n"
                               "0,0,0,3.6e6,3.6e6,10,2\n0.1,1e6,1e4,2.5e6,3.51e6,10,2\n0.2,1.5e6,1e4,1.9e6,3.41e6,10,2\n";
 
+TEST(CompareTable, SaysInOneSentenceWhatKeptMostAndHowLongItTook)
+{
+    EXPECT_EQ(outcomeSentence({{"PIC", 0.742, 62.0}, {"Best", 0.971, 38.0}, {"APIC", 0.9, 3600.0}}),
+              "Energy kept and time taken: Best 97.1 % in 38 s, APIC 90.0 % in 1 h 00 m, PIC 74.2 % in 1 m 02 s.");
+    EXPECT_EQ(outcomeSentence({}), "");
+}
+
 TEST(EnergyPlot, JoinsAllVariantsIntoOneTable)
 {
     TemporaryFolder folder;
