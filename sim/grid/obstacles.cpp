@@ -120,7 +120,7 @@ template <class Start>
 std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolution, Start&& start) const
 {
     std::optional<Contact> first;
-    double earliest = 1.0;  // share of the path
+    double earliest = 1.0;  // share of the path: until then it is outside of all bodies
     for (const Body& body : bodies_) {
         const Vec3 a = start(body), way = body.toShape * to - a;
         const double length = way.norm(), least = std::max(resolution, kLeastStride * length), steepest = std::max(1.0, body.shape.steepest());
@@ -128,16 +128,16 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
         double distance = body.shape.distance(a);
         if (distance < -kBarelyInside * resolution || distance > steepest * length) continue;
         // So far it is safe: the distance never changes faster than the point moves, or, of a mesh, than at its steepest.
-        for (double gone = 0.0; gone < earliest * length;) {
+        for (double gone = 0.0; gone < std::min(earliest * length + least, length);) {
             gone = std::min(gone + std::max(distance / steepest, least), length);
             distance = body.shape.distance(a + gone / length * way);
             if (distance > 0.0) {
                 if (gone >= length) break;
                 continue;
             }
-            if (gone / length < earliest || !first) {
-                earliest = gone / length;
-                const double share = std::max(0.0, gone - least) / length;
+            const double share = std::max(0.0, gone - least) / length;
+            if (share < earliest || !first) {
+                earliest = share;
                 const Vec3 at = a + share * way;
                 first = Contact{body.now * at, body.now.linear() * body.shape.normal(at), share};
             }

@@ -153,5 +153,30 @@ TEST(Crossing, NoParticleGetsIntoASolid)
     }
 }
 
+/// Where a path meets two solids at once, as good as: what goes by one of them from there is in front of the other, too.
+TEST(Crossing, NoParticleGetsIntoTheSecondOfTwoSolidsThatItMeets)
+{
+    Chance chance(11);
+    constexpr double kResolution = 5.0e-3;  // [cells]
+    for (int n = 0; n < 60000; ++n) {
+        const Motion motion = n % 2 == 0 ? Motion() : randomMotion(chance, 10.0, 0.0);
+        Obstacles obstacles;
+        obstacles.add(Shape::box({0.0, -1.0, 0.0}, {9.0, 1.0, 9.0}), {});
+        const Eigen::Isometry3d turned(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), chance.direction()));
+        obstacles.add(Shape::box({-1.0, 0.0, 0.0}, {1.0, 9.0, 9.0}).moved(turned), motion);
+        Obstacles atStart = obstacles;
+        atStart.moveTo(0.0, 0.0);
+        obstacles.moveTo(0.0, 0.05);
+        // In front of both, as near to each as the resolution, and towards both.
+        const Vec3 from = chance.inCube(0.02), to = chance.inCube(0.1);
+        if (atStart.distance(from) <= 0.0 || from.norm() > 0.02) continue;
+        const auto contact = obstacles.firstContact(Obstacles::Way(from), to, kResolution * kCell);
+        if (!contact) continue;
+        Obstacles then = obstacles;
+        then.moveTo(0.0, 0.05 * contact->share);
+        EXPECT_GT(then.distance(from + contact->share * (to - from)), -1.0e-3 * kResolution * kCell) << n;
+    }
+}
+
 }  // namespace
 }  // namespace sim::test
