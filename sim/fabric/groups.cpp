@@ -63,4 +63,23 @@ bool FabricGroups::anyFree() const
     return false;
 }
 
+std::vector<Vec3> FabricGroups::drifts(std::span<const double> mass, std::span<const Vec3> velocity) const
+{
+    std::vector<Vec3> drift(pieces(), Vec3::Zero());
+    if (!anyFree()) return drift;
+    std::vector<double> massOf(drift.size(), 0.0);
+    for (std::size_t v = 0; v < velocity.size(); ++v) {
+        const int group = freeGroupOf(pieceOf_[v]);
+        if (group < 0) continue;
+        drift[group] += mass[v] * velocity[v];
+        massOf[group] += mass[v];
+    }
+    for (int piece = 0; piece < pieces(); ++piece) {
+        const int group = freeGroupOf(piece);
+        if (group == piece) drift[piece] /= massOf[piece];
+        else if (group >= 0) drift[piece] = drift[group];  // lower, and so known
+    }
+    return drift;
+}
+
 }  // namespace sim

@@ -30,6 +30,10 @@ class FabricGroups {
         return isHeld_[root] != 0 ? -1 : root;
     }
     bool anyFree() const;
+    /// Velocity of each piece's group as a whole, where nothing holds it; else 0 [cm/s].
+    /// @param mass      of each vertex [g]
+    /// @param velocity  of each vertex [cm/s]
+    std::vector<Vec3> drifts(std::span<const double> mass, std::span<const Vec3> velocity) const;
 
  private:
     int rootOf(int piece) const;

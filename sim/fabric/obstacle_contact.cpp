@@ -37,7 +37,12 @@ FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleS
 int FabricObstacles::nearest(const Vec3& x) const
 {
     const auto distance = [&](const Body& body) { return body.pose.distance(x); };
-    return std::ranges::min_element(bodies_, {}, distance)->inScene;
+    return static_cast<int>(std::ranges::min_element(bodies_, {}, distance) - bodies_.begin());
+}
+
+Vec3 FabricObstacles::moveAt(const Vec3& x) const
+{
+    return x - bodies_[nearest(x)].carry.inverse() * x;
 }
 
 void FabricObstacles::findEdges(const Fabric& fabric)

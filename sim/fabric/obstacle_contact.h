@@ -35,6 +35,13 @@ struct ObstacleContact {
         if (!weights.isZero()) return {weights[0], weights[1], weights[2]};
         return {isEdge() ? 0.5 : 1.0, isEdge() ? 0.5 : 0.0, 0.0};
     }
+    /// Of what the vertices have, at the point.
+    Vec3 atPoint(std::span<const Vec3> ofVertices) const
+    {
+        const std::array<int, 3> v = vertices();
+        const std::array<double, 3> share = shares();
+        return share[0] * ofVertices[v[0]] + share[1] * ofVertices[v[1]] + share[2] * ofVertices[v[2]];
+    }
 };
 
 /// Fabric on obstacles: a penalty on the signed distance of vertices, of the middles of edges and of the points at which edges and faces are
@@ -49,9 +56,12 @@ class FabricObstacles {
     FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion = nullptr);
 
     bool empty() const { return bodies_.empty(); }
-    /// Number in the scene of an obstacle among those felt (ObstacleContact::between), and of the one that is nearest to a place.
+    /// Number in the scene of an obstacle among those felt (ObstacleContact::between).
     int inScene(int obstacle) const { return bodies_[obstacle].inScene; }
+    /// Of those felt, the one that is nearest to a place.
     int nearest(const Vec3& x) const;
+    /// How far it goes there in the step [cm].
+    Vec3 moveAt(const Vec3& x) const;
     /// Poses and motion of a step from t0 to t1 [s].
     void moveTo(double t0, double t1);
     /// How the points of the fabric come into a step of h [s].

@@ -69,7 +69,7 @@ void VertexSolver::tellGuard(double h, const FabricState& state) const
     for (std::size_t v = 0; v < guardMove_.size(); ++v) {
         if (guardMove_[v].isZero(0.0)) continue;
         const Vec3 onObstacle = -mass_[v] / h * guardMove_[v];
-        forces_->touch(fabric_.pieceOf(static_cast<int>(v)), obstacles_.nearest(state.x[v]), Impulse::at(state.x[v], onObstacle));
+        forces_->touch(fabric_.pieceOf(static_cast<int>(v)), obstacles_.inScene(obstacles_.nearest(state.x[v])), Impulse::at(state.x[v], onObstacle));
     }
 }
 

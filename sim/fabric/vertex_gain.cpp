@@ -1,8 +1,6 @@
-#include "sim/core/check.h"
 #include "sim/core/parallel.h"
+#include "sim/fabric/owed_energy.h"
 #include "sim/fabric/vertex_solver.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,24 +20,11 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
     return stored;
 }
 
-namespace {
-
-constexpr double kStretched = 1.1;  ///< to this times its length and more: worth telling [-]
-constexpr double kMostOwed = 0.01;  ///< with which a run may go on, of the largest kinetic energy: what its energies are held to [-]
-
-/// What pins, solids and the liquid did for the fabric [erg].
-double given(const EnergyChanges& changes)
-{
-    return changes[EnergyChange::Pins] + changes[EnergyChange::Obstacles] + changes[EnergyChange::Drag];
-}
-
-}  // namespace
-
 /// Energy that the fabric may have at the end of a step [erg]: that of the start, and what was given. Where nothing moves this is the
 /// liquid's work alone, and the rest need not be known.
 double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
 {
-    if (isDriven_) return startEnergies_.total() + given(energyChanges(h, gravity, state));
+    if (isDriven_) return startEnergies_.total() + workFromOutside(energyChanges(h, gravity, state));
     if (!loads_) return startEnergies_.total();
     return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
         return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
@@ -65,35 +50,12 @@ double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& stat
 
 /// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
 /// that cannot pay it goes on to owe. Returns the book of the step.
-EnergyChanges VertexSolver::payOwed(double h, const Vec3& gravity, FabricState& state) const
+EnergyChanges VertexSolver::payForGain(double h, const Vec3& gravity, FabricState& state) const
 {
     EnergyChanges changes = energyChanges(h, gravity, state);
-    const double due = start_.owed + energies(state, gravity).total() - startEnergies_.total() - given(changes);
-    const double paid = slowDown(due, state);
-    changes[EnergyChange::Implicit] -= paid;
-    state.owed = std::max(0.0, due - paid);
+    const double due = start_.owed + energies(state, gravity).total() - startEnergies_.total() - workFromOutside(changes);
+    changes[EnergyChange::Implicit] -= payOwed(due, fabric_, groups_, mass_, state);
     return changes;
-}
-
-/// Ends the run if what leads the fabric takes it where it cannot follow: it owes more than all of its motion has, and than can be let pass, nor
-/// can it go back as pins and solids cannot.
-void VertexSolver::refuseJam(double h, const Vec3& gravity, const FabricState& state) const
-{
-    if (state.owed <= std::max(felt(energies(state, gravity).kinetic, h), kMostOwed * state.mostKinetic)) return;
-    Vec3 place = state.x[0];
-    double longest = 0.0;
-    const auto look = [&](int a, int b) {
-        const double stretched = (state.x[a] - state.x[b]).norm() / (fabric_.rest[a] - fabric_.rest[b]).norm();
-        if (stretched > longest) longest = stretched, place = 0.5 * (state.x[a] + state.x[b]);
-    };
-    for (const Vec2i& e : fabric_.edges.vertices) look(e[0], e[1]);
-    for (const Vec3i& f : fabric_.faces.vertices)
-        for (int k = 0; k < 3; ++k) look(f[k], f[(k + 1) % 3]);
-    const std::string stretched = longest < kStretched ? ""
-                                                       : fmt::format("; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} times its length",
-                                                                     place.x(), place.y(), place.z(), longest);
-    throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow in steps of this length, and it has come to hold {:.3g} erg that "
-                               "nothing gave to it{}; other or slower motions, more room or shorter steps would do", state.owed, stretched));
 }
 
 /// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of
@@ -106,7 +68,7 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
         return now.total() - now.kinetic;
     };
     if (resting() <= allowed) {
-        slowDown(energies(state, gravity).total() - allowed, state);
+        slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);
         return;
     }
     std::vector<Vec3> way(state.x.size());
@@ -129,27 +91,7 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
         for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += part * turn[e];
         finish(h, state);
     }
-    slowDown(energies(state, gravity).total() - allowed, state);
-}
-
-/// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift. Returns what
-/// it took.
-double VertexSolver::slowDown(double energy, FabricState& state) const
-{
-    const std::vector<Vec3> drift = driftOfPieces(state);
-    const auto relative = [&](std::size_t v) { return Vec3(state.v[v] - drift[groups_.pieceOf(static_cast<int>(v))]); };
-    double kinetic = 0.0;
-    for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric_.pinned[v]) kinetic += 0.5 * mass_[v] * relative(v).squaredNorm();
-    for (std::size_t e = 0; e < state.omega.size(); ++e)
-        if (!fabric_.edges.twistHeld[e]) kinetic += 0.5 * twistInertia(fabric_, state.absorbed, e) * state.omega[e] * state.omega[e];
-    if (!(energy > 0.0 && kinetic > 0.0)) return 0.0;
-    const double lost = 1.0 - std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
-    for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric_.pinned[v]) state.v[v] -= lost * relative(v);
-    for (std::size_t e = 0; e < state.omega.size(); ++e)
-        if (!fabric_.edges.twistHeld[e]) state.omega[e] *= 1.0 - lost;
-    return std::min(energy, kinetic);
+    slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.

@@ -23,26 +23,6 @@ void VertexSolver::findMomenta(const FabricState& state)
     for (std::size_t v = 0; v < state.v.size(); ++v) momentum_[groups_.pieceOf(static_cast<int>(v))] += mass_[v] * state.v[v];
 }
 
-/// Velocity of each piece's group as a whole, where nothing holds it; else 0 [cm/s].
-std::vector<Vec3> VertexSolver::driftOfPieces(const FabricState& state) const
-{
-    std::vector<Vec3> drift(groups_.pieces(), Vec3::Zero());
-    if (!groups_.anyFree()) return drift;
-    std::vector<double> mass(drift.size(), 0.0);
-    for (std::size_t v = 0; v < state.v.size(); ++v) {
-        const int group = groups_.freeGroupOf(groups_.pieceOf(static_cast<int>(v)));
-        if (group < 0) continue;
-        drift[group] += mass_[v] * state.v[v];
-        mass[group] += mass_[v];
-    }
-    for (int piece = 0; piece < groups_.pieces(); ++piece) {
-        const int group = groups_.freeGroupOf(piece);
-        if (group == piece) drift[piece] /= mass[piece];
-        else if (group >= 0) drift[piece] = drift[group];  // lower, and so known
-    }
-    return drift;
-}
-
 /// Weight and the liquid alone change the momentum of a group that nothing holds: what else did in the step of length h [s] is taken from all
 /// of its velocities alike.
 void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& state)

@@ -4,6 +4,7 @@
 #include "sim/fabric/contact/spring_step.h"
 #include "sim/fabric/felt_acceleration.h"
 #include "sim/fabric/held.h"
+#include "sim/fabric/owed_energy.h"
 #include "sim/fabric/pins.h"
 
 #include <algorithm>
@@ -172,7 +173,7 @@ bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, F
     guard_.moveTo(t, t + h);
     solidsMove_ = guard_.movesNear(state.x, move_);
     isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
-    // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (payOwed).
+    // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (payForGain).
     const double bearable = isDriven_ && h < wholeStep_ ? 1.0 : kStiffeningGain;
     springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * felt(startEnergies_.kinetic, h));
     state.springStep = springStep_;
@@ -316,8 +317,8 @@ bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, F
     const bool mayHaveGained = startIsLookedAt_ || isShort;
     if (mayHaveGained && !isDriven_) giveNoEnergy(t, h, gravity, state, report, clock);
     std::optional<EnergyChanges> changes;
-    if ((mayHaveGained && isDriven_) || start_.owed > 0.0) changes = payOwed(h, gravity, state);
-    if (state.owed > 0.0) refuseJam(h, gravity, state);
+    if ((mayHaveGained && isDriven_) || start_.owed > 0.0) changes = payForGain(h, gravity, state);
+    if (state.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, gravity).kinetic, h));
     if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, gravity, state);
     if (forces_) tellForces(h, gravity, state);
     return true;

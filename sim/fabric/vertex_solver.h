@@ -81,13 +81,10 @@ class VertexSolver {
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
     void iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
-    EnergyChanges payOwed(double h, const Vec3& gravity, FabricState& state) const;
-    void refuseJam(double h, const Vec3& gravity, const FabricState& state) const;
+    EnergyChanges payForGain(double h, const Vec3& gravity, FabricState& state) const;
     void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
-    double slowDown(double energy, FabricState& state) const;
     void findGroups();
     void findMomenta(const FabricState& state);
-    std::vector<Vec3> driftOfPieces(const FabricState& state) const;
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);
     std::vector<char> heldBySolids() const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;

@@ -1,5 +1,6 @@
 #include "sim/core/check.h"
 #include "tests/physics/fabric_runs.h"
+#include "tests/sim/fabric/grid_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,8 @@ TEST(FabricWork, PinsThatLeadGiveWhatIsGot)
 }
 
 /// Does a run of so many steps of length h [s] end in a jam? Until then the fabric must have no energy that nothing gave.
-bool endsInAJam(FabricRun& run, int steps, double h)
+template <class Run>
+bool endsInAJam(Run& run, int steps, double h)
 {
     run.solver.bookEnergy();
     double given = 0.0, kinetic = 0.0, rise = 0.0;
@@ -88,64 +90,98 @@ bool endsInAJam(FabricRun& run, int steps, double h)
     return jams;
 }
 
+/// A sheet that pins lead, and the solid in its way.
+struct LedSheet {
+    FabricPiece piece;
+    ObstacleSettings solid;
+};
+
+/// Pins draw it over a ball.
+LedSheet drawnOverABall(int n)
+{
+    Noise noise(20 + n);
+    ClothGrid grid;
+    grid.nodes = Vec2i(10, 10);
+    grid.spacing = {0.12, 0.12};
+    LedSheet sheet{pieceOf(clothGrid(grid), testing::wool(), {0.02, 0.02}), {}};
+    sheet.piece.material.young = 3.0e8;
+    Motion motion;
+    motion.addTranslation(0.0, 0.02, Vec3(0.2 * noise(), -3.0, 0.2 * noise()), 0.0, 0.0);
+    sheet.piece.pins = {pinned({0, 9, 90, 99}, false, motion)};
+    sheet.solid.name = "ball";
+    sheet.solid.shape = Shape::ball(Vec3(0.54 + 0.1 * noise(), -0.4, 0.54), 0.3);
+    return sheet;
+}
+
+/// Pins that turn its corners press it into a floor.
+LedSheet pressedIntoAFloor(int n)
+{
+    Noise noise(60 + n);
+    ClothGrid grid;
+    grid.nodes = Vec2i(10, 7);
+    grid.spacing = {0.158, 0.158};
+    LedSheet sheet{pieceOf(clothGrid(grid), testing::wool(), {0.015, 0.015}), {}};
+    sheet.piece.material.young = std::pow(10.0, 7.0 + 0.3 * noise());
+    sheet.piece.material.density = 0.28;
+    sheet.piece.material.dampingViscosity = 6.0e3;
+    Motion motion;
+    motion.addRotation(0.0, 0.06, (Vec3(-0.9, 0.2, -0.3) + 0.2 * noise.vector()).normalized(), 0.9 + 0.2 * noise(), Vec3(0.71, 0.0, 0.47),
+                       Motion::Frame::World, 0.0, 0.0);
+    std::vector<int> corners;
+    for (int i : {0, 1, 2, 7, 8, 9})
+        for (int j : {0, 1, 2, 4, 5, 6}) corners.push_back(10 * j + i);
+    std::ranges::sort(corners);
+    sheet.piece.pins = {pinned(corners, false, motion)};
+    sheet.solid.name = "floor";
+    sheet.solid.shape = Shape::box(Vec3(0.7, -1.28 + 0.1 * noise(), 0.5), Vec3(3.0, 1.0, 3.0));
+    return sheet;
+}
+
+FabricSettings lastAttempts(int n)
+{
+    FabricSettings settings;
+    settings.maxHalvings = n % 3;
+    settings.newton = 1 + n % 2;
+    return settings;
+}
+
 /// A sheet that pins tear against a solid holds no energy that nothing gave: the run ends and tells where.
 TEST(FabricWork, AJamEndsTheRunWhereItGains)
 {
     int jams = 0;
     for (int n = 0; n < 6; ++n) {
         SCOPED_TRACE("sheet " + std::to_string(n));
-        Noise noise(20 + n);
-        ClothGrid grid;
-        grid.nodes = Vec2i(10, 10);
-        grid.spacing = {0.12, 0.12};
-        FabricPiece piece = pieceOf(clothGrid(grid), testing::wool(), {0.02, 0.02});
-        piece.material.young = 3.0e8;
-        Motion motion;
-        motion.addTranslation(0.0, 0.02, Vec3(0.2 * noise(), -3.0, 0.2 * noise()), 0.0, 0.0);
-        piece.pins = {pinned({0, 9, 90, 99}, false, motion)};
-        ObstacleSettings ball;
-        ball.name = "ball";
-        ball.shape = Shape::ball(Vec3(0.54 + 0.1 * noise(), -0.4, 0.54), 0.3);
-        FabricSettings settings;
-        settings.maxHalvings = n % 3;
-        settings.newton = 1 + n % 2;
-        FabricRun run(piece, settings, {ball});
+        const LedSheet sheet = drawnOverABall(n);
+        FabricRun run(sheet.piece, lastAttempts(n), {sheet.solid});
         jams += endsInAJam(run, 30, 1.0e-3) ? 1 : 0;
     }
     EXPECT_GT(jams, 0);
 }
 
-/// The same where little is stretched: pins that turn the corners of a sheet press it into a floor. What a step gains too little of to matter
-/// adds up.
+/// The same where little is stretched. What a step gains too little of to matter adds up.
 TEST(FabricWork, WhatFabricOwesAddsUpOverSteps)
 {
     int jams = 0;
     for (int n = 0; n < 8; ++n) {
         SCOPED_TRACE("sheet " + std::to_string(n));
-        Noise noise(60 + n);
-        ClothGrid grid;
-        grid.nodes = Vec2i(10, 7);
-        grid.spacing = {0.158, 0.158};
-        FabricPiece piece = pieceOf(clothGrid(grid), testing::wool(), {0.015, 0.015});
-        piece.material.young = std::pow(10.0, 7.0 + 0.3 * noise());
-        piece.material.density = 0.28;
-        piece.material.dampingViscosity = 6.0e3;
-        Motion motion;
-        motion.addRotation(0.0, 0.06, (Vec3(-0.9, 0.2, -0.3) + 0.2 * noise.vector()).normalized(), 0.9 + 0.2 * noise(), Vec3(0.71, 0.0, 0.47),
-                           Motion::Frame::World, 0.0, 0.0);
-        std::vector<int> corners;
-        for (int i : {0, 1, 2, 7, 8, 9})
-            for (int j : {0, 1, 2, 4, 5, 6}) corners.push_back(10 * j + i);
-        std::ranges::sort(corners);
-        piece.pins = {pinned(corners, false, motion)};
-        ObstacleSettings floor;
-        floor.name = "floor";
-        floor.shape = Shape::box(Vec3(0.7, -1.28 + 0.1 * noise(), 0.5), Vec3(3.0, 1.0, 3.0));
-        FabricSettings settings;
-        settings.maxHalvings = n % 3;
-        settings.newton = 1 + n % 2;
-        FabricRun run(piece, settings, {floor});
+        const LedSheet sheet = pressedIntoAFloor(n);
+        FabricRun run(sheet.piece, lastAttempts(n), {sheet.solid});
         jams += endsInAJam(run, 50, 1.25e-3) ? 1 : 0;
+    }
+    EXPECT_GT(jams, 0);
+}
+
+/// What solids stop the solve knows of: pins pay for what is stretched, and where it gains all the same the run ends.
+TEST(FabricWork, JamsEndRunsOfSolverGridToo)
+{
+    int jams = 0;
+    for (int n = 0; n < 6; ++n) {
+        SCOPED_TRACE("sheet " + std::to_string(n));
+        const LedSheet sheet = n % 2 == 0 ? drawnOverABall(n) : pressedIntoAFloor(n);
+        Settings settings = testing::gridSettings(n % 4 < 2 ? TransferMethod::Apic : TransferMethod::PolyPic);
+        settings.gravity = Vec3(0.0, -kEarthGravity, 0.0);
+        testing::GridRun run({sheet.piece}, settings, std::array{sheet.solid});
+        jams += endsInAJam(run, 30, n < 3 ? 1.0e-3 : 4.0e-4) ? 1 : 0;
     }
     EXPECT_GT(jams, 0);
 }

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/groups.h"
+#include "sim/step_report.h"
+
+#include <span>
+
+namespace sim {
+
+// What leads fabric where it cannot follow (pins that draw it into a solid) leaves it with energy that nothing gave. The fabric's motion pays for
+// it; what that cannot pay stays owed (FabricState::owed), and later steps pay. Where more is owed than can ever be paid, fabric is jammed.
+
+/// Work of pins, solids and the liquid on the fabric in a step [erg].
+double workFromOutside(const EnergyChanges& changes);
+
+/// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift. Returns what
+/// it took.
+/// @param mass  of each vertex, with what it has absorbed [g]
+double slowDown(double energy, const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, FabricState& state);
+
+/// Pays the energy [erg] that is due with the motion; the rest is owed from now on. Returns what was paid.
+double payOwed(double due, const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, FabricState& state);
+
+/// Throws RunError if the fabric owes more than all of its motion has, and than can be let pass.
+/// @param kinetic  energy of its motion, or of one that is not felt [erg]
+void refuseJam(const Fabric& fabric, const FabricState& state, double kinetic);
+
+}  // namespace sim
