@@ -20,7 +20,9 @@ struct Description {
 
 Description partsOf(const SchemaJson& schema)
 {
-    static const std::regex form(R"(^(.*?)(?:,? ?\[([^\]]+)\])?((?:, (?:(?:above|at least|at most|below) -?[0-9.e+-]+|-?[0-9.e+-]+ to -?[0-9.e+-]+))*)$)");
+    static const std::string n = "-?[0-9][0-9.e+-]*", unit = R"((?:(?:^| )\[([A-Za-z1][A-Za-z0-9/^ ]*)\])?)";
+    static const std::regex form("^(.*?)" + unit + "((?:, above " + n + "(?:, (?:below|at most) " + n + ")?|, at (?:least|most) " + n + "|, " + n +
+                                 " to " + n + ")?)$");
     Description parts;
     if (!schema.contains("description")) return parts;
     const std::string text = schema["description"].get<std::string>();
@@ -30,9 +32,22 @@ Description partsOf(const SchemaJson& schema)
 }
 
 /// Numbers with bounds and without, which come with a text for their unit.
-bool isNumber(const SchemaJson& schema) { return schema.contains("anyOf") && schema["anyOf"].size() == 2 && schema["anyOf"][0].value("type", SchemaJson()) == "number"; }
+bool isNumber(const SchemaJson& schema)
+{
+    return schema.contains("anyOf") && schema["anyOf"].size() == 2 && schema["anyOf"][0].value("type", SchemaJson()) == "number";
+}
 
-std::string code(const SchemaJson& value) { return fmt::format("`{}`", value.is_string() ? value.get<std::string>() : value.dump()); }
+/// Numbers as they were meant, whatever the precision in which they are kept.
+std::string textOf(const SchemaJson& value)
+{
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (!value.is_array()) return value.is_string() ? value.get<std::string>() : value.dump();
+    std::vector<std::string> all;
+    for (const SchemaJson& one : value) all.push_back(textOf(one));
+    return fmt::format("[{}]", fmt::join(all, ", "));
+}
+
+std::string code(const SchemaJson& value) { return fmt::format("`{}`", textOf(value)); }
 
 std::string joined(const std::vector<std::string>& all, const char* between)
 {
@@ -129,7 +144,7 @@ std::string table(const std::string& name, const SchemaJson& schema, const std::
 std::string keyTables()
 {
     const SchemaJson schema = SchemaJson::parse(sceneSchema());
-    SchemaJson single = {{"properties", SchemaJson::object()}};
+    SchemaJson single = {{"properties", SchemaJson::object()}};  // keys without others below them
     std::string sections;
     for (const auto& [name, section] : schema["properties"].items()) {
         std::string rows;
