@@ -7,7 +7,7 @@
 
 namespace app {
 
-/// energy_ledger.csv: where the energy of a run has gone up to each step (model-fluid 9.5).
+/// energy_ledger.csv: where the energy of a run has gone up to each step (sim/README.md, Energy).
 class EnergyLedger {
  public:
     /// How far it has come.

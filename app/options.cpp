@@ -149,7 +149,7 @@ void addProbe(CLI::App& program, Options& options)
 void addSchema(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand("schema", "write the JSON schema of scene files or studies, by which editors complete and check them");
-    verb->add_option("kind", options.scene, "scene (default) or study")->check(CLI::IsMember({"scene", "study"}));
+    verb->add_option("kind", options.scene, "scene (default), study, or keys: the keys of scenes as tables in Markdown")->check(CLI::IsMember({"scene", "study", "keys"}));
     verb->add_option("--out", options.out, "file to write (default: to standard output)");
     verb->callback([&options] { options.verb = Verb::Schema; });
 }

@@ -6,7 +6,7 @@
 namespace sim {
 
 /// Books what each part of a step does to the energy of liquid and fabric, as the difference before and after it on the carrier it works
-/// on, particles or faces (model-fluid 9.5). Does nothing, and measures nothing, unless the workspace asks for it.
+/// on, particles or faces (sim/README.md, Energy). Does nothing, and measures nothing, unless the workspace asks for it.
 class EnergyBook {
  public:
     EnergyBook(const State& state, const Settings& settings, const Workspace& work, StepReport& report);

@@ -5,7 +5,7 @@
 
 namespace sim {
 
-/// Where energy goes in a step (model-fluid 9.5): stages by the energy before and after them, forces by their work along the move that
+/// Where energy goes in a step (sim/README.md, Energy): stages by the energy before and after them, forces by their work along the move that
 /// was made. What they do not explain is the error of the solves.
 enum class EnergyChange {
     Sources,           ///< liquid that was emitted, or left the domain, and the work of pressing it in

@@ -341,7 +341,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);
         clock.start(Stage::Mixture);
         const std::optional<FabricFaces> faces = facesOf(work);
-        // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (time-splitting 2).
+        // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (liquid/README.md, Reflection).
         plan.reflects = false;
         plan.isMixed = work.coupling->mixture.find(grid, work.obstacleField, meanGravity(settings, state, dt, true), dt, state.fabric,
                                                    faces ? &*faces : nullptr, work.grid);

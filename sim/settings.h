@@ -24,7 +24,7 @@ struct TimeSettings {
     double maxCflLiquid = 3.0; ///< Hard bound on the same number in every mode [-]
     double maxCflFabric = 1.0 / 3.0;  ///< The fabric's bound, read by fabric.solver grid only [-]
     double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]
-    TimeIntegrator integrator = TimeIntegrator::Reflected;  ///< Reflected: of two steps the first reflects (time-splitting 2)
+    TimeIntegrator integrator = TimeIntegrator::Reflected;  ///< Reflected: of two steps the first reflects (liquid/README.md, Reflection)
 
     bool reflects() const { return integrator == TimeIntegrator::Reflected; }
 };
@@ -94,12 +94,12 @@ enum class BendingModel { ShapeOperator, Hinge };
 enum class HingeMeasure { Angle, Sin, Tan };
 enum class TorsionModel { Ellipse, Polar };
 
-/// How fabric is solved for (model-fabric, contact-design); what it is made of stands in FabricMaterial (fabric/piece.h).
+/// How fabric is solved for (fabric/README.md, The step in vertices); what it is made of stands in FabricMaterial (fabric/piece.h).
 struct FabricSettings {
     FabricSolver solver = FabricSolver::Vertex;  ///< Off: pins follow their motions, all else stays
     MembraneModel membrane = MembraneModel::StVk;
     BendingModel bending = BendingModel::ShapeOperator;
-    double hingeConstant = 1.0;       ///< c of model-fabric 2.3, bending hinge only; the published code has 3 [-]
+    double hingeConstant = 1.0;       ///< c (fabric/shells/README.md, Hinges), bending hinge only; the published code has 3 [-]
     HingeMeasure hingeMeasure = HingeMeasure::Angle;
     TorsionModel torsion = TorsionModel::Ellipse;  ///< Ellipse: St-Venant; Polar: G times the polar moment, as published
     bool twist = true;                ///< yarns resist twisting
@@ -146,7 +146,7 @@ struct CohesionSettings {
     bool obstacle = true;       ///< … and on solids
 };
 
-/// How liquid and fabric act on each other (model-fluid 6, 8, 9).
+/// How liquid and fabric act on each other (coupling/README.md, Mixture).
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
     DragFraction dragFraction = DragFraction::Fabric;

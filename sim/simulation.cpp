@@ -18,7 +18,7 @@ namespace sim {
 
 namespace {
 
-/// Reach of the relaxation: a little more than the spacing of the finest source (model-fluid 5.4), at most a cell [cm].
+/// Reach of the relaxation: a little more than the spacing of the finest source (particles/README.md, Relaxation), at most a cell [cm].
 double relaxReach(const Scene& scene)
 {
     const RelaxSettings& relax = scene.settings.liquid.relax;

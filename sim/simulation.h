@@ -31,7 +31,7 @@ class Simulation {
     const Forces& forces() const { return work_.momentum.forces(); }
     /// Energies of the initial state; afterwards the step's report tells them.
     Energies energies() const;
-    /// From now on reports tell where energy goes (model-fluid 9.5).
+    /// From now on reports tell where energy goes (sim/README.md, Energy).
     void bookEnergy();
 
     /// One time step towards `until` [s]: what is left is cut into equal parts no longer than the largest stable step, so that the time

@@ -77,7 +77,7 @@ void exchange(State& state, const Settings& settings, const Vec3& gravity, Works
     report.absorbedMass = parallelSum(state.fabric.absorbed.size(), [&](std::size_t v) { return state.fabric.absorbed[v]; });
     [[maybe_unused]] const Ledger& ledger = state.ledger;
     SIM_CHECK(std::abs(report.liquidMass + report.absorbedMass + ledger.leftMass - ledger.emittedMass) <=
-              1.0e-12 * ledger.emittedMass);  // model-fluid 9.4
+              1.0e-12 * ledger.emittedMass);  // (coupling/README.md, What is kept)
 }
 
 void findFabricEnergies(const State& state, const Settings& settings, const Workspace& work, StepReport& report)

@@ -64,7 +64,7 @@ struct Workspace {
     std::unique_ptr<LedFabric> ledFabric;
 };
 
-/// Advance liquid and fabric by dt [s] (model-fluid 15.1). What is not there runs none of its stages.
+/// Advance liquid and fabric by dt [s] (sim/README.md, The step). What is not there runs none of its stages.
 StepReport step(State& state, const Scene& scene, Workspace& work, double dt);
 
 /// With the integrator reflected, particles hold the velocities that they had halfway through their last step. Energies are those of
@@ -75,10 +75,10 @@ double potentialLag(const State& state, const Settings& settings);
 /// Is the next step to reflect, if it is not the second of two? Liquid near fabric is not reflected.
 bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work);
 
-/// Largest stable time step from here [s], by the scene's mode and bounds (model-fluid 15.1), not yet fitted to a frame.
+/// Largest stable time step from here [s], by the scene's mode and bounds (sim/README.md, Length of a step), not yet fitted to a frame.
 double chooseTimeStep(const Settings& settings, const State& state, double maxSpeed);
 
-/// dt (max speed + sqrt(h |g|)) / h (model-fluid 15.1).
+/// dt (max speed + sqrt(h |g|)) / h (sim/README.md, Length of a step).
 double cflNumber(const Settings& settings, double maxSpeed, double dt);
 
 }  // namespace sim

@@ -78,7 +78,7 @@ struct Ledger {
     Vec3 leftMomentum = Vec3::Zero();           ///< [g cm/s]
 };
 
-/// Energies of the fabric (model-fabric 6.6) [erg].
+/// Energies of the fabric (fabric/README.md, Energy from nothing) [erg].
 struct FabricEnergies {
     double kinetic = 0.0, potential = 0.0;
     double stretching = 0.0, bending = 0.0, twisting = 0.0;   ///< of yarns
@@ -89,7 +89,7 @@ struct FabricEnergies {
     double total() const { return kinetic + potential + internal(); }
 };
 
-/// Energies of the liquid (model-fluid 4.7) and the fabric [erg].
+/// Energies of the liquid (liquid/README.md, Energy) and the fabric [erg].
 struct Energies {
     double kinetic = 0.0;    ///< of the particles' velocities, ½ m v²
     double modal = 0.0;      ///< of the higher modes around them
@@ -103,7 +103,7 @@ struct StepReport {
     std::array<double, kStages> stageSeconds{};  ///< 0 for a stage that did not run …
     std::array<bool, kStages> stageRan{};        ///< … which is told here
     double dt = 0.0;                             ///< [s]
-    double cfl = 0.0;                            ///< model-fluid 15.1, at the beginning of the step [-]
+    double cfl = 0.0;                            ///< cflNumber (step.h), at the beginning of the step [-]
     double maxSpeed = 0.0;                       ///< of the particles at the end of the step; where it reflects, along their paths [cm/s]
     SolveReport viscosity;                       ///< if it was solved for
     SolveReport pressure;

@@ -32,7 +32,7 @@ struct GeneratedFabric {
 /// A sheet of triangles on a lattice, wherever the numbering starts and however it runs; nothing if it is none.
 std::optional<GeneratedFabric> recogniseClothGrid(const ListedFabric& fabric);
 
-/// Yarns over and under each other, with a border or without, in the order of scenes-and-outputs 3.3.
+/// Yarns over and under each other, with a border or without, in the order of our generator (fabric/README.md, Weaves).
 std::optional<GeneratedFabric> recogniseWeave(const ListedFabric& fabric);
 
 /// One yarn: straight, or of a few points.

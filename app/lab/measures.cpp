@@ -45,7 +45,7 @@ double massBetween(const sim::LiquidParticles& liquid, int axis, double from, do
 }
 
 /// Angular momentum about the centre of mass: of the particles, and of how their velocities change around them (m dx/4
-/// per mode and cell, model-fluid 4.6) [g cm^2/s].
+/// per mode and cell, transfer/README.md, Conservation) [g cm^2/s].
 Vec3 spin(const sim::LiquidParticles& liquid, double dx)
 {
     const Vec3 middle = meanOf(liquid, [&](std::size_t p) { return liquid.position(p); });

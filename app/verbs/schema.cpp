@@ -1,6 +1,7 @@
 #include "app/schema/schema.h"
 
 #include "app/output_files.h"
+#include "app/schema/key_table.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>
@@ -9,9 +10,9 @@ namespace app {
 
 int runVerbSchema(const Options& options, const Parts&)
 {
-    const std::string schema = options.scene == "study" ? studySchema() : sceneSchema();
-    if (options.out.empty()) fmt::print("{}", schema);
-    else writeWhole(options.out, schema);
+    const std::string text = options.scene == "keys" ? keyTables() : options.scene == "study" ? studySchema() : sceneSchema();
+    if (options.out.empty()) fmt::print("{}", text);
+    else writeWhole(options.out, text);
     return 0;
 }
 

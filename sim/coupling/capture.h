@@ -14,7 +14,7 @@ namespace sim {
 /// some of its mass, at its own velocity. Mass and momentum are kept to round-off.
 ///
 /// Law fabric: a vertex in liquid asks for rate · dt of what its pores hold, of which there is as much as there is fabric: how finely that
-/// is meshed, and how large cells are, does not enter. Law published: for a share of the liquid in the cells around (model-fluid 9.1).
+/// is meshed, and how large cells are, does not enter. Law published: for a share of the liquid in the cells around (coupling/README.md, Uptake).
 class Capture {
  public:
     /// @param nominalMass  of a particle [g]

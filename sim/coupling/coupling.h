@@ -8,7 +8,7 @@
 
 namespace sim {
 
-/// Everything that liquid and fabric do to each other (model-fluid 6, 8, 9), in the order in which a step does it.
+/// Everything that liquid and fabric do to each other (coupling/README.md, What is kept), in the order in which a step does it.
 struct Coupling {
     const Fabric& fabric;
     SortedVertices vertices;

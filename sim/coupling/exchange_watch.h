@@ -10,7 +10,7 @@
 namespace sim {
 
 /// In builds with checks: over a stage of the exchange, liquid and fabric together keep their water, and their momentum
-/// but for what pins hold back (model-fluid 9.4).
+/// but for what pins hold back (coupling/README.md, What is kept).
 class ExchangeWatch {
  public:
     /// @param order  of particles whose masses are sorted already and whose modes are not; else null

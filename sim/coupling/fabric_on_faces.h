@@ -10,8 +10,8 @@
 
 namespace sim {
 
-/// The fabric as liquid meets it: masses, volumes and directions on the faces of the blocks that vertices reach (model-fluid 3). Plain
-/// P2G, without modes.
+/// The fabric as liquid meets it: masses, volumes and directions on the faces of the blocks that vertices reach (coupling/README.md, Fabric on the
+/// faces). Plain P2G, without modes.
 class FabricOnFaces {
  public:
     /// @param around  the liquid, found before each call of spread, where envelopes are to be known; else null

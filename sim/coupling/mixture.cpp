@@ -76,7 +76,7 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
     });
 }
 
-/// Fabric draws liquid to where its pores are empty (model-fluid 6.1).
+/// Fabric draws liquid to where its pores are empty (coupling/README.md, Suction).
 void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid)
 {
     suction_.find(vertices_, state, grid, liquidBlock_, liquid);

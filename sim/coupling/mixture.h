@@ -12,8 +12,8 @@
 
 namespace sim {
 
-/// Liquid and fabric on the faces that both reach: drag, and the pressure that keeps the mixture's volume (model-fluid 6). The fabric's
-/// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off (model-fabric 13.6).
+/// Liquid and fabric on the faces that both reach: drag, and the pressure that keeps the mixture's volume (coupling/README.md, Mixture). The fabric's
+/// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off.
 class Mixture {
  public:
     /// @param around  found before each call of find; goes by it where drag is by the fabric's own fraction

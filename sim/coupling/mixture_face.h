@@ -10,7 +10,7 @@ struct MixtureFace {
     double fraction = 0.0;                          ///< ψ of the cell's volume that fibres fill [-]
 };
 
-/// Drag between the two phases solved for on one face, elasticity left out (model-fluid 6.2, 6.3):
+/// Drag between the two phases solved for on one face, elasticity left out (coupling/README.md, Mixture):
 ///   u_f = (m_f u_f* + Q m_s u_s* − dt (V_f + Q V_s) ∇p) / C,  u_s = (m_s u_s* + P m_f u_f* − dt (V_s + P V_f) ∇p) / C_s,
 ///   (1 − ψ) u_f + ψ u_s = F u_f* + S u_s* − dt β ∇p.
 struct MixtureSplit {

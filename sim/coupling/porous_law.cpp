@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kSeriesEnd = 0.4;           ///< fraction up to which the series for flow across holds [-]
 constexpr double kLeastPermeability = 1.0e-20;  ///< [cm^2]
-constexpr double kErgun = 0.14288690166235205;  ///< 1.75 / √150, model-fluid 8.2 [-]
-constexpr double kMostDrag = 1.0e63;         ///< model-fluid 8.2 [g/(cm^3 s)]
+constexpr double kErgun = 0.14288690166235205;  ///< 1.75 / √150 (coupling/README.md, Drag) [-]
+constexpr double kMostDrag = 1.0e63;         ///< where permeability all but vanishes [g/(cm^3 s)]
 
 /// In squares of the fibre diameter.
 double permeabilityAlong(double f) { return (-std::log(f) - 1.476 + 2.0 * f - 0.5 * f * f) / (16.0 * f); }

@@ -12,10 +12,10 @@ struct Permeability {
 /// Of parallel fibres in a square array.
 /// @param fraction  of the volume that fibres fill, (0..1]
 /// Source: Drummond and Tahir 1984. Their series for flow across turns up again beyond 0.4; from there on it falls as that along does
-/// (model-fluid 8.2).
+/// (coupling/README.md, Drag).
 Permeability permeability(double fraction, double fibreDiameter);
 
-/// What liquid feels in fabric, from the fabric's pores and the liquid's constants (model-fluid 8).
+/// What liquid feels in fabric, from the fabric's pores and the liquid's constants (coupling/README.md, Drag).
 class PorousLaw {
  public:
     PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid, const CouplingSettings& coupling);
@@ -24,7 +24,7 @@ class PorousLaw {
     double suction(double fraction) const;
     /// σ cos θ/r_p: suction per fibres' over pores' volume; none of what does not wet, as such liquid stays out [dyn/cm^2].
     double suctionOfPores() const { return suctionScale_; }
-    /// κ: rate at which fabric takes in what is in the cells around it [1/s] (model-fluid 9.1).
+    /// κ: rate at which fabric takes in what is in the cells around it [1/s] (coupling/README.md, Uptake).
     double captureRate(double fraction, double cell) const;
     /// c: drag per volume and relative speed [g/(cm^3 s)]: Darcy's, and where it is not linear the one of Yazdchi and Luding 2012.
     /// @param permeability  in the direction of the flow [cm^2]
@@ -52,11 +52,11 @@ class PorousLaw {
     double dragOf(double permeability, double fraction, double inertial) const;
 };
 
-/// T_aa of the drag tensor: drag on the flow along axis a; between the least and the largest of the two (model-fluid 8.2).
+/// T_aa of the drag tensor: drag on the flow along axis a; between the least and the largest of the two (coupling/README.md, Drag).
 /// @param shape   of the fabric: 1 = yarns, 0 = cloth, or between
 /// @param square  o_a², with the direction o: tangent of yarns, normal of cloth
 double dragAlongAxis(const PorousLaw::Drag& drag, double shape, double square);
-/// χ_a: suction along axis a: 2 along yarns and in the plane of cloth, 1 across (model-fluid 8.1).
+/// χ_a: suction along axis a: 2 along yarns and in the plane of cloth, 1 across (coupling/README.md, Suction).
 double suctionAlongAxis(double shape, double square);
 
 }  // namespace sim

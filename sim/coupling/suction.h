@@ -8,7 +8,7 @@
 
 namespace sim {
 
-/// Capillary suction of fabric on the liquid around: P = P_c (1 − S) in the cells that vertices reach (model-fluid 8.1). S is how full a
+/// Capillary suction of fabric on the liquid around: P = P_c (1 − S) in the cells that vertices reach (coupling/README.md, Suction). S is how full a
 /// cell is, or its fabric's pores, whichever is more: what is wet through does not draw, nor does what is under liquid.
 class Suction {
  public:

@@ -13,7 +13,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kStable = 0.4;  ///< of h²/(2D): explicit steps are safe (model-fluid 9.2) [-]
+constexpr double kStable = 0.4;  ///< of h²/(2D): explicit steps are safe (coupling/README.md, Wicking) [-]
 
 /// At rest: the length of an edge, or the least height of a face [cm].
 double leastExtent(const Fabric& fabric, const std::array<int, 3>& v)

@@ -12,7 +12,7 @@
 namespace sim {
 
 /// Liquid that fabric holds moves along yarns and through cloth: to where it is drier, down, and against the fabric's acceleration
-/// (model-fluid 9.2; Darcy's law with the pores' suction). What leaves a vertex arrives at others, with its momentum.
+/// (Darcy's law with the pores' suction: coupling/README.md, Wicking). What leaves a vertex arrives at others, with its momentum.
 class Wicking {
  public:
     Wicking(const Fabric& fabric, const WetElements& elements, const Settings& settings);

@@ -181,7 +181,7 @@ Vec3 anyAcross(const Vec3& t)
     return (e - e.dot(t) * t).normalized();
 }
 
-/// The reference axis u of one edge, for the next: parallel transport (model-fabric 1.1).
+/// The reference axis u of one edge, for the next: parallel transport (fabric/rods/README.md, Kinematics).
 Vec3 carriedAcross(const Vec3& u, const Vec3& from, const Vec3& to)
 {
     const Triple<double> t = toTriple(to);

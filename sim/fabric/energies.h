@@ -9,7 +9,7 @@
 
 namespace sim {
 
-/// Elastic energies (model-fabric 6.6); the others are 0.
+/// Elastic energies (fabric/rods/README.md, Energies; fabric/shells/README.md, Membrane); the others are 0.
 FabricEnergies elasticEnergies(const FabricState& state, const Rods& rods, const Shells& shells);
 
 /// The same, which remembers where it was asked last: a step asks for where the one before has ended.

@@ -140,7 +140,7 @@ inline Vec3 meanVelocity(const Fabric& fabric, const FabricState& state)
     return momentum / mass;
 }
 
-/// Volume of the pores of a vertex [cm^3]: its share of the envelope less that of the fibres (model-fluid 9).
+/// Volume of the pores of a vertex [cm^3]: its share of the envelope less that of the fibres (fabric/README.md, Materials).
 inline double poreVolume(const Fabric& fabric, std::size_t v)
 {
     return fabric.volume[v] * (1.0 - fabric.materials[fabric.vertexMaterial[v]].volumeFraction);

@@ -38,7 +38,7 @@ enum class Weave { Plain, Twill, Herringbone };
 /// Yarns along u and v on lines one spacing apart, above and below each other: one vertex per crossing and yarn.
 /// The first and last line of each direction are the border: it has no crossings; with `borders` four yarns run along
 /// it through the ends of all the others and the corners, sharing their vertices. Yarns along u come first, then those
-/// along v, then the border (scenes-and-outputs 3.3).
+/// along v, then the border (fabric/README.md, Weaves).
 struct WovenYarns {
     Vec2i yarns = Vec2i(3, 3);                  ///< along u, along v, the border included, at least 3 each
     double spacing = 0.0;                       ///< [cm]

@@ -7,14 +7,14 @@
 
 namespace sim {
 
-/// What liquid does to each vertex in a step, with the liquid's velocity solved for (model-fabric 13.6): M (v − v*) = impulse − drag v
+/// What liquid does to each vertex in a step, with the liquid's velocity solved for (coupling/README.md, Mixture): M (v − v*) = impulse − drag v
 /// beside the fabric's own forces, by components.
 struct LiquidLoads {
     std::vector<Vec3> drag;     ///< Σ D' of the faces around; 0 where there is no liquid [g]
     std::vector<Vec3> impulse;  ///< Σ D' ũ of the liquid and of its pressure [g cm/s]
 };
 
-/// The same on the faces of a grid with the fabric's cells (model-fabric 4.3).
+/// The same on the faces of a grid with the fabric's cells (coupling/README.md, Mixture).
 struct FaceLoads {
     const BlockGrid& grid;
     const BlockArray<double, 3>& drag;     ///< D' [g]

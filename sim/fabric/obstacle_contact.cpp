@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kStiffness = 50.0;       ///< of the penalty relative to m/h² (contact-design 3.2) [-]
+constexpr double kStiffness = 50.0;       ///< of the penalty relative to m/h² (fabric/README.md, Solids) [-]
 constexpr double kActivation = 0.25;      ///< distance at which it begins to act, in radii of the fabric [-]
 
 }  // namespace

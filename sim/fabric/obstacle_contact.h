@@ -45,7 +45,7 @@ struct ObstacleContact {
 };
 
 /// Fabric on obstacles: a penalty on the signed distance of vertices, of the middles of edges and of the points at which edges and faces are
-/// nearest, at the end-of-step pose (contact-design 3.2); SolidGuard keeps them in front of the surface. With it Coulomb's friction
+/// nearest, at the end-of-step pose (fabric/README.md, Solids); SolidGuard keeps them in front of the surface. With it Coulomb's friction
 /// (friction.h) relative to the obstacle, which takes its forces along where it turns. At nearest
 /// points, which wander along their edge or face, it remembers those of the edge or face.
 class FabricObstacles {

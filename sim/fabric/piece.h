@@ -10,7 +10,7 @@
 
 namespace sim {
 
-/// What a piece of fabric is made of. Elastic energies of porous fabric carry the packing factor χ = φ² (model-fabric 0.2).
+/// What a piece of fabric is made of. Elastic energies of porous fabric carry the packing factor χ = φ² (fabric/README.md, Materials).
 struct FabricMaterial {
     double young = 0.0;             ///< of the fibres; required [dyn/cm^2]
     double poisson = 0.35;          ///< [-]

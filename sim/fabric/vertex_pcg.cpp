@@ -5,7 +5,7 @@
 #include <numeric>
 
 // Conjugate gradients for A = S + K + C. The strands' S is never multiplied with: as z = S⁻¹ r, the product S p follows from the
-// recurrence of p itself (contact-design 3.3). What strands do by themselves is done group by group in one pass.
+// recurrence of p itself (fabric/README.md, Linear solve). What strands do by themselves is done group by group in one pass.
 
 namespace sim {
 

@@ -17,7 +17,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: half of contact-design 3.3, for the book of energy [-]
+constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: looser ones act as damping (fabric/README.md, Linear solve) [-]
 constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
 constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
 constexpr double kRoundings = 4.0;            ///< of places in a step: slower motion is none [-]

@@ -18,7 +18,7 @@
 
 namespace sim {
 
-/// `fabric.solver: vertex`: backward Euler in vertex space with the pairwise-limited Newton step of contact-design 3.3. Nothing ever
+/// `fabric.solver: vertex`: backward Euler in vertex space with a pairwise-limited Newton step (fabric/README.md, The step in vertices). Nothing ever
 /// crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
 class VertexSolver {
  public:

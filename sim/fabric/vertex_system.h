@@ -39,7 +39,7 @@ struct LinearReport {
 
 /// The Newton system in vertex space, A = S + K + C: S the strands with their inertia, the same-side part of their contacts and
 /// obstacles, factored exactly; K the cloth; C contact between different strands, and what shared vertices tie together.
-/// Solved by conjugate gradients with S and a block-incomplete factor of K as preconditioner (contact-design 3.3).
+/// Solved by conjugate gradients with S and a block-incomplete factor of K as preconditioner (fabric/README.md, Linear solve).
 class VertexSystem {
  public:
     VertexSystem(const Fabric& fabric, const FabricSettings& settings);

@@ -10,7 +10,7 @@ namespace sim {
 
 class OpenFaces;
 
-/// Obstacles on the grid (model-fluid 2.4, 2.5): open fraction, room and velocity of faces, distance of cells. Blocks far from every
+/// Obstacles on the grid (grid/README.md, Solids on the grid): open fraction, room and velocity of faces, distance of cells. Blocks far from every
 /// solid share one set of numbers; those of a block near a resting solid are computed when the block appears, and kept.
 class ObstacleField {
  public:

@@ -4,9 +4,9 @@
 
 namespace sim {
 
-/// Fraction of a square face that is outside the solid, from the distances at its corners, going round (model-fluid 2.5), and the share
-/// of the edge from each corner to the next before the surface, read where these two are on different sides. Without a corner outside it
-/// is closed: also a face in the plane of a wall, all of whose corners are 0.
+/// Fraction of a square face that is outside the solid, from the distances at its corners, going round (grid/README.md, Open fractions), and the
+/// share of the edge from each corner to the next before the surface, read where these two are on different sides. Without a corner outside it is
+/// closed: also a face in the plane of a wall, all of whose corners are 0.
 double openFraction(const std::array<double, 4>& distance, const std::array<double, 4>& crossing);
 
 /// How far the faces of one block are open: by the distances at their corners, and, where more than one surface or an edge of a solid is on

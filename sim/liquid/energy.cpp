@@ -31,7 +31,7 @@ double weightWork(const LiquidParticles& particles, const Vec3& gravity, double 
 
 namespace {
 
-/// ⟨s_d, s_d⟩ of the 1-D factor of degree d (model-fluid 4.3), lengths in cells.
+/// ⟨s_d, s_d⟩ of the 1-D factor of degree d (transfer/README.md, Modes), lengths in cells.
 double squareNorm(const Basis1D& basis, int degree)
 {
     double norm = 0.0;

@@ -16,7 +16,7 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity);
 /// What weight does to particles that go on with their velocities for `duration` [s]: [erg].
 double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration);
 
-/// All energies of the liquid at the present positions, from the modes in the particles' own rows (model-fluid 4.7). The step itself
+/// All energies of the liquid at the present positions, from the modes in the particles' own rows (liquid/README.md, Energy). The step itself
 /// takes kinetic and modal energy from G2P, where they cost nothing; this is for the initial state and for tests.
 /// @param order  of particles whose modes are not sorted yet; else null
 Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);

@@ -7,8 +7,8 @@ namespace sim {
 /// Keeps the pressure from giving energy to faces that solids close more of than they take of their mass. The projection is orthogonal where a face
 /// weighs what is open of it; but it weighs the room that solids leave it, so that liquid which is pressed through a narrow opening would take
 /// along what is behind the solid for nothing (Ng, Min and Gibou 2009, "An efficient fluid-solid coupling algorithm for single-phase flows", weighs
-/// by what is open; model-fluid 6.2 by room, for the rest of liquid at slanted walls). Of the energy that the projection gives to a face, seen from
-/// its wall, open/room is the face's: where walls move always, else where all such faces together have gained any.
+/// by what is open; here it is by room, for the rest of liquid at slanted walls: liquid/README.md, Openings). Of the energy that the projection
+/// gives to a face, seen from its wall, open/room is the face's: where walls move always, else where all such faces together have gained any.
 class GainAtWalls {
  public:
     /// Velocities before the pressure [cm/s].

@@ -83,7 +83,7 @@ struct RowFlux {
     return out;
 }
 
-/// Rows of the matrix for one block (model-fluid 6.4).
+/// Rows of the matrix for one block (liquid/README.md, Pressure).
 void assembleBlock(const BlockGrid& grid, int b, const LiquidGrid& liquid, PressureWorkspace& work)
 {
     const RowAccess rows(grid, b);

@@ -36,7 +36,8 @@ void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, co
 void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work);
 
 /// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the
-/// others, and subtract dt β grad p (model-fluid 6.4, 6.5). Needs preparePressure. All faces with liquid that are not closed are valid afterwards.
+/// others, and subtract dt β grad p (liquid/README.md, Pressure). Needs preparePressure. All faces with liquid that are not closed are valid
+/// afterwards.
 /// @param inflow    cells whose divergence is to be their rates instead; where a cell is named more than once, the sum
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
 SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,

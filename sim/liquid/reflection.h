@@ -11,7 +11,7 @@ struct ReflectionWorkspace {
 };
 
 /// Advection-reflection after Zehnder, Narain and Thomaszewski 2018, for liquid with a surface and with weight
-/// (time-splitting 2): r = u + (P(u*) − u*), with u the velocities that solvePressure just left and u* those straight
+/// (liquid/README.md, Reflection): r = u + (P(u*) − u*), with u the velocities that solvePressure just left and u* those straight
 /// after P2G. Only the divergence that advection made is reflected: what gravity and its pressure do to u stays as it
 /// is. Particles that gather r and move with u make of this step and the next, a plain one of the same length, a
 /// method of second order.

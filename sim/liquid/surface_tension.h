@@ -12,7 +12,7 @@ struct SurfaceTensionWorkspace {
         step;  ///< of the pressure across each lower face, upwards: ±σ κ between liquid and air, else 0 [dyn/cm²]
 };
 
-/// The step of the pressure, σ κ, across every face between liquid and air (model-fluid 6.8). Needs findSurface.
+/// The step of the pressure, σ κ, across every face between liquid and air (liquid/README.md, Surface tension). Needs findSurface.
 void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,
                       const LiquidGrid& liquid, SurfaceTensionWorkspace& work);
 

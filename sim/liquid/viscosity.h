@@ -16,7 +16,7 @@ struct ViscosityWorkspace {
 };
 
 /// Implicit steps of viscosity, settings.viscositySubsteps of them, over dt [s] on the velocities of the liquid's faces, before the
-/// pressure makes them divergence-free (model-fluid 7): first order in time and stable for any viscosity. Conjugate gradients from the
+/// pressure makes them divergence-free (liquid/README.md, Viscosity): first order in time and stable for any viscosity. Conjugate gradients from the
 /// velocities as they are, preconditioned by multigrid; the residual is relative to the largest momentum of a
 /// face. Not converged after solver.maxIterations: told by the report, and the velocities are the last iterate's.
 SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,

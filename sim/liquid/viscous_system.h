@@ -8,7 +8,7 @@
 namespace sim {
 
 /// The symmetric positive system of one implicit step of viscosity on the faces of the liquid (Batty and Bridson 2008,
-/// "Accurate Viscous Free Surfaces for Buckling, Coiling, and Rotating Liquids"; model-fluid 7): the minimum over u of
+/// "Accurate Viscous Free Surfaces for Buckling, Coiling, and Rotating Liquids"; liquid/README.md, Viscosity): the minimum over u of
 ///     ½ Σ m (u − u*)² + dt μ Σ V |e(u)|²,  e = ½ (grad u + (grad u)ᵀ).
 /// m are the masses that P2G put on the faces, so that the step conserves the momentum of the particles and takes
 /// energy from them. Normal strains stand in the middles of cells, shears on their edges; the volume V of a strain is

@@ -4,7 +4,7 @@
 
 namespace sim {
 
-/// Give the closed faces what the walls demand (model-fluid 6.6): with friction c, the obstacle's velocity plus (1 − c) of the
+/// Give the closed faces what the walls demand (liquid/README.md, Walls): with friction c, the obstacle's velocity plus (1 − c) of the
 /// liquid's relative velocity along the wall, as far as the liquid in front reaches. Behind plane walls that lie in planes of faces it is the
 /// mirror image of the liquid in front instead: the normal component odd about the wall, the tangential ones even.
 /// @param goesStraight  at walls that liquid sticks to its velocity along them goes on behind them as in front, through that of the wall where

@@ -10,7 +10,7 @@ namespace sim {
 
 /// Bulk liquid: one array per quantity, kept in the order of the last sort (particle_order.h).
 ///
-/// A particle's velocity is a polynomial around it, one per component (model-fluid 4): modes[axis][r] are its
+/// A particle's velocity is a polynomial around it, one per component (transfer/README.md, Modes): modes[axis][r] are its
 /// monomial coefficients in the canonical order of transfer/modes.h, in units of the cell: lengths in dx, so that every mode is a velocity
 /// [cm/s] whatever its degree. There is no other record of the velocity.
 struct LiquidParticles {
@@ -27,7 +27,7 @@ struct LiquidParticles {
     double* mode(int axis, int r) { return modes[axis].data() + r * modeStride; }
     Vec3 position(std::size_t p) const { return {x[0][p], x[1][p], x[2][p]}; }
 
-    /// The particle's velocity: the weighted mean of its polynomial (model-fluid 4.3) [cm/s].
+    /// The particle's velocity: the weighted mean of its polynomial (transfer/README.md, Modes) [cm/s].
     Vec3 velocity(std::size_t p) const;
 
     /// Change the number of particles; the first min(count, n) keep everything. New ones have no mass and zero modes.

@@ -22,7 +22,7 @@ struct ParticleOrder {
     AlignedArray<int> cellStart;
 
     /// Row that holds the modes of particle s until the next G2P rewrites row s. Moving x and mass alone is a third of the work
-    /// of moving everything (kernel-design 3).
+    /// of moving everything (sim/README.md, Memory).
     AlignedArray<int> source;
 
     std::vector<int> occupied;                          ///< blocks with particles, ascending

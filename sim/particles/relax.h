@@ -9,7 +9,7 @@ struct RelaxScratch {
     std::array<AlignedArray<float>, kAxes> local;
 };
 
-/// Displacements that push crowded particles apart (after Ando et al. 2011; model-fluid 5.4, as a rate):
+/// Displacements that push crowded particles apart (after Ando et al. 2011; particles/README.md, Relaxation):
 /// min(1, rate × interval) Σ_j max(0, (1 − d²/reach²)³) reach (x_i − x_j)/d, from the sorted positions. It is the drift of an ordinary
 /// differential equation, evaluated like the velocity at the beginning of the step; G2P adds it to the positions.
 /// @param interval  time since the last displacements [s]

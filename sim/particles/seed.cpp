@@ -13,7 +13,7 @@ namespace {
 
 using Pattern = FillSettings::Pattern;
 
-/// The pattern's own pitch [cells] (model-fluid 5.1, 5.2).
+/// The pattern's own pitch [cells] (particles/README.md, Filling).
 double ownSpacing(Pattern pattern)
 {
     return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4;

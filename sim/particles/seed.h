@@ -8,7 +8,7 @@
 
 namespace sim {
 
-/// A source to be filled with particles, at one time (model-fluid 5.2).
+/// A source to be filled with particles, at one time (particles/README.md, Filling).
 struct SeedPlan {
     Shape source;
     std::vector<Shape> solids;  ///< no particle is laid inside of these
@@ -79,7 +79,7 @@ double packingOf(FillSettings::Pattern pattern);
 /// Pitch of the pattern [cm].
 double particleSpacing(const FillSettings& fill, double dx);
 
-/// r* of model-fluid 5.1: what relaxation and drawing take for the radius of a particle [cm].
+/// r* (particles/README.md, Filling): what relaxation and drawing take for the radius of a particle [cm].
 double nominalRadius(const FillSettings& fill, double dx);
 
 /// The least distance between two particles of the pattern [cm]; 0 for a jittered lattice.

@@ -14,7 +14,7 @@
 
 namespace sim {
 
-/// How particles are laid out in a source (model-fluid 5.2).
+/// How particles are laid out in a source (particles/README.md, Filling).
 struct FillSettings {
     enum class Pattern { Lattice, Reference, Jittered, Poisson };
     Pattern pattern = Pattern::Lattice;

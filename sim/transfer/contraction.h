@@ -4,8 +4,8 @@
 #include "sim/transfer/mode_set.h"
 #include "sim/transfer/tile.h"
 
-// The arithmetic of G2P for 8 particles of one cell at once (kernel-design 6): operators from the particles' places, contraction of a tile
-// of faces with them, conversion between orthogonal coefficients and monomials, energy of the modes.
+// The arithmetic of G2P for 8 particles of one cell at once (transfer/README.md, Kernels): operators from the particles' places, contraction of a
+// tile of faces with them, conversion between orthogonal coefficients and monomials, energy of the modes.
 
 namespace sim {
 
@@ -185,7 +185,7 @@ template <class Set>
     }
 }
 
-/// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (model-fluid 4.7), from orthogonal coefficients: each square
+/// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (liquid/README.md, Energy), from orthogonal coefficients: each square
 /// times the norms of its three factors, gathered axis by axis.
 template <class Set>
 [[gnu::always_inline]] inline Pack modalSquare(const Pack (&r)[3], const Coefficients<Set::kFactors>& c)

@@ -117,7 +117,7 @@ template <int kAxis>
 }
 
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
-constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (kernel-design 3)
+constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (transfer/README.md, Kernels)
 
 template <class Set, int kModes, bool kFold, class Rows>
 [[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, bool atMidpoint, int s, int n, Rows& rows, LaneSums& sums)

@@ -51,8 +51,8 @@ struct GatherScratch {
     std::array<AlignedArray<double>, kAxes> oldVelocity;  ///< FLIP: v_p in the sorted order
 };
 
-/// G2P: gather the modes of every particle into its own row and move it (model-fluid 4, 10). Same as
-/// facesToParticlesReference to round-off. Lanes = particles of one cell (kernel-design 6).
+/// G2P: gather the modes of every particle into its own row and move it (transfer/README.md, Grid to particles). Same as
+/// facesToParticlesReference to round-off. Lanes = particles of one cell (transfer/README.md, Kernels).
 /// @return the sums over all particles, in the order of the blocks
 GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
                             GatherScratch& scratch, LiquidParticles& particles);

@@ -4,7 +4,7 @@
 
 #include <array>
 
-// PolyPIC velocity modes (Fu et al. 2017; model-fluid 4.3, with the corrections stated there).
+// PolyPIC velocity modes (Fu et al. 2017; transfer/README.md, Modes).
 //
 // Around a particle one velocity component is  u(z) = Σ_r c_r z_x^a z_y^b z_z^c,  z = (node − particle) / dx,  with the
 // degrees (a, b, c) of kDegrees[r], the one place that fixes the order of the modes. All lengths here are in cells, so every

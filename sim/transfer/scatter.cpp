@@ -128,7 +128,7 @@ template <int kRows>
     });
 }
 
-constexpr int kPrefetchAhead = 48;  ///< particles; measured (kernel-design 3)
+constexpr int kPrefetchAhead = 48;  ///< particles; measured (transfer/README.md, Kernels)
 
 /// Fetch the modes of a particle to come, where its row starts a new cache line or breaks a run of rows.
 template <int kModes>

@@ -13,7 +13,7 @@ namespace sim {
 bool differsFromTranslation(XiMap map, int modes);
 
 /// P2G as particlesToFaces does it, with the particles' polynomials carried by their own linear motion since they were
-/// gathered (model-fluid 4.5): face i receives U(A (x_i − x_p)), A = (I + dt C)⁻¹ with the linear modes as rows of C.
+/// gathered (transfer/README.md, Maps): face i receives U(A (x_i − x_p)), A = (I + dt C)⁻¹ with the linear modes as rows of C.
 /// AffineConservative then restores the weighted mean and gradient that were gathered, so that both momenta are exact.
 /// Where det(I + dt C) < 0.1 the polynomial is only translated.
 /// @param dt  time for which the particles have moved with their mean velocity since their modes were gathered [s]

@@ -148,7 +148,7 @@ TEST(DropAmidYarns, PressureTakesWhatSurfaceTensionGives)
     }
 }
 
-/// Free, absorbed and lost liquid are together what was there (model-fluid 9.4), at every step.
+/// Free, absorbed and lost liquid are together what was there (coupling/README.md, What is kept), at every step.
 void expectLedgerCloses(const Simulation& simulation, const StepReport& report)
 {
     const Ledger& ledger = simulation.state().ledger;
@@ -213,7 +213,7 @@ TEST_P(DropOnCloth, UncoupledClothStandsStill)
     EXPECT_LT(momentaOf(simulation).fabric.norm(), 1.0e-9 * momentaOf(simulation).liquid.norm());
 }
 
-/// What the parts of a step give and take is what the energy changes by, up to the error of the solves (model-fluid 9.5); to look changes
+/// What the parts of a step give and take is what the energy changes by, up to the error of the solves (sim/README.md, Energy); to look changes
 /// nothing.
 TEST_P(DropOnCloth, EnergyGoesWhereTheBookSays)
 {

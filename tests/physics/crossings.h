@@ -127,7 +127,7 @@ class Crossings {
     }
     std::size_t size() const { return all_.size(); }
 
-    /// The least of d − allowed over all pairs of yarn edges that are no neighbours (contact-design 5): allowed is half
+    /// The least of d − allowed over all pairs of yarn edges that are no neighbours (fabric/contact/README.md, Pairs): allowed is half
     /// the thickness, or 0.6 of the distance at rest for pairs that are nearer then [cm]. The smallest d / (r_A + r_B)
     /// too.
     struct Nearness {

@@ -1,4 +1,4 @@
-// A drop under surface tension alone: its pressure, and how it oscillates (model-fluid 6.8).
+// A drop under surface tension alone: its pressure, and how it oscillates (liquid/README.md, Surface tension).
 #include "tests/physics/runs.h"
 #include "tests/sim/fixtures.h"
 

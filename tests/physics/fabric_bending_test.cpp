@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// Yarns and cloth that bend under their weight (model-fabric T5-T7).
+// Yarns and cloth that bend under their weight (fabric/rods/README.md, Energies; fabric/shells/README.md, Bending).
 
 namespace sim::test {
 namespace {
@@ -21,7 +21,7 @@ double youngFor(double gamma, double length)
 
 TEST(YarnCantilever, SmallDeflectionIsThatOfABeamHalfAnEdgeLonger)
 {
-    // The measured ratios δ / (wL⁴/8EI) of model-fabric T5, of which (1 + 1/2n)⁴ is the limit for long beams.
+    // The measured ratios δ / (wL⁴/8EI), of which (1 + 1/2n)⁴ is the limit for long beams.
     const std::vector<std::pair<int, double>> measured = {{5, 1.44}, {10, 1.210}, {20, 1.1025}, {40, 1.0506}};
     for (const auto& [n, ratio] : measured) {
         const double gamma = 1.0e-3;  // so that the deflection is 1e-4 of the length: geometry is linear

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-// Coulomb friction of fabric on obstacles and on fabric, and how far it reaches into them (model-fabric T18).
+// Coulomb friction of fabric on obstacles and on fabric, and how far it reaches into them (fabric/README.md, Friction).
 
 namespace sim::test {
 namespace {
@@ -123,7 +123,7 @@ TEST(ClothOnCloth, SlidesAtCoulombsAcceleration)
     }
 }
 
-/// Friction takes its force times the way, from obstacles and from fabric alike (model-fluid 9.5).
+/// Friction takes its force times the way, from obstacles and from fabric alike (sim/README.md, Energy).
 TEST(Incline, FrictionTakesItsForceTimesTheWay)
 {
     Incline incline(30.0, 0.3);

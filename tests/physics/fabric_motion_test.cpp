@@ -6,14 +6,14 @@
 #include <cstring>
 #include <numeric>
 
-// What moving fabric keeps, loses and repeats (model-fabric T14, T15, T20, T22).
+// What moving fabric keeps, loses and repeats (fabric/README.md, The step in vertices).
 
 namespace sim::test {
 namespace {
 
 using testing::pieceOf;
 
-/// One edge that swings along itself, damped: the exact recursion of backward Euler (model-fabric T14).
+/// One edge that swings along itself, damped: the exact recursion of backward Euler (fabric/rods/README.md, Damping).
 TEST(YarnEdge, DampsAsBackwardEulerOfAKelvinVoigtSpring)
 {
     constexpr double kLength = 0.5, h = 1.0e-4;
@@ -120,7 +120,7 @@ TEST(FlyingFabric, EnergiesAreThoseOfTheStateThatIsAskedAbout)
     EXPECT_NE(run.solver.energies(states[1], run.gravity).twisting, run.solver.energies(states[2], run.gravity).twisting);
 }
 
-/// What the book names is what the energy changes by (model-fluid 9.5), up to how well the steps are solved.
+/// What the book names is what the energy changes by (sim/README.md, Energy), up to how well the steps are solved.
 TEST(FlyingFabric, EnergyGoesWhereTheBookSays)
 {
     std::vector<FabricPiece> pieces = Collision().pieces;

@@ -159,7 +159,7 @@ inline double lineDensity(const FabricPiece& p)
 }
 
 /// A straight round yarn along x of n free edges of length l, and one more before them, clamped.
-/// A clamped edge bends like a clamp half an edge inside it: the yarn is as long as n + ½ edges (model-fabric T5).
+/// A clamped edge bends like a clamp half an edge inside it: the yarn is as long as n + ½ edges (fabric/rods/README.md, Energies).
 struct Cantilever {
     Cantilever(int n, double l, double radius, double young, const Vec3& along = Vec3::UnitX())
         : effectiveLength((n + 0.5) * l),

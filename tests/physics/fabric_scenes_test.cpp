@@ -20,14 +20,14 @@ void expectUntangled(const WatchedRun::Seen& seen)
     EXPECT_EQ(seen.pierced, 0);
 }
 
-/// No pair nearer than half its thickness either (contact-design 5).
+/// No pair nearer than half its thickness either (fabric/contact/README.md, Pairs).
 void expectThick(const WatchedRun::Seen& seen)
 {
     expectUntangled(seen);
     EXPECT_GE(seen.spare, 0.0);
 }
 
-/// The published weave, struck by a ball at 300 cm/s: every frame of 2 s (contact-design 5).
+/// The published weave, struck by a ball at 300 cm/s: every frame of 2 s (fabric/contact/README.md, Limiter).
 TEST(YarnSheet, NoYarnPassesAnother)
 {
     WatchedRun run(loadScene(kScenes / "bench/yarn_sheet.yaml"));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// Fabric that hangs and stretches, and how it swings (model-fabric T8-T10).
+// Fabric that hangs and stretches, and how it swings (fabric/rods/README.md, Energies).
 
 namespace sim::test {
 namespace {
@@ -15,7 +15,7 @@ FabricPiece chain(const FabricGeometry& geometry)
     return pieceOf(geometry, solidFibre(2.0e7), {0.001, 0.001});
 }
 
-/// Sag and the cosh law of a chain of length 10 whose ends are a distance apart (model-fabric T9).
+/// Sag and the cosh law of a chain of length 10 whose ends are a distance apart.
 struct Catenary {
     double span, a, sag;
 };
@@ -57,7 +57,7 @@ TEST(HangingChain, FollowsTheCatenary)
     }
 }
 
-/// The yarn of the published scenes, 14.256 long, under its own weight (model-fabric T10).
+/// The yarn of the published scenes, 14.256 long, under its own weight.
 TEST(HangingYarn, StretchesByItsWeight)
 {
     constexpr double kLength = 14.256;

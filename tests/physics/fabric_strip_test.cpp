@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// Strips of cloth that bend like beams, whatever the direction of their threads (model-fabric T7).
+// Strips of cloth that bend like beams, whatever the direction of their threads (fabric/shells/README.md, Bending).
 
 namespace sim::test {
 namespace {
@@ -80,7 +80,7 @@ TEST(ClothStrip, BendsAsAPlateAlongTheThreadsAndOnTheBias)
     RecordProperty("shape", std::to_string(along) + " " + std::to_string(across));
 }
 
-/// The measured ratios 0.99 and 3.00 per unit of the constant (model-fabric 2.3).
+/// The measured ratios 0.99 and 3.00 per unit of the constant (fabric/shells/README.md, Hinges).
 TEST(ClothStrip, PublishedHingesAreThreeAndNineTimesTooStiff)
 {
     FabricSettings settings = withoutContact();

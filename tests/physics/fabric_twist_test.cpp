@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// Yarns that are twisted, and when they give way (model-fabric T11-T13).
+// Yarns that are twisted, and when they give way (fabric/rods/README.md, Energies).
 
 namespace sim::test {
 namespace {
@@ -215,7 +215,7 @@ RingGrowth growthOfRing(int n, double twist)
 }
 
 /// Θ = 2π√3 EI/GJ, and the discrete ring's threshold is 1.081 times that with 20 edges, 1.035 times with 30
-/// (model-fabric T11).
+/// (fabric/rods/README.md, Energies).
 TEST(MichellRing, BucklesAtTheThresholdOfItsDiscreteEnergies)
 {
     const TwistedYarn yarn(10);

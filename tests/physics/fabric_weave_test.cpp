@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-// Nothing ever passes through fabric (model-fabric T19).
+// Nothing ever passes through fabric (fabric/contact/README.md, Limiter).
 
 namespace sim::test {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 
 // What friction of fabric on fabric can hold stays where it is, and what it cannot slides as Coulomb has it: in any direction against the
-// gravity and against the mesh, at any scale, in steps of any length, wet and dry, with solver vertex (model-fabric T18). With solver grid
+// gravity and against the mesh, at any scale, in steps of any length, wet and dry, with solver vertex (fabric/README.md, Friction). With solver grid
 // fabric meets fabric on the faces of the grid, where what is in one cell moves nearly as one.
 
 namespace sim::test {

@@ -1,4 +1,4 @@
-// More modes than 8 keep still liquid still and gain no energy in a dam break (time-splitting 3).
+// More modes than 8 keep still liquid still and gain no energy in a dam break (transfer/README.md, More than 8 modes).
 #include "tests/physics/energy_course.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Advection-reflection against the plain splitting (time-splitting 1, 2).
+// Advection-reflection against the plain splitting (liquid/README.md, Reflection).
 #include "tests/physics/energy_course.h"
 #include "tests/physics/vortex_run.h"
 

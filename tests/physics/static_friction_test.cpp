@@ -11,7 +11,7 @@
 #include <cmath>
 
 // What friction can hold stays where it is, and what it cannot slides as Coulomb has it: on solids at rest and moving, in any direction,
-// at any scale, in any steps, wet and dry, by both solvers (model-fabric T18).
+// at any scale, in any steps, wet and dry, by both solvers (fabric/README.md, Friction).
 
 namespace sim::test {
 namespace {

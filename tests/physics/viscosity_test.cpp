@@ -113,7 +113,7 @@ TEST(ViscousLiquid, SameBitsForAnyThreadCount)
     EXPECT_EQ(one, onThreads(8, hashAfter30Steps));
 }
 
-/// The book closes with viscosity in it (model-fluid 9.5), and only takes.
+/// The book closes with viscosity in it (sim/README.md, Energy), and only takes.
 TEST(ViscousLiquid, EnergyGoesWhereTheBookSays)
 {
     Simulation simulation(splat());

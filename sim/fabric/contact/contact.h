@@ -36,7 +36,7 @@ struct LimitReport {
     int scalings = 0;        ///< moves that had to be scaled as a whole: the last resort
 };
 
-/// Fabric against fabric with true thickness, after contact-design 3.1-3.5: every pair has an offset of its own, taken from the rest
+/// Fabric against fabric with true thickness, (fabric/contact/README.md, Pairs): every pair has an offset of its own, taken from the rest
 /// shape where that is nearer than the radii; moves are limited pair by pair, so that no committed move ever crosses.
 /// Costs nothing per step but the check of the candidate list where no pair is near.
 class FabricContact {

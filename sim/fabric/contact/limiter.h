@@ -8,7 +8,7 @@
 
 namespace sim::contact {
 
-/// Makes moves safe in the relative motion of each pair, never in the absolute one (contact-design 3.4).
+/// Makes moves safe in the relative motion of each pair, never in the absolute one (fabric/contact/README.md, Limiter).
 class Limiter {
  public:
     explicit Limiter(const Primitives& primitives);

@@ -16,7 +16,7 @@ inline constexpr double kSoftShare = 0.5;  ///< part of the spring's way over wh
 
 /// A spring from the reach R inwards whose stiffness grows over the first part of its way; below the wall τ a logarithm that no
 /// distance above the core can pay, and right at the core the parabola that touches it there, so that one Newton step leads a pair out that
-/// a limited move has left below. C2 at R, C1 at τ, convex. Source: contact-design 3.2, but for the soft beginning: a spring that is
+/// a limited move has left below. C2 at R, C1 at τ, convex. (fabric/contact/README.md, Energy of a pair). The beginning is soft, as a spring that is
 /// stiff at once chatters under light loads, and cloth that should slide on cloth sticks (ClothOnCloth tests).
 inline PairEnergy pairEnergy(double distance, const PairRange& range, double stiffness)
 {

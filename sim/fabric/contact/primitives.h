@@ -9,7 +9,7 @@
 
 namespace sim::contact {
 
-/// Distances of one pair at which something happens [cm] (contact-design 3.1, 3.2, 3.4).
+/// Distances of one pair at which something happens [cm] (fabric/contact/README.md, Pairs).
 struct PairRange {
     double reach = 0.0;  ///< R: it acts below
     double core = 0.0;   ///< it never comes nearer; 0: the two are one body at rest and make no pair

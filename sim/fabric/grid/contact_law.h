@@ -7,7 +7,7 @@
 
 namespace sim {
 
-// Contact of fabric on the grid as an anisotropic continuum (model-fabric 3.3 to 3.5, 13.5; after Jiang, Gast and Teran
+// Contact of fabric on the grid as an anisotropic continuum (fabric/grid/README.md, Contact law; after Jiang, Gast and Teran
 // 2017): what its material directions d2, d3 (yarns) or d3 (cloth) do across a yarn or a sheet. They are looked at in a
 // right-handed frame Q that goes with the mesh: q1 along a yarn, q3 normal to a face. Only compression acts.
 

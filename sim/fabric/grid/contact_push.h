@@ -6,7 +6,7 @@
 
 namespace sim {
 
-// How a pressed element answers to a move of what is around it (model-fabric 13.5), for one element or a pack of them.
+// How a pressed element answers to a move of what is around it (fabric/grid/README.md, Contact law), for one element or a pack of them.
 // Its directions across the fabric d are carried by the velocity gradient G on the grid, those in the mesh by the
 // corners; the mesh turning one way acts as d turning the other way. All that the grid knows of an element is how it
 // carries d, and the stress that d answers with: what the element gives to the faces is the stress times d.

@@ -25,7 +25,7 @@ struct StepOutlook {
     double negligible;  ///< acceleration that is not felt [cm/s^2]
 };
 
-/// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (model-fabric 3). An
+/// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (fabric/grid/README.md, Directions). An
 /// element's material directions across the fabric are carried by the velocity gradient on the grid, its directions in
 /// the mesh by the vertices. Both are in the gradient and in the Hessian: since the energy does not change when all
 /// directions turn together, what turns the mesh acts as the opposite turn of the directions across.
@@ -68,8 +68,8 @@ class ElementContact {
     };
     const Local& local(std::size_t e) const { return local_[e]; }
     const Stress& stress(std::size_t e) const { return stress_[e]; }
-    /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (model-fabric 3.3, 3.5). What is stored of it grows by
-    /// no more than the work that the solved stresses took: where the motion went further than its linearisation, strain yields.
+    /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (fabric/grid/README.md, Contact law). What is stored of
+    /// it grows by no more than the work that the solved stresses took: where the motion went further than its linearisation, strain yields.
     /// @param moved           by the step; x of the state is already that of its end
     /// @param mostUnforeseen  energy that elements may come to hold together which were left out [erg]
     /// @return                energy of contact with these directions [erg]

@@ -11,7 +11,7 @@
 
 namespace sim {
 
-/// The fabric on the MAC grid: vertices as particles with the liquid's modes and transfers (model-fabric 3.6). Elements
+/// The fabric on the MAC grid: vertices as particles with the liquid's modes and transfers (fabric/grid/README.md, Transfers of the fabric). Elements
 /// come along without mass, so that the grid has the faces around them.
 class FabricParticles {
  public:

@@ -49,7 +49,7 @@ struct FaceSolveReport {
     double speedError = 0.0;  ///< rms in the norm of the system's matrix, weighted by mass; not below what it is [cm/s]
 };
 
-/// The linear system of one implicit step on the grid (model-fabric 4.2, 13.5): A = M + h² (Wᵀ K W + Gᵀ H G), with K
+/// The linear system of one implicit step on the grid (fabric/grid/README.md, Linear system): A = M + h² (Wᵀ K W + Gᵀ H G), with K
 /// the stiffness of the vertices and H that of contact at the elements, W and G the interpolation of velocities and
 /// their gradients, matrix-free. Faces that elements reach but no vertex does have no mass; elements take them to move
 /// as they do themselves.

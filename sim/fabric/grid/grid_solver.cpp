@@ -13,7 +13,7 @@ namespace sim {
 namespace {
 
 /// Rms error of accelerations at which the linear solve is good enough, relative to feltAcceleration. In steps of 2e-4 s under the earth's
-/// gravity that is the 1e-3 cm/s of model-fabric 13.7; errors of all steps of a second add up to the same at any length.
+/// gravity that is 1e-3 cm/s (fabric/grid/README.md, Linear system); errors of all steps of a second add up to the same at any length.
 constexpr double kAccelerationTolerance = 0.005;
 /// Beyond so many iterations errors are borne up to another share of it; larger ones would push liquid with forces that no fabric has, and make
 /// energy, so that the solve goes on however long it takes.
@@ -194,7 +194,7 @@ void GridFabricSolver::keepChange(FabricState& state) const
     });
 }
 
-/// Accelerations by the fabric's own forces, for liquid (model-fabric 13.9) and friction to expect in the next step.
+/// Accelerations by the fabric's own forces, for liquid (coupling/README.md, Mixture) and friction to expect in the next step.
 void GridFabricSolver::keepAccelerations(double h, FabricState& state)
 {
     const BlockArray<double, 3>& inertia = system_.mass();

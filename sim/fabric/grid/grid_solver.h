@@ -14,10 +14,10 @@
 
 namespace sim {
 
-/// `fabric.solver: grid`: fabric as the PolyPIC paper solves for it (model-fabric 3 and 4, without the defects of
-/// section 10); nothing of it ever crosses the surface of a solid. The vertices are particles of a MAC grid whose face velocities are the unknowns of
-/// one linearised backward Euler step; contact is a continuum that the grid resolves to a cell, so that nothing keeps yarns from crossing within one.
-/// Contact is implicit and acts on the mesh too, and twist angles are unknowns of their own.
+/// `fabric.solver: grid`: fabric as the PolyPIC paper solves for it (fabric/grid/README.md, Contact law; Linear system); nothing of it ever crosses
+/// the surface of a solid. The vertices are particles of a MAC grid whose face velocities are the unknowns of one linearised backward Euler step;
+/// contact is a continuum that the grid resolves to a cell, so that nothing keeps yarns from crossing within one. Contact is implicit and acts on
+/// the mesh too, and twist angles are unknowns of their own.
 class GridFabricSolver {
  public:
     /// @param meetsLiquid  is there any in the scene?

@@ -12,9 +12,9 @@
 
 namespace sim {
 
-/// Forces on the vertices and twist angles and their Gauss-Newton derivatives K: rods, shells, the springs of pins (model-fabric 6.1) and
-/// obstacles; where a step begins, or as they are elsewhere told by moves from there. Vectors are laid out by VertexUnknowns; what shared vertices
-/// have in strands that do not own them is filled in by multiply.
+/// Forces on the vertices and twist angles and their Gauss-Newton derivatives K: rods, shells, the springs of pins (fabric/grid/README.md, Linear
+/// system) and obstacles; where a step begins, or as they are elsewhere told by moves from there. Vectors are laid out by VertexUnknowns; what
+/// shared vertices have in strands that do not own them is filled in by multiply.
 class VertexStiffness {
  public:
     VertexStiffness(const Fabric& fabric, const FabricSettings& settings);

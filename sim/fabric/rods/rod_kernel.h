@@ -4,8 +4,8 @@
 
 #include <array>
 
-// Discrete elastic rods (Bergou et al. 2008, 2010; model-fabric 1): one edge, and one interior vertex with its two edges, for one rod
-// or for a pack of rods. e is the edge before the vertex, f the edge after it.
+// Discrete elastic rods (Bergou et al. 2008, 2010; fabric/rods/README.md, Kinematics): one edge, and one interior vertex with its two edges, for
+// one rod or for a pack of rods. e is the edge before the vertex, f the edge after it.
 
 namespace sim {
 
@@ -50,7 +50,8 @@ struct RodStrain {
     RodGradient<T> twistGradient;                  ///< of m = reference twist + θ_f − θ_e
 };
 
-/// Source: model-fabric 1.1 and 1.3. The gradients are those of frames that follow by parallel transport from where they are now.
+/// Equations: fabric/rods/README.md, Kinematics; fabric/rods/README.md, Gradients. The gradients are those of frames that follow by parallel
+/// transport from where they are now.
 template <class T>
 RodStrain<T> rodStrain(const RodEdge<T>& e, const RodEdge<T>& f)
 {
@@ -97,7 +98,7 @@ RodStrain<T> rodStrain(const RodEdge<T>& e, const RodEdge<T>& f)
 template <class T>
 using Block = std::array<std::array<T, 3>, 3>;
 
-/// Second derivatives of m by the edges e and f (model-fabric 1.4, after Bergou et al. 2010).
+/// Second derivatives of m by the edges e and f (fabric/rods/README.md, Hessian; Bergou et al. 2010).
 template <class T>
 struct TwistCurvature {
     Block<T> ee, ef, ff;     ///< [1/cm^2]; ef: a row for each component of e

@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-/// Half axes a, b of an ellipse and how they resist (model-fabric 1.2).
+/// Half axes a, b of an ellipse and how they resist (fabric/rods/README.md, Energies).
 struct Section {
     double a, b;
     double area() const { return kPi * a * b; }

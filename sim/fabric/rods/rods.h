@@ -22,7 +22,7 @@ class Rods {
     const StrandLayout& layout() const { return layout_; }
     bool empty() const { return layout_.groups.empty(); }
 
-    /// Carries tangents, reference frames and reference twists along to the present positions (model-fabric 1.1).
+    /// Carries tangents, reference frames and reference twists along to the present positions (fabric/rods/README.md, Kinematics).
     void transportFrames(FabricState& state) const;
     /// Notes lengths, curvatures and twists. To be called before the first move of a step if anything is damped.
     void startStep(const FabricState& state);

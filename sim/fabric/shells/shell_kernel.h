@@ -52,7 +52,7 @@ struct MembraneStress {
     std::array<T, 6> tangent;
 };
 
-/// St Venant-Kirchhoff (model-fabric 2.1).
+/// St Venant-Kirchhoff (fabric/shells/README.md, Membrane).
 template <class T>
 MembraneStress<T> stVenantKirchhoff(const ShellRest<T>& rest, const MembraneStrain<T>& s)
 {
@@ -72,7 +72,7 @@ inline Pack logarithm(Pack v)
     return v;
 }
 
-/// μ/2 (I₁ − 2 − 2 ln J) + λ/2 (ln J)², plane stress (model-fabric 2.1). The tangent is clamped to be positive.
+/// μ/2 (I₁ − 2 − 2 ln J) + λ/2 (ln J)², plane stress (fabric/shells/README.md, Membrane). The tangent is clamped to be positive.
 template <class T>
 MembraneStress<T> neoHookean(const ShellRest<T>& rest, const MembraneStrain<T>& s)
 {
@@ -112,7 +112,7 @@ struct Dihedral {
     std::array<Triple<T>, 4> gradient;
 };
 
-/// Source: model-fabric 2.3. x0 own opposite corner, x1 → x2 the edge, x3 the other side's corner.
+/// Equations: fabric/shells/README.md, Hinges. x0 own opposite corner, x1 → x2 the edge, x3 the other side's corner.
 template <class T>
 Dihedral<T> dihedral(const Triple<T>& x0, const Triple<T>& x1, const Triple<T>& x2, const Triple<T>& x3)
 {

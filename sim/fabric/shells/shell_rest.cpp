@@ -21,7 +21,7 @@ double dihedralAngle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
 
 double areaOf(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
 
-/// Q of the triangle-averaged shape operator (model-fabric 2.4, 13.3), without χ.
+/// Q of the triangle-averaged shape operator (fabric/shells/README.md, Bending), without χ.
 std::array<double, 6> shapeOperator(const std::array<Vec2, 3>& corner, double area, double plate, double poisson)
 {
     std::array<Eigen::Matrix2d, 3> q;
@@ -67,7 +67,7 @@ ShellRest<double> shellRest(const Fabric& fabric, int face, const std::array<int
         rest.hasNeighbor[k] = 1.0;
         rest.angle[k] = dihedralAngle(x[k], x1, x2, x3);
         if (settings.bending == BendingModel::Hinge) {
-            // k (Φ − Φ̄)² of the edge, half of it from either side (model-fabric 2.3).
+            // k (Φ − Φ̄)² of the edge, half of it from either side (fabric/shells/README.md, Hinges).
             rest.bending[k] = 0.5 * plate * settings.hingeConstant * (x2 - x1).squaredNorm() / (area + areaOf(x1, x2, x3));
         }
     }

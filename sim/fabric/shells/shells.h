@@ -12,8 +12,8 @@
 
 namespace sim {
 
-/// All cloth as thin shells (model-fabric 2): triangles in packs as the faces follow each other, so that what they add to is near in
-/// memory; packs by tasks, and tasks in colours of which no two touch the same vertex.
+/// All cloth as thin shells (fabric/shells/README.md, Membrane): triangles in packs as the faces follow each other, so that what they add to is
+/// near in memory; packs by tasks, and tasks in colours of which no two touch the same vertex.
 class Shells {
  public:
     Shells() = default;

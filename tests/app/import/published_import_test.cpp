@@ -21,7 +21,7 @@ fs::path publishedScenes()
     return named ? fs::path(named) : fs::path(DRENCH_SOURCE_DIR).parent_path() / "shared" / "libwetcloth-scenes";
 }
 
-/// What scenes-and-outputs 2 and 3 say is in a file.
+/// What is known to be in a file.
 struct Published {
     const char* name;
     FabricCounts fabric;

@@ -19,7 +19,7 @@ MixtureFace randomFace(testing::Noise& noise)
     return {positive(), positive(), positive(), positive(), positive() * 10.0, 0.5 * positive()};
 }
 
-/// Both equations of model-fluid 6.2 as they stand, without elasticity.
+/// Both equations (coupling/README.md, Mixture) as they stand, without elasticity.
 Speeds solved(const MixtureFace& f, Speeds predicted, double pressureImpulse)
 {
     Eigen::Matrix2d a;

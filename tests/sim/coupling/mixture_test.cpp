@@ -75,7 +75,7 @@ struct Bath {
     Settings settings;
 };
 
-/// Model-fabric 13.6, T15: what drag takes from one phase it gives to the other, and it makes no energy.
+/// What drag takes from one phase it gives to the other, and it makes no energy.
 TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;
@@ -99,7 +99,7 @@ TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
     EXPECT_LT(energy(), before);
 }
 
-/// The same where the fabric's velocities are on faces (model-fluid 6.5, 6.2).
+/// The same where the fabric's velocities are on faces (coupling/README.md, Mixture).
 TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;

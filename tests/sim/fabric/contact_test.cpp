@@ -31,13 +31,13 @@ struct Pressed : ContactRun {
     }
 };
 
-TEST(FabricContact, PairsOfTheWeaveAreThoseOfTheDesign)
+TEST(FabricContact, PairsOfTheWeaveAreAsManyAsWereCounted)
 {
     const Fabric sheet = wovenSheet(100);
     EXPECT_EQ(sheet.vertexCount(), 19604u);
     EXPECT_EQ(sheet.edges.size(), 19800u);
     const CandidateList list(sheet);
-    EXPECT_EQ(list.restPairs().partner.size(), 26460u);  // within 2 r + 0.012 cm (contact-design 1)
+    EXPECT_EQ(list.restPairs().partner.size(), 26460u);  // within 2 r + 0.012 cm (fabric/contact/README.md, Pairs)
     EXPECT_EQ(std::ranges::count_if(list.restPairs().distance, [](double d) { return d < 0.096; }),
               7252);  // overlapping
 }

@@ -1,4 +1,4 @@
-// Contact of fabric on the grid: energies, stresses, return mapping (model-fabric 3.4, 3.5, 13.5; T17 of 9).
+// Contact of fabric on the grid: energies, stresses, return mapping (fabric/grid/README.md, Contact law).
 #include "sim/fabric/grid/contact_law.h"
 #include "sim/fabric/grid/element_contact.h"
 #include "tests/sim/fabric/grid_runs.h"
@@ -59,7 +59,7 @@ TEST(GridContactLaw, StressesAreTheSlopesOfTheEnergy)
     }
 }
 
-/// The chain rule of model-fabric 3.4 for the energy as a function of all directions.
+/// The chain rule for the energy as a function of all directions.
 TEST(GridContactLaw, ChainRuleThroughQrGivesTheSameStress)
 {
     const ContactModuli m(material());

@@ -1,4 +1,4 @@
-// Whole steps of the fabric on the grid (T15, T17 of model-fabric 9).
+// Whole steps of the fabric on the grid (fabric/grid/README.md, Linear system).
 #include "sim/step.h"
 #include "tests/sim/fabric/grid_runs.h"
 #include "tests/sim/fixtures.h"
@@ -51,7 +51,7 @@ TEST(GridFabric, KeepsLinearMomentum)
     }
 }
 
-/// What the book names is what the energy changes by (model-fluid 9.5), up to the error of the solves.
+/// What the book names is what the energy changes by (sim/README.md, Energy), up to the error of the solves.
 TEST(GridFabric, EnergyGoesWhereTheBookSays)
 {
     for (TransferMethod method : kMethods) {

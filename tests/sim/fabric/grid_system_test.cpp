@@ -1,4 +1,4 @@
-// The linear system of the fabric on the grid, and the transfers of its phase (model-fabric 4.2; T16 of 9).
+// The linear system of the fabric on the grid, and the transfers of its phase (fabric/grid/README.md, Linear system).
 #include "tests/sim/fabric/grid_runs.h"
 #include "tests/sim/fixtures.h"
 #include "tests/sim/transfer/transfers.h"

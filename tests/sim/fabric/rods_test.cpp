@@ -262,7 +262,7 @@ TEST(Rods, FactorsSolveWhatTheMatrixMultiplies)
         for (int l = 0; l < kLanes; ++l) EXPECT_NEAR(z[r][l], x[r][l], 1.0e-9);  // condition about 1e4
 }
 
-/// T3: around a circle of tangents at 60 degrees from an axis the frame comes back turned by the solid angle π.
+/// Around a circle of tangents at 60 degrees from an axis the frame comes back turned by the solid angle π.
 TEST(RodFrames, TransportAroundAClosedPathTurnsBySolidAngle)
 {
     constexpr int kSteps = 4000;
@@ -278,7 +278,7 @@ TEST(RodFrames, TransportAroundAClosedPathTurnsBySolidAngle)
     EXPECT_NEAR(angle, 2.0 * kPi * (1.0 - std::cos(cap)), 1.0e-5);
 }
 
-/// T3: five turns at one end, in steps of 30 degrees, are ten π of twist and not 0.
+/// Five turns at one end, in steps of 30 degrees, are ten π of twist and not 0.
 TEST(RodFrames, TwistCountsFullTurns)
 {
     const FabricPiece piece = testing::pieceOf(strand(Vec3::Zero(), Vec3(4.0, 0.0, 0.0), 4), testing::wool(), {0.05, 0.05});
@@ -295,7 +295,7 @@ TEST(RodFrames, TwistCountsFullTurns)
     EXPECT_NEAR(state.referenceTwist[3], 10.0 * kPi, 1.0e-9);
 }
 
-/// T4: a helix has curvature R/(R² + p²), and none of its twist is in the parallel frame.
+/// A helix has curvature R/(R² + p²), and none of its twist is in the parallel frame.
 TEST(RodFrames, HelixHasItsCurvature)
 {
     const double radius = 1.0, pitch = 0.5, exact = radius / (radius * radius + pitch * pitch);

@@ -190,7 +190,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
     const auto indexOf = [&](const Vec3i& c) {
         return static_cast<int>(std::find(cells.begin(), cells.end(), c) - cells.begin());
     };
-    // From the definition (model-fluid 6.4), not from the way the matrix is stored.
+    // From the definition (liquid/README.md, Pressure), not from the way the matrix is stored.
     scene.forEachFace([&](int axis, const Vec3i& c) {
         const Vec3i below = c - Vec3i::Unit(axis);
         if (below[axis] < scene.lower[axis]) return;

@@ -1,4 +1,4 @@
-// Curvature of surfaces that are known, and what its pressure does on the grid (model-fluid 6.8).
+// Curvature of surfaces that are known, and what its pressure does on the grid (liquid/README.md, Surface tension).
 #include "sim/liquid/surface_tension.h"
 #include "sim/core/units.h"
 #include "sim/step.h"

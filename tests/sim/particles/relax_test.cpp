@@ -34,7 +34,7 @@ std::vector<Vec3> displacementsOf(const SortedLiquid& liquid, double reach = kRe
     return byId;
 }
 
-/// The law itself (model-fluid 5.4).
+/// The law itself (particles/README.md, Relaxation).
 Vec3 pushBetween(const Vec3& to, const Vec3& from)
 {
     const Vec3 away = to - from;

@@ -1,4 +1,4 @@
-// P2G by the affine maps (model-fluid 4.5, T6 of 14); what they conserve is in conservation_test.cpp.
+// P2G by the affine maps (transfer/README.md, Maps); what they conserve is in conservation_test.cpp.
 #include "sim/liquid/energy.h"
 #include "sim/simulation.h"
 #include "sim/transfer/scatter_bounded.h"
@@ -46,7 +46,6 @@ double ballisticError(int modes, XiMap map, double dt)
 
 }  // namespace
 
-// T6.
 TEST(AffineMap, CarriesALinearFieldExactly)
 {
     for (int modes : {4, 8, 11, 27}) {
@@ -55,7 +54,7 @@ TEST(AffineMap, CarriesALinearFieldExactly)
     }
 }
 
-// The definition of model-fluid 4.5, face by face.
+// The definition (transfer/README.md, Maps), face by face.
 TEST(AffineMap, EvaluatesThePolynomialWhereTheMaterialWas)
 {
     for (int modes : {4, 8, 11, 27}) {

@@ -1,4 +1,4 @@
-// Momentum and energy through the transfers (model-fluid 4.6, T5 and T10 of 14).
+// Momentum and energy through the transfers (transfer/README.md, Conservation).
 #include "sim/liquid/energy.h"
 #include "sim/particles/emit.h"
 #include "tests/sim/transfer/transfers.h"
@@ -32,7 +32,6 @@ Change changeOfMomenta(int modes, XiMap map)
 
 }  // namespace
 
-// T5.
 TEST(Momentum, TranslationKeepsLinearMomentumForAnyModes)
 {
     for (int modes : {1, 4, 6, 8, 10, 11, 15, 27})
@@ -61,7 +60,7 @@ TEST(Momentum, AffineKeepsNeitherButLinearMomentumWithFourModes)
     EXPECT_GT(changeOfMomenta(27, XiMap::Affine).angular, 1e-6);
 }
 
-// model-fluid 4.6.1 and 4.6.2: what the faces get is what the particles have.
+// Laws 1 and 2 (transfer/README.md, Conservation): what the faces get is what the particles have.
 TEST(Momentum, FacesGetWhatTheParticlesHave)
 {
     for (int modes : {1, 4, 8, 11, 27}) {
@@ -85,7 +84,7 @@ TEST(Momentum, FacesGetWhatTheParticlesHave)
     }
 }
 
-// T10: whatever is done to the set of particles between two steps.
+// Whatever is done to the set of particles between two steps.
 class ParticleSet : public ::testing::TestWithParam<int> {
  protected:
     /// Mass and momentum on the faces after one P2G of these particles.
@@ -166,7 +165,7 @@ TEST_P(ParticleSet, EmittedParticlesBringTheirMomentum)
               1e-13 * after.scale);
 }
 
-// model-fluid 4.6.6.
+// Law 4 (transfer/README.md, Conservation).
 TEST(Energy, NeverGrowsInATransfer)
 {
     for (int modes : {1, 4, 8, 11, 15, 27}) {

@@ -1,4 +1,4 @@
-// What the transfers reproduce, and how much they damp what they do not (model-fluid 4.6, T4 and T7 … T9 of 14).
+// What the transfers reproduce, and how much they damp what they do not (transfer/README.md, Conservation).
 #include "sim/core/units.h"
 #include "tests/sim/transfer/transfers.h"
 
@@ -67,7 +67,7 @@ double anything(int axis, const Vec3& z)
 
 }  // namespace
 
-// T4.
+// Law 3.
 TEST(RoundTrip, IsExactOnWhatTheModesSpan)
 {
     EXPECT_LT(roundTripError(1, constant), 1e-11);
@@ -154,7 +154,7 @@ class PlainApic {
 
 }  // namespace
 
-// T7.
+// Law 5.
 TEST(FourModes, AreApic)
 {
     const double dt = 0.05;
@@ -238,7 +238,7 @@ double meanEnergyKept(int modes)
 
 }  // namespace
 
-// T8.
+// Law 5: energy after four transfers.
 TEST(Damping, OfAWaveIsThePublishedOne)
 {
     EXPECT_NEAR(meanEnergyKept(1), 0.062, 0.01);
@@ -247,7 +247,6 @@ TEST(Damping, OfAWaveIsThePublishedOne)
     EXPECT_NEAR(energyKept(27, 1), 1.0, 1e-10);
 }
 
-// T9.
 TEST(Damping, DoesNotDependOnTheUnitOfLength)
 {
     for (int modes : {1, 4, 8, 11, 27})

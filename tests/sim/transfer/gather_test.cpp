@@ -1,4 +1,5 @@
-// What G2P does beside gathering: FLIP, paths, reflection, damping, fewer modes at the surface, displacements (model-fluid 4.1, 11).
+// What G2P does beside gathering: FLIP, paths, reflection, damping, fewer modes at the surface, displacements (transfer/README.md, Grid to
+// particles).
 #include "tests/sim/transfer/transfers.h"
 
 #include <gtest/gtest.h>

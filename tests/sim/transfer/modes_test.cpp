@@ -36,7 +36,7 @@ class RandomOffsets {
 
 }  // namespace
 
-// T1: moments of the quadratic spline about the particle, exact for every offset (model-fluid 2.3).
+// Moments of the quadratic spline about the particle, exact for every offset (transfer/README.md, B-splines).
 TEST(Spline, MomentsAreExact)
 {
     RandomOffsets offsets;
@@ -54,7 +54,7 @@ TEST(Spline, MomentsAreExact)
     }
 }
 
-// T2: the 27 products are orthogonal under the weights, and the quadratic coefficient is half the second difference.
+// The 27 products are orthogonal under the weights, and the quadratic coefficient is half the second difference.
 TEST(PolyPicModes, BasisIsMassOrthogonal)
 {
     RandomOffsets offsets;
@@ -85,7 +85,7 @@ TEST(PolyPicModes, QuadraticCoefficientIsTheSecondDifference)
     EXPECT_NEAR(c[8], 0.5 * (row[0] - 2.0 * row[1] + row[2]), 1e-12);
 }
 
-// T3: one particle, any 27 values: 27 modes lose nothing.
+// One particle, any 27 values: 27 modes lose nothing.
 TEST(PolyPicModes, TwentySevenModesReproduceAnyStencil)
 {
     RandomOffsets offsets;
@@ -114,7 +114,7 @@ TEST(PolyPicModes, MonomialsAndOrthogonalCoefficientsAreInverse)
     for (int r = 0; r < kMaxModes; ++r) EXPECT_NEAR(back[r], c[r], 1e-14);
 }
 
-// The weighted mean of the polynomial is the orthogonal mean, at whatever offset it is read (model-fluid 4.3).
+// The weighted mean of the polynomial is the orthogonal mean, at whatever offset it is read (transfer/README.md, Modes).
 TEST(PolyPicModes, MeanOfMonomialsIsTheOrthogonalMean)
 {
     RandomOffsets offsets;
@@ -127,7 +127,7 @@ TEST(PolyPicModes, MeanOfMonomialsIsTheOrthogonalMean)
     EXPECT_NEAR(mean, c[0], 1e-14);
 }
 
-// Golden data of model-fluid 14.1, computed there independently (h = 0.288, offset (0.3, −0.2, 0.1)).
+// Golden data, computed by an independent program (h = 0.288, offset (0.3, −0.2, 0.1)).
 TEST(PolyPicModes, GoldenGather)
 {
     const double h = 0.288;
