@@ -1,6 +1,7 @@
 #include "app/lab/run_course.h"
 
 #include "app/csv.h"
+#include "sim/coupling/porous_law.h"
 #include "sim/scene/load_scene.h"
 
 #include <fmt/format.h>
@@ -74,12 +75,11 @@ Energy energyOf(const std::filesystem::path& csv)
 }
 
 /// Of the corners of boxes around those that move [cm/s].
-double fastestSolid(const std::filesystem::path& scene, double duration)
+double fastestSolid(const sim::Scene& scene, double duration)
 {
     constexpr int kParts = 64;  // of the run, in each of which they go at one speed
-    if (!std::filesystem::exists(scene) || !(duration > 0.0)) return 0.0;
     double farthest = 0.0;
-    for (const sim::ObstacleSettings& obstacle : sim::loadScene(scene).obstacles) {
+    for (const sim::ObstacleSettings& obstacle : scene.obstacles) {
         if (obstacle.motion.isStatic()) continue;
         const Eigen::AlignedBox3d box = obstacle.shape.bounds();
         for (int n = 0; n < kParts; ++n) {
@@ -91,6 +91,20 @@ double fastestSolid(const std::filesystem::path& scene, double duration)
         }
     }
     return farthest * kParts / duration;
+}
+
+/// √(2 P/ρ), to which suction P [dyn/cm^2] takes liquid that nothing slows down [cm/s].
+double fastestDrawn(const sim::Scene& scene)
+{
+    constexpr double kAlong = 2.0;  // suction along fibres, relative to that across
+    const sim::Settings& settings = scene.settings;
+    double suction = 0.0;
+    if (settings.coupling.capillary)
+        for (const sim::FabricPiece& piece : scene.fabrics) {
+            const double fraction = piece.material.volumeFraction;
+            suction = std::max(suction, kAlong * sim::PorousLaw({settings.porous.fibreDiameter, fraction}, settings.liquid, settings.coupling).suction(fraction));
+        }
+    return std::sqrt(2.0 * suction / settings.liquid.density);
 }
 
 }  // namespace
@@ -112,14 +126,18 @@ RunCourse courseOf(const std::filesystem::path& folder)
     const double scale = std::max(energy.largestKinetic, unfeltEnergy(folder, mass, course.time));
     if (scale > 0.0) course.energyGain = energy.gain / scale;
     if (mass > 0.0) course.commonSpeed = std::sqrt(2.0 * energy.largestKinetic / mass);
-    course.solidSpeed = fastestSolid(folder / "resolved.yaml", course.time);
+    if (const auto file = folder / "resolved.yaml"; std::filesystem::exists(file) && course.time > 0.0) {
+        const sim::Scene scene = sim::loadScene(file);
+        course.solidSpeed = fastestSolid(scene, course.time);
+        course.drawnSpeed = fastestDrawn(scene);
+    }
     return course;
 }
 
 std::string whyUnsound(const RunCourse& course)
 {
     if (course.energyGain > kAllowedGain) return fmt::format("energy: gained {:.3g} of its largest kinetic energy", course.energyGain);
-    if (course.commonSpeed > 0.0 && course.largestSpeed > kAllowedSpeed * std::max(course.commonSpeed, course.solidSpeed))
+    if (course.commonSpeed > 0.0 && course.largestSpeed > std::max(kAllowedSpeed * std::max(course.commonSpeed, course.solidSpeed), course.drawnSpeed))
         return fmt::format("speed: a particle at {:.3g} cm/s; all liquid {:.3g} cm/s", course.largestSpeed, course.commonSpeed);
     return "";
 }

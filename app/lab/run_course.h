@@ -14,12 +14,14 @@ struct RunCourse {
     double largestSpeed = 0.0;   ///< of a particle of the liquid [cm/s]
     double commonSpeed = 0.0;    ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
     double solidSpeed = 0.0;     ///< of the fastest solid at any time of the run [cm/s]
+    double drawnSpeed = 0.0;     ///< to which suction of dry fabric could take liquid [cm/s]
 };
 
 /// A run is sound if its energy is never above that of the start plus the work of sources, suction, surface tension, obstacles, moving solids
 /// and pins by more than this share of its largest kinetic energy (what obstacles took counts as far as the energy fell with it) …
 inline constexpr double kAllowedGain = 0.01;
-/// … and no particle faster than so many times the speed of all liquid, had it all that kinetic energy, nor than so many times the fastest solid.
+/// … and no particle faster than so many times the speed of all liquid, had it all that kinetic energy, nor than so many times the fastest solid,
+/// nor than suction could make it.
 inline constexpr double kAllowedSpeed = 10.0;
 
 /// From steps.jsonl, energy_ledger.csv and resolved.yaml in the run's folder.

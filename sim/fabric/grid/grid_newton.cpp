@@ -99,10 +99,10 @@ double GridFabricSolver::letGo(double h, const AlignedArray<double>& u)
 }
 
 /// What solids stop on the way that was solved for stretches what goes on beside it: energy that nothing has given. Where it matters, springs to
-/// where solids let it get act from now on, as long as they press. Returns whether the step is to be solved again.
+/// where solids let it get act from now on, as long as they press. (Where nothing leads the fabric, a part of its way does: moveVertices.) Returns
+/// whether the step is to be solved again.
 bool GridFabricSolver::holdStopped(double h, double kinetic, const Vec3& gravity, const AlignedArray<double>& u, const FabricState& state)
 {
-    if (guard_.empty()) return false;
     parallelFor(move_.size(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * stiffness_.at(u, static_cast<int>(v)); });
     GuardReport guarded;
     double matters = letGo(h, u);
@@ -133,9 +133,10 @@ bool GridFabricSolver::holdStopped(double h, double kinetic, const Vec3& gravity
     return true;
 }
 
-void GridFabricSolver::solve(double h, double kinetic, const Vec3& gravity, const FaceTolerance& tolerance, const FabricState& state,
+void GridFabricSolver::solve(double t, double h, double kinetic, const Vec3& gravity, const FaceTolerance& tolerance, const FabricState& state,
                              FabricReport& report)
 {
+    const bool mayBeStopped = !guard_.empty() && isDriven(t, h);
     start_ = velocity_.faces;
     solveOnce(tolerance, expectedChange(state), report);
     const double before = elastic_.at(state, stiffness_.rods(), stiffness_.shells()).elastic();
@@ -145,7 +146,8 @@ void GridFabricSolver::solve(double h, double kinetic, const Vec3& gravity, cons
         const double reached = tryMove(h, u, state);
         // What elastic forces gave, against what they had; backward Euler loses the energy of the change of velocities beside.
         const double gain = reached - before + stiffness_.innerWork(h, u) - kineticOfChange();
-        const bool gains = gain > kNoGain * kinetic && n < kMostNewton, isStopped = holds < kMostRepeats && holdStopped(h, kinetic, gravity, u, state);
+        const bool gains = gain > kNoGain * kinetic && n < kMostNewton,
+                   isStopped = mayBeStopped && holds < kMostRepeats && holdStopped(h, kinetic, gravity, u, state);
         if (!gains && !isStopped) return;
         holds += isStopped ? 1 : 0;
         std::swap(trial_, solvedAt_);

@@ -282,7 +282,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     system_.assemble();
 
     clock.start(Stage::FabricSolve);
-    solve(h, kinetic, gravity, until, state, report);
+    solve(t, h, kinetic, gravity, until, state, report);
     keepMomentum();
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching_.size();

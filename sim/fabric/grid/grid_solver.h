@@ -68,7 +68,7 @@ class GridFabricSolver {
     void moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, EnergyChanges* changes);
     void payForGain(double before, double unfelt, const Vec3& gravity, FabricState& state, EnergyChanges& changes) const;
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
-    void solve(double h, double kinetic, const Vec3& gravity, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    void solve(double t, double h, double kinetic, const Vec3& gravity, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     double letGo(double h, const AlignedArray<double>& u);
     bool holdStopped(double h, double kinetic, const Vec3& gravity, const AlignedArray<double>& u, const FabricState& state);
     void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
