@@ -22,6 +22,8 @@ class Simulation {
     explicit Simulation(Scene scene);
     /// Goes on from a state of the same scene, with what the scene's changes have set until then.
     Simulation(Scene scene, State state);
+    Simulation(const Simulation&) = delete;  // its parts refer to each other
+    Simulation& operator=(const Simulation&) = delete;
 
     const State& state() const { return state_; }
     const Scene& scene() const { return scene_; }

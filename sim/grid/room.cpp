@@ -3,51 +3,79 @@
 #include "sim/grid/seams.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 namespace sim {
 
 namespace {
 
 constexpr int kRim = 2;    ///< cells around a block that the B-splines of its faces reach
-constexpr int kParts = 2;  ///< parts of a cell along an axis: the B-spline falls off within it
+constexpr int kParts = 2;  ///< parts of a cell along an axis, which a surface cuts as a plane would
 constexpr int kEdge = kParts * (kBlockEdge + 2 * kRim);
 
 /// A value for each part of the cells of a block and its rim.
-struct RimmedBlock {
-    std::array<double, kEdge * kEdge * kEdge> v;
+using OfParts = std::array<double, kEdge * kEdge * kEdge>;
+int indexOf(const Vec3i& c) { return (c.z() * kEdge + c.y()) * kEdge + c.x(); }
 
-    static constexpr int index(int i, int j, int k) { return (k * kEdge + j) * kEdge + i; }
-    double& at(const Vec3i& c) { return v[index(c.x(), c.y(), c.z())]; }
+/// What is open of the parts.
+struct Open {
+    OfParts share;                      ///< [-]
+    std::array<OfParts, kAxes> moment;  ///< its first moments about the middle of the part [edges of a part]
 };
 
-/// Open share of a cube, which is cut by the plane whose distance from its middle is the obstacle's.
-double openShare(const Obstacles& obstacles, const Vec3& middle, double edge, double dx)
+/// Share of a unit cube on the side of a plane with unit normal n that n points to, the plane at distance d from its middle against n.
+/// Source: Scardovelli and Zaleski 2000, Analytical relations connecting linear interfaces and volume fractions (their equation for cubes).
+double shareOfCube(const Vec3& n, double d)
 {
-    return std::clamp(0.5 + distanceAcrossSeams(obstacles, middle, dx) / edge, 0.0, 1.0);
+    constexpr double kFlat = 1.0e-6;  // a normal's part along an axis: less is none
+    std::array<double, kAxes> m = {std::abs(n[0]), std::abs(n[1]), std::abs(n[2])};
+    std::ranges::sort(m);
+    const double sum = m[0] + m[1] + m[2], alpha = 0.5 * sum - std::abs(d);
+    if (alpha <= 0.0) return d > 0.0 ? 1.0 : 0.0;
+    const auto cube = [](double x) { return x > 0.0 ? x * x * x : 0.0; };
+    const auto square = [](double x) { return x > 0.0 ? x * x : 0.0; };
+    double less = 0.0;  // of the smaller side
+    if (m[0] > kFlat) {
+        less = cube(alpha);
+        for (double edge : m) less -= cube(alpha - edge);
+        less += cube(alpha - m[0] - m[1]) + cube(alpha - m[0] - m[2]) + cube(alpha - m[1] - m[2]);
+        less /= 6.0 * m[0] * m[1] * m[2];
+    } else if (m[1] > kFlat) {
+        less = (square(alpha) - square(alpha - m[1]) - square(alpha - m[2])) / (2.0 * m[1] * m[2]);
+    } else {
+        less = alpha / m[2];
+    }
+    return d > 0.0 ? 1.0 - less : less;
 }
 
 /// Only the parts of cells that a surface cuts are looked at one by one.
-void openVolumes(const BlockGrid& grid, int block, const Obstacles& obstacles, RimmedBlock& volume)
+void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, Open& open)
 {
     const double part = grid.dx / kParts, reach = 0.5 * std::sqrt(3.0) * grid.dx;
     const Vec3 corner = grid.lowerCorner(block) - Vec3::Constant(kRim * grid.dx);
+    for (OfParts& moment : open.moment) moment.fill(0.0);
     for (int k = 0; k < kEdge; k += kParts)
         for (int j = 0; j < kEdge; j += kParts)
             for (int i = 0; i < kEdge; i += kParts) {
-                const Vec3 middle = corner + part * Vec3(i, j, k) + Vec3::Constant(0.5 * grid.dx);
-                const double distance = distanceAcrossSeams(obstacles, middle, grid.dx);
+                const double ofCell = distanceAcrossSeams(obstacles, corner + part * Vec3(i, j, k) + Vec3::Constant(0.5 * grid.dx), grid.dx);
                 for (int n = 0; n < kParts * kParts * kParts; ++n) {
                     const Vec3i at(i + n % kParts, j + n / kParts % kParts, k + n / (kParts * kParts));
-                    volume.at(at) = distance >= reach ? 1.0 : distance <= -reach ? 0.0 :
-                                    openShare(obstacles, corner + part * (at.cast<double>() + Vec3::Constant(0.5)), part, grid.dx);
+                    double& share = open.share[indexOf(at)] = ofCell > 0.0 ? 1.0 : 0.0;
+                    if (std::abs(ofCell) >= reach) continue;
+                    const Vec3 middle = corner + part * (at.cast<double>() + Vec3::Constant(0.5));
+                    const auto [distance, normal] = surfaceAcrossSeams(obstacles, middle, grid.dx);
+                    share = shareOfCube(normal, distance / part);
+                    // Of a cut across an axis; of others nearly.
+                    for (int a = 0; a < kAxes; ++a) open.moment[a][indexOf(at)] = 0.5 * share * (1.0 - share) * normal[a];
                 }
             }
 }
 
-/// The cells behind the wall get the values of their mirror images in front.
+/// The cells behind the wall get the mirror images of those in front.
 /// @param plane  of the wall, in parts
-void mirrorAt(const Obstacles::Wall& wall, int plane, RimmedBlock& volume)
+void mirrorAt(const Obstacles::Wall& wall, int plane, Open& open)
 {
     for (int layer = 0; layer < kParts * kRim; ++layer) {
         const int front = wall.above ? plane - 1 - layer : plane + layer, behind = 2 * plane - 1 - front;
@@ -59,50 +87,58 @@ void mirrorAt(const Obstacles::Wall& wall, int plane, RimmedBlock& volume)
                 from[wall.axis] = front;
                 to[(wall.axis + 1) % 3] = from[(wall.axis + 1) % 3] = u;
                 to[(wall.axis + 2) % 3] = from[(wall.axis + 2) % 3] = v;
-                volume.at(to) = volume.at(from);
+                open.share[indexOf(to)] = open.share[indexOf(from)];
+                for (int a = 0; a < kAxes; ++a) open.moment[a][indexOf(to)] = (a == wall.axis ? -1.0 : 1.0) * open.moment[a][indexOf(from)];
             }
     }
 }
 
-/// Means along one axis over the B-splines around the lower faces, or around the middles, of a block's cells: both are where parts meet.
-/// The means stand where the first parts of each line were.
-/// @param size  of what is there along the axes
-void smooth(int axis, bool aroundFaces, Vec3i& size, RimmedBlock& volume)
+/// Integrals along one axis of the B-splines around the lower faces, or around the middles, of a block's cells: both are where parts meet. They
+/// stand where the first parts of each line were.
+/// @param size    of what is there along the axes
+/// @param moment  of the values along that axis; null: they are even within a part
+void smooth(int axis, bool aroundFaces, const Vec3i& size, const OfParts* moment, OfParts& values)
 {
     static_assert(kParts == 2);
-    constexpr double kIntegral[3] = {16.0 / 48.0, 7.0 / 48.0, 1.0 / 48.0};  // of the B-spline over parts, from its middle outwards
+    // Of the B-spline over parts, and its slope in their middles times their edge squared, from its own middle outwards.
+    constexpr double kIntegral[3] = {16.0 / 48.0, 7.0 / 48.0, 1.0 / 48.0}, kSlope[3] = {-6.0 / 48.0, -9.0 / 48.0, -3.0 / 48.0};
     constexpr int kStep[3] = {1, kEdge, kEdge * kEdge};
     const int u = (axis + 1) % kAxes, v = (axis + 2) % kAxes, step = kStep[axis];
     for (int p = 0; p < size[u]; ++p)
         for (int q = 0; q < size[v]; ++q) {
-            double* line = volume.v.data() + p * kStep[u] + q * kStep[v];
-            double mean[kBlockEdge];
+            const int first = p * kStep[u] + q * kStep[v];
+            double sum[kBlockEdge] = {};
             for (int n = 0; n < kBlockEdge; ++n) {
-                const double* middle = line + (kParts * (kRim + n) + (aroundFaces ? 0 : 1)) * step;
-                mean[n] = 0.0;
-                for (int m = 0; m < 3; ++m) mean[n] += kIntegral[m] * (middle[m * step] + middle[-(m + 1) * step]);
+                const int middle = first + (kParts * (kRim + n) + (aroundFaces ? 0 : 1)) * step;
+                for (int m = 0; m < 3; ++m) {
+                    const int above = middle + m * step, below = middle - (m + 1) * step;
+                    sum[n] += kIntegral[m] * (values[above] + values[below]);
+                    if (moment != nullptr) sum[n] += kSlope[m] * ((*moment)[above] - (*moment)[below]);
+                }
             }
-            for (int n = 0; n < kBlockEdge; ++n) line[n * step] = mean[n];
+            for (int n = 0; n < kBlockEdge; ++n) values[first + n * step] = sum[n];
         }
-    size[axis] = kBlockEdge;
 }
 
 }  // namespace
 
 void roomOfFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, bool mirrors, double* room)
 {
-    RimmedBlock volume;
-    openVolumes(grid, block, obstacles, volume);
+    const auto open = std::make_unique_for_overwrite<Open>(), smoothed = std::make_unique_for_overwrite<Open>();
+    findOpen(grid, block, obstacles, *open);
     if (mirrors)
         for (const Obstacles::Wall& wall : obstacles.planeWalls())
             if (const auto plane = planeOfFaces(grid, wall))
-                mirrorAt(wall, kParts * (*plane - kBlockEdge * grid.coords(block)[wall.axis] + kRim), volume);
+                mirrorAt(wall, kParts * (*plane - kBlockEdge * grid.coords(block)[wall.axis] + kRim), *open);
     for (int a = 0; a < kAxes; ++a) {
-        RimmedBlock smoothed = volume;
+        *smoothed = *open;
         Vec3i size = Vec3i::Constant(kEdge);
-        for (int axis = 0; axis < kAxes; ++axis) smooth(axis, axis == a, size, smoothed);
-        for (int c = 0; c < kBlockCells; ++c)
-            room[a * kBlockCells + c] = smoothed.at({c & 7, c >> 3 & 7, c >> 6});
+        for (int axis = 0; axis < kAxes; ++axis) {
+            smooth(axis, axis == a, size, &smoothed->moment[axis], smoothed->share);
+            for (int other = axis + 1; other < kAxes; ++other) smooth(axis, axis == a, size, nullptr, smoothed->moment[other]);
+            size[axis] = kBlockEdge;
+        }
+        for (int c = 0; c < kBlockCells; ++c) room[a * kBlockCells + c] = smoothed->share[indexOf({c & 7, c >> 3 & 7, c >> 6})];
     }
 }
 

@@ -51,12 +51,21 @@ std::optional<Vec3> nearestSurface(const Obstacles& obstacles, const Vec3& x, do
     return search.best;
 }
 
+NearSurface surfaceAcrossSeams(const Obstacles& obstacles, const Vec3& x, double reach)
+{
+    const double distance = obstacles.distance(x);
+    if (distance >= 0.0 || distance <= -reach || !endsAtSeam(obstacles, x, distance, reach)) return {distance, obstacles.normal(x)};
+    const std::optional<Vec3> surface = nearestSurface(obstacles, x, reach);
+    if (!surface) return {-reach, obstacles.normal(x)};
+    const double depth = (*surface - x).norm();
+    return {-depth, depth > 0.0 ? Vec3((*surface - x) / depth) : obstacles.normal(x)};
+}
+
 double distanceAcrossSeams(const Obstacles& obstacles, const Vec3& x, double reach)
 {
     const double distance = obstacles.distance(x);
-    if (distance >= 0.0 || distance <= -reach || !endsAtSeam(obstacles, x, distance, reach)) return distance;
-    const std::optional<Vec3> surface = nearestSurface(obstacles, x, reach);
-    return surface ? -(*surface - x).norm() : -reach;
+    if (distance >= 0.0 || distance <= -reach) return distance;
+    return surfaceAcrossSeams(obstacles, x, reach).distance;
 }
 
 }  // namespace sim

@@ -12,13 +12,6 @@ namespace {
 /// A pair already below its floor or core may still lose this share of its distance [-].
 constexpr double kKept = 0.97;
 
-/// Moves that may bring a pair below are looked at closely [cm].
-template <class T>
-T floorOf(T reach, T core)
-{
-    return core + 0.15 * (reach - core);
-}
-
 std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3> values)
 {
     return {values[v[0]], values[v[1]], values[v[2]], values[v[3]]};

@@ -61,7 +61,7 @@ void Primitives::addYarns(const Fabric& fabric)
         double length = 0.0;
         for (int e = begin; e < begin + count; ++e) length += fabric.edges.restLength[e] / count;
         const double r = std::sqrt(fabric.strands.radius[s][0] * fabric.strands.radius[s][1]);
-        strandReach.push_back(static_cast<int>(std::ceil((2.0 * r + 0.25 * r) / length)) + 1);
+        strandReach.push_back(static_cast<int>(std::ceil((2.0 * r + kBand * r) / length)) + 1);
     }
 }
 
@@ -118,7 +118,7 @@ PairRange Primitives::range(int a, int b, double restDistance) const
     const double touching = radius[a] + radius[b];
     if (restDistance < kJoined * touching) return {};
     const double d0 = std::min(restDistance, touching + band(a, b));
-    return {d0, std::min(0.57 * touching, 0.65 * restDistance)};
+    return {d0, std::min(kCore * touching, kCoreAtRest * restDistance)};
 }
 
 }  // namespace sim::contact

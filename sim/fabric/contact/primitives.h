@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/contact/closest_points.h"
+#include "sim/fabric/contact/distances.h"
 #include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 
@@ -15,7 +16,7 @@ struct PairRange {
     double core = 0.0;   ///< it never comes nearer; 0: the two are one body at rest and make no pair
 
     /// Below it the spring becomes a wall.
-    double wall() const { return core + 0.3 * (reach - core); }
+    double wall() const { return core + kWall * (reach - core); }
 };
 
 /// What can touch: the edges, the vertices and the faces of a fabric, numbered in this order in one row. Pairs (a, b), a < b, are two edges
@@ -46,7 +47,7 @@ struct Primitives {
     }
 
     /// The distance over which a pair acts before it is pressed to its offset, d̂ [cm].
-    double band(int a, int b) const { return 0.25 * std::min(radius[a], radius[b]); }
+    double band(int a, int b) const { return kBand * std::min(radius[a], radius[b]); }
     double friction2(int a, int b) const { return std::sqrt(friction[a] * friction[b]); }
 
     /// Neither share a vertex nor are neighbours on a strand, nor are all four vertices held: then nothing could be done.

@@ -23,6 +23,8 @@ class GridFabricSolver {
     /// @param meetsLiquid  is there any in the scene?
     GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles,
                      bool meetsLiquid = false);
+    GridFabricSolver(const GridFabricSolver&) = delete;  // its parts refer to each other
+    GridFabricSolver& operator=(const GridFabricSolver&) = delete;
 
     /// From t to t + h [s]. h must keep within time.maxCflFabric (chooseTimeStep in step.h).
     FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
