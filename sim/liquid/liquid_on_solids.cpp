@@ -104,7 +104,7 @@ double LiquidOnSolids::afterViscosity(const BlockGrid& grid, const ObstacleField
     });
 }
 
-/// Faces of plane k of a block that a solid is near to, and where there is anything of the liquid.
+/// Faces of plane k of a block that a solid is near to, and where there is anything of the liquid, or its viscosity pulls.
 std::uint64_t LiquidOnSolids::wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const
 {
     const int b = blocks_[place];
@@ -114,6 +114,10 @@ std::uint64_t LiquidOnSolids::wetNear(const BitAccess& bits, const Outcome& outc
     const double* mass = brought_.block(static_cast<int>(place), kMass + axis) + 64 * k;
     std::uint64_t wet = inside.block(b)[k] | bits.below(inside, 0, axis, k);
     for (int row = 0; row < 64; row += kLanes) wet |= std::uint64_t{maskBits(loadPack(mass + row) > 0.0)} << row;
+    if (hasOthers_) {
+        const double* others = others_.block(static_cast<int>(place), axis) + 64 * k;
+        for (int row = 0; row < 64; row += kLanes) wet |= std::uint64_t{maskBits(absPack(loadPack(others + row)) > 0.0)} << row;
+    }
     return near & wet;
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <random>
 
 namespace sim::test {
 namespace {
@@ -121,6 +122,37 @@ TEST(Forces, AreAllThatChangesMomentum)
                     EXPECT_GT(simulation.forces().obstacles[1].liquid.linear.norm(), 0.01 * closed.exchanged);
                 }
             }
+}
+
+/// Viscous drops beside a ball that comes and goes: its stresses reach faces that have nothing of the liquid.
+TEST(Forces, OfViscosityReachSolidsAcrossFacesWithoutLiquid)
+{
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    double most = 0.0;
+    for (int n = 0; n < 18; ++n) {
+        SCOPED_TRACE(n);
+        const Transfer& transfer = n % 2 == 0 ? kApic : kPoly8;
+        Scene scene = tankScene(transfer, 0.4, {40.0, 40.0, 40.0}, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+        const Vec3 middle(8.0, 8.0, 8.0), way = Vec3(unit(random), unit(random), unit(random)).normalized();
+        scene.sources[0].shape = Shape::ball(middle + 0.3 * Vec3(unit(random), unit(random), unit(random)), 0.6);
+        scene.settings.liquid.solveViscosity = true;
+        scene.settings.liquid.viscosity = std::pow(10.0, 3.0 + unit(random));
+        scene.settings.liquid.wallFriction = n % 3 == 0 ? 0.5 : 0.0;
+        scene.settings.time.mode = TimeMode::Fixed;
+        scene.settings.time.dt = 2.0e-4;
+        Motion motion;
+        motion.addOscillation(0.0, 1.0, way, 0.4, 100.0);
+        scene.obstacles.push_back(obstacle("ball", Shape::ball(middle - (1.2 + 0.2 * unit(random)) * way, 0.5), motion));
+        Simulation simulation(scene);
+        for (int step = 0; step < 40; ++step) {
+            const ClosedStep closed(simulation);
+            // Surface faces that count as full leave up to .022 of it; all of it where such faces were left out.
+            EXPECT_LT(simulation.forces().balance.unresolved.norm(), 0.05 * closed.exchanged) << step;
+            most = std::max(most, simulation.forces().obstacles[1].sum().linear.norm() / simulation.forces().balance.weight.norm());
+        }
+    }
+    EXPECT_GT(most, 10.0) << "the ball pulls";
 }
 
 TEST(Forces, AreTheSameOnAnyNumberOfThreads)
