@@ -1,7 +1,7 @@
 #include "app/bench.h"
 
 #include "app/provenance/provenance.h"
-#include "app/statistics.h"
+#include "app/system/statistics.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

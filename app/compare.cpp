@@ -1,15 +1,15 @@
 #include "app/compare.h"
 
-#include "app/child_process.h"
 #include "app/compare_table.h"
 #include "app/diff/series.h"
 #include "app/energy_plot.h"
-#include "app/gnuplot.h"
-#include "app/output_files.h"
-#include "app/progress.h"
 #include "app/reports.h"
 #include "app/resume.h"
-#include "app/stopwatch.h"
+#include "app/system/atomic_files.h"
+#include "app/system/child_process.h"
+#include "app/system/gnuplot.h"
+#include "app/system/progress.h"
+#include "app/system/stopwatch.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

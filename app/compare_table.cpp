@@ -1,6 +1,6 @@
 #include "app/compare_table.h"
 
-#include "app/progress.h"
+#include "app/system/progress.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/step_report.h"
 
 #include <filesystem>

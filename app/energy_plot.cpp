@@ -1,7 +1,7 @@
 #include "app/energy_plot.h"
 
-#include "app/gnuplot.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 

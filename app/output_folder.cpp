@@ -1,7 +1,7 @@
 #include "app/output_folder.h"
 
 #include "app/export/geometry_files.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

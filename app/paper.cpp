@@ -1,9 +1,9 @@
 #include "app/paper.h"
 
 #include "app/energy_plot.h"
-#include "app/gnuplot.h"
-#include "app/output_files.h"
 #include "app/reports.h"
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

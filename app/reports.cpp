@@ -1,9 +1,9 @@
 #include "app/reports.h"
 
 #include "app/parts.h"
-#include "app/peak_memory.h"
-#include "app/statistics.h"
-#include "app/stopwatch.h"
+#include "app/system/peak_memory.h"
+#include "app/system/statistics.h"
+#include "app/system/stopwatch.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

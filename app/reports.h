@@ -2,9 +2,9 @@
 
 #include "app/energy_ledger.h"
 #include "app/force_log.h"
-#include "app/output_files.h"
 #include "app/probes/probe_log.h"
 #include "app/scene_setup.h"
+#include "app/system/atomic_files.h"
 #include "sim/state.h"
 
 #include <array>

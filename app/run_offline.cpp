@@ -3,11 +3,11 @@
 #include "app/checkpoint/state_files.h"
 #include "app/export/geometry_sink.h"
 #include "app/frame_sink.h"
-#include "app/gnuplot.h"
 #include "app/output_folder.h"
-#include "app/progress.h"
 #include "app/provenance/provenance.h"
 #include "app/shut_sources.h"
+#include "app/system/gnuplot.h"
+#include "app/system/progress.h"
 #include "sim/core/check.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "app/stored_run.h"
 
 #include "app/frame_sink.h"
-#include "app/output_files.h"
 #include "app/output_folder.h"
-#include "app/progress.h"
 #include "app/reports.h"
+#include "app/system/atomic_files.h"
+#include "app/system/progress.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "app/video.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/child_process.h"
 #include "app/picture_settings.h"
+#include "app/system/child_process.h"
 
 #include <cstdint>
 #include <filesystem>

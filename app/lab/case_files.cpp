@@ -1,6 +1,6 @@
 #include "app/lab/case_files.h"
 
-#include "app/data_folder.h"
+#include "app/system/data_folder.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

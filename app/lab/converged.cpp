@@ -1,8 +1,8 @@
 #include "app/lab/converged.h"
 
-#include "app/output_files.h"
-#include "app/progress.h"
-#include "app/thread_limit.h"
+#include "app/system/atomic_files.h"
+#include "app/system/progress.h"
+#include "app/system/thread_limit.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "app/lab/run_course.h"
 #include "app/lab/stress_ending.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ std::string whyUnstable(const StabilityRow& row, const RunCourse& course)
 
 }  // namespace
 
-StabilityRow judgeStability(const CrewEnd& end, const std::filesystem::path& folder, StabilityRow row)
+StabilityRow judgeStability(const ProcessEnd& end, const std::filesystem::path& folder, StabilityRow row)
 {
     constexpr int kNoPictures = 0;
     const StressOutcome outcome = judgeEnd(end, folder, kNoPictures);

@@ -1,6 +1,6 @@
 #include "app/lab/precision_plot.h"
 
-#include "app/gnuplot.h"
+#include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 

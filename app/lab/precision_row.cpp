@@ -1,7 +1,7 @@
 #include "app/lab/precision_row.h"
 
-#include "app/csv.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
+#include "app/system/csv.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

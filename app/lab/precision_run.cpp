@@ -1,8 +1,8 @@
 #include "app/lab/precision_run.h"
 
 #include "app/lab/follow.h"
-#include "app/statistics.h"
-#include "app/thread_limit.h"
+#include "app/system/statistics.h"
+#include "app/system/thread_limit.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "app/lab/precision_table.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,9 +3,9 @@
 #include "app/lab/escapes.h"
 #include "app/lab/random_scene.h"
 #include "app/lab/run_course.h"
-#include "app/output_files.h"
 #include "app/output_folder.h"
-#include "app/progress.h"
+#include "app/system/atomic_files.h"
+#include "app/system/progress.h"
 
 #include <fmt/format.h>
 
@@ -73,16 +73,16 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
     const auto nameOf = [&](std::size_t n) { return randomSceneName(stress.seed, stress.first + static_cast<int>(n)); };
     const auto sceneOf = [&](std::size_t n) { return randomScene(stress.seed, stress.first + static_cast<int>(n)); };
     std::map<std::size_t, RandomStressResult> results;
-    Crew crew{.count = static_cast<std::size_t>(stress.count), .width = stress.width, .limitSeconds = stress.limitSeconds};
-    crew.stopWanted = stress.stopWanted;
-    crew.arguments = [&](std::size_t n) {
+    ProcessPool pool{.count = static_cast<std::size_t>(stress.count), .width = stress.width, .limitSeconds = stress.limitSeconds};
+    pool.stopWanted = stress.stopWanted;
+    pool.arguments = [&](std::size_t n) {
         const std::string name = nameOf(n);
         places.remove(name);
         writeWhole(places.file(name), sceneOf(n).text);
         return std::vector<std::string>{"run",       places.file(name).string(), "--out", places.folder(name).string(),
                                         "--threads", "1",                        "--no-video"};
     };
-    crew.ended = [&](std::size_t n, const CrewEnd& end) {
+    pool.ended = [&](std::size_t n, const ProcessEnd& end) {
         if (stress.stopWanted()) return;
         const std::string name = nameOf(n);
         RandomStressResult result{name, judgeEnd(end, places.folder(name), kPictures)};
@@ -91,7 +91,7 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
         if (result.outcome.ending == StressEnding::Finished) places.remove(name);
         results.emplace(n, std::move(result));
     };
-    runCrew(crew);
+    runProcesses(pool);
     std::vector<RandomStressResult> inOrder;
     for (auto& [n, result] : results) inOrder.push_back(std::move(result));
     return inOrder;

@@ -1,7 +1,7 @@
 #include "app/lab/run_case.h"
 
 #include "app/lab/follow.h"
-#include "app/stopwatch.h"
+#include "app/system/stopwatch.h"
 #include "sim/core/check.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "app/lab/run_course.h"
 
-#include "app/csv.h"
+#include "app/system/csv.h"
 #include "sim/scene/load_scene.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "app/lab/stability_map.h"
 
-#include "app/csv.h"
-#include "app/output_files.h"
 #include "app/output_folder.h"
+#include "app/system/atomic_files.h"
+#include "app/system/csv.h"
 
 #include <fmt/format.h>
 
@@ -77,17 +77,17 @@ void tell(const StabilityRow& row)
 void runStep(const StabilityMap& map, double dt, const std::filesystem::path& csv, std::vector<StabilityRow>& rows)
 {
     const std::vector<Job> jobs = jobsOf(map, dt, rows);
-    Crew crew{.count = jobs.size(), .width = map.width, .limitSeconds = map.limitSeconds};
-    crew.stopWanted = map.stopWanted;
-    crew.arguments = [&](std::size_t n) { return argumentsOf(map, jobs[n]); };
-    crew.ended = [&](std::size_t n, const CrewEnd& end) {
+    ProcessPool pool{.count = jobs.size(), .width = map.width, .limitSeconds = map.limitSeconds};
+    pool.stopWanted = map.stopWanted;
+    pool.arguments = [&](std::size_t n) { return argumentsOf(map, jobs[n]); };
+    pool.ended = [&](std::size_t n, const ProcessEnd& end) {
         if (map.stopWanted()) return;
         rows.push_back(judgeStability(end, jobs[n].folder, jobs[n].row));
         tell(rows.back());
         std::filesystem::remove_all(jobs[n].folder);
         writeWhole(csv, stabilityTable(rows));
     };
-    runCrew(crew);
+    runProcesses(pool);
 }
 
 }  // namespace

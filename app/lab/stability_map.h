@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/lab/child_crew.h"
 #include "app/parts.h"
+#include "app/system/process_pool.h"
 
 #include <filesystem>
 #include <functional>
@@ -51,7 +51,7 @@ std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& method
                                       const std::string& knob, const std::vector<double>& factors);
 
 /// Judge a run by how it ended and its logs in the folder.
-StabilityRow judgeStability(const CrewEnd& end, const std::filesystem::path& folder, StabilityRow row);
+StabilityRow judgeStability(const ProcessEnd& end, const std::filesystem::path& folder, StabilityRow row);
 
 /// Run what map.csv does not have yet. Returns all its rows, also those of earlier calls.
 std::vector<StabilityRow> runStabilityMap(const StabilityMap& map);

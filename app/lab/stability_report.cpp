@@ -1,7 +1,7 @@
 #include "app/lab/stability_report.h"
 
-#include "app/gnuplot.h"
 #include "app/lab/run_course.h"
+#include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 

@@ -39,7 +39,7 @@ std::string firstMissingPicture(const std::filesystem::path& folder, int picture
 
 }  // namespace
 
-StressOutcome judgeEnd(const CrewEnd& end, const std::filesystem::path& folder, int pictures)
+StressOutcome judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures)
 {
     const auto outcome = [&](StressEnding ending, std::string why) { return StressOutcome{ending, std::move(why), end.seconds}; };
     constexpr int kSignals = 128, kMistake = 2;  // exit codes

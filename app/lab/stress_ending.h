@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/lab/child_crew.h"
+#include "app/system/process_pool.h"
 
 #include <array>
 #include <filesystem>
@@ -36,6 +36,6 @@ struct StressOutcome {
 
 /// Judge the end of `drench run` by its exit code, its last words and what it left in its folder.
 /// @param pictures  that it must have left, were it finished
-StressOutcome judgeEnd(const CrewEnd& end, const std::filesystem::path& folder, int pictures);
+StressOutcome judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures);
 
 }  // namespace app

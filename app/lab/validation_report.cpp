@@ -1,8 +1,8 @@
 #include "app/lab/validation_report.h"
 
-#include "app/gnuplot.h"
-#include "app/output_files.h"
-#include "app/progress.h"
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
+#include "app/system/progress.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "app/probes/probe_stored.h"
 
-#include "app/gnuplot.h"
-#include "app/output_files.h"
 #include "app/output_folder.h"
 #include "app/probes/probe_log.h"
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "app/provenance/provenance.h"
 
 #include "app/checkpoint/hdf5_image.h"
-#include "app/child_process.h"
-#include "app/output_files.h"
 #include "app/provenance/build_info.h"
-#include "app/thread_limit.h"
+#include "app/system/atomic_files.h"
+#include "app/system/child_process.h"
+#include "app/system/thread_limit.h"
 #include "app/video.h"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "app/schema/schema.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

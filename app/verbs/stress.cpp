@@ -1,11 +1,11 @@
-#include "app/data_folder.h"
-#include "app/gnuplot.h"
-#include "app/interrupt.h"
 #include "app/lab/random_stress.h"
 #include "app/lab/stability_report.h"
-#include "app/output_files.h"
 #include "app/output_folder.h"
 #include "app/paper.h"
+#include "app/system/atomic_files.h"
+#include "app/system/data_folder.h"
+#include "app/system/gnuplot.h"
+#include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "app/thread_limit.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 

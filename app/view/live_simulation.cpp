@@ -1,7 +1,7 @@
 #include "app/view/live_simulation.h"
 
 #include "app/frame_view_from_state.h"
-#include "app/stopwatch.h"
+#include "app/system/stopwatch.h"
 #include "sim/core/check.h"
 
 #include <algorithm>

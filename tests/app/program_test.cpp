@@ -1,9 +1,9 @@
 // The whole program as a process, around the toy of fake_parts.h: TOY_PROGRAM is its file.
 
-#include "app/child_process.h"
 #include "app/frame_pipeline.h"
 #include "app/options.h"
 #include "app/paper.h"
+#include "app/system/child_process.h"
 #include "app/video.h"
 #include "sim/core/check.h"
 #include "tests/app/temporary_folder.h"

@@ -1,6 +1,6 @@
 // drench diff on pictures, as a process.
 
-#include "app/child_process.h"
+#include "app/system/child_process.h"
 #include "app/video.h"
 #include "render/image.h"
 #include "tests/app/temporary_folder.h"

@@ -1,7 +1,7 @@
 #include "app/lab/converged.h"
 #include "app/lab/precision_report.h"
 #include "app/lab/precision_table.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/scene_file.h"
 #include "tests/app/fake_parts.h"

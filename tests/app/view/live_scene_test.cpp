@@ -1,4 +1,4 @@
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "app/view/live_simulation.h"
 #include "tests/app/temporary_folder.h"
 

@@ -1,6 +1,6 @@
-#include "app/child_process.h"
+#include "app/system/child_process.h"
 
-#include "app/interrupt.h"
+#include "app/system/interrupt.h"
 
 #include <fmt/format.h>
 

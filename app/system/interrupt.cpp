@@ -1,4 +1,4 @@
-#include "app/interrupt.h"
+#include "app/system/interrupt.h"
 
 #include <atomic>
 #include <csignal>

@@ -1,4 +1,4 @@
-#include "app/lab/child_crew.h"
+#include "app/system/process_pool.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,39 +17,39 @@ struct Member {
     ChildProcess child;
     bool timedOut = false;
 
-    Member(std::size_t n, const Crew& crew) : number(n), child(crew.program, crew.arguments(n)) {}
+    Member(std::size_t n, const ProcessPool& pool) : number(n), child(pool.program, pool.arguments(n)) {}
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
 };
 
 /// Takes those out that have ended, and ends those that take too long.
-void lookAfter(std::list<Member>& members, const Crew& crew)
+void lookAfter(std::list<Member>& members, const ProcessPool& pool)
 {
     for (auto member = members.begin(); member != members.end();) {
         const auto exit = member->child.poll();
         if (!exit) {
-            if (!member->timedOut && member->seconds() > crew.limitSeconds) {
+            if (!member->timedOut && member->seconds() > pool.limitSeconds) {
                 member->child.kill();
                 member->timedOut = true;
             }
             ++member;
             continue;
         }
-        crew.ended(member->number, {*exit, member->seconds(), member->timedOut});
+        pool.ended(member->number, {*exit, member->seconds(), member->timedOut});
         member = members.erase(member);
     }
 }
 
 }  // namespace
 
-void runCrew(const Crew& crew)
+void runProcesses(const ProcessPool& pool)
 {
     std::list<Member> members;
-    const auto width = static_cast<std::size_t>(std::max(1, crew.width));
-    for (std::size_t next = 0; next < crew.count || !members.empty();) {
-        if (crew.stopWanted()) next = crew.count;
-        for (; next < crew.count && members.size() < width; ++next) members.emplace_back(next, crew);
+    const auto width = static_cast<std::size_t>(std::max(1, pool.width));
+    for (std::size_t next = 0; next < pool.count || !members.empty();) {
+        if (pool.stopWanted()) next = pool.count;
+        for (; next < pool.count && members.size() < width; ++next) members.emplace_back(next, pool);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        lookAfter(members, crew);
+        lookAfter(members, pool);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "app/csv.h"
+#include "app/system/csv.h"
 
 #include <sstream>
 

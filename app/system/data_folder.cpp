@@ -1,4 +1,4 @@
-#include "app/data_folder.h"
+#include "app/system/data_folder.h"
 
 namespace app {
 

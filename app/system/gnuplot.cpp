@@ -1,7 +1,7 @@
-#include "app/gnuplot.h"
+#include "app/system/gnuplot.h"
 
-#include "app/child_process.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
+#include "app/system/child_process.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "app/progress.h"
+#include "app/system/progress.h"
 
-#include "app/stopwatch.h"
+#include "app/system/stopwatch.h"
 
 #include <fmt/format.h>
 
