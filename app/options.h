@@ -2,7 +2,7 @@
 
 #include "app/diff/diff_options.h"
 #include "app/import/import_options.h"
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/frame_pipeline.h"
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 #include "app/view/view_options.h"
 #include "sim/fabric/contact/contact.h"
 #include "sim/forces.h"

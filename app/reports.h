@@ -3,7 +3,7 @@
 #include "app/energy_ledger.h"
 #include "app/force_log.h"
 #include "app/probes/probe_log.h"
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 #include "app/system/atomic_files.h"
 #include "sim/state.h"
 

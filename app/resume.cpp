@@ -1,7 +1,7 @@
 #include "app/resume.h"
 
 #include "app/checkpoint/state_files.h"
-#include "app/view/live_scene.h"
+#include "app/scene/changed_scene.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
@@ -35,13 +35,13 @@ bool isAboutTheRun(const std::string& set)
 }
 
 /// The scene as it stands in the folder, with what may be set for a run that goes on.
-SceneSetup load(const fs::path& scene, const std::vector<std::string>& sets, std::int64_t step, const LiveSettings::Load& loadScene)
+SceneSetup load(const fs::path& scene, const std::vector<std::string>& sets, std::int64_t step, const ChangedScene::Load& loadScene)
 {
     SceneRequest request = {.file = scene.string(), .variant = "", .sets = {}};
     std::vector<std::string> changed;
     for (const std::string& set : sets) (isAboutTheRun(set) ? request.sets : changed).push_back(set);
     if (changed.empty()) return loadScene(request);
-    LiveSettings settings(request, loadScene);
+    ChangedScene settings(request, loadScene);
     settings.change(changed, step);
     const std::vector<std::string> waiting = settings.scene(step).waiting;
     if (!waiting.empty()) throw sim::InputError(fmt::format("--set {}: this holds for a whole run; run the scene anew with it", waiting.front()));

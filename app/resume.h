@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/checkpoint/checkpoint.h"
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 
 #include <cstdint>
 #include <filesystem>

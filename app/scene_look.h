@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/picture_settings.h"
+#include "app/scene/picture_settings.h"
 #include "render/camera.h"
 #include "render/compose.h"
 #include "render/look.h"

@@ -1,6 +1,6 @@
 #include "app/diff/read_tolerance.h"
 
-#include "app/describe_picture.h"
+#include "app/scene/describe_picture.h"
 #include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/overrides.h"

@@ -1,7 +1,7 @@
-#include "app/describe_picture.h"
 #include "app/lab/precision.h"
 #include "app/lab/validation.h"
 #include "app/probes/probes.h"
+#include "app/scene/describe_picture.h"
 #include "app/schema/ask_reader.h"
 #include "app/schema/body_schemas.h"
 #include "app/schema/schema.h"

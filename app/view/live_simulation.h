@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/parts.h"
+#include "app/scene/changed_scene.h"
 #include "app/shut_sources.h"
-#include "app/view/live_scene.h"
 #include "app/view/moments.h"
 
 #include <condition_variable>
@@ -96,7 +96,7 @@ class LiveSimulation {
     const Parts parts_;
 
     // The simulation's thread has these to itself once it runs.
-    LiveSettings settings_;
+    ChangedScene settings_;
     PlaceObstacles placeObstacles_;
     std::unique_ptr<Steppable> simulation_;
     std::optional<ShutSources> shutSources_;  ///< since it was started

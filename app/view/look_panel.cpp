@@ -1,7 +1,7 @@
 #include "app/view/look_panel.h"
 
-#include "app/describe_picture.h"
 #include "app/frame_view_from_state.h"
+#include "app/scene/describe_picture.h"
 #include "app/scene_look.h"
 
 #include <imgui.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/live_scene.h"
+#include "app/scene/changed_scene.h"
 #include "app/view/recent_files.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "app/lab/random_scene.h"
 
-#include "app/read_picture_settings.h"
+#include "app/scene/read_picture_settings.h"
 #include "sim/core/check.h"
 #include "sim/scene/load_scene.h"
 

@@ -1,4 +1,4 @@
-#include "app/view/live_scene.h"
+#include "app/scene/changed_scene.h"
 
 #include "sim/core/check.h"
 #include "sim/scene/read_changes.h"
@@ -39,20 +39,20 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 
 }  // namespace
 
-LiveSettings::LiveSettings(SceneRequest request, Load load) : load_(std::move(load)), start_(std::move(request))
+ChangedScene::ChangedScene(SceneRequest request, Load load) : load_(std::move(load)), start_(std::move(request))
 {
     begin(load_(start_));
 }
 
 /// States of one scene are none of another.
-void LiveSettings::requireSameFile() const
+void ChangedScene::requireSameFile() const
 {
     if (load_(start_).identity != identity_)
         throw sim::InputError(start_.file + ": was changed since the start; restart to take it as it is now");
 }
 
 /// In the order of their steps, one for each.
-void LiveSettings::tidy(std::vector<Change>& changes)
+void ChangedScene::tidy(std::vector<Change>& changes)
 {
     std::ranges::stable_sort(changes, {}, &Change::step);
     for (std::size_t i = changes.size(); i-- > 1;) {
@@ -63,7 +63,7 @@ void LiveSettings::tidy(std::vector<Change>& changes)
     }
 }
 
-SceneRequest LiveSettings::requestOf(const std::vector<std::string>& sets, const std::vector<Change>& changes) const
+SceneRequest ChangedScene::requestOf(const std::vector<std::string>& sets, const std::vector<Change>& changes) const
 {
     SceneRequest request = start_;
     append(request.sets, sets);
@@ -73,18 +73,18 @@ SceneRequest LiveSettings::requestOf(const std::vector<std::string>& sets, const
     return request;
 }
 
-LiveScene LiveSettings::scene(std::int64_t step) const
+LiveScene ChangedScene::scene(std::int64_t step) const
 {
     return {requestOf({}, changes_), setup_, parametersAt(setup_.scene, step), waiting_};
 }
 
-std::int64_t LiveSettings::nextChange(std::int64_t step) const
+std::int64_t ChangedScene::nextChange(std::int64_t step) const
 {
     const auto next = std::ranges::find_if(changes_, [&](const Change& c) { return c.step > step + 1; });
     return next == changes_.end() ? std::numeric_limits<std::int64_t>::max() : next->step;
 }
 
-bool LiveSettings::change(const std::vector<std::string>& sets, std::int64_t step)
+bool ChangedScene::change(const std::vector<std::string>& sets, std::int64_t step)
 {
     std::vector<std::string> now, later = waiting_;
     const std::vector<sim::Parameter> parameters = parametersAt(setup_.scene, step);
@@ -106,7 +106,7 @@ bool LiveSettings::change(const std::vector<std::string>& sets, std::int64_t ste
     return step == 0;
 }
 
-void LiveSettings::goBackTo(std::int64_t step)
+void ChangedScene::goBackTo(std::int64_t step)
 {
     std::vector<Change> changes = changes_;
     for (Change& change : changes)
@@ -117,7 +117,7 @@ void LiveSettings::goBackTo(std::int64_t step)
     changes_ = std::move(changes);
 }
 
-bool LiveSettings::restart()
+bool ChangedScene::restart()
 {
     std::vector<std::string> sets;
     for (const Change& change : changes_)
@@ -132,7 +132,7 @@ bool LiveSettings::restart()
 }
 
 /// With what the scene itself changes on the way.
-void LiveSettings::begin(SceneSetup setup)
+void ChangedScene::begin(SceneSetup setup)
 {
     setup_ = std::move(setup);
     identity_ = setup_.identity;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 #include "sim/scene/parameters.h"
 
 #include <cstdint>
@@ -18,13 +18,13 @@ struct LiveScene {
     std::vector<std::string> waiting;        ///< changes that a restart would make, each as `--set` takes it
 };
 
-/// What a live simulation runs with: the scene that was asked for and what was changed since.
-class LiveSettings {
+/// A scene that was asked for, and what was changed in it since: by hand as it runs, or where it is gone on with.
+class ChangedScene {
  public:
     using Load = std::function<SceneSetup(const SceneRequest&)>;
 
     /// Throws InputError.
-    LiveSettings(SceneRequest request, Load load);
+    ChangedScene(SceneRequest request, Load load);
 
     const SceneSetup& setup() const { return setup_; }
     LiveScene scene(std::int64_t step) const;

@@ -1,6 +1,6 @@
 // No key of pictures and files is silently without effect: of each it is known what reads it, and where nothing does that is told.
-#include "app/read_picture_settings.h"
-#include "app/unread_pictures.h"
+#include "app/scene/read_picture_settings.h"
+#include "app/scene/unread_pictures.h"
 
 #include <gtest/gtest.h>
 

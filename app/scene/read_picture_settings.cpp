@@ -1,6 +1,6 @@
-#include "app/read_picture_settings.h"
+#include "app/scene/read_picture_settings.h"
 
-#include "app/describe_picture.h"
+#include "app/scene/describe_picture.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/section_writer.h"
 

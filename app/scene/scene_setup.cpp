@@ -1,4 +1,4 @@
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 
 #include "app/system/atomic_files.h"
 

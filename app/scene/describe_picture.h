@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/picture_settings.h"
+#include "app/scene/picture_settings.h"
 #include "sim/scene/choice.h"
 #include "sim/scene/range.h"
 #include "sim/scene/units.h"

@@ -2,8 +2,8 @@
 
 #include "app/lab/precision.h"
 #include "app/lab/validation.h"
-#include "app/picture_settings.h"
 #include "app/probes/probes.h"
+#include "app/scene/picture_settings.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/scene_file.h"
 

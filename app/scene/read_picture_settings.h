@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/picture_settings.h"
+#include "app/scene/picture_settings.h"
 #include "sim/scene/scene_file.h"
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "app/unread_pictures.h"
+#include "app/scene/unread_pictures.h"
 
 #include "sim/scene/unread_settings.h"
 
