@@ -1,6 +1,6 @@
 #include "app/frame_sink.h"
 
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/frame_pipeline.h"
+#include "app/frames/frame_pipeline.h"
 #include "app/scene/scene_setup.h"
 #include "app/view/view_options.h"
 #include "sim/fabric/contact/contact.h"

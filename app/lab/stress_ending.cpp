@@ -1,6 +1,6 @@
 #include "app/lab/stress_ending.h"
 
-#include "app/frame_pipeline.h"
+#include "app/frames/frame_pipeline.h"
 
 #include <fmt/format.h>
 

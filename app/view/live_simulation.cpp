@@ -1,6 +1,6 @@
 #include "app/view/live_simulation.h"
 
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 #include "app/system/stopwatch.h"
 #include "sim/core/check.h"
 

@@ -1,6 +1,6 @@
 #include "app/view/look_panel.h"
 
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 #include "app/scene/describe_picture.h"
 #include "app/scene_look.h"
 

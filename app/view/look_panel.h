@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/frame_snapshot.h"
+#include "app/frames/frame_snapshot.h"
 #include "app/scene/picture_settings.h"
 #include "render/look.h"
 

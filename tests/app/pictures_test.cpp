@@ -1,5 +1,5 @@
 // Pictures of real scenes, drawn without a window.
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 #include "app/parts.h"
 #include "render/image.h"
 #include "tests/app/temporary_folder.h"

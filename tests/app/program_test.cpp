@@ -1,6 +1,6 @@
 // The whole program as a process, around the toy of fake_parts.h: TOY_PROGRAM is its file.
 
-#include "app/frame_pipeline.h"
+#include "app/frames/frame_pipeline.h"
 #include "app/options.h"
 #include "app/paper.h"
 #include "app/system/child_process.h"

@@ -1,6 +1,6 @@
-#include "app/surface_in_frame.h"
+#include "app/frames/snapshot_surface.h"
 
-#include "app/pressure_in_frame.h"
+#include "app/frames/sample_pressure.h"
 #include "sim/core/parallel.h"
 #include "sim/surface/liquid_surface.h"
 

@@ -1,4 +1,4 @@
-#include "app/frame_pipeline.h"
+#include "app/frames/frame_pipeline.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/lines_in_frame.h"
+#include "app/frames/snapshot_lines.h"
 
 #include <algorithm>
 

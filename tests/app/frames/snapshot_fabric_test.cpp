@@ -1,5 +1,5 @@
-#include "app/fabric_in_frame.h"
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_fabric.h"
+#include "app/frames/snapshot_from_state.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/pressure_in_frame.h"
+#include "app/frames/sample_pressure.h"
 
 namespace app {
 

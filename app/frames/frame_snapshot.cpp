@@ -1,4 +1,4 @@
-#include "app/frame_snapshot.h"
+#include "app/frames/frame_snapshot.h"
 
 namespace app {
 

@@ -1,6 +1,6 @@
-#include "app/lines_in_frame.h"
+#include "app/frames/snapshot_lines.h"
 
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/fabric_in_frame.h"
+#include "app/frames/snapshot_fabric.h"
 
 #include <Eigen/Geometry>
 

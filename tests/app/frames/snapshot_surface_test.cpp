@@ -1,7 +1,7 @@
-#include "app/surface_in_frame.h"
+#include "app/frames/snapshot_surface.h"
 
-#include "app/frame_view_from_state.h"
-#include "app/pressure_in_frame.h"
+#include "app/frames/sample_pressure.h"
+#include "app/frames/snapshot_from_state.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/frame_queue.h"
-#include "app/frame_snapshot.h"
+#include "app/frames/frame_queue.h"
+#include "app/frames/frame_snapshot.h"
 
 #include <condition_variable>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 
-#include "app/fabric_in_frame.h"
-#include "app/lines_in_frame.h"
-#include "app/pressure_in_frame.h"
-#include "app/surface_in_frame.h"
+#include "app/frames/sample_pressure.h"
+#include "app/frames/snapshot_fabric.h"
+#include "app/frames/snapshot_lines.h"
+#include "app/frames/snapshot_surface.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
