@@ -2,7 +2,7 @@
 
 #include "app/options.h"
 #include "app/parts.h"
-#include "app/side_by_side.h"
+#include "app/pictures/side_by_side.h"
 
 #include <filesystem>
 #include <functional>

@@ -2,8 +2,8 @@
 
 #include "app/checkpoint/state_files.h"
 #include "app/export/geometry_sink.h"
-#include "app/frame_sink.h"
 #include "app/output_folder.h"
+#include "app/pictures/frame_sink.h"
 #include "app/provenance/provenance.h"
 #include "app/shut_sources.h"
 #include "app/system/gnuplot.h"

@@ -1,7 +1,7 @@
 #include "app/stored_run.h"
 
-#include "app/frame_sink.h"
 #include "app/output_folder.h"
+#include "app/pictures/frame_sink.h"
 #include "app/reports.h"
 #include "app/system/atomic_files.h"
 #include "app/system/progress.h"

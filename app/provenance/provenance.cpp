@@ -1,11 +1,11 @@
 #include "app/provenance/provenance.h"
 
 #include "app/checkpoint/hdf5_image.h"
+#include "app/pictures/video.h"
 #include "app/provenance/build_info.h"
 #include "app/system/atomic_files.h"
 #include "app/system/child_process.h"
 #include "app/system/thread_limit.h"
-#include "app/video.h"
 
 #include <Eigen/Core>
 #include <fmt/chrono.h>

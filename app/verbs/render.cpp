@@ -1,10 +1,10 @@
 #include "app/output_folder.h"
+#include "app/pictures/video.h"
 #include "app/stored_run.h"
 #include "app/system/atomic_files.h"
 #include "app/system/interrupt.h"
 #include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
-#include "app/video.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include "app/checkpoint/state_files.h"
+#include "app/pictures/video.h"
 #include "app/provenance/repeat.h"
 #include "app/resume.h"
 #include "app/run_offline.h"
@@ -8,7 +9,6 @@
 #include "app/system/statistics.h"
 #include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
-#include "app/video.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

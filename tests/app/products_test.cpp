@@ -1,10 +1,10 @@
 #include "app/compare_table.h"
 #include "app/energy_plot.h"
-#include "app/side_by_side.h"
+#include "app/pictures/side_by_side.h"
+#include "app/pictures/video.h"
 #include "app/system/gnuplot.h"
 #include "app/system/progress.h"
 #include "app/system/statistics.h"
-#include "app/video.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/temporary_folder.h"
 

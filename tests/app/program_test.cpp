@@ -3,8 +3,8 @@
 #include "app/frames/frame_pipeline.h"
 #include "app/options.h"
 #include "app/paper.h"
+#include "app/pictures/video.h"
 #include "app/system/child_process.h"
-#include "app/video.h"
 #include "sim/core/check.h"
 #include "tests/app/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "app/video.h"
+#include "app/pictures/video.h"
 
 #include "app/system/atomic_files.h"
 

@@ -1,4 +1,4 @@
-#include "app/frame_sink.h"
+#include "app/pictures/frame_sink.h"
 
 #include "app/frames/snapshot_from_state.h"
 

@@ -1,7 +1,7 @@
-#include "app/side_by_side.h"
+#include "app/pictures/side_by_side.h"
 
 #include "app/output_folder.h"
-#include "app/video.h"
+#include "app/pictures/video.h"
 
 #include <spdlog/spdlog.h>
 
