@@ -1,5 +1,5 @@
-#include "app/draw_frames.h"
-#include "app/obstacle_meshes.h"
+#include "app/drawing/obstacle_meshes.h"
+#include "app/drawing/offscreen_renderer.h"
 #include "app/parts.h"
 #include "app/scene/read_picture_settings.h"
 #include "app/scene/unread_pictures.h"

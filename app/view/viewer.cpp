@@ -1,6 +1,6 @@
 #include "app/view/viewer.h"
 
-#include "app/scene_look.h"
+#include "app/drawing/look_from_settings.h"
 #include "app/system/atomic_files.h"
 #include "app/system/interrupt.h"
 #include "app/system/stopwatch.h"

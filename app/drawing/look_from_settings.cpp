@@ -1,4 +1,4 @@
-#include "app/scene_look.h"
+#include "app/drawing/look_from_settings.h"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
-#include "app/draw_frames.h"
+#include "app/drawing/offscreen_renderer.h"
 
+#include "app/drawing/look_from_settings.h"
 #include "app/provenance/provenance.h"
-#include "app/scene_look.h"
 #include "render/compose.h"
 #include "render/renderer.h"
 
