@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/lab/measures.h"
 #include "app/lab/take.h"
+#include "app/readings/measures.h"
 #include "sim/scene/formula.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/scene_file.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/force_log.h"
 #include "app/probes/probes.h"
+#include "app/readings/force_log.h"
 #include "app/system/atomic_files.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/lab/measures.h"
+#include "app/readings/measures.h"
 #include "sim/core/types.h"
 #include "sim/scene/formula.h"
 #include "sim/scene/scene.h"

@@ -1,4 +1,4 @@
-#include "app/lab/measures.h"
+#include "app/readings/measures.h"
 
 #include "app/parts.h"
 

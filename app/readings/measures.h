@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/force_log.h"
+#include "app/readings/force_log.h"
 #include "sim/core/types.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/scene/formula.h"

@@ -1,4 +1,4 @@
-#include "app/force_log.h"
+#include "app/readings/force_log.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-#include "app/lab/measures.h"
 #include "app/parts.h"
+#include "app/readings/measures.h"
 
 #include <fmt/format.h>
 
