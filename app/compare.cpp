@@ -1,9 +1,9 @@
 #include "app/compare.h"
 
-#include "app/compare_table.h"
 #include "app/diff/series.h"
-#include "app/energy_plot.h"
-#include "app/reports.h"
+#include "app/reports/compare_table.h"
+#include "app/reports/energy_plot.h"
+#include "app/reports/run_report.h"
 #include "app/resume.h"
 #include "app/system/atomic_files.h"
 #include "app/system/child_process.h"

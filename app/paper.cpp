@@ -1,7 +1,7 @@
 #include "app/paper.h"
 
-#include "app/energy_plot.h"
-#include "app/reports.h"
+#include "app/reports/energy_plot.h"
+#include "app/reports/run_report.h"
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"
 

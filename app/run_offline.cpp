@@ -2,10 +2,10 @@
 
 #include "app/checkpoint/state_files.h"
 #include "app/export/geometry_sink.h"
-#include "app/output_folder.h"
 #include "app/pictures/frame_sink.h"
 #include "app/provenance/provenance.h"
-#include "app/shut_sources.h"
+#include "app/reports/output_folder.h"
+#include "app/reports/shut_sources.h"
 #include "app/system/gnuplot.h"
 #include "app/system/progress.h"
 #include "sim/core/check.h"

@@ -2,7 +2,7 @@
 
 #include "app/checkpoint/checkpoint.h"
 #include "app/parts.h"
-#include "app/reports.h"
+#include "app/reports/run_report.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,8 +1,8 @@
 #include "app/stored_run.h"
 
-#include "app/output_folder.h"
 #include "app/pictures/frame_sink.h"
-#include "app/reports.h"
+#include "app/reports/output_folder.h"
+#include "app/reports/run_report.h"
 #include "app/system/atomic_files.h"
 #include "app/system/progress.h"
 #include "sim/core/check.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/reports.h"
+#include "app/reports/run_report.h"
 #include "app/scene/scene_setup.h"
 #include "sim/state.h"
 

@@ -1,6 +1,6 @@
 #include "app/diff/diff_page.h"
 
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"

@@ -1,6 +1,6 @@
 #include "app/lab/follow.h"
 
-#include "app/shut_sources.h"
+#include "app/reports/shut_sources.h"
 #include "sim/core/check.h"
 
 #include <algorithm>

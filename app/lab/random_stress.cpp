@@ -3,7 +3,7 @@
 #include "app/lab/escapes.h"
 #include "app/lab/random_scene.h"
 #include "app/lab/run_course.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "app/system/progress.h"
 

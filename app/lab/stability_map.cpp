@@ -1,6 +1,6 @@
 #include "app/lab/stability_map.h"
 
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "app/system/csv.h"
 

@@ -1,7 +1,7 @@
 #include "app/pictures/side_by_side.h"
 
-#include "app/output_folder.h"
 #include "app/pictures/video.h"
+#include "app/reports/output_folder.h"
 
 #include <spdlog/spdlog.h>
 

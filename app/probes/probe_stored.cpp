@@ -1,7 +1,7 @@
 #include "app/probes/probe_stored.h"
 
-#include "app/output_folder.h"
 #include "app/probes/probe_log.h"
+#include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"
 #include "sim/core/check.h"

@@ -1,6 +1,6 @@
 #include "app/study/study_table.h"
 
-#include "app/reports.h"
+#include "app/reports/run_report.h"
 #include "app/system/atomic_files.h"
 #include "app/system/csv.h"
 #include "app/system/gnuplot.h"

@@ -4,7 +4,7 @@
 #include "app/lab/precision_plot.h"
 #include "app/lab/precision_report.h"
 #include "app/lab/precision_table.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"
 #include "app/system/interrupt.h"

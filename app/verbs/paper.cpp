@@ -1,6 +1,6 @@
 #include "app/paper.h"
 
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/system/data_folder.h"
 #include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"

@@ -1,5 +1,5 @@
-#include "app/output_folder.h"
 #include "app/pictures/video.h"
+#include "app/reports/output_folder.h"
 #include "app/stored_run.h"
 #include "app/system/atomic_files.h"
 #include "app/system/interrupt.h"

@@ -1,4 +1,4 @@
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/study/run_study.h"
 #include "app/study/slurm.h"
 #include "app/study/study_table.h"

@@ -1,6 +1,6 @@
 #include "app/lab/case_files.h"
 #include "app/lab/validation_report.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"
 #include "app/system/interrupt.h"

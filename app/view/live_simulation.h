@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/parts.h"
+#include "app/reports/shut_sources.h"
 #include "app/scene/changed_scene.h"
-#include "app/shut_sources.h"
 #include "app/view/moments.h"
 
 #include <condition_variable>

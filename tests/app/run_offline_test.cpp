@@ -1,6 +1,6 @@
 #include "app/run_offline.h"
 
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "sim/core/check.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 
 #include "app/export/geometry_files.h"
 #include "app/system/atomic_files.h"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/energy_ledger.h"
 #include "app/probes/probe_log.h"
 #include "app/readings/force_log.h"
+#include "app/reports/energy_ledger.h"
 #include "app/scene/scene_setup.h"
 #include "app/system/atomic_files.h"
 #include "sim/state.h"

@@ -1,4 +1,4 @@
-#include "app/shut_sources.h"
+#include "app/reports/shut_sources.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

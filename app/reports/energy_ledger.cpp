@@ -1,4 +1,4 @@
-#include "app/energy_ledger.h"
+#include "app/reports/energy_ledger.h"
 
 #include <fmt/format.h>
 

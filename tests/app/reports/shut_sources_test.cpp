@@ -1,4 +1,4 @@
-#include "app/shut_sources.h"
+#include "app/reports/shut_sources.h"
 
 #include "app/lab/run_case.h"
 #include "app/run_offline.h"

@@ -1,4 +1,4 @@
-#include "app/reports.h"
+#include "app/reports/run_report.h"
 
 #include "app/parts.h"
 #include "app/system/peak_memory.h"

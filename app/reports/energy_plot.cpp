@@ -1,4 +1,4 @@
-#include "app/energy_plot.h"
+#include "app/reports/energy_plot.h"
 
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"

@@ -1,4 +1,4 @@
-#include "app/compare_table.h"
+#include "app/reports/compare_table.h"
 
 #include "app/system/progress.h"
 

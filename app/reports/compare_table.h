@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/reports.h"
+#include "app/reports/run_report.h"
 
 #include <string>
 #include <vector>
