@@ -1,7 +1,7 @@
 #include "app/study/run_study.h"
 
 #include "app/reports/run_report.h"
-#include "app/resume.h"
+#include "app/runs/resume.h"
 #include "app/system/process_pool.h"
 #include "app/system/progress.h"
 

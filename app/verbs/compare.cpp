@@ -1,4 +1,4 @@
-#include "app/compare.h"
+#include "app/runs/compare.h"
 
 #include "app/reports/output_folder.h"
 #include "app/system/interrupt.h"

@@ -1,4 +1,4 @@
-#include "app/paper.h"
+#include "app/runs/paper_runs.h"
 
 #include "app/reports/output_folder.h"
 #include "app/system/data_folder.h"

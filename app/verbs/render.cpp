@@ -1,6 +1,6 @@
 #include "app/pictures/video.h"
 #include "app/reports/output_folder.h"
-#include "app/stored_run.h"
+#include "app/runs/stored_run.h"
 #include "app/system/atomic_files.h"
 #include "app/system/interrupt.h"
 #include "app/system/thread_limit.h"

@@ -1,7 +1,7 @@
 #include "app/lab/random_stress.h"
 #include "app/lab/stability_report.h"
-#include "app/paper.h"
 #include "app/reports/output_folder.h"
+#include "app/runs/paper_runs.h"
 #include "app/system/atomic_files.h"
 #include "app/system/data_folder.h"
 #include "app/system/gnuplot.h"

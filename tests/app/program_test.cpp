@@ -2,8 +2,8 @@
 
 #include "app/frames/frame_pipeline.h"
 #include "app/options.h"
-#include "app/paper.h"
 #include "app/pictures/video.h"
+#include "app/runs/paper_runs.h"
 #include "app/system/child_process.h"
 #include "sim/core/check.h"
 #include "tests/app/temporary_folder.h"

@@ -1,7 +1,7 @@
 #include "app/reports/shut_sources.h"
 
 #include "app/lab/run_case.h"
-#include "app/run_offline.h"
+#include "app/runs/run_offline.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/log.h"
 #include "tests/app/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "app/run_offline.h"
+#include "app/runs/run_offline.h"
 
 #include "app/reports/output_folder.h"
 #include "sim/core/check.h"

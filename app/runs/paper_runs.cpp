@@ -1,4 +1,4 @@
-#include "app/paper.h"
+#include "app/runs/paper_runs.h"
 
 #include "app/reports/energy_plot.h"
 #include "app/reports/run_report.h"

@@ -1,4 +1,4 @@
-#include "app/stored_run.h"
+#include "app/runs/stored_run.h"
 
 #include "app/pictures/frame_sink.h"
 #include "app/reports/output_folder.h"

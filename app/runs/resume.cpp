@@ -1,4 +1,4 @@
-#include "app/resume.h"
+#include "app/runs/resume.h"
 
 #include "app/checkpoint/state_files.h"
 #include "app/scene/changed_scene.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/compare.h"
+#include "app/runs/compare.h"
 
 #include <string>
 #include <vector>

@@ -1,10 +1,10 @@
-#include "app/compare.h"
+#include "app/runs/compare.h"
 
 #include "app/diff/series.h"
 #include "app/reports/compare_table.h"
 #include "app/reports/energy_plot.h"
 #include "app/reports/run_report.h"
-#include "app/resume.h"
+#include "app/runs/resume.h"
 #include "app/system/atomic_files.h"
 #include "app/system/child_process.h"
 #include "app/system/gnuplot.h"

@@ -1,4 +1,4 @@
-#include "app/probes/probe_stored.h"
+#include "app/runs/probe_stored.h"
 
 #include "app/probes/probe_log.h"
 #include "app/reports/output_folder.h"

@@ -1,4 +1,4 @@
-#include "app/run_offline.h"
+#include "app/runs/run_offline.h"
 
 #include "app/checkpoint/state_files.h"
 #include "app/export/geometry_sink.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/stored_run.h"
+#include "app/runs/stored_run.h"
 
 #include <filesystem>
 #include <functional>
