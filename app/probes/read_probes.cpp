@@ -1,5 +1,5 @@
-#include "app/lab/reading_context.h"
 #include "app/probes/probes.h"
+#include "app/readings/reading_context.h"
 #include "sim/scene/read_list.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/lab/precision.h"
-#include "app/lab/validation.h"
+#include "app/lab/validation/validation.h"
+#include "app/lab/precision/precision.h"
 #include "app/probes/probes.h"
 #include "app/scene/picture_settings.h"
 #include "sim/scene/scene.h"

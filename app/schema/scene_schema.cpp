@@ -1,5 +1,5 @@
-#include "app/lab/precision.h"
-#include "app/lab/validation.h"
+#include "app/lab/validation/validation.h"
+#include "app/lab/precision/precision.h"
 #include "app/probes/probes.h"
 #include "app/scene/describe_picture.h"
 #include "app/schema/ask_reader.h"

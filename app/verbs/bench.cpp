@@ -1,4 +1,4 @@
-#include "app/bench.h"
+#include "app/lab/timing/bench.h"
 
 #include "app/system/atomic_files.h"
 #include "app/system/data_folder.h"

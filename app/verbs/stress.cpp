@@ -1,5 +1,5 @@
-#include "app/lab/random_stress.h"
-#include "app/lab/stability_report.h"
+#include "app/lab/random/random_stress.h"
+#include "app/lab/stability/stability_report.h"
 #include "app/reports/output_folder.h"
 #include "app/runs/paper_runs.h"
 #include "app/system/atomic_files.h"

@@ -1,5 +1,5 @@
-#include "app/lab/case_files.h"
-#include "app/lab/validation_report.h"
+#include "app/lab/checks/case_files.h"
+#include "app/lab/validation/validation_report.h"
 #include "app/reports/output_folder.h"
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"

@@ -1,6 +1,6 @@
 #include "app/reports/shut_sources.h"
 
-#include "app/lab/run_case.h"
+#include "app/lab/validation/run_case.h"
 #include "app/runs/run_offline.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/log.h"
