@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/live/live_pair.h"
 #include "app/parts.h"
-#include "app/view/live_pair.h"
 
 #include <array>
 #include <filesystem>

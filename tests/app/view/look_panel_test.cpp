@@ -3,7 +3,7 @@
 
 #include "app/drawing/look_from_settings.h"
 #include "app/frames/snapshot_from_state.h"
-#include "app/view/live_simulation.h"
+#include "app/live/live_simulation.h"
 #include "tests/app/fake_parts.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "app/live/moments.h"
 #include "app/parts.h"
 #include "app/reports/shut_sources.h"
 #include "app/scene/changed_scene.h"
-#include "app/view/moments.h"
 
 #include <condition_variable>
 #include <cstdint>

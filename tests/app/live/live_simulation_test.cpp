@@ -1,4 +1,4 @@
-#include "app/view/live_simulation.h"
+#include "app/live/live_simulation.h"
 
 #include "tests/app/fake_parts.h"
 

@@ -1,4 +1,4 @@
-#include "app/view/recent_files.h"
+#include "app/live/recent_files.h"
 
 #include "app/system/atomic_files.h"
 

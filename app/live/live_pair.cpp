@@ -1,4 +1,4 @@
-#include "app/view/live_pair.h"
+#include "app/live/live_pair.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,5 +1,5 @@
+#include "app/live/live_simulation.h"
 #include "app/system/atomic_files.h"
-#include "app/view/live_simulation.h"
 #include "tests/app/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/view/moments.h"
+#include "app/live/moments.h"
 
 #include <algorithm>
 #include <iterator>

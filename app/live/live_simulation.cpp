@@ -1,4 +1,4 @@
-#include "app/view/live_simulation.h"
+#include "app/live/live_simulation.h"
 
 #include "app/frames/snapshot_from_state.h"
 #include "app/system/stopwatch.h"
