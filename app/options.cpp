@@ -249,8 +249,8 @@ void addVerbs(CLI::App& program, Options& options)
     addScene(*view, options);
     addVariant(*view, options);
     view->add_option("--threads", options.threads, "threads of the simulation (default: all)")->check(CLI::Range(1, kMaxThreads));
-    view->add_flag("--paused", options.paused, "wait with the first step");
-    view->add_option("--beside", options.beside, "another variant of the scene, at the same times");
+    view->add_flag("--paused", options.view.paused, "wait with the first step");
+    view->add_option("--beside", options.view.beside, "another variant of the scene, at the same times");
     view->callback([&options] { options.verb = Verb::View; });
 
     auto* bench = program.add_subcommand("bench", "time a scene by stage");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/live/live_pair.h"
+#include "app/options.h"
 #include "app/parts.h"
 
 #include <array>
