@@ -59,7 +59,7 @@ ProvenanceJson librariesJson(const std::string& drawnBy)
 ProvenanceJson sceneJson(const SceneSetup& setup)
 {
     ProvenanceJson texts = ProvenanceJson::object();
-    for (const sim::SceneText& text : setup.texts) texts[text.file] = text.text;
+    for (const sim::SceneText& text : setup.file.texts) texts[text.file] = text.text;
     return {{"file", setup.request.file},
             {"variant", setup.request.variant},
             {"overrides", setup.request.sets},

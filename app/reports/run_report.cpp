@@ -236,7 +236,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.energy) energy_.emplace(folder / "energy.csv");
     if (output.ledger) energyLedger_.emplace(folder / "energy_ledger.csv");
     if (energy_) energy_->add(kEnergyHeader);
-    if (setup.probes) probes_.emplace(folder / kProbesFile, *setup.probes, begin_);
+    if (const auto probes = readProbes(setup)) probes_.emplace(folder / kProbesFile, *probes, begin_);
     describe(setup, std::move(contentHash), std::move(provenance));
 }
 
@@ -251,7 +251,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     if (output.ledger)
         energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes,
                               before.summary.energyLedger.value_or(EnergyLedger::Summary()));
-    if (setup.probes) probes_.emplace(folder / kProbesFile, *setup.probes, begin_, time, before.probesBytes, before.sinceReading);
+    if (const auto probes = readProbes(setup)) probes_.emplace(folder / kProbesFile, *probes, begin_, time, before.probesBytes, before.sinceReading);
     describe(setup, std::move(contentHash), std::move(provenance));
 }
 

@@ -50,13 +50,14 @@ void requireNoForces(const Probes& probes)
 
 bool probeStoredRun(const StoredRun& run, const std::filesystem::path& out, const std::function<bool()>& stopWanted)
 {
-    if (!run.setup.probes) throw sim::InputError(fmt::format("{}: its scene has no output.probes; give a file of them: drench probe FOLDER PROBES", run.folder.string()));
-    requireNoForces(*run.setup.probes);
+    const std::optional<Probes> probes = readProbes(run.setup);
+    if (!probes) throw sim::InputError(fmt::format("{}: its scene has no output.probes; give a file of them: drench probe FOLDER PROBES", run.folder.string()));
+    requireNoForces(*probes);
     makeFolder(out);
     const auto part = partFile(out / kProbesFile);
     try {
         StoredSimulation simulation(run.setup.scene);
-        ProbeLog log(part, *run.setup.probes, run.setup.scene.settings.time.start);
+        ProbeLog log(part, *probes, run.setup.scene.settings.time.start);
         const bool ended = forEachState(run, stopWanted, [&](const Checkpoint& stored) {
             simulation.show(stored.state);
             if (log.isNew()) log.initial(simulation);
@@ -64,7 +65,7 @@ bool probeStoredRun(const StoredRun& run, const std::filesystem::path& out, cons
         });
         if (ended) putInPlace(part, out / kProbesFile);
         else std::filesystem::remove(part);
-        if (ended && canPlot()) plotProbes(*run.setup.probes, run.setup.scene.title, out);
+        if (ended && canPlot()) plotProbes(*probes, run.setup.scene.title, out);
         return ended;
     } catch (...) {
         std::error_code ignored;

@@ -164,7 +164,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
         reportFailure(reports, error.what());
         throw;
     }
-    if (setup.probes && canPlot()) plotProbes(*setup.probes, setup.scene.title, options.out);
+    if (const auto probes = readProbes(setup); probes && canPlot()) plotProbes(*probes, setup.scene.title, options.out);
     return reports.summary();
 }
 

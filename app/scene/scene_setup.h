@@ -1,8 +1,5 @@
 #pragma once
 
-#include "app/lab/validation/validation.h"
-#include "app/lab/precision/precision.h"
-#include "app/probes/probes.h"
 #include "app/scene/picture_settings.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/scene_file.h"
@@ -27,15 +24,12 @@ struct SceneRequest {
 struct SceneSetup {
     sim::Scene scene;
     PictureSettings pictures;
-    std::optional<Validation> validation;
-    std::optional<Precision> precision;
-    std::optional<Probes> probes;
     std::string variant = "default";  ///< names its output folder
     std::string label;                ///< stands in its pictures; empty where the file is run as written
     std::string resolved;             ///< every setting with its unit, as `check` prints it
     std::string identity;             ///< the part of it that the run itself depends on: equal text, equal run
     SceneRequest request;             ///< what was asked for
-    std::vector<sim::SceneText> texts;  ///< as its file and those that it includes have it
+    sim::SceneFile file;              ///< as written, with what it includes: what readings and experiments need is read there
 };
 
 /// What makes two runs the same: the resolved scene, how its pictures are drawn, and the program that ran it, as 16

@@ -47,7 +47,7 @@ void tell(const PrecisionRow& row)
 PrecisionCase caseOf(const std::vector<PrecisionRun>& runs, const Options& options, const PrecisionTable& table)
 {
     const SceneSetup& setup = runs.front().setup;
-    PrecisionCase of{runs.front().scene, setup.scene.title, *setup.precision, {}};
+    PrecisionCase of{runs.front().scene, setup.scene.title, *readPrecision(setup), {}};
     for (const PrecisionRun& run : runs) {
         const PrecisionRow* row = table.find(run, options.threads, 1);
         if (row && row->isDone()) of.rows.push_back(*row);

@@ -23,12 +23,13 @@ SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts
 {
     SceneRequest request{file.string(), "", {}};
     SceneSetup setup = parts.loadScene(request);
-    if (!setup.validation)
+    const std::optional<Validation> validation = readValidation(setup);
+    if (!validation)
         throw sim::InputError(
             fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
     tellNotes(setup);
-    if (!isQuick || setup.validation->quick.empty()) return setup;
-    request.sets = setup.validation->quick;
+    if (!isQuick || validation->quick.empty()) return setup;
+    request.sets = validation->quick;
     return parts.loadScene(request);
 }
 

@@ -2,8 +2,7 @@
 
 #include "app/lab/checks/check.h"
 #include "app/readings/measures.h"
-#include "sim/scene/scene.h"
-#include "sim/scene/scene_file.h"
+#include "app/scene/scene_setup.h"
 
 #include <memory>
 #include <optional>
@@ -47,7 +46,7 @@ struct Precision {
 };
 
 /// Nothing where a scene has no such section. Throws InputError.
-std::optional<Precision> readPrecision(const sim::SceneFile& file, const sim::Scene& scene);
+std::optional<Precision> readPrecision(const SceneSetup& setup);
 
 /// How far a finding is from what is known: relative to that, or absolute where that is nothing.
 double errorOf(const Check& check, std::span<const Reading> readings);

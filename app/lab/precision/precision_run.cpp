@@ -20,7 +20,7 @@ using AllReadings = std::vector<std::vector<Reading>>;
 SceneSetup load(const std::string& file, const std::vector<std::string>& sets, const Parts& parts)
 {
     SceneSetup setup = parts.loadScene({.file = file, .variant = "", .sets = sets});
-    if (!setup.precision)
+    if (!readPrecision(setup))
         throw sim::InputError(fmt::format("{}: has no section precision, which tells what to run it with", file));
     return setup;
 }
@@ -34,10 +34,11 @@ std::vector<std::string> setsOf(const std::string& file, const std::array<const 
     const PrecisionChoice& step = *of[3];
     if (step.cells <= 0.0) return sets;
     const SceneSetup setup = load(file, sets, parts);
-    if (!(setup.precision->speed > 0.0))
+    const double speed = readPrecision(setup)->speed;
+    if (!(speed > 0.0))
         throw sim::InputError(fmt::format(
             "{}: precision.speed is missing: how fast is liquid that crosses so many cells per step?", file));
-    sets.push_back(fmt::format("time.dt={:.12g}", step.cells * setup.scene.settings.cell / setup.precision->speed));
+    sets.push_back(fmt::format("time.dt={:.12g}", step.cells * setup.scene.settings.cell / speed));
     return sets;
 }
 
@@ -57,10 +58,10 @@ struct Outcome {
     Followed followed;
 };
 
-Outcome runOnce(const SceneSetup& setup, const std::vector<Check>& checks, const Parts& parts,
+/// @param checks  that look at the section's measures
+Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::vector<Check>& checks, const Parts& parts,
                 const std::function<bool()>& stopWanted)
 {
-    const Precision& precision = *setup.precision;
     const auto simulation = parts.startSimulation(setup);
     precision.measures->look(*simulation);
     Outcome outcome;
@@ -110,13 +111,13 @@ PrecisionRow rowOf(const PrecisionRun& run, int threads, int repeats)
 std::string settingsOf(const SceneSetup& setup)
 {
     SceneSetup asked = setup;
-    asked.identity += setup.precision->question;
+    asked.identity += readPrecision(setup)->question;
     return contentHash(asked, false, 0);
 }
 
 std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& parts, bool isQuick)
 {
-    const Precision precision = *load(file, {}, parts).precision;
+    const Precision precision = *readPrecision(load(file, {}, parts));
     const auto wanted = [&](Choices choices) {
         std::erase_if(choices, [&](const PrecisionChoice& choice) { return isQuick && !choice.isQuick; });
         return choices;
@@ -137,31 +138,33 @@ std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& pa
 
 SceneSetup convergedSetup(const std::string& file, const Parts& parts)
 {
-    return load(file, load(file, {}, parts).precision->converged, parts);
+    return load(file, readPrecision(load(file, {}, parts))->converged, parts);
 }
 
 AllReadings readErrors(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted)
 {
-    std::vector<Check> checks = setup.precision->errors;
+    const Precision precision = *readPrecision(setup);
+    std::vector<Check> checks = precision.errors;
     for (Check& check : checks) check.take = Take::Last;  // nothing to compare with yet: all readings are kept
-    return runOnce(setup, checks, parts, stopWanted).errors;
+    return runOnce(setup, precision, checks, parts, stopWanted).errors;
 }
 
 PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& converged, int threads, int repeats,
                               const Parts& parts, const std::function<bool()>& stopWanted)
 {
-    const std::vector<Check> checks = checksAgainst(*run.setup.precision, converged);
+    const Precision precision = *readPrecision(run.setup);
+    const std::vector<Check> checks = checksAgainst(precision, converged);
     PrecisionRow row = rowOf(run, threads, repeats);
     std::vector<double> seconds;
     try {
         for (int n = 0; n < repeats; ++n) {
-            const Outcome outcome = withThreads(threads, [&] { return runOnce(run.setup, checks, parts, stopWanted); });
+            const Outcome outcome = withThreads(threads, [&] { return runOnce(run.setup, precision, checks, parts, stopWanted); });
             seconds.push_back(outcome.followed.stepSeconds);
             row.steps = outcome.followed.steps;
             row.cfl = outcome.followed.largestCfl;
             row.error = errorOf(checks, outcome.errors);
             row.energyLeft = take(Take::Last, outcome.energies) / take(Take::First, outcome.energies);
-            row.viscosity = viscosityOf(*run.setup.precision, outcome.energies);
+            row.viscosity = viscosityOf(precision, outcome.energies);
         }
         row.dt = run.setup.scene.settings.time.duration / static_cast<double>(std::max<std::int64_t>(1, row.steps));
     } catch (const sim::RunError& error) {

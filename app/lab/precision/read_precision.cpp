@@ -120,9 +120,9 @@ std::string questionIn(const sim::SectionReader& section)
 
 }  // namespace
 
-std::optional<Precision> readPrecision(const sim::SceneFile& file, const sim::Scene& scene)
+std::optional<Precision> readPrecision(const SceneSetup& setup)
 {
-    const Node* node = file.root.find("precision");
+    const Node* node = setup.file.root.find("precision");
     if (!node) return std::nullopt;
     sim::SectionReader section(*node, "precision");
     sim::SectionReader::read(node, "precision", [](auto& v) {
@@ -130,8 +130,8 @@ std::optional<Precision> readPrecision(const sim::SceneFile& file, const sim::Sc
                                 "integrators", "steps", "resolutions", "published", "headline", "converged", "quick"})
             v.other(key, "");
     });
-    auto measures = std::make_shared<Measures>(scene);
-    const ReadingContext context = readContext(section, scene, *measures);
+    auto measures = std::make_shared<Measures>(setup.scene);
+    const ReadingContext context = readContext(section, setup.scene, *measures);
     section.needs("errors", "a list of what is compared, like errors: [{read: flow_error, expect: 0}]");
     Precision precision;
     precision.measures = std::move(measures);

@@ -61,7 +61,7 @@ AllReadings convergedReadings(const std::filesystem::path& file, const SceneSetu
                               const Parts& parts, const std::function<bool()>& stopWanted)
 {
     const std::string settings = settingsOf(setup);
-    AllReadings all = readFile(file, settings, setup.precision->errors.size());
+    AllReadings all = readFile(file, settings, readPrecision(setup)->errors.size());
     if (!all.empty()) return all;
     const auto begin = std::chrono::steady_clock::now();
     all = withThreads(threads, [&] { return readErrors(setup, parts, stopWanted); });

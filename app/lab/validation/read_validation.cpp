@@ -35,19 +35,19 @@ Check checkIn(const Node& node, std::size_t index, const ReadingContext& context
 
 }  // namespace
 
-std::optional<Validation> readValidation(const sim::SceneFile& file, const sim::Scene& scene)
+std::optional<Validation> readValidation(const SceneSetup& setup)
 {
-    const Node* node = file.root.find("validate");
+    const Node* node = setup.file.root.find("validate");
     if (!node) return std::nullopt;
     sim::SectionReader section(*node, "validate");
     sim::SectionReader::read(node, "validate", [](auto& v) {
         for (const char* key : {"about", "source", "every", "let", "flow", "quick", "checks"}) v.other(key, "");
     });
     Validation validation;
-    validation.measures = std::make_shared<Measures>(scene);
+    validation.measures = std::make_shared<Measures>(setup.scene);
     section.text("about", validation.about, "");
     section.text("source", validation.source, "");
-    const ReadingContext context = readContext(section, scene, *validation.measures);
+    const ReadingContext context = readContext(section, setup.scene, *validation.measures);
     validation.every = readInterval(section, context);
     if (const Node* quick = section.find("quick"))
         for (const sim::Override& change : sim::overridesOf(*quick, {})) validation.quick.push_back(change.text());

@@ -19,7 +19,7 @@ void readAll(const Validation& validation, double time, CaseResult& result)
 
 void follow(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted, CaseResult& result)
 {
-    const Validation& validation = *setup.validation;
+    const Validation& validation = result.validation;
     const auto simulation = parts.startSimulation(setup);
     validation.measures->look(*simulation);
     Measures& measures = *validation.measures;
@@ -41,8 +41,9 @@ CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts
                    const std::function<bool()>& stopWanted)
 {
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<Check>& checks = setup.validation->checks;
-    CaseResult result{.name = name, .setup = setup, .readings = std::vector<std::vector<Reading>>(checks.size())};
+    CaseResult result{.name = name, .setup = setup, .validation = *readValidation(setup), .readings = {}};
+    const std::vector<Check>& checks = result.validation.checks;
+    result.readings.resize(checks.size());
     try {
         follow(setup, parts, stopWanted, result);
         for (std::size_t i = 0; i < checks.size(); ++i) result.findings.push_back(judge(checks[i], result.readings[i]));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/lab/validation/validation.h"
 #include "app/parts.h"
 
 #include <functional>
@@ -12,6 +13,7 @@ namespace app {
 struct CaseResult {
     std::string name;  ///< of its file
     SceneSetup setup;
+    Validation validation;                       ///< of it
     std::vector<std::vector<Reading>> readings;  ///< of each check
     std::vector<Finding> findings = {};          ///< of each check; none when the run failed
     std::string failure = {};                    ///< why the run did not come to its end

@@ -2,8 +2,7 @@
 
 #include "app/lab/checks/check.h"
 #include "app/readings/measures.h"
-#include "sim/scene/scene.h"
-#include "sim/scene/scene_file.h"
+#include "app/scene/scene_setup.h"
 
 #include <memory>
 #include <optional>
@@ -22,6 +21,6 @@ struct Validation {
 };
 
 /// Nothing where a scene has no such section. Throws InputError.
-std::optional<Validation> readValidation(const sim::SceneFile& file, const sim::Scene& scene);
+std::optional<Validation> readValidation(const SceneSetup& setup);
 
 }  // namespace app

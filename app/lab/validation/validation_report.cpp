@@ -43,7 +43,7 @@ std::string readingsLabel(const Check& check)
 
 std::string panel(const CaseResult& result, std::size_t i)
 {
-    const Check& check = result.setup.validation->checks[i];
+    const Check& check = result.validation.checks[i];
     const auto column = [&](int number) { return fmt::format("using ($1=={}?$2:NaN):{}", i, number); };
     const std::string file = gnuplotText(result.name + ".csv");
     const std::string abscissa = check.against.text() == "t" ? "time [s]" : check.against.text();
@@ -69,7 +69,7 @@ std::string plotScript(const CaseResult& result, const std::string& picture)
 
 std::string rowOf(const CaseResult& result, std::size_t i)
 {
-    const Check& check = result.setup.validation->checks[i];
+    const Check& check = result.validation.checks[i];
     const Finding& finding = result.findings[i];
     return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name,
                        withUnit(finding.value, check.unit), withUnit(finding.expected, check.unit), deviation(finding),
@@ -97,7 +97,7 @@ std::string validationReport(const std::vector<CaseResult>& results, bool isQuic
     std::string text = fmt::format("# Validation{}\n\n{} of {} cases pass, in {}.\n\n{}", isQuick ? " (quick)" : "",
                                    passed, results.size(), formatDuration(seconds), findingsTable(results));
     for (const CaseResult& result : results) {
-        const Validation& validation = *result.setup.validation;
+        const Validation& validation = result.validation;
         text += fmt::format("\n## {}\n\n{}\n\nKnown from: {}. {} steps, {}.\n", result.setup.scene.title,
                             validation.about, validation.source, result.steps, formatDuration(result.wallSeconds));
         if (withPlots) text += fmt::format("\n![{}]({}.png)\n", result.setup.scene.title, result.name);

@@ -64,9 +64,7 @@ TEST(ShutSources, AreToldOfByValidate)
 {
     const test::ToySettings toy{.every = 0.05, .shutAtStep = 3};
     SceneSetup setup = setupOf(toy);
-    const sim::Scene scene;
-    setup.validation = *readValidation(
-        sim::sceneFileFromText("drench: 1\nvalidate:\n  every: 0.05\n  checks:\n    - {read: liquid_x, at_most: 9}\n", "case.yaml"), scene);
+    setup.file = sim::sceneFileFromText("drench: 1\nvalidate:\n  every: 0.05\n  checks:\n    - {read: liquid_x, at_most: 9}\n", "case.yaml");
     const test::Log log;
     EXPECT_TRUE(runCase("cup", setup, test::toyParts(toy), [] { return false; }).passes());
     EXPECT_EQ(timesTold(log.words()), 1) << log.words();

@@ -37,7 +37,7 @@ Parts flightParts(const std::string& text)
         const sim::SceneFile file = sim::sceneFileFromText(text, "flight.yaml", {.variant = "", .set = request.sets});
         SceneSetup setup = test::toySetup({.dt = numberAt(file, "time", "dt"), .speed = numberAt(file, "", "speed")});
         setup.scene.settings.cell = 0.2;
-        setup.precision = readPrecision(file, setup.scene);
+        setup.file = file;
         return setup;
     };
     parts.startSimulation = [](const SceneSetup& setup) {
@@ -161,7 +161,7 @@ PrecisionCase caseOf(const std::vector<Cost>& ours)
 {
     const Parts parts = flightParts(kFlight);
     const auto runs = precisionRuns("", parts, false);
-    PrecisionCase of{"flight", "Flight", *runs.front().setup.precision, {}};
+    PrecisionCase of{"flight", "Flight", *readPrecision(runs.front().setup), {}};
     const auto add = [&](const std::string& method, const std::string& step, const Cost& cost) {
         PrecisionRow& row = of.rows.emplace_back();
         row.names = {method, "-", step, "-"};
@@ -191,7 +191,7 @@ TEST(Precision, MistakesNameTheirLine)
         std::string text = kFlight;
         text.replace(text.find(from), from.size(), to);
         try {
-            flightParts(text).loadScene({});
+            readPrecision(flightParts(text).loadScene({}));
         } catch (const sim::InputError& error) {
             return error.what();
         }

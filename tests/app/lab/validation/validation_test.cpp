@@ -9,17 +9,16 @@
 namespace app {
 namespace {
 
-Validation validationOf(const std::string& section, const sim::Scene& scene = {})
+sim::SceneFile caseOf(const std::string& section)
 {
-    return *readValidation(sim::sceneFileFromText(fmt::format("drench: 1\nvalidate:\n{}", section), "case.yaml"),
-                           scene);
+    return sim::sceneFileFromText(fmt::format("drench: 1\nvalidate:\n{}", section), "case.yaml");
 }
 
 /// The toy's one particle of 2 g flies along x at 1 cm/s.
 CaseResult fly(const std::string& checks, const test::ToySettings& toy = {})
 {
     SceneSetup setup = test::toySetup(toy);
-    setup.validation = validationOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks), setup.scene);
+    setup.file = caseOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks));
     return runCase("flight", setup, test::toyParts(toy), [] { return false; });
 }
 
@@ -75,7 +74,9 @@ TEST(Validation, MistakesNameTheirLine)
 {
     const auto mistake = [](const std::string& section) -> std::string {
         try {
-            validationOf(section);
+            SceneSetup setup;
+            setup.file = caseOf(section);
+            readValidation(setup);
         } catch (const sim::InputError& error) {
             return error.what();
         }
