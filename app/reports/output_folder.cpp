@@ -1,6 +1,5 @@
 #include "app/reports/output_folder.h"
 
-#include "app/export/geometry_files.h"
 #include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 
@@ -88,7 +87,6 @@ void forgetLaterThan(std::int64_t frame, const fs::path& folder)
 {
     for (const NumberedFiles& files : kNumberedFiles)
         removeFrom(folder / files.folder, [&](const std::string& name) { return numberIn(name, files.before, files.after) > frame; });
-    forgetGeometryLaterThan(frame, folder);
 }
 
 }  // namespace app

@@ -1,6 +1,7 @@
 #include "app/runs/run_offline.h"
 
 #include "app/checkpoint/state_files.h"
+#include "app/export/geometry_files.h"
 #include "app/export/geometry_sink.h"
 #include "app/pictures/frame_sink.h"
 #include "app/provenance/provenance.h"
@@ -119,9 +120,11 @@ Reports openReports(const SceneSetup& setup, const RunOptions& options, const st
     if (goesOnInItsFolder(options)) {
         Reports reports(options.out, setup, options.contentHash, provenance, options.from->origin.logs, options.from->state.time);
         forgetLaterThan(options.from->origin.frame, options.out);
+        forgetGeometryLaterThan(options.from->origin.frame, options.out);
         return reports;
     }
     claimFolder(options.out, {setup.scene.name, setup.variant});
+    forgetGeometryLaterThan(-1, options.out);
     return Reports(options.out, setup, options.contentHash, provenance);
 }
 
