@@ -92,7 +92,7 @@ struct Options {
     SceneRequest request() const { return {scene, variants.empty() ? "" : variants.front(), sets}; }
 };
 
-/// Nothing when the command line only asked for help or the version, which is then on standard output.
+/// Nothing when the command line only asked for help, the version or the names of the verbs, which are then on standard output.
 /// Throws InputError, one line.
 std::optional<Options> readOptions(int argc, const char* const* argv);
 
