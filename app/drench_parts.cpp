@@ -1,8 +1,11 @@
-#include "app/draw_frames.h"
-#include "app/obstacle_meshes.h"
+#include "app/drawing/obstacle_meshes.h"
+#include "app/drawing/offscreen_renderer.h"
+#include "app/lab/precision/precision.h"
+#include "app/lab/validation/validation.h"
 #include "app/parts.h"
-#include "app/read_picture_settings.h"
-#include "app/unread_pictures.h"
+#include "app/probes/probes.h"
+#include "app/scene/read_picture_settings.h"
+#include "app/scene/unread_pictures.h"
 #include "app/view/viewer.h"
 #include "sim/scene/load_scene.h"
 #include "sim/simulation.h"
@@ -26,20 +29,26 @@ SceneContents contentsOf(const sim::Scene& scene)
     return contents;
 }
 
+/// Sections that are read where they are needed: mistakes in them are told with all others.
+void requireReadable(const SceneSetup& setup)
+{
+    readValidation(setup);
+    readPrecision(setup);
+    readProbes(setup);
+}
+
 SceneSetup loadScene(const SceneRequest& request)
 {
     const sim::LoadOptions options = {.variant = request.variant, .set = request.sets};
-    const sim::SceneFile file = request.text ? sim::sceneFileFromText(*request.text, request.file, options) : sim::loadSceneFile(request.file, options);
     SceneSetup setup;
     setup.request = request;
-    setup.texts = file.texts;
+    setup.file = request.text ? sim::sceneFileFromText(*request.text, request.file, options) : sim::loadSceneFile(request.file, options);
+    const sim::SceneFile& file = setup.file;
     setup.scene = sim::readScene(file);
     setup.pictures = readPictureSettings(file);
     setup.pictures.contents = contentsOf(setup.scene);
     for (const std::string& note : unreadPictureNotes(file.root, setup.pictures)) setup.scene.notes.push_back(note);
-    setup.validation = readValidation(file, setup.scene);
-    setup.precision = readPrecision(file, setup.scene);
-    setup.probes = readProbes(file, setup.scene, setup.pictures.output.every);
+    requireReadable(setup);
     const auto variant = std::ranges::find(setup.pictures.compare.variants, request.variant, &Variant::name);
     if (variant != setup.pictures.compare.variants.end()) {
         setup.variant = variant->name;

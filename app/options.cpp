@@ -176,10 +176,20 @@ void addSweep(CLI::App& program, Options& options)
     });
 }
 
+std::vector<std::string> verbNames(const CLI::App& program)
+{
+    std::vector<std::string> names;
+    for (const auto* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+    return names;
+}
+
 void addVerbs(CLI::App& program, Options& options)
 {
     program.require_subcommand(1);
     program.set_version_flag("--version", programName());
+    program.add_flag_callback(
+        "--verbs", [&program] { throw CLI::CallForVersion(fmt::format("{}", fmt::join(verbNames(program), "\n")), 0); },
+        "print the names of all verbs, one on each line");
 
     auto* run = program.add_subcommand("run", "run a scene, or one of its variants, to its end");
     addScene(*run, options)->required(false);
@@ -249,8 +259,8 @@ void addVerbs(CLI::App& program, Options& options)
     addScene(*view, options);
     addVariant(*view, options);
     view->add_option("--threads", options.threads, "threads of the simulation (default: all)")->check(CLI::Range(1, kMaxThreads));
-    view->add_flag("--paused", options.paused, "wait with the first step");
-    view->add_option("--beside", options.beside, "another variant of the scene, at the same times");
+    view->add_flag("--paused", options.view.paused, "wait with the first step");
+    view->add_option("--beside", options.view.beside, "another variant of the scene, at the same times");
     view->callback([&options] { options.verb = Verb::View; });
 
     auto* bench = program.add_subcommand("bench", "time a scene by stage");
@@ -276,8 +286,7 @@ void addVerbs(CLI::App& program, Options& options)
 /// The parser takes a word that is no verb for nothing at all and only misses the verb.
 void requireKnownVerb(const CLI::App& program, const std::string& word)
 {
-    std::vector<std::string> names;
-    for (const auto* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+    const std::vector<std::string> names = verbNames(program);
     if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
     throw sim::InputError(fmt::format("unknown verb \"{}\": there are {}", word, fmt::join(names, ", ")));
 }

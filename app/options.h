@@ -1,8 +1,6 @@
 #pragma once
 
-#include "app/diff/diff_options.h"
-#include "app/import/import_options.h"
-#include "app/scene_setup.h"
+#include "app/scene/scene_setup.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +11,29 @@
 namespace app {
 
 enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff, Schema, Probe };
+
+/// How a window begins.
+struct ViewOptions {
+    int width = 1280, height = 800;  ///< of the window [screen units]
+    bool paused = false;             ///< wait with the first step until somebody asks for it
+    std::string beside = {};         ///< a variant of the scene to be shown beside it; empty: none
+};
+
+/// Decisions that an import may take this way or that.
+struct ImportOptions {
+    bool strictFork = false;          ///< no picMethod means PIC, as the PolyPIC fork reads it, whatever `apic` says
+    bool trustFrictionAngle = false;  ///< friction_angle, which libWetCloth does not read, counts
+    bool roundSections = false;       ///< a missing biradius is the radius, not 0.018 cm
+    bool vertexSolver = false;        ///< this program's own solver of fabric in place of the published one
+    bool legacyThreadCount = true;    ///< halfThickness and fabricThreadCount of 2018 count
+};
+
+/// What the command line says to drench diff, beside --set and --out.
+struct DiffOptions {
+    std::filesystem::path a, b;          ///< what is expected, and what is held against it
+    std::filesystem::path tolerances;    ///< a scene, or a file with its compare.tolerance alone; empty: that of A
+    bool subset = false;                 ///< pictures that only B has do not count
+};
 
 /// The command line.
 struct Options {
@@ -30,8 +51,6 @@ struct Options {
     std::optional<std::int64_t> fromFrame;  ///< run: from this frame's checkpoint; nothing: the last one
     bool force = false;                  ///< compare, paper: redo variants that are done
     bool quick = false;                  ///< paper, validate, bench precision, stress: shortened
-    bool paused = false;                 ///< view: wait with the first step until somebody asks for it
-    std::string beside;                  ///< view: a variant to be shown beside; empty: none
     bool full = false;                   ///< validate: not shortened, as is the default
     std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
     std::vector<std::filesystem::path> from;  ///< compare: folders of runs that are there, in place of a scene
@@ -56,6 +75,8 @@ struct Options {
     bool wait = true;                    ///< … and wait until it has done them
     std::optional<std::size_t> task;     ///< sweep: do this run alone, as a job of Slurm's does
 
+    ViewOptions view;                    ///< view: how the window begins
+
     ImportOptions import;                ///< import: what may be decided this way or that; its result goes to `out`
 
     DiffOptions diff;                    ///< diff: what is compared, and how
@@ -71,7 +92,7 @@ struct Options {
     SceneRequest request() const { return {scene, variants.empty() ? "" : variants.front(), sets}; }
 };
 
-/// Nothing when the command line only asked for help or the version, which is then on standard output.
+/// Nothing when the command line only asked for help, the version or the names of the verbs, which are then on standard output.
 /// Throws InputError, one line.
 std::optional<Options> readOptions(int argc, const char* const* argv);
 

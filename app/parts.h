@@ -1,8 +1,7 @@
 #pragma once
 
-#include "app/frame_pipeline.h"
-#include "app/scene_setup.h"
-#include "app/view/view_options.h"
+#include "app/frames/frame_pipeline.h"
+#include "app/scene/scene_setup.h"
 #include "sim/fabric/contact/contact.h"
 #include "sim/forces.h"
 #include "sim/liquid/liquid_grid.h"
@@ -15,6 +14,8 @@
 #include <vector>
 
 namespace app {
+
+struct ViewOptions;
 
 /// What the program needs of a simulation. The real one is in drench_parts.cpp, tests have a small one of their own.
 class Steppable {

@@ -1,7 +1,7 @@
 #include "app/program.h"
 
-#include "app/interrupt.h"
 #include "app/options.h"
+#include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 

@@ -8,7 +8,7 @@
 namespace render {
 
 /// What one picture needs, borrowed for the length of one draw call. World space, lengths in cm.
-/// The renderer knows nothing else of the simulation; app/frame_view_from_state.cpp fills it in.
+/// The renderer knows nothing else of the simulation; app/frames/snapshot_from_state.cpp fills it in.
 struct FrameView {
     struct Liquid {
         std::span<const Eigen::Vector3f> positions;

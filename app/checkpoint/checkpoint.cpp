@@ -1,7 +1,7 @@
 #include "app/checkpoint/checkpoint.h"
 
 #include "app/checkpoint/field_files.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/scene/load_scene.h"

@@ -1,6 +1,6 @@
 #include "app/checkpoint/state_files.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 
 #include <fmt/format.h>
 

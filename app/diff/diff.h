@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/diff/diff_options.h"
 #include "app/diff/finding.h"
 #include "app/diff/picture_diff.h"
-#include "app/diff/tolerance.h"
+#include "app/options.h"
+#include "app/scene/tolerance.h"
 
 #include <functional>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "app/diff/diff_page.h"
 
-#include "app/output_files.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 

@@ -1,6 +1,6 @@
-#include "app/csv.h"
 #include "app/diff/series.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
+#include "app/system/csv.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

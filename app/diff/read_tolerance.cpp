@@ -1,7 +1,7 @@
 #include "app/diff/read_tolerance.h"
 
-#include "app/describe_picture.h"
-#include "app/output_files.h"
+#include "app/scene/describe_picture.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/overrides.h"
 #include "sim/scene/scene_file.h"

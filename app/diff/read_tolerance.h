@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/diff/tolerance.h"
+#include "app/scene/tolerance.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/diff/finding.h"
-#include "app/diff/tolerance.h"
+#include "app/scene/tolerance.h"
 
 #include <filesystem>
 #include <map>

@@ -1,6 +1,6 @@
 #include "app/diff/video_frames.h"
 
-#include "app/child_process.h"
+#include "app/system/child_process.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "app/export/export_frame.h"
 
-#include "app/fabric_in_frame.h"
+#include "app/frames/snapshot_fabric.h"
 #include "sim/core/parallel.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/frame_snapshot.h"
+#include "app/frames/frame_snapshot.h"
 #include "sim/state.h"
 #include "sim/surface/surface_mesh.h"
 

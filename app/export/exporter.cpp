@@ -5,8 +5,8 @@
 #include "app/export/ply.h"
 #include "app/export/usda.h"
 #include "app/export/vtp.h"
-#include "app/output_files.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
+#include "app/system/atomic_files.h"
 
 namespace app {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/export/export_frame.h"
-#include "app/picture_settings.h"
+#include "app/scene/picture_settings.h"
 
 #include <filesystem>
 #include <vector>

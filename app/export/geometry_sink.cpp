@@ -1,7 +1,7 @@
 #include "app/export/geometry_sink.h"
 
 #include "app/export/geometry_files.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 
 #include <utility>
 

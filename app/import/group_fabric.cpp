@@ -12,9 +12,9 @@ namespace app {
 namespace {
 
 /// Which particles hang together.
-class Parts {
+class ConnectedParts {
  public:
-    explicit Parts(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
+    explicit ConnectedParts(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
     int of(int p)
     {
         while (above_[p] != p) p = above_[p] = above_[above_[p]];
@@ -26,9 +26,9 @@ class Parts {
     std::vector<int> above_;
 };
 
-Parts connectedParts(const reference::Scene& scene)
+ConnectedParts connectedParts(const reference::Scene& scene)
 {
-    Parts parts(scene.particles.size());
+    ConnectedParts parts(scene.particles.size());
     for (const reference::Cloth& cloth : scene.cloths) {
         for (const sim::Vec3i& f : cloth.faces) {
             parts.join(f[0], f[1]);
@@ -67,7 +67,7 @@ void tellTornJoints(const std::vector<FabricGroup>& groups, ImportReport& report
 
 std::vector<FabricGroup> groupFabric(const reference::Scene& scene, ImportReport& report)
 {
-    Parts parts = connectedParts(scene);
+    ConnectedParts parts = connectedParts(scene);
     std::map<std::tuple<int, int, bool>, FabricGroup> byPart;
     const auto groupAt = [&](int particle, int material, bool isCloth, int line) -> FabricGroup& {
         const auto [found, isNew] = byPart.try_emplace({parts.of(particle), material, isCloth});

@@ -3,7 +3,7 @@
 #include "app/import/import_decisions.h"
 #include "app/import/read_back.h"
 #include "app/import/read_reference.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/variants.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/import/import_options.h"
+#include "app/options.h"
 #include "app/parts.h"
 
 #include <filesystem>

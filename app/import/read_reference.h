@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/import/import_options.h"
 #include "app/import/reference_scene.h"
 #include "app/import/xml_element.h"
+#include "app/options.h"
 
 namespace app {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/import/import_options.h"
 #include "app/import/imported_bodies.h"
 #include "app/import/imported_fabric.h"
 #include "app/import/scene_lines.h"
+#include "app/options.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "app/import/xml_file.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/place.h"
 

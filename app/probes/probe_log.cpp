@@ -1,7 +1,7 @@
 #include "app/probes/probe_log.h"
 
-#include "app/gnuplot.h"
 #include "app/parts.h"
+#include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

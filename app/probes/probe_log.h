@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/force_log.h"
-#include "app/output_files.h"
 #include "app/probes/probes.h"
+#include "app/readings/force_log.h"
+#include "app/system/atomic_files.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "app/lab/measures.h"
+#include "app/readings/measures.h"
+#include "app/scene/scene_setup.h"
 #include "sim/core/types.h"
 #include "sim/scene/formula.h"
-#include "sim/scene/scene.h"
-#include "sim/scene/scene_file.h"
 
 #include <memory>
 #include <optional>
@@ -22,7 +21,7 @@ struct Probe {
 
 /// The section `output.probes` of a scene.
 struct Probes {
-    double every = 0.0;                  ///< time between readings [s]
+    double every = 0.0;                  ///< time between readings [s]; that between frames unless the section says otherwise
     std::vector<Probe> all;
     std::shared_ptr<Measures> measures;  ///< what the formulas look at
 
@@ -31,7 +30,6 @@ struct Probes {
 };
 
 /// Nothing where a scene has no such section. Throws InputError.
-/// @param framesEvery  time between frames [s], at which is read unless the section says otherwise
-std::optional<Probes> readProbes(const sim::SceneFile& file, const sim::Scene& scene, double framesEvery);
+std::optional<Probes> readProbes(const SceneSetup& setup);
 
 }  // namespace app

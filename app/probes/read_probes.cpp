@@ -1,5 +1,5 @@
-#include "app/lab/reading_context.h"
 #include "app/probes/probes.h"
+#include "app/readings/reading_context.h"
 #include "sim/scene/read_list.h"
 
 #include <fmt/format.h>
@@ -101,9 +101,9 @@ std::vector<std::string> Probes::columns() const
     return names;
 }
 
-std::optional<Probes> readProbes(const sim::SceneFile& file, const sim::Scene& scene, double framesEvery)
+std::optional<Probes> readProbes(const SceneSetup& setup)
 {
-    const Node* output = file.root.find("output");
+    const Node* output = setup.file.root.find("output");
     const Node* node = output ? output->find("probes") : nullptr;
     if (!node) return std::nullopt;
     if (node->place.source && node->place.source->isSi)
@@ -117,9 +117,9 @@ std::optional<Probes> readProbes(const sim::SceneFile& file, const sim::Scene& s
         v.needs("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
         v.other("readings", "What is read");
     });
-    Probes probes{.every = framesEvery, .all = {}, .measures = std::make_shared<Measures>(scene)};
+    Probes probes{.every = setup.pictures.output.every, .all = {}, .measures = std::make_shared<Measures>(setup.scene)};
     readHoops(node->find("hoops"), *probes.measures);
-    const ReadingContext context = readContext(section, scene, *probes.measures);
+    const ReadingContext context = readContext(section, setup.scene, *probes.measures);
     if (node->find("every")) probes.every = readInterval(section, context);
     const std::string path = sim::joinPath(kProbesPath, "readings");
     const Node& readings = *sim::listAt(node, "readings", path, "[{name: height, unit: cm, read: liquid_y}]");

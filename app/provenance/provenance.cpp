@@ -1,11 +1,11 @@
 #include "app/provenance/provenance.h"
 
 #include "app/checkpoint/hdf5_image.h"
-#include "app/child_process.h"
-#include "app/output_files.h"
+#include "app/pictures/video.h"
 #include "app/provenance/build_info.h"
-#include "app/thread_limit.h"
-#include "app/video.h"
+#include "app/system/atomic_files.h"
+#include "app/system/child_process.h"
+#include "app/system/thread_limit.h"
 
 #include <Eigen/Core>
 #include <fmt/chrono.h>
@@ -59,7 +59,7 @@ ProvenanceJson librariesJson(const std::string& drawnBy)
 ProvenanceJson sceneJson(const SceneSetup& setup)
 {
     ProvenanceJson texts = ProvenanceJson::object();
-    for (const sim::SceneText& text : setup.texts) texts[text.file] = text.text;
+    for (const sim::SceneText& text : setup.file.texts) texts[text.file] = text.text;
     return {{"file", setup.request.file},
             {"variant", setup.request.variant},
             {"overrides", setup.request.sets},

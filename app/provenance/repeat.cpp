@@ -1,6 +1,6 @@
 #include "app/provenance/repeat.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

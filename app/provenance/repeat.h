@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/reports.h"
-#include "app/scene_setup.h"
+#include "app/reports/run_report.h"
+#include "app/scene/scene_setup.h"
 
 #include <filesystem>
 #include <string>

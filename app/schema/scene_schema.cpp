@@ -1,7 +1,7 @@
-#include "app/describe_picture.h"
-#include "app/lab/precision.h"
-#include "app/lab/validation.h"
+#include "app/lab/precision/precision.h"
+#include "app/lab/validation/validation.h"
 #include "app/probes/probes.h"
+#include "app/scene/describe_picture.h"
 #include "app/schema/ask_reader.h"
 #include "app/schema/body_schemas.h"
 #include "app/schema/schema.h"
@@ -68,11 +68,11 @@ SchemaJson changesSchema()
 template <class Read>
 SchemaJson lastAskedFor(const std::string& text, Read read)
 {
-    sim::SceneFile file;
+    SceneSetup setup;
     return mapSchema(keysAskedFor(text,
                                   [&](const Node& node) {
-                                      file.root = node;
-                                      read(file, sim::Scene());
+                                      setup.file.root = node;
+                                      read(setup);
                                   }),
                      SchemaOf::Body);
 }
@@ -88,8 +88,7 @@ SchemaJson readingsSchema(const std::string& section, const std::string& list, R
 
 SchemaJson probesSchema()
 {
-    const auto read = [](const sim::SceneFile& file, const sim::Scene& scene) { readProbes(file, scene, 1.0); };
-    const auto within = [&](const std::string& probes) { return lastAskedFor("output: {probes: {" + probes + "}}", read); };
+    const auto within = [](const std::string& probes) { return lastAskedFor("output: {probes: {" + probes + "}}", readProbes); };
     SchemaJson schema = within(""), reading = within("readings: [{}]");
     reading["properties"]["along"].update(within("readings: [{read: 1, along: {}}]"));
     schema["properties"]["hoops"].update(namedSchema(within("hoops: {a: {}}, readings: []")));

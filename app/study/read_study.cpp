@@ -1,6 +1,6 @@
 #include "app/study/study.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/section_reader.h"
 #include "sim/scene/variants.h"

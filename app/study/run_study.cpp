@@ -1,9 +1,9 @@
 #include "app/study/run_study.h"
 
-#include "app/lab/child_crew.h"
-#include "app/progress.h"
-#include "app/reports.h"
-#include "app/resume.h"
+#include "app/reports/run_report.h"
+#include "app/runs/resume.h"
+#include "app/system/process_pool.h"
+#include "app/system/progress.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ std::optional<RunResult> reportOf(const StudyRun& run, const StudyPlaces& places
     return report;
 }
 
-void tell(const StudyRun& run, std::size_t number, std::size_t count, const CrewEnd& end, const StudyOutcome& outcome)
+void tell(const StudyRun& run, std::size_t number, std::size_t count, const ProcessEnd& end, const StudyOutcome& outcome)
 {
     const bool isDone = outcome.status == StudyStatus::Done;
     fmt::print("[{}/{}] {}: {}, {}\n", number, count, run.name, isDone ? "done" : "failed: " + end.exit.lastWords(), formatDuration(end.seconds));
@@ -65,12 +65,12 @@ void runHere(const Study& study, const std::vector<std::size_t>& runs, const Stu
     for (int attempt = 0; attempt <= study.retries && !left.empty() && !stopWanted(); ++attempt) {
         if (attempt > 0) fmt::print("again, those that failed: {}\n", left.size());
         std::vector<std::size_t> failed;
-        runCrew({.count = left.size(),
+        runProcesses({.count = left.size(),
                  .width = width,
                  .limitSeconds = std::numeric_limits<double>::infinity(),
                  .arguments = [&](std::size_t n) { return runArguments(study.runs[left[n]], places); },
                  .ended =
-                     [&](std::size_t n, const CrewEnd& end) {
+                     [&](std::size_t n, const ProcessEnd& end) {
                          const StudyRun& run = study.runs[left[n]];
                          const StudyOutcome outcome = outcomeOf(run, places);
                          if (outcome.status == StudyStatus::Done) ++done;

@@ -1,7 +1,7 @@
 #include "app/study/slurm.h"
 
-#include "app/child_process.h"
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
+#include "app/system/child_process.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

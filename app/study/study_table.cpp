@@ -1,9 +1,9 @@
 #include "app/study/study_table.h"
 
-#include "app/csv.h"
-#include "app/gnuplot.h"
-#include "app/output_files.h"
-#include "app/reports.h"
+#include "app/reports/run_report.h"
+#include "app/system/atomic_files.h"
+#include "app/system/csv.h"
+#include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
-#include "app/bench.h"
+#include "app/lab/timing/bench.h"
 
-#include "app/data_folder.h"
-#include "app/output_files.h"
-#include "app/thread_limit.h"
+#include "app/system/atomic_files.h"
+#include "app/system/data_folder.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

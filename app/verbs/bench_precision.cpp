@@ -1,14 +1,14 @@
-#include "app/bench.h"
-#include "app/gnuplot.h"
-#include "app/interrupt.h"
-#include "app/lab/case_files.h"
-#include "app/lab/converged.h"
-#include "app/lab/precision_plot.h"
-#include "app/lab/precision_report.h"
-#include "app/lab/precision_table.h"
-#include "app/output_files.h"
-#include "app/output_folder.h"
-#include "app/progress.h"
+#include "app/lab/checks/case_files.h"
+#include "app/lab/precision/precision_plot.h"
+#include "app/lab/precision/precision_report.h"
+#include "app/lab/precision/precision_table.h"
+#include "app/lab/precision/reference_run.h"
+#include "app/lab/timing/bench.h"
+#include "app/reports/output_folder.h"
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
+#include "app/system/interrupt.h"
+#include "app/system/progress.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 
@@ -47,7 +47,7 @@ void tell(const PrecisionRow& row)
 PrecisionCase caseOf(const std::vector<PrecisionRun>& runs, const Options& options, const PrecisionTable& table)
 {
     const SceneSetup& setup = runs.front().setup;
-    PrecisionCase of{runs.front().scene, setup.scene.title, *setup.precision, {}};
+    PrecisionCase of{runs.front().scene, setup.scene.title, *readPrecision(setup), {}};
     for (const PrecisionRun& run : runs) {
         const PrecisionRow* row = table.find(run, options.threads, 1);
         if (row && row->isDone()) of.rows.push_back(*row);

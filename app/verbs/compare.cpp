@@ -1,7 +1,7 @@
-#include "app/compare.h"
+#include "app/runs/compare.h"
 
-#include "app/interrupt.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
+#include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "app/diff/diff.h"
 
 #include "app/diff/diff_page.h"
-#include "app/interrupt.h"
-#include "app/thread_limit.h"
+#include "app/system/interrupt.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 

@@ -1,9 +1,9 @@
 #include "app/export/geometry_files.h"
 #include "app/export/geometry_sink.h"
-#include "app/interrupt.h"
 #include "app/provenance/provenance.h"
-#include "app/stored_run.h"
-#include "app/thread_limit.h"
+#include "app/runs/stored_run.h"
+#include "app/system/interrupt.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
-#include "app/paper.h"
+#include "app/runs/paper_runs.h"
 
-#include "app/data_folder.h"
-#include "app/interrupt.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
+#include "app/system/data_folder.h"
+#include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

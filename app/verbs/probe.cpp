@@ -1,7 +1,7 @@
-#include "app/interrupt.h"
-#include "app/output_files.h"
 #include "app/probes/probe_log.h"
-#include "app/probes/probe_stored.h"
+#include "app/runs/probe_stored.h"
+#include "app/system/atomic_files.h"
+#include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 

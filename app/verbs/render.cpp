@@ -1,10 +1,11 @@
-#include "app/interrupt.h"
-#include "app/output_files.h"
-#include "app/output_folder.h"
-#include "app/stored_run.h"
-#include "app/thread_limit.h"
+#include "app/export/geometry_files.h"
+#include "app/pictures/video.h"
+#include "app/reports/output_folder.h"
+#include "app/runs/stored_run.h"
+#include "app/system/atomic_files.h"
+#include "app/system/interrupt.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
-#include "app/video.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ int runVerbRender(const Options& options, const Parts& parts)
     if (std::filesystem::weakly_canonical(out) == std::filesystem::weakly_canonical(run.folder))
         throw sim::InputError(fmt::format("--out {}: there are the pictures of the run itself; choose another folder", out.string()));
     claimFolder(out, {run.setup.scene.name, run.setup.variant});
+    forgetGeometryLaterThan(-1, out);
     // Whose pictures they are, so that they can be made anew and compared.
     writeWhole(out / "report.json", readWhole(run.folder / "report.json"));
     writeWhole(out / "resolved.yaml", run.setup.resolved);

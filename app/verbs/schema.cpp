@@ -1,7 +1,7 @@
 #include "app/schema/schema.h"
 
-#include "app/output_files.h"
 #include "app/schema/key_table.h"
+#include "app/system/atomic_files.h"
 #include "app/verbs/verbs.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
-#include "app/interrupt.h"
-#include "app/output_folder.h"
+#include "app/reports/output_folder.h"
 #include "app/study/run_study.h"
 #include "app/study/slurm.h"
 #include "app/study/study_table.h"
+#include "app/system/interrupt.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 

@@ -1,11 +1,11 @@
-#include "app/gnuplot.h"
-#include "app/interrupt.h"
-#include "app/lab/case_files.h"
-#include "app/lab/validation_report.h"
-#include "app/output_files.h"
-#include "app/output_folder.h"
-#include "app/progress.h"
-#include "app/thread_limit.h"
+#include "app/lab/checks/case_files.h"
+#include "app/lab/validation/validation_report.h"
+#include "app/reports/output_folder.h"
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
+#include "app/system/interrupt.h"
+#include "app/system/progress.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 
@@ -23,12 +23,13 @@ SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts
 {
     SceneRequest request{file.string(), "", {}};
     SceneSetup setup = parts.loadScene(request);
-    if (!setup.validation)
+    const std::optional<Validation> validation = readValidation(setup);
+    if (!validation)
         throw sim::InputError(
             fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
     tellNotes(setup);
-    if (!isQuick || setup.validation->quick.empty()) return setup;
-    request.sets = setup.validation->quick;
+    if (!isQuick || validation->quick.empty()) return setup;
+    request.sets = validation->quick;
     return parts.loadScene(request);
 }
 

@@ -1,4 +1,4 @@
-#include "app/thread_limit.h"
+#include "app/system/thread_limit.h"
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
 
@@ -8,15 +8,15 @@ int runVerbView(const Options& options, const Parts& parts)
 {
     SceneRequest request = options.request();
     tellNotes(parts.loadScene(request));  // mistakes in it are told with or without a display
-    if (!options.beside.empty()) {
-        request.variant = options.beside;
+    if (!options.view.beside.empty()) {
+        request.variant = options.view.beside;
         parts.loadScene(request);
     }
     if (!parts.view)
         throw sim::RunError(
             "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
     withThreads(options.threads, [&] {
-        parts.view(options.request(), parts, {.paused = options.paused, .beside = options.beside});
+        parts.view(options.request(), parts, options.view);
         return 0;
     });
     return 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/live_pair.h"
+#include "app/live/live_pair.h"
 #include "app/view/step_plots.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "app/view/look_panel.h"
 
-#include "app/describe_picture.h"
-#include "app/frame_view_from_state.h"
-#include "app/scene_look.h"
+#include "app/drawing/look_from_settings.h"
+#include "app/frames/snapshot_from_state.h"
+#include "app/scene/describe_picture.h"
 
 #include <imgui.h>
 

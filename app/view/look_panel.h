@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/frame_snapshot.h"
-#include "app/picture_settings.h"
+#include "app/frames/frame_snapshot.h"
+#include "app/scene/picture_settings.h"
 #include "render/look.h"
 
 #include <array>

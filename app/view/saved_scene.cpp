@@ -1,7 +1,7 @@
 #include "app/view/saved_scene.h"
 
-#include "app/child_process.h"
-#include "app/read_picture_settings.h"
+#include "app/scene/read_picture_settings.h"
+#include "app/system/child_process.h"
 #include "sim/scene/load_scene.h"
 #include "sim/scene/section_writer.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/live_scene.h"
+#include "app/scene/changed_scene.h"
 #include "render/camera.h"
 
 #include <filesystem>

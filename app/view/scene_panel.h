@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/view/live_scene.h"
-#include "app/view/recent_files.h"
+#include "app/live/recent_files.h"
+#include "app/scene/changed_scene.h"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/view/live_simulation.h"
+#include "app/live/live_simulation.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "app/view/viewer.h"
 
-#include "app/interrupt.h"
-#include "app/output_files.h"
-#include "app/scene_look.h"
-#include "app/stopwatch.h"
+#include "app/drawing/look_from_settings.h"
+#include "app/system/atomic_files.h"
+#include "app/system/interrupt.h"
+#include "app/system/stopwatch.h"
 #include "app/view/live_panel.h"
 #include "app/view/look_panel.h"
 #include "app/view/parameter_panel.h"

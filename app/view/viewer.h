@@ -1,7 +1,8 @@
 #pragma once
 
+#include "app/live/live_pair.h"
+#include "app/options.h"
 #include "app/parts.h"
-#include "app/view/live_pair.h"
 
 #include <array>
 #include <filesystem>

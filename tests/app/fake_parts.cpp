@@ -1,6 +1,6 @@
 #include "tests/app/fake_parts.h"
 
-#include "app/paper.h"
+#include "app/runs/paper_runs.h"
 #include "sim/core/check.h"
 
 #include <fmt/format.h>

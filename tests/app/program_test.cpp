@@ -1,10 +1,10 @@
 // The whole program as a process, around the toy of fake_parts.h: TOY_PROGRAM is its file.
 
-#include "app/child_process.h"
-#include "app/frame_pipeline.h"
+#include "app/frames/frame_pipeline.h"
 #include "app/options.h"
-#include "app/paper.h"
-#include "app/video.h"
+#include "app/pictures/video.h"
+#include "app/runs/paper_runs.h"
+#include "app/system/child_process.h"
 #include "sim/core/check.h"
 #include "tests/app/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/child_process.h"
+#include "app/system/child_process.h"
 #include "tests/app/temporary_folder.h"
 
 #include <nlohmann/json.hpp>

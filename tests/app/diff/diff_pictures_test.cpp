@@ -1,7 +1,7 @@
 // drench diff on pictures, as a process.
 
-#include "app/child_process.h"
-#include "app/video.h"
+#include "app/pictures/video.h"
+#include "app/system/child_process.h"
 #include "render/image.h"
 #include "tests/app/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include "app/checkpoint/checkpoint.h"
 #include "app/diff/diff.h"
-#include "app/run_offline.h"
+#include "app/runs/run_offline.h"
 #include "sim/core/check.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/temporary_folder.h"

@@ -1,7 +1,7 @@
 #include "app/export/exporter.h"
 
 #include "app/export/geometry_files.h"
-#include "app/thread_limit.h"
+#include "app/system/thread_limit.h"
 #include "sim/core/check.h"
 #include "tests/app/export/geometry_in_test.h"
 #include "tests/app/temporary_folder.h"

@@ -1,6 +1,6 @@
 #include "tests/app/export/geometry_in_test.h"
 
-#include "app/child_process.h"
+#include "app/system/child_process.h"
 #include "tests/app/temporary_folder.h"
 #include "tests/sim/fabric/pieces.h"
 

@@ -1,4 +1,4 @@
-#include "app/obstacle_meshes.h"
+#include "app/drawing/obstacle_meshes.h"
 
 #include <gtest/gtest.h>
 

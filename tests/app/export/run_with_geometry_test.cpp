@@ -1,6 +1,6 @@
 // Runs that leave geometry.
 
-#include "app/run_offline.h"
+#include "app/runs/run_offline.h"
 #include "tests/app/export/geometry_in_test.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/temporary_folder.h"

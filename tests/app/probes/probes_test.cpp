@@ -1,7 +1,7 @@
 // Numbers that are read as a scene runs, or afterwards from its states, by the program itself.
 
-#include "app/csv.h"
-#include "app/gnuplot.h"
+#include "app/system/csv.h"
+#include "app/system/gnuplot.h"
 #include "tests/app/checkpoint/small_scene.h"
 
 #include <algorithm>

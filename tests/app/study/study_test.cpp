@@ -1,7 +1,7 @@
 // Studies, by the program itself.
 #include "tests/app/checkpoint/small_scene.h"
 
-#include "app/csv.h"
+#include "app/system/csv.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 // Needs a display: tests/CMakeLists.txt runs it under Xvfb.
 #include "app/view/viewer.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "render/image_compare.h"
 #include "tests/app/view/dragged_file.h"
 #include "tests/app/view/hands.h"

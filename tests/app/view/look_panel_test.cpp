@@ -1,9 +1,9 @@
 // Panels without a window: Dear ImGui takes its mouse from the test.
 #include "app/view/look_panel.h"
 
-#include "app/frame_view_from_state.h"
-#include "app/scene_look.h"
-#include "app/view/live_simulation.h"
+#include "app/drawing/look_from_settings.h"
+#include "app/frames/snapshot_from_state.h"
+#include "app/live/live_simulation.h"
 #include "tests/app/fake_parts.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "app/view/saved_scene.h"
 
-#include "app/output_files.h"
+#include "app/system/atomic_files.h"
 #include "tests/app/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Needs a display: tests/CMakeLists.txt runs it under Xvfb.
 #include "app/view/viewer.h"
 
-#include "app/frame_view_from_state.h"
+#include "app/frames/snapshot_from_state.h"
 #include "render/image.h"
 #include "render/image_compare.h"
 #include "tests/app/view/hands.h"

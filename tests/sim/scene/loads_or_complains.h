@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/read_picture_settings.h"
+#include "app/scene/read_picture_settings.h"
 #include "sim/scene/load_scene.h"
 
 #include <fmt/format.h>

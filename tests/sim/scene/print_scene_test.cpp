@@ -1,4 +1,4 @@
-#include "app/read_picture_settings.h"
+#include "app/scene/read_picture_settings.h"
 #include "sim/scene/load_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "app/lab/checks/statistic.h"
+#include "sim/scene/formula.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// One comparison with what is known. Formulas know the names of measures.h, the scene's constants and those of `let`.
+struct Check {
+    std::string name;
+    sim::Formula read;     ///< what is read as the scene runs
+    sim::Formula against;  ///< what readings are ordered by; the time, unless given
+    double from = -std::numeric_limits<double>::infinity(),
+           to = std::numeric_limits<double>::infinity();  ///< of `against`
+    Take take = Take::Last;
+    double level = 0.0;                             ///< of Take::Reach
+    std::string unit = {};                          ///< of what is read
+    std::optional<sim::Formula> expect = {};        ///< of the time
+    std::vector<std::array<double, 2>> table = {};  ///< measured (against, value), in its place
+    std::optional<double> tolerance = {};           ///< relative to what is expected
+    std::optional<double> within = {};              ///< the same, absolute
+    std::optional<double> atMost = {}, atLeast = {};
+
+    /// Is what its readings are compared with known at each of them?
+    bool hasCurve() const
+    {
+        return take == Take::MeanError || take == Take::LargestError || take == Take::RmsError;
+    }
+    /// NaN beyond the table, and where nothing is expected.
+    double expectedAt(double time, double at) const;
+};
+
+/// What is found of one check.
+struct Finding {
+    double value = 0.0;
+    double expected = std::numeric_limits<double>::quiet_NaN();  ///< NaN where there are bounds only
+    bool passes = false;
+};
+
+/// A reading of the simulation that `measures` looks at; nothing outside from … to. Throws FormulaError.
+std::optional<Reading> readOnce(const Check& check, double time);
+
+Finding judge(const Check& check, std::span<const Reading> readings);
+
+/// "within 3 %", "at least 0.1, at most 1.2".
+std::string bounds(const Check& check);
+
+}  // namespace app

@@ -1,0 +1,146 @@
+#include "app/lab/checks/statistic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace app {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double mean(std::span<const Reading> all)
+{
+    return std::accumulate(all.begin(), all.end(), 0.0, [](double sum, const Reading& r) { return sum + r.value; }) /
+           static_cast<double>(all.size());
+}
+
+/// Slope of the straight line through points.
+double slope(std::span<const Reading> all)
+{
+    if (all.size() < 2) return kNone;
+    double middle = 0.0;
+    for (const Reading& r : all) middle += r.at / static_cast<double>(all.size());
+    const double level = mean(all);
+    double across = 0.0, along = 0.0;
+    for (const Reading& r : all) {
+        across += (r.at - middle) * (r.value - level);
+        along += (r.at - middle) * (r.at - middle);
+    }
+    return across / along;
+}
+
+double slopeOfLogarithm(std::span<const Reading> all, bool isOfBoth)
+{
+    std::vector<Reading> logarithms;
+    for (const Reading& r : all)
+        if (!isOfBoth || (r.at > 0.0 && r.value > 0.0))
+            logarithms.push_back({isOfBoth ? std::log(r.at) : r.at, std::log(std::abs(r.value)), 0.0});
+    return slope(logarithms);
+}
+
+/// Where readings pass their mean, and the largest distance from it between two passings.
+struct Swings {
+    std::vector<double> passings;
+    std::vector<Reading> peaks;
+};
+
+Swings swingsOf(std::span<const Reading> all)
+{
+    Swings swings;
+    const double level = mean(all);
+    Reading peak;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const double before = all[i - 1].value - level, now = all[i].value - level;
+        if ((before < 0.0) != (now < 0.0)) {
+            if (!swings.passings.empty())
+                swings.peaks.push_back(peak);  // before the first passing it may be part of one only
+            swings.passings.push_back(all[i - 1].at + (all[i].at - all[i - 1].at) * before / (before - now));
+            peak = {};
+        }
+        if (std::abs(now) > peak.value) peak = {all[i].at, std::abs(now), 0.0};
+    }
+    return swings;
+}
+
+double period(std::span<const Reading> all)
+{
+    const std::vector<double> passings = swingsOf(all).passings;
+    if (passings.size() < 3) return kNone;
+    return 2.0 * (passings.back() - passings.front()) / static_cast<double>(passings.size() - 1);
+}
+
+std::vector<double> errors(std::span<const Reading> all)
+{
+    std::vector<double> errors;
+    for (const Reading& r : all) errors.push_back(std::abs(r.value / r.expected - 1.0));
+    return errors;
+}
+
+double rmsError(std::span<const Reading> all)
+{
+    double error = 0.0, size = 0.0;
+    for (const Reading& r : all) {
+        error += (r.value - r.expected) * (r.value - r.expected);
+        size += (r.expected - all.front().expected) * (r.expected - all.front().expected);
+    }
+    return std::sqrt(error / size);
+}
+
+double reach(std::span<const Reading> all, double level)
+{
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const Reading &before = all[i - 1], &now = all[i];
+        if (before.value < level && now.value >= level)
+            return before.at + (now.at - before.at) * (level - before.value) / (now.value - before.value);
+    }
+    return kNone;
+}
+
+}  // namespace
+
+double take(Take what, std::span<const Reading> all, double level)
+{
+    if (all.empty()) return kNone;
+    const auto byValue = [](const Reading& a, const Reading& b) { return a.value < b.value; };
+    switch (what) {
+        case Take::First:
+            return all.front().value;
+        case Take::Last:
+            return all.back().value;
+        case Take::Mean:
+            return mean(all);
+        case Take::Smallest:
+            return std::ranges::min_element(all, byValue)->value;
+        case Take::Largest:
+            return std::ranges::max_element(all, byValue)->value;
+        case Take::Change:
+            return all.back().value - all.front().value;
+        case Take::Slope:
+            return slope(all);
+        case Take::Exponent:
+            return slopeOfLogarithm(all, true);
+        case Take::Rate:
+            return -slopeOfLogarithm(all, false);
+        case Take::EnvelopeRate:
+            return -slopeOfLogarithm(swingsOf(all).peaks, false);
+        case Take::Period:
+            return period(all);
+        case Take::MeanError: {
+            const auto of = errors(all);
+            return std::accumulate(of.begin(), of.end(), 0.0) / static_cast<double>(of.size());
+        }
+        case Take::LargestError:
+            return std::ranges::max(errors(all));
+        case Take::RmsError:
+            return rmsError(all);
+        case Take::Reach:
+            return reach(all, level);
+    }
+    return kNone;
+}
+
+}  // namespace app

@@ -1,0 +1,145 @@
+#include "app/lab/endings/run_course.h"
+
+#include "app/system/csv.h"
+#include "sim/coupling/porous_law.h"
+#include "sim/scene/load_scene.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace app {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 4> kFromOutside = {"sources_erg", "suction_erg", "solids_erg", "pins_erg"};
+/// With friction, which takes. Where a solve was cut short its forces are booked with more than they took: what is not gone was not taken.
+constexpr std::string_view kObstacles = "obstacles_erg";
+/// The energy of a surface is in no sum. It gives by its own work and by that of the pressure that it makes; what it takes is not lost.
+constexpr std::string_view kSurface = "surface_tension_erg", kPressure = "pressure_erg";
+
+struct Energy {
+    double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
+};
+
+/// Kinetic energy [erg] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
+double unfeltEnergy(const std::filesystem::path& folder, double liquidMass, double time)
+{
+    constexpr double kUnfelt = 1.0e-9;  // cells
+    std::ifstream in(folder / "report.json");
+    const json report = in ? json::parse(in, nullptr, false) : json();
+    if (!report.is_object() || !(time > 0.0)) return 0.0;
+    const double mass = liquidMass + report.at("fabric").value("mass", 0.0), speed = kUnfelt * report.value("cell", 0.0) / time;
+    return 0.5 * mass * speed * speed;
+}
+
+/// From energy_ledger.csv: what of the energy's rise nothing outside of liquid and fabric has paid for.
+Energy energyOf(const std::filesystem::path& csv)
+{
+    std::ifstream in(csv);
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> names = csvCells(line);
+    Energy energy;
+    std::optional<double> start;
+    double lastObstacles = 0.0, lastOwn = 0.0, byObstacles = 0.0;
+    while (std::getline(in, line)) {
+        const std::vector<std::string> cells = csvCells(line);
+        double paid = 0.0, total = 0.0, surface = 0.0, pressure = 0.0, obstacles = 0.0;
+        for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
+            const double value = std::strtod(cells[i].c_str(), nullptr);
+            if (names[i] == "total_erg") total = value;
+            if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
+            if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
+            if (names[i] == kObstacles) obstacles = value;
+            if (names[i] == kSurface) surface = value;
+            if (names[i] == kPressure) pressure = value;
+        }
+        if (surface != 0.0) paid += std::max(0.0, surface + std::max(0.0, pressure));
+        const double own = total - paid;  // and what obstacles gave or took
+        if (!start) start = own;
+        else byObstacles += std::max(obstacles - lastObstacles, std::min(own - lastOwn, 0.0));
+        lastObstacles = obstacles;
+        lastOwn = own;
+        energy.gain = std::max(energy.gain, own - byObstacles - *start);
+    }
+    return energy;
+}
+
+/// Of the corners of boxes around those that move [cm/s].
+double fastestSolid(const sim::Scene& scene, double duration)
+{
+    constexpr int kParts = 64;  // of the run, in each of which they go at one speed
+    double farthest = 0.0;
+    for (const sim::ObstacleSettings& obstacle : scene.obstacles) {
+        if (obstacle.motion.isStatic()) continue;
+        const Eigen::AlignedBox3d box = obstacle.shape.bounds();
+        for (int n = 0; n < kParts; ++n) {
+            const Eigen::Isometry3d from = obstacle.motion.transform(n * duration / kParts), to = obstacle.motion.transform((n + 1) * duration / kParts);
+            for (int c = 0; c < 8; ++c) {
+                const sim::Vec3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
+                farthest = std::max(farthest, (to * corner - from * corner).norm());
+            }
+        }
+    }
+    return farthest * kParts / duration;
+}
+
+/// √(2 P/ρ), to which suction P [dyn/cm^2] takes liquid that nothing slows down [cm/s].
+double fastestDrawn(const sim::Scene& scene)
+{
+    constexpr double kAlong = 2.0;  // suction along fibres, relative to that across
+    const sim::Settings& settings = scene.settings;
+    double suction = 0.0;
+    if (settings.coupling.capillary)
+        for (const sim::FabricPiece& piece : scene.fabrics) {
+            const double fraction = piece.material.volumeFraction;
+            suction = std::max(suction, kAlong * sim::PorousLaw({settings.porous.fibreDiameter, fraction}, settings.liquid, settings.coupling).suction(fraction));
+        }
+    return std::sqrt(2.0 * suction / settings.liquid.density);
+}
+
+}  // namespace
+
+RunCourse courseOf(const std::filesystem::path& folder)
+{
+    RunCourse course;
+    std::ifstream in(folder / "steps.jsonl");
+    double mass = 0.0;  // of the liquid, at most [g]
+    for (std::string line; std::getline(in, line);) {
+        const json step = json::parse(line, nullptr, false);
+        if (!step.is_object()) continue;
+        ++course.steps;
+        course.time += step.value("dt", 0.0);
+        course.largestSpeed = std::max(course.largestSpeed, step.value("max_speed", 0.0));
+        if (mass == 0.0) mass = step.at("ledger").value("liquid_mass", 0.0);
+    }
+    const Energy energy = energyOf(folder / "energy_ledger.csv");
+    const double scale = std::max(energy.largestKinetic, unfeltEnergy(folder, mass, course.time));
+    if (scale > 0.0) course.energyGain = energy.gain / scale;
+    if (mass > 0.0) course.commonSpeed = std::sqrt(2.0 * energy.largestKinetic / mass);
+    if (const auto file = folder / "resolved.yaml"; std::filesystem::exists(file) && course.time > 0.0) {
+        const sim::Scene scene = sim::loadScene(file);
+        course.solidSpeed = fastestSolid(scene, course.time);
+        course.drawnSpeed = fastestDrawn(scene);
+    }
+    return course;
+}
+
+std::string whyUnsound(const RunCourse& course)
+{
+    if (course.energyGain > kAllowedGain) return fmt::format("energy: gained {:.3g} of its largest kinetic energy", course.energyGain);
+    if (course.commonSpeed > 0.0 && course.largestSpeed > std::max(kAllowedSpeed * std::max(course.commonSpeed, course.solidSpeed), course.drawnSpeed))
+        return fmt::format("speed: a particle at {:.3g} cm/s; all liquid {:.3g} cm/s", course.largestSpeed, course.commonSpeed);
+    return "";
+}
+
+}  // namespace app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "app/system/process_pool.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace app {
+
+/// How a run under stress ended.
+enum class StressEnding {
+    Finished,     ///< to its end, all numbers finite, all pictures there
+    Stopped,      ///< it told scene, step, stage and why
+    TimedOut,
+    Unsound,      ///< it gained energy or speed from nothing
+    Escaped,      ///< something is inside a solid, or outside of the vessel that it was in
+    Refused,      ///< the scene could not be read: a mistake of who made it
+    NotFinite,    ///< it went on with numbers that are none
+    Undiagnosed,  ///< it failed without telling where and why
+    Crashed,      ///< a signal ended it
+    Count
+};
+inline constexpr std::array<std::string_view, static_cast<int>(StressEnding::Count)> kStressEndings = {
+    "finished", "stopped with a diagnosis", "timed out", "unsound", "through a solid", "refused", "not finite", "undiagnosed", "crashed"};
+
+/// Must never happen.
+inline bool isFault(StressEnding ending) { return ending >= StressEnding::Unsound; }
+
+struct StressOutcome {
+    StressEnding ending = StressEnding::Finished;
+    std::string message;   ///< why, one line; empty where it finished
+    double seconds = 0.0;  ///< wall
+};
+
+/// Judge the end of `drench run` by its exit code, its last words and what it left in its folder.
+/// @param pictures  that it must have left, were it finished
+StressOutcome judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures);
+
+}  // namespace app

@@ -1,0 +1,74 @@
+#include "app/lab/random/escapes.h"
+
+#include "app/checkpoint/checkpoint.h"
+#include "app/checkpoint/state_files.h"
+#include "sim/grid/obstacles.h"
+#include "sim/scene/load_scene.h"
+#include "sim/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace app {
+
+namespace {
+
+/// Deeper in a solid nothing may be [cells].
+constexpr double kDeep = 0.02;
+
+/// Counts the places that are inside of a solid, or out of the vessel: what is no number is nowhere in it.
+struct Escapes {
+    const sim::Obstacles& obstacles;
+    const std::optional<Eigen::AlignedBox3d>& vessel;
+    double tolerance;  ///< [cm]
+    int inside = 0, outside = 0;
+    double deepest = 0.0;  ///< [cm]
+
+    void look(const sim::Vec3& x)
+    {
+        if (!x.allFinite()) {
+            ++outside;
+            return;
+        }
+        const double depth = -obstacles.distance(x);
+        inside += depth > tolerance;
+        deepest = std::max(deepest, depth);
+        outside += vessel && vessel->exteriorDistance(x) > tolerance;
+    }
+    std::string text(const char* what) const
+    {
+        std::string told;
+        if (inside > 0) told += fmt::format("{} {} inside of solids, up to {:.2g} cm ", inside, what, deepest);
+        if (outside > 0) told += fmt::format("{} {} outside of the vessel ", outside, what);
+        return told;
+    }
+};
+
+}  // namespace
+
+std::string whatEscaped(const std::filesystem::path& file, const std::filesystem::path& folder, const std::optional<Eigen::AlignedBox3d>& vessel)
+{
+    const auto frames = storedFrames(folder, StateKind::ForGoingOn);
+    if (frames.empty()) return "";
+    const sim::Scene scene = sim::loadScene(file);
+    const sim::State state = loadCheckpoint(stateFile(folder, StateKind::ForGoingOn, frames.back())).state;
+    sim::Obstacles obstacles;
+    for (const sim::ObstacleSettings& obstacle : scene.obstacles) obstacles.add(obstacle.shape, obstacle.motion);
+    obstacles.moveTo(state.time, state.time);
+    const double tolerance = kDeep * scene.settings.cell;
+    sim::Obstacles atStart = obstacles;
+    atStart.moveTo(0.0, 0.0);
+    const auto startsOutside = [&](const sim::Vec3& x) { return atStart.distance(x) >= 0.0 && (!vessel || vessel->contains(x)); };
+    Escapes particles{obstacles, vessel, tolerance}, vertices{obstacles, vessel, tolerance};
+    const bool feelsSolids = scene.settings.fabric.contact;
+    // Fabric that feels no solid drips wherever it has got to.
+    const bool mayDripAnywhere = !feelsSolids && !scene.fabrics.empty() && scene.settings.coupling.drip;
+    for (std::size_t p = 0; !mayDripAnywhere && p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
+    const sim::Simulation start(scene);
+    for (std::size_t v = 0; feelsSolids && v < state.fabric.x.size(); ++v)
+        if (!start.fabric().pinned[v] && startsOutside(start.state().fabric.x[v])) vertices.look(state.fabric.x[v]);
+    return particles.text("particles") + vertices.text("vertices");
+}
+
+}  // namespace app

@@ -1,0 +1,63 @@
+#include "app/lab/checks/read_check.h"
+#include "app/lab/validation/validation.h"
+#include "sim/scene/overrides.h"
+
+#include <fmt/format.h>
+
+namespace app {
+
+namespace {
+
+using sim::Node;
+
+/// What is missing for the check to be able to fail.
+void requireVerdict(const Check& check, const Node& node, const std::string& path)
+{
+    const bool expects = check.expect || !check.table.empty(), hasTolerance = check.tolerance || check.within,
+               hasBound = check.atMost || check.atLeast;
+    if (check.hasCurve() && (!expects || !hasBound))
+        sim::fail(node.place, path + ": an error needs expect or table, and at_most");
+    if (check.hasCurve()) return;
+    if (!check.table.empty())
+        sim::fail(node.place, path + ": a table is compared by take: mean_error, largest_error or rms_error");
+    if (check.expect && !hasTolerance)
+        sim::fail(node.place, path + ": expect needs tolerance (relative) or within (absolute)");
+    if (!expects && !hasBound) sim::fail(node.place, path + ": needs expect with a tolerance, at_most, or at_least");
+}
+
+Check checkIn(const Node& node, std::size_t index, const ReadingContext& context)
+{
+    const std::string path = fmt::format("validate.checks.{}", index);
+    Check check = readCheck(node, path, context, fmt::format("check {}", index + 1));
+    requireVerdict(check, node, path);
+    return check;
+}
+
+}  // namespace
+
+std::optional<Validation> readValidation(const SceneSetup& setup)
+{
+    const Node* node = setup.file.root.find("validate");
+    if (!node) return std::nullopt;
+    sim::SectionReader section(*node, "validate");
+    sim::SectionReader::read(node, "validate", [](auto& v) {
+        for (const char* key : {"about", "source", "every", "let", "flow", "quick", "checks"}) v.other(key, "");
+    });
+    Validation validation;
+    validation.measures = std::make_shared<Measures>(setup.scene);
+    section.text("about", validation.about, "");
+    section.text("source", validation.source, "");
+    const ReadingContext context = readContext(section, setup.scene, *validation.measures);
+    validation.every = readInterval(section, context);
+    if (const Node* quick = section.find("quick"))
+        for (const sim::Override& change : sim::overridesOf(*quick, {})) validation.quick.push_back(change.text());
+    section.needs("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
+    const Node& checks = *section.find("checks");
+    if (!checks.isList() || checks.items.empty())
+        sim::fail(checks.place, "validate.checks: needs a list of at least one check");
+    for (std::size_t i = 0; i < checks.items.size(); ++i)
+        validation.checks.push_back(checkIn(checks.items[i], i, context));
+    return validation;
+}
+
+}  // namespace app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "app/lab/validation/validation.h"
+#include "app/parts.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// What came of one case of the validation.
+struct CaseResult {
+    std::string name;  ///< of its file
+    SceneSetup setup;
+    Validation validation;                       ///< of it
+    std::vector<std::vector<Reading>> readings;  ///< of each check
+    std::vector<Finding> findings = {};          ///< of each check; none when the run failed
+    std::string failure = {};                    ///< why the run did not come to its end
+    std::int64_t steps = 0;
+    double wallSeconds = 0.0;
+
+    bool passes() const;
+};
+
+/// Runs a scene with a section `validate` to its end and compares it with what is known.
+CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts,
+                   const std::function<bool()>& stopWanted);
+
+}  // namespace app

@@ -1,0 +1,121 @@
+#include "app/lab/validation/validation_report.h"
+
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
+#include "app/system/progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace app {
+
+namespace {
+
+std::string withUnit(double value, const std::string& unit)
+{
+    return std::isfinite(value) ? fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit) : "-";
+}
+
+std::string deviation(const Finding& finding)
+{
+    if (!std::isfinite(finding.expected) || !std::isfinite(finding.value)) return "-";
+    const double error = finding.value - finding.expected;
+    return finding.expected == 0.0 ? fmt::format("{:+.2g}", error)
+                                   : fmt::format("{:+.2f} %", 100.0 * error / std::abs(finding.expected));
+}
+
+/// Is what is expected drawn beside the readings: where it is known at each, or is what one of them or their mean is
+/// compared with?
+bool hasLine(const Check& check)
+{
+    return check.hasCurve() || (check.expect && check.take <= Take::Largest);
+}
+
+/// Of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
+std::string readingsLabel(const Check& check)
+{
+    const bool isOfReadings = check.take <= Take::Change || check.hasCurve();
+    return isOfReadings && !check.unit.empty() ? check.unit : check.read.text();
+}
+
+std::string panel(const CaseResult& result, std::size_t i)
+{
+    const Check& check = result.validation.checks[i];
+    const auto column = [&](int number) { return fmt::format("using ($1=={}?$2:NaN):{}", i, number); };
+    const std::string file = gnuplotText(result.name + ".csv");
+    const std::string abscissa = check.against.text() == "t" ? "time [s]" : check.against.text();
+    std::string text = fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ",
+                                   gnuplotText(check.name), gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
+    if (hasLine(check))
+        text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title 'known', ", file, column(4));
+    return text +
+           fmt::format("{} skip 1 {} with lines lw 2 lc rgb '{}' title 'found'\n", file, column(3), kPlotColors[2]);
+}
+
+std::string plotScript(const CaseResult& result, const std::string& picture)
+{
+    const std::size_t panels = result.readings.size();
+    std::string text = fmt::format(
+        "set terminal pngcairo size {},420 font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
+        "set multiplot layout 1,{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
+        "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset format y '%.4g'\n",
+        std::max<std::size_t>(480, 400 * panels), gnuplotText(picture), panels, gnuplotText(result.setup.scene.title));
+    for (std::size_t i = 0; i < panels; ++i) text += panel(result, i);
+    return text + "unset multiplot\n";
+}
+
+std::string rowOf(const CaseResult& result, std::size_t i)
+{
+    const Check& check = result.validation.checks[i];
+    const Finding& finding = result.findings[i];
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name,
+                       withUnit(finding.value, check.unit), withUnit(finding.expected, check.unit), deviation(finding),
+                       bounds(check), finding.passes ? "passes" : "**fails**");
+}
+
+}  // namespace
+
+std::string findingsTable(const std::vector<CaseResult>& results)
+{
+    std::string table = "| case | check | found | known | deviation | allowed | |\n|---|---|---:|---:|---:|---|---|\n";
+    for (const CaseResult& result : results) {
+        for (std::size_t i = 0; i < result.findings.size(); ++i) table += rowOf(result, i);
+        if (!result.failure.empty())
+            table += fmt::format("| {} | {} | - | - | - | - | **fails** |\n", result.name, result.failure);
+    }
+    return table;
+}
+
+std::string validationReport(const std::vector<CaseResult>& results, bool isQuick, bool withPlots)
+{
+    const auto passed = std::ranges::count_if(results, &CaseResult::passes);
+    double seconds = 0.0;
+    for (const CaseResult& result : results) seconds += result.wallSeconds;
+    std::string text = fmt::format("# Validation{}\n\n{} of {} cases pass, in {}.\n\n{}", isQuick ? " (quick)" : "",
+                                   passed, results.size(), formatDuration(seconds), findingsTable(results));
+    for (const CaseResult& result : results) {
+        const Validation& validation = result.validation;
+        text += fmt::format("\n## {}\n\n{}\n\nKnown from: {}. {} steps, {}.\n", result.setup.scene.title,
+                            validation.about, validation.source, result.steps, formatDuration(result.wallSeconds));
+        if (withPlots) text += fmt::format("\n![{}]({}.png)\n", result.setup.scene.title, result.name);
+    }
+    return text;
+}
+
+void writeReadings(const CaseResult& result, const std::filesystem::path& folder)
+{
+    std::string csv = "check,at,found,known\n";
+    for (std::size_t i = 0; i < result.readings.size(); ++i)
+        for (const Reading& reading : result.readings[i])
+            fmt::format_to(std::back_inserter(csv), "{},{:.9g},{:.9g},{:.9g}\n", i, reading.at, reading.value,
+                           reading.expected);
+    writeWhole(folder / (result.name + ".csv"), csv);
+    const auto enough = [](const auto& readings) { return readings.size() > 1; };
+    if (canPlot() && std::ranges::all_of(result.readings, enough))
+        drawPlot(folder, result.name, [&](const std::string& picture) { return plotScript(result, picture); });
+}
+
+}  // namespace app

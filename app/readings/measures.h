@@ -1,0 +1,101 @@
+#pragma once
+
+#include "app/readings/force_log.h"
+#include "sim/core/types.h"
+#include "sim/particles/liquid_particles.h"
+#include "sim/scene/formula.h"
+
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace app {
+
+class Steppable;
+
+/// A plane, or the disc of it within a radius, through which liquid goes.
+struct Hoop {
+    sim::Vec3 center = sim::Vec3::Zero();    ///< [cm]
+    sim::Vec3 normal = sim::Vec3::UnitY();   ///< of length 1
+    double radius = std::numeric_limits<double>::infinity();  ///< [cm]
+};
+
+/// What a formula of a validation or a probe can read of a simulation as it is, in cgs. With a for x, y, z:
+///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va, spin_a (angular
+///    momentum about it), speed (largest), rms_speed, kinetic, potential, energy and momentum_a (of everything), wave_a(k) (mean of
+///    cos k a), mass_a(from, to) (of liquid between two planes);
+///  * at a point: velocity_a(x, y, z) (mean of the liquid within a cell of it, no value where there is none), saturation_at(x, y, z) (of the
+///    vertex of fabric next to it); through hoops, in probes: flux("outlet") (liquid that goes through [g/s]);
+///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
+///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
+///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
+///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
+///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
+///    vertex), wet_a(saturation) (the same of vertices whose pores are that full);
+///  * forces [dyn] and torques about the origin [dyn cm], means over the steps since the last reading, 0 before the first: force_a("ball") and
+///    torque_a("ball") of an obstacle or a fabric by liquid and contact together, liquid_force_a, liquid_torque_a, contact_force_a and
+///    contact_torque_a by one of them, pin_force_a("sheet") and pin_torque_a by a fabric on all its pins, or on those of that name.
+class Measures {
+ public:
+    explicit Measures(const sim::Scene& scene) : density_(scene.settings.liquid.density), forceNames_(scene) {}
+    Measures(const Measures&) = delete;
+    Measures& operator=(const Measures&) = delete;
+
+    /// Names for formulas; they look at what this looks at.
+    std::vector<sim::FormulaNames::Function> names();
+    std::vector<sim::FormulaNames::OfName> forces();
+    void look(const Steppable& simulation)
+    {
+        simulation_ = &simulation;
+        startInterval();
+    }
+    /// The same, in the middle of an interval.
+    void goOnLooking(const Steppable& simulation) { simulation_ = &simulation; }
+    void addHoop(const std::string& name, const Hoop& hoop) { hoops_[name] = hoop; }
+    sim::FormulaNames::OfName flux();
+    /// Readings of forces are means over the steps that were taken since.
+    void startInterval() { interval_ = {}; }
+    void tookStep();
+    const ForceTotals& interval() const { return interval_; }
+    void goOnWith(const ForceTotals& interval) { interval_ = interval; }
+    /// Formulas of x, y, z, t.
+    void setFlow(std::array<sim::Formula, sim::kAxes> flow) { flow_ = std::move(flow); }
+
+ private:
+    using Names = std::vector<sim::FormulaNames::Function>;
+    void addLiquid(Names& names);
+    void addLiquidAlong(int axis, Names& names);
+    void addFlow(Names& names);
+    void addPoints(Names& names);
+    void addFabric(Names& names);
+    void addFabricAlong(int axis, Names& names);
+    double momentum(int axis) const;
+    const sim::LiquidParticles& liquid() const;
+    std::size_t vertex(double number) const;
+    sim::Vec3 flowAt(const sim::Vec3& x) const;
+    template <class Term>
+    double sumOverFaces(Term&& term) const;
+    double flowError() const;
+    double flowPart() const;
+    double pressureAt(const sim::Vec3& x) const;
+    double velocityAt(int axis, const sim::Vec3& x) const;
+    double saturationAt(const sim::Vec3& x) const;
+    double fluxThrough(const Hoop& hoop) const;
+    double front(int axis, double where) const;
+
+    sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;
+    sim::Impulse meanOnPins(const std::string& name) const;
+
+    double density_;                 ///< of the liquid [g/cm^3]
+    ForceNames forceNames_;
+    ForceTotals interval_;
+    std::map<std::string, Hoop> hoops_;
+    const Steppable* simulation_ = nullptr;
+    std::optional<std::array<sim::Formula, sim::kAxes>> flow_;
+};
+
+}  // namespace app

@@ -1,0 +1,96 @@
+#include "app/readings/reading_context.h"
+
+#include <fmt/format.h>
+
+namespace app {
+
+namespace {
+
+using sim::Node;
+
+void define(const std::string& name, double value, ReadingContext& context)
+{
+    for (sim::FormulaNames* names : {&context.reading, &context.known, &context.constant})
+        names->constants[name] = value;
+}
+
+/// What formulas know of the scene.
+ReadingContext contextOf(const std::string& path, const sim::Scene& scene)
+{
+    ReadingContext context;
+    context.path = path;
+    context.reading.variables = context.known.variables = {"t"};
+    const sim::Settings& s = scene.settings;
+    define("g", s.gravity.norm(), context);
+    define("density", s.liquid.density, context);
+    define("viscosity", s.liquid.viscosity, context);
+    define("surface_tension", s.liquid.surfaceTension, context);
+    define("dx", s.cell, context);
+    define("duration", s.time.duration, context);
+    return context;
+}
+
+void readConstants(const Node* let, ReadingContext& context)
+{
+    if (!let) return;
+    const std::string path = context.path + ".let";
+    if (!let->isMap())
+        sim::fail(let->place, path + ": needs names and formulas, like {k: pi/10}, not " + let->called());
+    for (std::size_t i = 0; i < let->keys.size(); ++i)
+        define(let->keys[i], readConstant(let->items[i], path + "." + let->keys[i], context), context);
+}
+
+void readFlow(const Node* node, const ReadingContext& context, Measures& measures)
+{
+    if (!node) return;
+    const std::string path = context.path + ".flow";
+    sim::FormulaNames names = context.constant;
+    names.variables = {"x", "y", "z", "t"};
+    if (!node->isList() || node->items.size() != sim::kAxes)
+        sim::fail(node->place, path + ": needs three formulas of x, y, z, t like [\"-y\", \"x\", \"0\"]");
+    const auto at = [&](std::size_t i) { return readFormula(node->items[i], path, names); };
+    measures.setFlow({at(0), at(1), at(2)});
+}
+
+}  // namespace
+
+sim::Formula readFormula(const Node& node, const std::string& path, const sim::FormulaNames& names)
+{
+    const std::string& text = sim::readText(node, path);
+    try {
+        return sim::Formula(text, names);
+    } catch (const sim::FormulaError& error) {
+        sim::fail(node.place, fmt::format("{}: {}: {}", path, sim::inQuotes(text), error.what()));
+    }
+}
+
+double readConstant(const Node& node, const std::string& path, const ReadingContext& context)
+{
+    const sim::Formula formula = readFormula(node, path, context.constant);
+    try {
+        return formula();
+    } catch (const sim::FormulaError& error) {
+        sim::fail(node.place, fmt::format("{}: {}: {}", path, sim::inQuotes(formula.text()), error.what()));
+    }
+}
+
+ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& scene, Measures& measures)
+{
+    ReadingContext context = contextOf(section.path(), scene);
+    readConstants(section.find("let"), context);
+    readFlow(section.find("flow"), context, measures);
+    context.reading.functions = measures.names();
+    context.reading.ofNames = measures.forces();
+    context.reading.ofNames.push_back(measures.flux());
+    return context;
+}
+
+double readInterval(sim::SectionReader& section, const ReadingContext& context)
+{
+    section.needs("every", "the time between two readings, like every: 1.0e-2");
+    const double every = readConstant(*section.find("every"), section.pathOf("every"), context);
+    if (every <= 0.0) sim::fail(section.placeOf("every"), section.pathOf("every") + ": must be above 0 s");
+    return every;
+}
+
+}  // namespace app

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "app/readings/measures.h"
+#include "sim/scene/node.h"
+#include "sim/scene/section_reader.h"
+
+#include <string>
+
+// What the sections of a scene that ask for readings (validate, precision, output.probes) have in common.
+
+namespace app {
+
+/// What formulas of such a section may use.
+struct ReadingContext {
+    std::string path;           ///< of the section, for messages
+    sim::FormulaNames reading;  ///< of what is read: measures and the time
+    sim::FormulaNames known;    ///< of what is expected: the time
+    sim::FormulaNames constant;
+};
+
+/// Names of the scene (g, density, viscosity, surface_tension, dx, duration), of the section's `let`, and of the
+/// measures, which learn its `flow`. Throws InputError.
+ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& scene, Measures& measures);
+
+/// The key `every` of the section: time between readings [s]. Throws InputError.
+double readInterval(sim::SectionReader& section, const ReadingContext& context);
+
+/// Throws InputError naming what is wrong with the formula, or with its value.
+sim::Formula readFormula(const sim::Node& node, const std::string& path, const sim::FormulaNames& names);
+double readConstant(const sim::Node& node, const std::string& path, const ReadingContext& context);
+
+}  // namespace app

@@ -1,0 +1,122 @@
+#include "app/reports/energy_plot.h"
+
+#include "app/system/atomic_files.h"
+#include "app/system/gnuplot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace app {
+
+namespace {
+
+/// The largest total energy in a file, by size [erg]; 0 if there is none.
+double largestEnergy(const std::filesystem::path& csv)
+{
+    constexpr int kTotalColumn = 4;
+    std::istringstream in(readWhole(csv));
+    std::string line;
+    double largest = 0.0;
+    for (std::getline(in, line); std::getline(in, line);) {
+        std::istringstream cells(line);
+        std::string cell;
+        for (int column = 0; column <= kTotalColumn; ++column) std::getline(cells, cell, ',');
+        if (const double value = std::strtod(cell.c_str(), nullptr); std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    }
+    return largest;
+}
+
+/// Axis numbers between 1 and 1000: a multiple of three.
+int axisScale(const std::vector<EnergyCurve>& curves)
+{
+    double largest = 0.0;
+    for (const auto& curve : curves) largest = std::max(largest, largestEnergy(curve.csv));
+    return largest > 0.0 ? 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0)) : 0;
+}
+
+/// One panel: value(curve) is a gnuplot expression of the columns of energy.csv.
+template <class Value>
+std::string panel(const std::vector<EnergyCurve>& curves, const std::string& name, Value&& value)
+{
+    std::string text = fmt::format("set title {}\nplot", gnuplotText(name));
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        text += fmt::format("{} {} skip 1 using 1:({}) with lines lw 2 lc rgb '{}' dt {} title {} noenhanced", i == 0 ? "" : ", \\\n    ",
+                            gnuplotText(curves[i].csv.generic_string()), value(curves[i]), kPlotColors[i % kPlotColors.size()],
+                            i % 2 == 0 ? "1" : "(8,4)", gnuplotText(curves[i].label));  // dashes show what lies below them
+    return text + "\n";
+}
+
+/// What all panels have in common.
+std::string head(int panels, const std::string& title, const std::string& unit, const std::string& picture)
+{
+    return fmt::format("set terminal pngcairo size {},580 font 'DejaVu Sans,12' linewidth 1\n"
+                       "set output {}\n"
+                       "set datafile separator ','\n"
+                       "set multiplot layout 1,{} margins 0.085,0.975,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
+                       "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
+                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
+                       "set key at screen 0.5,0.045 center center vertical maxrows 2 samplen 2\n",
+                       550 * panels, gnuplotText(picture), panels, gnuplotText(title), unit);
+}
+
+/// Draw folder/name.png by script(curves, picture), whose curves are told relative to the folder.
+template <class Script>
+void draw(const std::vector<EnergyCurve>& curves, const std::filesystem::path& folder, const std::string& name, Script&& script)
+{
+    auto relative = curves;
+    for (auto& curve : relative) curve.csv = std::filesystem::relative(curve.csv, folder);
+    drawPlot(folder, name, [&](const std::string& picture) { return script(relative, picture); });
+}
+
+}  // namespace
+
+void joinEnergies(const std::vector<EnergyCurve>& curves, const std::filesystem::path& target)
+{
+    std::string all;
+    for (const auto& curve : curves) {
+        std::istringstream in(readWhole(curve.csv));
+        std::string line;
+        std::getline(in, line);
+        if (all.empty()) all = "variant," + line + '\n';
+        while (std::getline(in, line)) all += curve.variant + ',' + line + '\n';
+    }
+    writeWhole(target, all);
+}
+
+std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title,
+                             const std::string& picture)
+{
+    const std::string unit = scale == 0 ? "erg" : fmt::format("10^{{{}}} erg", scale);
+    const auto scaled = [&](const std::string& value) { return [=](const EnergyCurve&) { return fmt::format("({})*1e{}", value, -scale); }; };
+    return head(3, title, unit, picture) + panel(curves, "kinetic", scaled("$2+$3")) + "unset key\nunset ylabel\n" +
+           panel(curves, "potential", scaled("$4")) + panel(curves, "total", scaled("$5")) + "unset multiplot\n";
+}
+
+std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std::string& title, const std::string& picture)
+{
+    const auto perParticle = [](const std::string& value) {
+        return [=](const EnergyCurve& curve) { return fmt::format("{}/($6+{})", value, curve.vertices); };
+    };
+    return head(2, title, "erg per particle", picture) + panel(curves, "kinetic + potential + elastic", perParticle("$5")) +
+           "unset key\nunset ylabel\n" + panel(curves, "as published (no motion of the liquid)", perParticle("$12")) + "unset multiplot\n";
+}
+
+void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)
+{
+    const int scale = axisScale(curves);
+    draw(curves, folder, "energy", [&](const auto& relative, const std::string& picture) {
+        return energyPlotScript(relative, scale, title, picture);
+    });
+}
+
+void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder,
+                     const std::string& name)
+{
+    draw(curves, folder, name, [&](const auto& relative, const std::string& picture) { return perParticleScript(relative, title, picture); });
+}
+
+}  // namespace app

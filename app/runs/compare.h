@@ -1,0 +1,51 @@
+#pragma once
+
+#include "app/options.h"
+#include "app/parts.h"
+#include "app/pictures/side_by_side.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// One variant of a comparison: an ordinary run in a folder of its own.
+struct ComparedRun {
+    SceneSetup setup;
+    std::filesystem::path folder;
+    std::string contentHash;
+};
+
+/// The variants a comparison is about, every one of them loaded and so validated before the first one starts.
+/// Throws InputError when the scene has none, or none of a name asked for.
+std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder);
+
+/// Runs that are there, each in its folder, to be put side by side; pictures made anew by `render` are as good.
+/// @param sets  "dotted.key=value", of render, output and compare
+/// Throws InputError for folders without a run or without pictures.
+std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets, const Parts& parts);
+
+/// Is this very run, by this very program, already there to its end (with its pictures, if wanted)?
+bool isDone(const ComparedRun& run, bool withFrames);
+
+/// The command line of one variant's own process: from the start, or from its last checkpoint if it was stopped.
+std::vector<std::string> runArguments(const ComparedRun& run, const Options& options);
+
+/// Run what is not done yet, each in a process of its own, so that its peak memory and its crash are its own. Returns those that got to
+/// their end; of a run that was stopped, those before it.
+std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
+                                const std::function<bool()>& stopWanted);
+
+/// What was seen of runs that are done, in one sentence; "" where they have written no energies.
+std::string whatWasSeen(const std::vector<ComparedRun>& runs);
+
+/// Its pictures, as they are there.
+FrameSequence sequenceOf(const ComparedRun& run);
+
+/// Table, energy plot with its CSV, contact sheet and side-by-side video of runs that are done, as the scene wishes.
+void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,
+                  const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
+
+}  // namespace app

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/checkpoint/checkpoint.h"
+#include "app/parts.h"
+#include "app/reports/run_report.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace app {
+
+struct RunOptions {
+    std::filesystem::path out;       ///< its folder
+    std::string contentHash;
+    int threads = 1;                 ///< as limited by the caller; written into the report
+    bool frames = true;              ///< draw pictures
+    bool asPanel = false;            ///< pictures are to stand beside others
+    const Checkpoint* from = nullptr;  ///< go on from there instead of the start …
+    bool isBranch = false;           ///< … but in another folder, which then begins with that state
+    std::function<bool()> stopWanted = [] { return false; };  ///< looked at after every frame
+};
+
+/// Run a scene to its end without a window: step, draw, write; a run that is stopped leaves a checkpoint. Returns what report.json says at the end:
+/// done or interrupted. What goes wrong is thrown after report.json says "failed" and why; frames before it are kept.
+RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOptions& options);
+
+}  // namespace app

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "app/scene/picture_settings.h"
+#include "sim/scene/scene_file.h"
+
+#include <string>
+
+namespace app {
+
+/// Reads the sections render, output and compare of a scene file. Throws sim::InputError.
+PictureSettings readPictureSettings(const sim::SceneFile& file);
+
+/// The same sections as commented YAML in cgs: goes behind sim::printScene and loads again to the same settings.
+std::string printPictureSettings(const PictureSettings& settings);
+
+}  // namespace app

@@ -1,0 +1,82 @@
+#include "app/scene/scene_setup.h"
+
+#include "app/system/atomic_files.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <xxhash.h>
+
+#include <cmath>
+
+namespace app {
+
+std::string hexDigits(std::uint64_t value)
+{
+    return fmt::format("{:016x}", value);
+}
+
+void tellNotes(const SceneSetup& setup)
+{
+    for (const std::string& note : setup.scene.notes) spdlog::warn("{}", note);
+}
+
+std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash)
+{
+    const std::string all =
+        fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
+    return hexDigits(XXH64(all.data(), all.size(), programHash));
+}
+
+std::uint64_t programHash()
+{
+    const std::string program = readWhole("/proc/self/exe");
+    return XXH64(program.data(), program.size(), 0);
+}
+
+namespace {
+
+std::filesystem::path filledIn(const SceneSetup& setup, const std::string& name, const std::string& variant)
+{
+    std::string folder = setup.pictures.output.dir.empty() ? "out/{name}/{variant}" : setup.pictures.output.dir;
+    const auto fillIn = [&](const std::string& word, const std::string& value) {
+        for (std::size_t at = 0; (at = folder.find(word, at)) != std::string::npos; at += value.size())
+            folder.replace(at, word.size(), value);
+    };
+    fillIn("{name}", name);
+    fillIn("{variant}", variant);
+    return folder;
+}
+
+}  // namespace
+
+std::filesystem::path defaultFolder(const SceneSetup& setup)
+{
+    return filledIn(setup, setup.scene.name, setup.variant);
+}
+
+std::filesystem::path defaultComparisonFolder(const SceneSetup& setup)
+{
+    const std::string& own = setup.pictures.compare.name;
+    const auto folder = filledIn(setup, own.empty() ? setup.scene.name : own, "").lexically_normal();
+    return folder.has_filename() ? folder : folder.parent_path();
+}
+
+std::int64_t lastFrameUpTo(const SceneSetup& setup, double time)
+{
+    // A time that is a whole number of frames but for rounding has its frame.
+    constexpr double kRounding = 1.0e-9;
+    return std::llround(std::floor((time - setup.scene.settings.time.start) / setup.pictures.output.every + kRounding));
+}
+
+std::int64_t frameCount(const SceneSetup& setup)
+{
+    const auto& time = setup.scene.settings.time;
+    return lastFrameUpTo(setup, time.start + time.duration);
+}
+
+double frameTime(const SceneSetup& setup, std::int64_t frame)
+{
+    return setup.scene.settings.time.start + static_cast<double>(frame) * setup.pictures.output.every;
+}
+
+}  // namespace app
