@@ -96,7 +96,7 @@ struct FabricState {
     Grips onObstacles;                    ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
     ContactEnergy stored;                 ///< at the end of the last step, with the stiffnesses that contact had in it …
     double springStep = 0.0;              ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
-    double owed = 0.0;                    ///< energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
+    double owed = 0.0;                    ///< solver vertex: energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
     double mostKinetic = 0.0;             ///< largest kinetic energy of all steps' starts [erg]
 
     // Of solver vertex only.

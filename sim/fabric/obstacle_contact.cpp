@@ -40,11 +40,6 @@ int FabricObstacles::nearest(const Vec3& x) const
     return static_cast<int>(std::ranges::min_element(bodies_, {}, distance) - bodies_.begin());
 }
 
-Vec3 FabricObstacles::moveAt(const Vec3& x) const
-{
-    return x - bodies_[nearest(x)].carry.inverse() * x;
-}
-
 void FabricObstacles::findEdges(const Fabric& fabric)
 {
     edges_ = fabric.edges.vertices;

@@ -60,8 +60,6 @@ class FabricObstacles {
     int inScene(int obstacle) const { return bodies_[obstacle].inScene; }
     /// Of those felt, the one that is nearest to a place.
     int nearest(const Vec3& x) const;
-    /// How far it goes there in the step [cm].
-    Vec3 moveAt(const Vec3& x) const;
     /// Poses and motion of a step from t0 to t1 [s].
     void moveTo(double t0, double t1);
     /// How the points of the fabric come into a step of h [s].

@@ -60,11 +60,7 @@ void GridFabricSolver::bookSolve(double h, const Vec3& gravity, const FabricStat
 void GridFabricSolver::bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const
 {
     changes[EnergyChange::Contact] += state.stored.pressed - before.pressed;
-    double& obstacles = changes[EnergyChange::Obstacles] += state.stored.solids - before.solids;
-    if (!guard_.anyMoves() && obstacles > 0.0) {  // solids at rest give nothing: it is the error of forces that are known where the step began
-        changes[EnergyChange::Implicit] += obstacles;
-        obstacles = 0.0;
-    }
+    changes[EnergyChange::Obstacles] += state.stored.solids - before.solids;
     const FabricEnergies after = energies(state, gravity);
     changes[EnergyChange::Implicit] += after.elastic();
     changes[EnergyChange::FabricToVertices] += after.kinetic + after.potential;

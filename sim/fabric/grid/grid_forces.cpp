@@ -5,9 +5,9 @@
 namespace sim {
 
 /// What pins and solids got in the solve; the state is still that of before.
-void GridFabricSolver::tellSprings(double h, const FabricState& state)
+void GridFabricSolver::tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching)
 {
-    if (fabric_.pins.vertex.empty() && touching_.empty()) return;
+    if (fabric_.pins.vertex.empty() && touching.empty()) return;
     const AlignedArray<double>& u = system_.onVertices(velocity_);
     const auto placeOf = [&](int v) -> Vec3 { return state.x[v] + h * stiffness_.at(u, v); };
     const auto onPin = [&](std::size_t i, const Vec3& impulse) {
@@ -17,7 +17,7 @@ void GridFabricSolver::tellSprings(double h, const FabricState& state)
         if (const auto pin = pinOfEdge(fabric_, edge)) forces_->pins[fabric_.pins.motion[*pin]].angular += impulse * state.tangent[edge];
     };
     const auto onObstacle = [&](std::size_t i, const Vec3& impulse) {
-        const ObstacleContact& contact = touching_[i];
+        const ObstacleContact& contact = touching[i];
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         const Vec3 place = share[0] * placeOf(v[0]) + share[1] * placeOf(v[1]) + share[2] * placeOf(v[2]);

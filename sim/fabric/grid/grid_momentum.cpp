@@ -6,10 +6,10 @@ namespace sim {
 
 /// The group of the fabric in each block and in those beside it; −1 where it is held or there is none. Pieces in blocks beside each other
 /// act on each other by faces that both may reach.
-void GridFabricSolver::findGroups()
+void GridFabricSolver::findGroups(std::span<const ObstacleContact> touching)
 {
     groups_.begin();
-    for (const ObstacleContact& contact : touching_)
+    for (const ObstacleContact& contact : touching)
         for (int v : contact.vertices()) groups_.hold(v);
     const BlockGrid& grid = particles_.grid();
     const BlockPoints& vertices = particles_.vertices();
@@ -33,9 +33,9 @@ void GridFabricSolver::findGroups()
     for (int b = 0; b < grid.count(); ++b) groupOfBlock_[b] = nearBlock_[b] < 0 ? -1 : groups_.freeGroupOf(nearBlock_[b]);
 }
 
-void GridFabricSolver::keepMomentum()
+void GridFabricSolver::keepMomentum(std::span<const ObstacleContact> touching)
 {
-    findGroups();
+    findGroups(touching);
     if (groups_.anyFree()) system_.balance(start_, groupOfBlock_, groups_.pieces(), velocity_);
 }
 

@@ -2,7 +2,6 @@
 #include "sim/fabric/grid/grid_solver.h"
 
 #include <algorithm>
-#include <cmath>
 
 // One linear solve goes by the forces where a step begins. Where it moves fabric about as far as its edges are long, because liquid strikes or
 // draws it, other forces act where it gets to, and energy would come from nothing: then these are solved for, by Newton's method.
@@ -14,8 +13,7 @@ namespace {
 /// Elastic energy from nothing that a step may leave, relative to that of the motion: more asks for another iteration [-].
 constexpr double kNoGain = 1.0e-3;
 constexpr int kMostNewton = 8;  ///< iterations
-constexpr double kNoWay = 1.0e-3;  ///< by which solids change a move without a spring for it [radii]
-constexpr int kMostRepeats = 3;  ///< of a solve, to take such contact in, or what solids stop
+constexpr int kMostRepeats = 3;  ///< of a solve, to take such contact in
 
 }  // namespace
 
@@ -85,73 +83,19 @@ double GridFabricSolver::kineticOfChange()
     });
 }
 
-/// Lets go of what no longer presses against the solid that stopped it. Returns the work that the springs did there [erg].
-double GridFabricSolver::letGo(double h, const AlignedArray<double>& u)
+void GridFabricSolver::solve(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report)
 {
-    double work = 0.0;
-    std::erase_if(stopped_, [&](const ObstacleContact& contact) {
-        const Vec3 move = h * stiffness_.at(u, contact.vertex), pull = contact.stiffness * (from_[contact.vertex] + move - contact.place);
-        const bool isPulled = pull.dot(contact.gradient) > 0.0;
-        if (isPulled) work += std::abs(pull.dot(move));
-        return isPulled;
-    });
-    return work;
-}
-
-/// What solids stop on the way that was solved for stretches what goes on beside it: energy that nothing has given. Where it matters, springs to
-/// where solids let it get act from now on, as long as they press. (Where nothing leads the fabric, a part of its way does: moveVertices.) Returns
-/// whether the step is to be solved again.
-bool GridFabricSolver::holdStopped(double h, double kinetic, const Vec3& gravity, const AlignedArray<double>& u, const FabricState& state)
-{
-    parallelFor(move_.size(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * stiffness_.at(u, static_cast<int>(v)); });
-    GuardReport guarded;
-    double matters = letGo(h, u);
-    if (guard_.limit(state.x, mass_, move_, guarded) == SolidGuard::Limited::Changed)
-        matters += energyAfter(move_, h, gravity, state).sum() - energyAfter(wanted_, h, gravity, state).sum();
-    if (matters <= kNoGain * kinetic) return false;
-    for (std::size_t v = 0; v < move_.size(); ++v) {
-        const Vec3 back = move_[v] - wanted_[v];
-        if (back.norm() <= kNoWay * fabric_.radius[v]) continue;
-        const FabricMaterial& material = fabric_.materials[fabric_.vertexMaterial[v]];
-        const Vec3 away = back.normalized();
-        const auto before = std::ranges::find(stopped_, static_cast<int>(v), &ObstacleContact::vertex);
-        ObstacleContact& contact = before == stopped_.end() ? stopped_.emplace_back() : *before;
-        contact.vertex = static_cast<int>(v);
-        contact.place = state.x[v] + move_[v];
-        contact.between = {static_cast<int>(v), obstacles_.nearest(contact.place)};
-        contact.gradient = away;
-        contact.stiffness = (mass_[v] / (h * h) + material.young * std::cbrt(fabric_.volume[v])) * away * away.transpose();
-    }
-    touching_.resize(felt_);
-    touching_.insert(touching_.end(), stopped_.begin(), stopped_.end());
-    const std::span<ObstacleContact> held = std::span(touching_).subspan(felt_);
-    for (ObstacleContact& contact : held) {
-        contact.gradient.setZero();
-        reached_[contact.vertex] = contact.place - state.x[contact.vertex];
-    }
-    stiffness_.hold(felt_, held, reached_);
-    return true;
-}
-
-void GridFabricSolver::solve(double t, double h, double kinetic, const Vec3& gravity, const FaceTolerance& tolerance, const FabricState& state,
-                             FabricReport& report)
-{
-    const bool mayBeStopped = !guard_.empty() && isDriven(t, h);
     start_ = velocity_.faces;
     solveOnce(tolerance, expectedChange(state), report);
     const double before = elastic_.at(state, stiffness_.rods(), stiffness_.shells()).elastic();
-    for (int n = 1, holds = 0;; ++n) {
+    for (int n = 1;; ++n) {
         if (settings_.contact) meetUnforeseen(h, kinetic, tolerance, state, report);
         AlignedArray<double>& u = system_.onVertices(velocity_);
         const double reached = tryMove(h, u, state);
         // What elastic forces gave, against what they had; backward Euler loses the energy of the change of velocities beside.
         const double gain = reached - before + stiffness_.innerWork(h, u) - kineticOfChange();
-        const bool gains = gain > kNoGain * kinetic && n < kMostNewton,
-                   isStopped = mayBeStopped && holds < kMostRepeats && holdStopped(h, kinetic, gravity, u, state);
-        if (!gains && !isStopped) return;
-        holds += isStopped ? 1 : 0;
-        std::swap(trial_, solvedAt_);
-        stiffness_.assembleAt(solvedAt_, h, u);
+        if (gain <= kNoGain * kinetic || n == kMostNewton) return;
+        stiffness_.assembleAt(trial_, h, u);
         system_.assemble();
         solveAgain(tolerance, state, report);
     }

@@ -3,7 +3,6 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/contact/spring_step.h"
 #include "sim/fabric/felt_acceleration.h"
-#include "sim/fabric/owed_energy.h"
 
 #include <algorithm>
 #include <limits>
@@ -79,18 +78,19 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     std::ranges::copy(state.omega, velocity_.twist.begin());
 }
 
-/// Energy of the fabric when it has made these moves [cm] in h: kinetic, by weight, elastic but for twist [erg].
-GridFabricSolver::Mechanical GridFabricSolver::energyAfter(std::span<const Vec3> move, double h, const Vec3& gravity, const FabricState& state)
+/// Energy of the fabric when it has made a part of move_ in h: kinetic, by weight, elastic but for twist [erg].
+GridFabricSolver::Mechanical GridFabricSolver::energyAfter(double part, double h, const Vec3& gravity, const FabricState& state)
 {
     FabricState& at = trial_;
     at.x.resize(state.x.size());
-    parallelFor(at.x.size(), 1024, [&](std::size_t v) { at.x[v] = state.x[v] + move[v]; });
+    parallelFor(at.x.size(), 1024, [&](std::size_t v) { at.x[v] = state.x[v] + part * move_[v]; });
     at.theta = state.theta, at.tangent = state.tangent, at.reference = state.reference, at.referenceTwist = state.referenceTwist;
     stiffness_.rods().transportFrames(at);
     const auto [stretching, bending, twisting] = stiffness_.rods().energies(at);
     const auto [membrane, shellBending] = stiffness_.shells().energies(at.x);
-    const double free = parallelSum(move.size(), [&](std::size_t v) {
-        return mass_[v] * (0.5 * move[v].squaredNorm() / (h * h) - gravity.dot(move[v]));
+    const double free = parallelSum(move_.size(), [&](std::size_t v) {
+        const Vec3 move = part * move_[v];
+        return mass_[v] * (0.5 * move.squaredNorm() / (h * h) - gravity.dot(move));
     });
     return {free, stretching + bending + membrane + shellBending};
 }
@@ -100,69 +100,40 @@ GridFabricSolver::Mechanical GridFabricSolver::energyAfter(std::span<const Vec3>
 double GridFabricSolver::partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state)
 {
     double best = 1.0, least = std::numeric_limits<double>::infinity();
-    part_.resize(move_.size());
     for (const double part : {1.0, 0.5, 0.25, 0.125, 0.0}) {
-        parallelFor(part_.size(), 1024, [&](std::size_t v) { part_[v] = part * move_[v]; });
-        const double energy = energyAfter(part_, h, gravity, state).sum();
+        const double energy = energyAfter(part, h, gravity, state).sum();
         if (energy < least) best = part, least = energy;
         if (energy <= limit) break;
     }
     return best;
 }
 
-/// Do pins that move in the step, or solids near the fabric, lead it?
-bool GridFabricSolver::isDriven(double t, double h) const
-{
-    return guard_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
-}
-
-/// Work of solids that move on the vertices whose moves they changed from wanted_ to move_ [erg].
-double GridFabricSolver::workOfGuard(double h, const FabricState& state) const
-{
-    if (!guard_.anyMoves()) return 0.0;
-    return parallelSum(move_.size(), [&](std::size_t v) {
-        if (move_[v] == wanted_[v]) return 0.0;
-        return mass_[v] / (h * h) * (move_[v] - wanted_[v]).dot(obstacles_.moveAt(state.x[v] + move_[v]));
-    });
-}
-
 /// Along their velocities, but not through solids: what is stopped or carried by one has the velocity of where it got.
-/// @param changes  the book of the step, or null
-void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, EnergyChanges* changes)
+void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report)
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * state.v[v]; });
     GuardReport guarded;
     if (guard_.limitInHalves(t, h, state.x, mass_, move_, guarded)) {
-        const Mechanical wanted = energyAfter(wanted_, h, gravity, state);
-        // Solids and pins that move may give energy; and pins must get to where they are led: what they do not give is owed (payForGain).
-        const double part = isDriven(t, h) ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
+        move_.swap(wanted_);
+        const Mechanical wanted = energyAfter(1.0, h, gravity, state);
+        move_.swap(wanted_);
+        // Solids and pins that move may give energy; and pins must get to where they are led.
+        const bool isDriven = guard_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
+        const double part = isDriven ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
         parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
             move_[v] *= part;
             state.v[v] = move_[v] / h;
         });
-        groups_.holdAll();
-        if (changes) {
-            const Mechanical got = energyAfter(move_, h, gravity, state);
-            const double bySolids = std::min(got.sum() - wanted.sum(), workOfGuard(h, state));
-            (*changes)[EnergyChange::Obstacles] += bySolids;
-            (*changes)[EnergyChange::FabricToVertices] -= got.free - wanted.free;
-            (*changes)[EnergyChange::Implicit] += got.free - wanted.free - bySolids;
+        if (booksEnergy_) {
+            const Mechanical got = energyAfter(1.0, h, gravity, state);
+            (*report.energyChanges)[EnergyChange::Obstacles] += got.sum() - wanted.sum();
+            (*report.energyChanges)[EnergyChange::FabricToVertices] -= got.free - wanted.free;
+            (*report.energyChanges)[EnergyChange::Implicit] -= got.elastic - wanted.elastic;
         }
     }
     if (forces_ && !guard_.empty()) tellGuard(h, state);
     if (guarded.left > 0) ++report.shortened;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
-}
-
-/// What fabric that something leads has beyond what was given to it, and what it owes from before, is taken from its motion. Ends the run where it
-/// can never be.
-/// @param before   energy at the start of the step [erg]
-/// @param unfelt   kinetic energy of a motion that is not felt [erg]
-void GridFabricSolver::payForGain(double before, double unfelt, const Vec3& gravity, FabricState& state, EnergyChanges& changes) const
-{
-    const double due = state.owed + energies(state, gravity).total() - before - workFromOutside(changes);
-    changes[EnergyChange::Implicit] -= payOwed(due, fabric_, groups_, mass_, state);
-    if (state.owed > 0.0) refuseJam(fabric_, state, energies(state, gravity).kinetic + unfelt);
 }
 
 /// What forces did in the last step, on the faces of this one; null in the first.
@@ -214,7 +185,8 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
 
 /// Contacts with obstacles where the vertices would be at the end of the step, which is in front of them. motion_ must hold how they would go
 /// without the fabric's own forces; friction expects these to act on as they did.
-void GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
+std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
+                                                                  const FabricState& state)
 {
     obstacles_.moveTo(t, t + h);
     guard_.moveTo(t, t + h);
@@ -232,7 +204,7 @@ void GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, c
     from_ = state.x;
     FabricObstacles::Start start = obstacleStart(h, state);
     start.moves = expectedMove_;
-    touching_ = obstacles_.at(fabric_, reached_, start, nearest);
+    return obstacles_.at(fabric_, reached_, start, nearest);
 }
 
 void GridFabricSolver::spread(FabricState& state, StageClock& clock)
@@ -263,34 +235,28 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
-    const double motion = parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * state.v[v].squaredNorm(); }),
-                 fall = parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * felt * felt * h * h; }), kinetic = motion + fall;
-    state.mostKinetic = std::max(state.mostKinetic, motion);
+    const double kinetic =
+        parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * (state.v[v].squaredNorm() + felt * felt * h * h); });
     state.springStep = springStepFor(state.springStep, h, state.stored.solids, kStiffeningGain * kinetic);
-    touching_.clear();
-    stopped_.clear();
+    std::span<const ObstacleContact> touching;
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
-        if (!obstacles_.empty()) touchObstacles(t, h, gravity, state);
+        if (!obstacles_.empty()) touching = touchObstacles(t, h, gravity, state);
         const StepOutlook outlook = outlookOn(h, until);
         contact_.assemble(state, &outlook);
     }
-    felt_ = touching_.size();
 
     clock.start(Stage::FabricElastic);
-    stiffness_.assemble(state, t, h, touching_, predicted_);
+    stiffness_.assemble(state, t, h, touching, predicted_);
     system_.assemble();
 
     clock.start(Stage::FabricSolve);
-    solve(t, h, kinetic, gravity, until, state, report);
-    keepMomentum();
+    solve(h, kinetic, until, state, report);
+    keepMomentum(touching);
     report.contacts = contact_.active().size();
-    report.obstacleContacts = touching_.size();
-    const bool mayOwe = state.owed > 0.0 || (!guard_.empty() && isDriven(t, h));
-    const double energyAtStart = mayOwe ? energies(state, gravity).total() : 0.0;
-    std::optional<EnergyChanges> changes;
-    if (booksEnergy_ || mayOwe) bookSolve(h, gravity, state, loads, changes.emplace());
-    if (forces_) tellSprings(h, state);
+    report.obstacleContacts = touching.size();
+    if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());
+    if (forces_) tellSprings(h, state, touching);
     if (forces_ && loads) tellLiquid(state, *loads);
 
     clock.start(Stage::GridToFabric);
@@ -299,7 +265,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
-    moveVertices(t, h, gravity, state, report, changes ? &*changes : nullptr);
+    moveVertices(t, h, gravity, state, report);
     state.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
     else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
@@ -314,9 +280,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     const ContactEnergy before = state.stored;
     state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
     if (settings_.contact) state.stored.pressed = contact_.carry(outlookOn(h, until), kUnforeseen * kinetic, state);
-    if (changes) bookVertices(gravity, before, state, *changes);
-    if (mayOwe) payForGain(energyAtStart, kAccelerationTolerance * kAccelerationTolerance * fall, gravity, state, *changes);
-    if (booksEnergy_) report.energyChanges = changes;
+    if (booksEnergy_) bookVertices(gravity, before, state, *report.energyChanges);
     return report;
 }
 

@@ -53,7 +53,7 @@ class GridFabricSolver {
 
  private:
     void begin(FabricState& state);
-    void touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
+    std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     FabricObstacles::Start obstacleStart(double h, const FabricState& state) const
     {
         return {from_, mass_, state.onObstacles, h, state.springStep};
@@ -63,24 +63,19 @@ class GridFabricSolver {
         double free, elastic;  ///< free: kinetic and potential
         double sum() const { return free + elastic; }
     };
-    Mechanical energyAfter(std::span<const Vec3> move, double h, const Vec3& gravity, const FabricState& state);
+    Mechanical energyAfter(double part, double h, const Vec3& gravity, const FabricState& state);
     double partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state);
-    bool isDriven(double t, double h) const;
-    double workOfGuard(double h, const FabricState& state) const;
-    void moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, EnergyChanges* changes);
-    void payForGain(double before, double unfelt, const Vec3& gravity, FabricState& state, EnergyChanges& changes) const;
+    void moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
-    void solve(double t, double h, double kinetic, const Vec3& gravity, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
-    double letGo(double h, const AlignedArray<double>& u);
-    bool holdStopped(double h, double kinetic, const Vec3& gravity, const AlignedArray<double>& u, const FabricState& state);
+    void solve(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void solveAgain(const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     void meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     double kineticOfChange();
     double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
     StepOutlook outlookOn(double h, const FaceTolerance& tolerance) const;
-    void findGroups();
-    void keepMomentum();
+    void findGroups(std::span<const ObstacleContact> touching);
+    void keepMomentum(std::span<const ObstacleContact> touching);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void keepChange(FabricState& state) const;
     void keepAccelerations(double h, FabricState& state);
@@ -88,7 +83,7 @@ class GridFabricSolver {
                    EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const;
     double facesKinetic(const BlockArray<double, 3>& velocity) const;
-    void tellSprings(double h, const FabricState& state);
+    void tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching);
     void tellGuard(double h, const FabricState& state) const;
     void tellLiquid(const FabricState& state, const FaceLoads& loads);
 
@@ -118,11 +113,7 @@ class GridFabricSolver {
         reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
     std::vector<Vec3> move_, wanted_;  ///< of each vertex in the step, and but for solids [cm]
     std::vector<Vec3> byLiquid_;       ///< of each vertex: impulse per mass [cm/s]
-    FabricState trial_, solvedAt_;     ///< places and frames where a move would take the fabric, and where forces were last solved for
-    std::vector<Vec3> part_;           ///< a part of move_
-    std::vector<ObstacleContact> touching_;  ///< in the step under way: those felt where it began, then stopped_
-    std::size_t felt_ = 0;                   ///< number of the first
-    std::vector<ObstacleContact> stopped_;   ///< springs to where solids let vertices get; gradient: away from the solid [-]
+    FabricState trial_;                ///< places and frames where a move would take the fabric
     FabricMotion motion_;
     mutable ElasticEnergies elastic_;
 };

@@ -108,19 +108,6 @@ void VertexStiffness::addHolds()
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
 }
 
-/// @param ahead  where the contact is known, against where its point is at the start [cm]
-void VertexStiffness::addSpring(const ObstacleContact& contact, const Vec3& ahead)
-{
-    // By its derivative its force is known at the start, too.
-    springs_.push_back({contact.vertices(), contact.shares(), contact.stiffness, contact.gradient - contact.stiffness * ahead});
-}
-
-void VertexStiffness::hold(std::size_t kept, std::span<const ObstacleContact> contacts, std::span<const Vec3> moves)
-{
-    springs_.resize(pinStiffness_.size() + kept);
-    for (const ObstacleContact& contact : contacts) addSpring(contact, contact.atPoint(moves));
-}
-
 void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
                                std::span<const Vec3> predicted)
 {
@@ -131,7 +118,13 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     reached_.fill(0.0);
     sumInner(state, h);
     findPins(state, t + h);
-    for (const ObstacleContact& contact : obstacles) addSpring(contact, h * contact.atPoint(predicted));
+    for (const ObstacleContact& contact : obstacles) {
+        const std::array<int, 3> v = contact.vertices();
+        const std::array<double, 3> share = contact.shares();
+        const Vec3 ahead = share[0] * predicted[v[0]] + share[1] * predicted[v[1]] + share[2] * predicted[v[2]];
+        // Known at the predicted position; by its derivative, at the present one.
+        springs_.push_back({v, share, contact.stiffness, contact.gradient - contact.stiffness * (h * ahead)});
+    }
     addHolds();
 }
 

@@ -28,10 +28,7 @@ class VertexStiffness {
     void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
                   std::span<const Vec3> predicted);
 
-    /// Of contacts with obstacles as many act on in this step as assemble got first, and these, which are known at the end of moves [cm].
-    void hold(std::size_t kept, std::span<const ObstacleContact> contacts, std::span<const Vec3> moves);
-
-    /// The same as assemble with the material's own forces as they are at `there`, which velocities u lead to in that step; these forces are told from the
+    /// The same with the material's own forces as they are at `there`, which velocities u lead to in that step; these forces are told from the
     /// start on all the same. `there` must stay until the next assemble.
     void assembleAt(const FabricState& there, double h, AlignedArray<double>& u);
 
@@ -100,7 +97,6 @@ class VertexStiffness {
     void copyFromOwners(AlignedArray<double>& u) const;
     void forEachGroup(AlignedArray<double>& u, auto&& body) const;
     void multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const;
-    void addSpring(const ObstacleContact& contact, const Vec3& ahead);
     void sumInner(const FabricState& at, double h);
     void addHolds();
     void tellFromStart(double h);

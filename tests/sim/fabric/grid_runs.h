@@ -39,8 +39,8 @@ inline Settings gridSettings(TransferMethod method, int modes = 8)
 
 /// Some fabric under the grid solver.
 struct GridRun {
-    GridRun(const std::vector<FabricPiece>& pieces, const Settings& s, std::span<const ObstacleSettings> obstacles = {})
-        : settings(s), fabric(assembleFabric(pieces)), state(initialState(fabric, pieces)), solver(fabric, settings, obstacles)
+    GridRun(const std::vector<FabricPiece>& pieces, const Settings& s)
+        : settings(s), fabric(assembleFabric(pieces)), state(initialState(fabric, pieces)), solver(fabric, settings, {})
     {
     }
     FabricReport step(double h)
