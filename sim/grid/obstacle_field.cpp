@@ -96,9 +96,10 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
     }
     std::sort(toCompute_.begin(), toCompute_.end());
     toCompute_.erase(std::unique(toCompute_.begin(), toCompute_.end()), toCompute_.end());
-    parallelFor(toCompute_.size(), [&](std::size_t n) {
+    roomScratch_.resize(workerCount());
+    parallelForWorkers(toCompute_.size(), 1, [&](std::size_t n, int worker) {
         const int b = toCompute_[n];
-        if (slot_[b] != kOpenSlot) computeSlot(grid, b, slot_[b], obstacles, mirrors);
+        if (slot_[b] != kOpenSlot) computeSlot(grid, b, slot_[b], obstacles, mirrors, roomScratch_[worker]);
     });
     for (int b = 0; b < grid.count(); ++b)
         if (nearSolid(b)) nearSolid_.push_back(b);
@@ -114,12 +115,12 @@ void ObstacleField::foldRoom(bool isFolded)
     });
 }
 
-void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors)
+void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors, RoomScratch& scratch)
 {
     const OpenFaces faces(grid, block, obstacles);
     computeFaces(grid, block, slot, obstacles, faces);
     findBlocked(grid, block, slot, obstacles, faces);
-    roomOfFaces(grid, block, obstacles, mirrors, room_.block(slot));
+    roomOfFaces(grid, block, obstacles, mirrors, scratch, room_.block(slot));
 }
 
 /// Is there a wall between the middles of a cell and the one below, both of which are outside of it? It is thinner than a cell, and may be

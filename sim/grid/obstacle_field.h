@@ -2,6 +2,7 @@
 
 #include "sim/grid/face_fields.h"
 #include "sim/grid/obstacles.h"
+#include "sim/grid/room.h"
 
 #include <span>
 #include <vector>
@@ -51,7 +52,7 @@ class ObstacleField {
     void resizeSlots(int count);
     void makeOpenSlot(double dx);
     static bool isNear(const BlockGrid& grid, int block, const Obstacles& obstacles, Obstacles::Which which);
-    void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors);
+    void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors, RoomScratch& scratch);
     static bool isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis);
     void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
     void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
@@ -62,6 +63,7 @@ class ObstacleField {
     std::vector<int> freeSlots_;
     std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
     std::vector<int> toCompute_;            ///< blocks
+    std::vector<RoomScratch> roomScratch_;  ///< of each worker
     int slotCount_ = 0;
     bool isFolded_ = false;
     BlockArray<double, 3> open_, room_, folded_, wallVelocity_;

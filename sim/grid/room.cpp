@@ -3,27 +3,16 @@
 #include "sim/grid/seams.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 
 namespace sim {
 
 namespace {
 
-constexpr int kRim = 2;    ///< cells around a block that the B-splines of its faces reach
-constexpr int kParts = 2;  ///< parts of a cell along an axis, which a surface cuts as a plane would
-constexpr int kEdge = kParts * (kBlockEdge + 2 * kRim);
+using OfParts = OpenParts::OfParts;
+constexpr int kRim = OpenParts::kRim, kParts = OpenParts::kParts, kEdge = OpenParts::kEdge;
 
-/// A value for each part of the cells of a block and its rim.
-using OfParts = std::array<double, kEdge * kEdge * kEdge>;
-int indexOf(const Vec3i& c) { return (c.z() * kEdge + c.y()) * kEdge + c.x(); }
-
-/// What is open of the parts.
-struct Open {
-    OfParts share;                      ///< [-]
-    std::array<OfParts, kAxes> moment;  ///< its first moments about the middle of the part [edges of a part]
-};
+int indexOf(const Vec3i& c) { return OpenParts::indexOf(c); }
 
 /// Share of a unit cube on the side of a plane with unit normal n that n points to, the plane at distance d from its middle against n.
 /// Source: Scardovelli and Zaleski 2000, Analytical relations connecting linear interfaces and volume fractions (their equation for cubes).
@@ -51,7 +40,7 @@ double shareOfCube(const Vec3& n, double d)
 }
 
 /// Only the parts of cells that a surface cuts are looked at one by one.
-void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, Open& open)
+void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, OpenParts& open)
 {
     const double part = grid.dx / kParts, reach = 0.5 * std::sqrt(3.0) * grid.dx;
     const Vec3 corner = grid.lowerCorner(block) - Vec3::Constant(kRim * grid.dx);
@@ -75,7 +64,7 @@ void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, Open
 
 /// The cells behind the wall get the mirror images of those in front.
 /// @param plane  of the wall, in parts
-void mirrorAt(const Obstacles::Wall& wall, int plane, Open& open)
+void mirrorAt(const Obstacles::Wall& wall, int plane, OpenParts& open)
 {
     for (int layer = 0; layer < kParts * kRim; ++layer) {
         const int front = wall.above ? plane - 1 - layer : plane + layer, behind = 2 * plane - 1 - front;
@@ -122,23 +111,23 @@ void smooth(int axis, bool aroundFaces, const Vec3i& size, const OfParts* moment
 
 }  // namespace
 
-void roomOfFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, bool mirrors, double* room)
+void roomOfFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, bool mirrors, RoomScratch& scratch, double* room)
 {
-    const auto open = std::make_unique_for_overwrite<Open>(), smoothed = std::make_unique_for_overwrite<Open>();
-    findOpen(grid, block, obstacles, *open);
+    OpenParts &open = scratch.open, &smoothed = scratch.smoothed;
+    findOpen(grid, block, obstacles, open);
     if (mirrors)
         for (const Obstacles::Wall& wall : obstacles.planeWalls())
             if (const auto plane = planeOfFaces(grid, wall))
-                mirrorAt(wall, kParts * (*plane - kBlockEdge * grid.coords(block)[wall.axis] + kRim), *open);
+                mirrorAt(wall, kParts * (*plane - kBlockEdge * grid.coords(block)[wall.axis] + kRim), open);
     for (int a = 0; a < kAxes; ++a) {
-        *smoothed = *open;
+        smoothed = open;
         Vec3i size = Vec3i::Constant(kEdge);
         for (int axis = 0; axis < kAxes; ++axis) {
-            smooth(axis, axis == a, size, &smoothed->moment[axis], smoothed->share);
-            for (int other = axis + 1; other < kAxes; ++other) smooth(axis, axis == a, size, nullptr, smoothed->moment[other]);
+            smooth(axis, axis == a, size, &smoothed.moment[axis], smoothed.share);
+            for (int other = axis + 1; other < kAxes; ++other) smooth(axis, axis == a, size, nullptr, smoothed.moment[other]);
             size[axis] = kBlockEdge;
         }
-        for (int c = 0; c < kBlockCells; ++c) room[a * kBlockCells + c] = smoothed->share[indexOf({c & 7, c >> 3 & 7, c >> 6})];
+        for (int c = 0; c < kBlockCells; ++c) room[a * kBlockCells + c] = smoothed.share[indexOf({c & 7, c >> 3 & 7, c >> 6})];
     }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 namespace sim::test {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 std::vector<double> room(const GridScene& scene, int block, bool mirrors)
 {
     std::vector<double> result(3 * kBlockCells);
-    roomOfFaces(scene.grid, block, scene.obstacles, mirrors, result.data());
+    const auto scratch = std::make_unique<RoomScratch>();
+    roomOfFaces(scene.grid, block, scene.obstacles, mirrors, *scratch, result.data());
     return result;
 }
 
