@@ -113,7 +113,7 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
     if (mirrors) foldAtWalls(grid, work.obstacles, settings.liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
     energy.toGrid();
     divideAndAddGravity(grid, settings.gravity, fall, keepsAdvected, work.grid);
-    if (mirrors) withholdWeightOfImages(grid, work.obstacles, settings.liquid.wallFriction, settings.gravity, fall, work.grid);
+    if (mirrors) withholdWeightOfImages(grid, work.obstacles, settings.gravity, fall, work.grid);
     energy.onFaces(EnergyChange::Gravity);
 
     if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {

@@ -58,6 +58,7 @@ bool ObstacleField::isNear(const BlockGrid& grid, int block, const Obstacles& ob
 void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors)
 {
     isFolded_ = false;
+    mirrors_ = mirrors;
     if (slotCount_ == 0) makeOpenSlot(grid.dx);
     oldSlot_.swap(slot_);
     slot_.assign(grid.count() + 1, kOpenSlot);

@@ -22,6 +22,9 @@ class ObstacleField {
     /// @param mirrors   plane walls in planes of faces mirror the liquid (foldAtWalls): what is behind them counts as room
     void update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors);
 
+    /// As told by the last update: nothing of the liquid is left on the faces behind plane walls then.
+    bool mirrors() const { return mirrors_; }
+
     bool nearSolid(int block) const { return slot_[block] != kOpenSlot; }
     /// The blocks for which nearSolid is true.
     const std::vector<int>& blocksNearSolid() const { return nearSolid_; }
@@ -65,7 +68,7 @@ class ObstacleField {
     std::vector<int> toCompute_;            ///< blocks
     std::vector<RoomScratch> roomScratch_;  ///< of each worker
     int slotCount_ = 0;
-    bool isFolded_ = false;
+    bool isFolded_ = false, mirrors_ = false;
     BlockArray<double, 3> open_, room_, folded_, wallVelocity_;
     BlockBits<3> closed_;
     BlockBits<> blocked_;

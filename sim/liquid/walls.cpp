@@ -146,7 +146,7 @@ void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacl
     mirror(grid, obstacles, friction, valid, followers.mirrored, velocity);
 }
 
-void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, FaceFields& faces, BlockArray<double, 3>& weightless)
+void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless)
 {
     weightless.resize(grid.count());
     forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall&, int, auto&& forBlocksAtWall) {
@@ -162,7 +162,7 @@ void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, double 
                              held = weightless.block(image.block, c)[image.cell];
                 faces.sums.block(b, FaceFields::kMass + c)[face] += mass;
                 faces.sums.block(b, FaceFields::kMomentum + c)[face] += normal ? -momentum : momentum;
-                weightless.block(b, c)[face] += normal ? 2.0 * mass - held : held + friction * (mass - held);
+                weightless.block(b, c)[face] += normal ? 2.0 * mass - held : held;
             });
         });
         forBlocksAtWall([&](int b) {
@@ -184,27 +184,26 @@ void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double frict
             std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0);
         });
     }
-    foldAtPlaneWalls(grid, obstacles, friction, liquid.faces, liquid.weightless);
+    foldAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
     followers.find(grid, field, obstacles, friction, liquid.faces);
     followers.led = moves ? followers.ledByWalls(field, liquid.faces, liquid.weightless) : WallFaces::Led{};
     followers.fold(grid, field, liquid.faces);
 }
 
-void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, double friction, const Vec3& gravity, double dt, LiquidGrid& liquid)
+void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& gravity, double dt, LiquidGrid& liquid)
 {
     forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int, auto&& forBlocksAtWall) {
-        for (int a = 0; a < kAxes; ++a) {
-            if (gravity[a] == 0.0 || (a != wall.axis && friction == 0.0)) continue;
-            forBlocksAtWall([&](int b) {
-                double *held = liquid.weightless.block(b, a), *velocity = liquid.faces.velocity.block(b, a);
-                const double* mass = liquid.faces.sums.block(b, FaceFields::kMass + a);
-                for (int c = 0; c < kBlockCells; ++c) {
-                    if (held[c] == 0.0 || !(mass[c] > 0.0)) continue;
-                    velocity[c] -= dt * gravity[a] * held[c] / mass[c];
-                    held[c] = 0.0;  // once, where walls meet
-                }
-            });
-        }
+        const int a = wall.axis;
+        if (gravity[a] == 0.0) return;
+        forBlocksAtWall([&](int b) {
+            double *held = liquid.weightless.block(b, a), *velocity = liquid.faces.velocity.block(b, a);
+            const double* mass = liquid.faces.sums.block(b, FaceFields::kMass + a);
+            for (int c = 0; c < kBlockCells; ++c) {
+                if (held[c] == 0.0 || !(mass[c] > 0.0)) continue;
+                velocity[c] -= dt * gravity[a] * held[c] / mass[c];
+                held[c] = 0.0;  // once, where walls meet
+            }
+        });
     });
 }
 

@@ -25,15 +25,15 @@ inline bool wallsMirror(double friction) { return friction < 1.0; }
 
 /// After P2G: what particles gave to faces behind plane walls in planes of faces goes to the images of these faces in front, as if every
 /// particle had its mirror image behind the wall. Without it the faces next to a wall know only half of the liquid around them.
-/// @param weightless  mass of each face whose weight nothing feels: an image is pulled the other way along the wall's normal, and past the wall
-///                    as far as friction leaves its velocity [g]
-void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, FaceFields& faces, BlockArray<double, 3>& weightless);
+/// @param weightless  mass of each face whose weight nothing feels: images are pulled the other way along the wall's normal [g]
+void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless);
 
 /// The same at all walls along which liquid slips: behind others than plane ones goes to the faces that it will follow (WallFaces), with its room.
 void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid);
 
 /// After dt of weight on all that faces carry: take back what it did to the weightless part. Then weight does on the faces the work that it does
-/// on the particles, which read the velocities of applyWalls: sum (m_f - weightless) g u_f = sum m_p g v_p.
-void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, double friction, const Vec3& gravity, double dt, LiquidGrid& liquid);
+/// on the particles, which read the velocities of applyWalls: sum (m_f - weightless) g u_f = sum m_p g v_p, where no wall has friction. Along walls that
+/// do it acts evenly all the same, for only so can a pressure hold it: friction takes from the particles' motion after it.
+void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& gravity, double dt, LiquidGrid& liquid);
 
 }  // namespace sim

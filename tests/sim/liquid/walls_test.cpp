@@ -168,7 +168,7 @@ TEST(Walls, FoldingIsLikeMirroredParticles)
     all.sort();
     particlesToFaces(inside.particles, inside.order, inside.grid, scratch, folded);
     BlockArray<double, 3> weightless;
-    foldAtPlaneWalls(inside.grid, obstacles, 0.0, folded, weightless);
+    foldAtPlaneWalls(inside.grid, obstacles, folded, weightless);
     particlesToFaces(all.particles, all.order, all.grid, scratch, expected);
     for (int a = 0; a < kAxes; ++a)
         for (int z = a == 2; z < size.z(); ++z)
@@ -309,12 +309,12 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
                 unit(random) > 0.0 ? std::pow(10.0, 2.0 * unit(random)) : 0.0;
         });
         const auto given = faces.sums;
-        const double friction = seed % 3 == 0 ? 0.4 : 0.0, dt = 0.01;
+        const double friction = 0.0, dt = 0.01;
         const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
         WallFaces followers;
         foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
         divideAndAddGravity(scene.grid, gravity, dt, false, scene.liquid);
-        withholdWeightOfImages(scene.grid, scene.obstacles, friction, gravity, dt, scene.liquid);
+        withholdWeightOfImages(scene.grid, scene.obstacles, gravity, dt, scene.liquid);
         const auto mass = [&](const auto& sums, int a, const Vec3i& c) {
             return sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell];
         };
