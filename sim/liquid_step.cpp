@@ -96,8 +96,48 @@ std::optional<FabricFaces> facesOf(const Workspace& work)
     return work.gridFabric ? std::optional(work.gridFabric->faces()) : std::nullopt;
 }
 
+/// Take the noise out of the weight of liquid that solids hold. Fabric that goes through it keeps what is on its faces.
+/// @param onSolids  is told of it, if not null
+/// @return  false where there is none to level
+bool levelHeldWeight(const State& state, const Settings& settings, Workspace& work, double fall, bool isMixed, LiquidOnSolids* onSolids)
+{
+    const BlockGrid& grid = state.grid;
+    if (work.obstacles.empty() || settings.liquid.full || settings.gravity.isZero(0.0)) return false;
+    findUnheldFaces(grid, work.obstacleField, work.free);
+    findHeldBodies(grid, work.pressure, work.grid, work.free);
+    if (isMixed) {
+        work.free.bare.resize(grid.count());
+        std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+        work.coupling->mixture.clearShared(work.free.bare);
+    }
+    levelWeight(grid, work.obstacleField, work.pressure, work.free, isMixed ? &work.free.bare : nullptr, fall * settings.gravity, work.grid, onSolids);
+    return true;
+}
+
+/// What weight and the pressure against it do to velocities together is no shear. Viscosity in front of the pressure would take the weight
+/// for one wherever walls hold the liquid, and set a pool at rest in motion (liquid/README.md, Viscosity). So it acts on the velocities that the pressure
+/// would leave without it; what that changed is given back after.
+void withholdPressure(State& state, const Settings& settings, Workspace& work, double dt, double fall)
+{
+    const BlockGrid& grid = state.grid;
+    BlockArray<double, 3>& velocity = work.grid.faces.velocity;
+    work.viscosity.withheld = work.grid.unpressed = velocity;
+    findLiquidCells(grid, work.obstacleField, settings.liquid.full, work.grid);
+    findSurface(grid, work.obstacleField, work.grid);
+    findPressureFaces(grid, work.obstacleField, settings.liquid, dt, work.grid, work.pressure);
+    preparePressure(grid, work.grid, work.pressure);
+    levelHeldWeight(state, settings, work, fall, false, nullptr);
+    solvePressure(grid, work.obstacleField, settings.solver, {}, work.pressure, work.grid, state.pressure);
+    parallelFor(velocity.size(), 4096, [&](std::size_t i) { work.viscosity.withheld.block(0)[i] -= velocity.block(0)[i]; });
+}
+
+void giveBack(const BlockArray<double, 3>& withheld, BlockArray<double, 3>& velocity)
+{
+    parallelFor(velocity.size(), 4096, [&](std::size_t i) { velocity.block(0)[i] += withheld.block(0)[i]; });
+}
+
 /// From the particles to velocities on the faces, on which weight and viscosity act for `fall` [s].
-void liquidToGrid(State& state, const Settings& settings, Workspace& work, double fall, bool keepsAdvected, StepReport& report, StageClock& clock,
+void liquidToGrid(State& state, const Settings& settings, Workspace& work, double dt, double fall, bool keepsAdvected, StepReport& report, StageClock& clock,
                   EnergyBook& energy)
 {
     const BlockGrid& grid = state.grid;
@@ -118,10 +158,12 @@ void liquidToGrid(State& state, const Settings& settings, Workspace& work, doubl
 
     if (settings.liquid.solveViscosity && settings.liquid.viscosity > 0.0) {
         clock.start(Stage::Viscosity);
+        withholdPressure(state, settings, work, dt, fall);
         if (!work.obstacles.empty()) work.onSolids.beforeViscosity(work.grid.faces.velocity);
         report.viscosity = solveViscosity(grid, work.obstacleField, settings.liquid, settings.solver, fall, work.viscosity, work.grid);
         const double bySolids =
             work.obstacles.empty() ? 0.0 : work.onSolids.afterViscosity(grid, work.obstacleField, work.viscosity.system, work.grid);
+        giveBack(work.viscosity.withheld, work.grid.faces.velocity);
         energy.viscosity(bySolids);
     }
     work.grid.unpressed = work.grid.faces.velocity;
@@ -187,21 +229,6 @@ void findHeld(const State& state, bool isMixed, Workspace& work)
     findFrames(state.grid, work.obstacleField, work.pressure, work.grid, ofFabric, work.free);
 }
 
-/// Take the noise out of the weight of liquid that solids hold. Fabric that goes through it keeps what is on its faces.
-void levelHeldWeight(const State& state, const Settings& settings, Workspace& work, double fall, bool isMixed, EnergyBook& energy)
-{
-    const BlockGrid& grid = state.grid;
-    findUnheldFaces(grid, work.obstacleField, work.free);
-    findHeldBodies(grid, work.pressure, work.grid, work.free);
-    if (isMixed) {
-        work.free.bare.resize(grid.count());
-        std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-        work.coupling->mixture.clearShared(work.free.bare);
-    }
-    levelWeight(grid, work.obstacleField, work.pressure, work.free, isMixed ? &work.free.bare : nullptr, fall * settings.gravity, work.grid, work.onSolids);
-    energy.onFaces(EnergyChange::Gravity);
-}
-
 /// Surface tension and pressure on the velocities of the faces, and what brings the liquid back to its volume.
 void press(State& state, const Settings& settings, Workspace& work, double dt, const LiquidPlan& plan, StepReport& report, StageClock& clock,
            EnergyBook& energy)
@@ -222,8 +249,7 @@ void press(State& state, const Settings& settings, Workspace& work, double dt, c
     if (plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     preparePressure(grid, work.grid, work.pressure);
     const double fall = fallTime(settings.time, state, dt, plan.meetsFabric);
-    if (!work.obstacles.empty() && !settings.liquid.full && !settings.gravity.isZero(0.0))
-        levelHeldWeight(state, settings, work, fall, plan.isMixed, energy);
+    if (levelHeldWeight(state, settings, work, fall, plan.isMixed, &work.onSolids)) energy.onFaces(EnergyChange::Gravity);
     if (isTense) {
         applySurfaceSteps(grid, work.obstacleField, work.pressure, fall / dt, work.surfaceTension, work.grid);
         energy.surfaceTension(plan.isMixed);
@@ -335,7 +361,7 @@ LiquidPlan startLiquid(State& state, const Scene& scene, Workspace& work, double
         state.unrelaxed = 0.0;
     }
 
-    liquidToGrid(state, settings, work, fallTime(settings.time, state, dt, plan.meetsFabric), keepsAdvected, report, clock, energy);
+    liquidToGrid(state, settings, work, dt, fallTime(settings.time, state, dt, plan.meetsFabric), keepsAdvected, report, clock, energy);
 
     if (plan.meetsFabric) {
         if (work.gridFabric) work.gridFabric->spread(state.fabric, clock);

@@ -95,7 +95,7 @@ class SurfaceColumns {
 };
 
 /// Put the weight of a column where its liquid would be if it were even.
-void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid, LiquidOnSolids& onSolids)
+void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
 {
     std::array<double, kSurfaceColumn> mass;
     double above = 0.0;
@@ -110,17 +110,17 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
         const double change = gravityStep * (weight / mass[n] - 1.0);
         liquid.faces.velocity.block(block, axis)[cell] += change;
         liquid.unpressed.block(block, axis)[cell] += change;
-        onSolids.weightGrew(block, axis, cell, mass[n] * change);
+        if (onSolids != nullptr) onSolids->weightGrew(block, axis, cell, mass[n] * change);
     }
 }
 
 }  // namespace
 
 void levelWeight(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
-                 const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids& onSolids)
+                 const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
 {
     if (std::ranges::none_of(bodies.bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
-    onSolids.meetLevelling();
+    if (onSolids != nullptr) onSolids->meetLevelling();
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
         const SurfaceColumns columns(grid, obstacles, pressure, bodies, bare, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);

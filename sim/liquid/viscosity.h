@@ -13,6 +13,7 @@ struct ViscosityWorkspace {
     ViscousMultigrid multigrid;
     BlockArray<double, 3> residual, direction, applied;  ///< of the conjugate gradients [g cm/s], [cm/s], [g cm/s]
     std::vector<double> sums, largest, largestRhs;       ///< of each block
+    BlockArray<double, 3> withheld;                      ///< of the velocities, by weight and pressure: does not feel viscosity [cm/s]
 };
 
 /// Implicit steps of viscosity, settings.viscositySubsteps of them, over dt [s] on the velocities of the liquid's faces, before the

@@ -48,5 +48,56 @@ TEST(Rest, OfAPoolLasts)
     }
 }
 
+void makeViscous(Scene& scene, double viscosity, double wallFriction)
+{
+    scene.settings.liquid.viscosity = viscosity;
+    scene.settings.liquid.solveViscosity = true;
+    scene.settings.liquid.wallFriction = wallFriction;
+}
+
+/// So does that of viscous liquid between walls that stick: they hold it against weight only where it shears.
+TEST(Rest, OfViscousLiquidLasts)
+{
+    for (const double viscosity : {0.3, 10.0, 1.0e3, 1.0e5})
+        for (const double wallFriction : {0.0, 0.4, 1.0})
+            for (const Transfer& transfer : {kPoly8, kFlip}) {
+                const auto integrator = transfer.name == kFlip.name ? TimeIntegrator::Plain : TimeIntegrator::Reflected;
+                Scene scene = pool(transfer, 0.5, 4.3, 0.5, integrator);
+                makeViscous(scene, viscosity, wallFriction);
+                Simulation simulation(scene);
+                const Energies start = simulation.energies();
+                const double mass = std::pow(8.0, 2) * 4.3 * std::pow(0.5, 3);
+                double fastest = 0.0;
+                Energies now;
+                for (int step = 0; step < 60; ++step) {
+                    now = simulation.step(1.0e9).energies;
+                    fastest = std::max(fastest, std::sqrt(2.0 * now.kinetic / mass));
+                }
+                const double sunk = (start.potential - now.potential) / (0.5 * mass * 981.0 * 4.3 * 0.5);
+                EXPECT_LT(fastest, 0.1) << transfer.name << ", " << viscosity << " P, friction " << wallFriction;
+                EXPECT_NEAR(sunk, 0.0, 2.0e-3) << transfer.name << ", " << viscosity << " P, friction " << wallFriction;
+            }
+}
+
+/// Liquid so viscous that it hardly moves sinks, however thin its layer and wherever its floor: it never lifts itself.
+TEST(Rest, IsWhereViscousLiquidSinksTo)
+{
+    for (const double viscosity : {100.0, 3.0e3})
+        for (const double thickness : {1.0, 1.4, 3.0})
+            for (const double above : {0.0, 0.5})
+                for (const double wallFriction : {0.0, 1.0}) {
+                    Scene scene = tankScene(kPoly8, 0.2, {16.0, 16.0, 16.0}, {5.0, above, 5.0}, {11.0, above + thickness, 11.0});
+                    scene.settings.time.mode = TimeMode::Fixed;
+                    scene.settings.time.dt = 4.0e-3;
+                    scene.settings.liquid.volume.rate = 0.0;
+                    makeViscous(scene, viscosity, wallFriction);
+                    Simulation simulation(scene);
+                    const double start = simulation.energies().total(), weight = std::abs(simulation.energies().potential);
+                    double most = 0.0;
+                    for (int step = 0; step < 40; ++step) most = std::max(most, simulation.step(1.0e9).energies.total() - start);
+                    EXPECT_LT(most, 1.0e-3 * weight) << viscosity << " P, " << thickness << " cells, " << above << " above, friction " << wallFriction;
+                }
+}
+
 }  // namespace
 }  // namespace sim::test

@@ -54,7 +54,7 @@ void levelIn(GridScene& scene)
     FreeLiquid bodies;
     findUnheldFaces(scene.grid, scene.field, bodies);
     findHeldBodies(scene.grid, scene.work, scene.liquid, bodies);
-    levelWeight(scene.grid, scene.field, scene.work, bodies, nullptr, kFall, scene.liquid, onSolids);
+    levelWeight(scene.grid, scene.field, scene.work, bodies, nullptr, kFall, scene.liquid, &onSolids);
 }
 
 double largestSpeed(GridScene& scene)
