@@ -27,7 +27,7 @@ void advanceFabric(StepContext& c)
     Workspace& work = c.work;
     FabricState& state = c.state.fabric;
     if (!work.fabric) return;
-    StageScope scope(c.clock);
+    const StageScope scope(c.clock);
     if (work.coupling) work.coupling->velocityBefore = state.v;
     FabricLoads loads;
     std::optional<FaceLoads> onFaces;

@@ -55,7 +55,7 @@ void sort(StepContext& c)
 void findObstacles(StepContext& c)
 {
     if (!c.plan.isWet) return;
-    StageScope scope(c.clock);
+    const StageScope scope(c.clock);
     if (c.hasObstacles()) c.clock.start(Stage::Obstacles);
     // Particles are outside the solids where these are when the step begins.
     c.work.obstacles.startAt(c.state.time, c.state.time + c.dt);
