@@ -72,8 +72,8 @@ class RealSimulation : public Steppable {
     const sim::Fabric& fabric() const override { return simulation_.fabric(); }
     const sim::ActiveContacts* contacts() const override
     {
-        const auto& solver = simulation_.workspace().fabric;
-        return solver ? solver->contacts() : nullptr;
+        const auto& fabric = simulation_.workspace().fabric;
+        return fabric ? fabric->contacts() : nullptr;
     }
     const sim::LiquidGrid& liquidGrid() const override { return simulation_.workspace().grid; }
     const sim::Forces& forces() const override { return simulation_.forces(); }

@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/liquid/energy.h"
 #include "sim/liquid/inflow.h"
+#include "sim/time_step.h"
 
 namespace sim {
 
@@ -32,8 +33,6 @@ EnergyBook::Energy EnergyBook::look() const
     e.liquidKinetic = isOnFaces_ ? facesKinetic() : particlesKinetic();
     e.potential = weightSums(state_.liquid, settings_.gravity).potential;
     if (work_.fabric) e.fabric = work_.fabric->energies(state_.fabric, settings_.gravity).total();
-    if (work_.gridFabric) e.fabric = work_.gridFabric->energies(state_.fabric, settings_.gravity).total();
-    if (work_.ledFabric) e.fabric = work_.ledFabric->energies(state_.fabric, settings_.gravity).total();
     if (work_.coupling) e.fabricMoment = fabricMoment();
     return e;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "sim/liquid/push_out.h"
-#include "sim/step.h"
+#include "sim/scene/scene.h"
+#include "sim/state.h"
+#include "sim/workspace.h"
 
 namespace sim {
 

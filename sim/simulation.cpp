@@ -2,9 +2,14 @@
 
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
+#include "sim/fabric/grid/grid_solver.h"
+#include "sim/fabric/led_fabric.h"
+#include "sim/fabric/vertex_solver.h"
 #include "sim/liquid/energy.h"
 #include "sim/particles/emit.h"
 #include "sim/particles/seed.h"
+#include "sim/step.h"
+#include "sim/time_step.h"
 #include "sim/transfer/modes.h"
 
 #include <fmt/format.h>
@@ -142,14 +147,19 @@ void Simulation::prepareWorkspace()
     const bool isWet = std::ranges::any_of(scene_.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
     if (!fabric_.empty() && (isWet || !scene_.sources.empty()))
         work_.coupling = std::make_unique<Coupling>(fabric_, scene_.settings, nominalMass(scene_));
-    if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Vertex)
-        work_.fabric = std::make_unique<VertexSolver>(fabric_, scene_.settings.fabric, scene_.obstacles, cohesion());
-    if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Grid)
-        work_.gridFabric = std::make_unique<GridFabricSolver>(fabric_, scene_.settings, scene_.obstacles, work_.coupling != nullptr);
-    if (!fabric_.empty() && scene_.settings.fabric.solver == FabricSolver::Off)
-        work_.ledFabric = std::make_unique<LedFabric>(fabric_, scene_.settings.fabric);
+    if (!fabric_.empty()) work_.fabric = makeIntegrator();
     if (work_.fabric) work_.fabric->tellForces(work_.momentum.forces());
-    if (work_.gridFabric) work_.gridFabric->tellForces(work_.momentum.forces());
+}
+
+std::unique_ptr<FabricIntegrator> Simulation::makeIntegrator() const
+{
+    const Settings& settings = scene_.settings;
+    switch (settings.fabric.solver) {
+        case FabricSolver::Vertex: return std::make_unique<VertexSolver>(fabric_, settings.fabric, scene_.obstacles, cohesion());
+        case FabricSolver::Grid: return std::make_unique<GridFabricSolver>(fabric_, settings, scene_.obstacles, work_.coupling != nullptr);
+        case FabricSolver::Off: break;
+    }
+    return std::make_unique<LedFabric>(fabric_, settings.fabric);
 }
 
 /// What holds wet fabric, if anything does and there is liquid to wet it.
@@ -171,8 +181,6 @@ void Simulation::bookEnergy()
 {
     work_.booksEnergy = true;
     if (work_.fabric) work_.fabric->bookEnergy();
-    if (work_.gridFabric) work_.gridFabric->bookEnergy();
-    if (work_.ledFabric) work_.ledFabric->bookEnergy();
 }
 
 Energies Simulation::energies() const
@@ -180,8 +188,6 @@ Energies Simulation::energies() const
     Energies energies = liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity);
     energies.potential += potentialLag(state_, scene_.settings);
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
-    if (work_.gridFabric) energies.fabric = work_.gridFabric->energies(state_.fabric, scene_.settings.gravity);
-    if (work_.ledFabric) energies.fabric = work_.ledFabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
 }
 

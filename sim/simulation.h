@@ -1,14 +1,16 @@
 #pragma once
 
 #include "sim/core/check.h"
-#include "sim/fabric/vertex_solver.h"
+#include "sim/fabric/cohesion.h"
+#include "sim/fabric/fabric.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/state_hash.h"
-#include "sim/step.h"
 #include "sim/step_check.h"
+#include "sim/workspace.h"
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +52,7 @@ class Simulation {
     void takeOver(const SettingsChange& change);
     void applyChanges();
     void prepareWorkspace();
+    std::unique_ptr<FabricIntegrator> makeIntegrator() const;
     std::optional<Cohesion> cohesion() const;
     void begin();
     double chooseLength(double until) const;

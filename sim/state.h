@@ -33,7 +33,7 @@ struct StepMemory {
     std::vector<SourceMemory> sources;  ///< as many as the scene has, once any was looked at
 };
 
-/// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (step.h).
+/// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (workspace.h).
 struct State {
     double time = 0.0;             ///< [s]
     std::int64_t step = 0;         ///< steps taken

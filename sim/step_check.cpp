@@ -2,7 +2,6 @@
 
 #include "sim/core/parallel.h"
 #include "sim/liquid/surface_tension.h"
-#include "sim/step.h"
 
 #include <fmt/format.h>
 

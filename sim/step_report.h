@@ -2,50 +2,13 @@
 
 #include "sim/core/types.h"
 #include "sim/energy_changes.h"
+#include "sim/stage.h"
 
-#include <array>
-#include <chrono>
 #include <limits>
 #include <optional>
 #include <string_view>
 
 namespace sim {
-
-/// The stages of a step, in the order in which they run.
-enum class Stage {
-    Keep,              ///< the state to go back to if the step turns out bad, mode adaptive
-    TakenBack,         ///< steps that did, and were made again in halves
-    Emit,
-    Sort,
-    Obstacles,
-    Capture,           ///< fabric takes up liquid
-    Relax,
-    ParticlesToGrid,
-    Viscosity,
-    Mixture,           ///< liquid and fabric on the faces that both reach: drag, and what one does to the other
-    Cells,
-    SurfaceTension,
-    Pressure,
-    Volume,
-    Reflection,        ///< of what advection made of the velocities, in the first of two steps
-    Walls,
-    GridToParticles,
-    FabricCandidates,  ///< which parts of the fabric may touch within the step
-    FabricContact,     ///< contact forces, and making moves safe
-    FabricElastic,     ///< elastic forces, their derivatives, factors of the preconditioner
-    FabricSolve,       ///< the linear solves
-    FabricToGrid,      ///< vertices to faces …
-    GridToFabric,      ///< … and back, solver grid only
-    FabricStrain,      ///< strains of contact on the grid, with separation and friction
-    Wicking,           ///< liquid moves in fabric
-    Drip,              ///< fabric lets go of liquid that its pores cannot hold
-    Count
-};
-inline constexpr int kStages = static_cast<int>(Stage::Count);
-inline constexpr std::array<std::string_view, kStages> kStageNames = {
-    "keep", "taken_back", "emit", "sort", "obstacles", "capture", "relax", "particles_to_grid", "viscosity", "mixture", "cells", "surface_tension",
-    "pressure", "volume", "reflection", "walls", "grid_to_particles",
-    "fabric_candidates", "fabric_contact", "fabric_elastic", "fabric_solve", "fabric_to_grid", "grid_to_fabric", "fabric_strain", "wicking", "drip"};
 
 /// What an iterative solve did.
 struct SolveReport {
@@ -99,11 +62,9 @@ struct Energies {
 };
 
 /// What one step did.
-struct StepReport {
-    std::array<double, kStages> stageSeconds{};  ///< 0 for a stage that did not run …
-    std::array<bool, kStages> stageRan{};        ///< … which is told here
+struct StepReport : StageTimes {
     double dt = 0.0;                             ///< [s]
-    double cfl = 0.0;                            ///< cflNumber (step.h), at the beginning of the step [-]
+    double cfl = 0.0;                            ///< cflNumber (time_step.h), at the beginning of the step [-]
     double maxSpeed = 0.0;                       ///< of the particles at the end of the step; where it reflects, along their paths [cm/s]
     SolveReport viscosity;                       ///< if it was solved for
     SolveReport pressure;
@@ -123,50 +84,6 @@ struct StepReport {
     Vec3 toPins = Vec3::Zero();                  ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
     std::string_view failure;                    ///< empty, or why the state can't be trusted …
     Stage failedStage = Stage::GridToParticles;  ///< … and since when
-
-    void charge(Stage stage, double seconds)
-    {
-        stageSeconds[static_cast<int>(stage)] += seconds;
-        stageRan[static_cast<int>(stage)] = true;
-    }
-    double seconds() const
-    {
-        double sum = 0.0;
-        for (double s : stageSeconds) sum += s;
-        return sum;
-    }
-};
-
-/// Charges the time from one start() to the next to a stage; the last runs until the clock goes out of scope.
-class StageClock {
- public:
-    explicit StageClock(StepReport& report) : report_(report) {}
-    StageClock(const StageClock&) = delete;
-    StageClock& operator=(const StageClock&) = delete;
-    ~StageClock() { stop(); }
-
-    void start(Stage stage)
-    {
-        stop();
-        stage_ = static_cast<int>(stage);
-        last_ = stage;
-        report_.stageRan[stage_] = true;
-        begin_ = std::chrono::steady_clock::now();
-    }
-    /// The one that was started last.
-    Stage last() const { return last_; }
-    void stop()
-    {
-        if (stage_ < 0) return;
-        report_.stageSeconds[stage_] += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-        stage_ = -1;
-    }
-
- private:
-    StepReport& report_;
-    int stage_ = -1;
-    Stage last_ = Stage::Emit;
-    std::chrono::steady_clock::time_point begin_;
 };
 
 }  // namespace sim

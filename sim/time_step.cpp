@@ -1,5 +1,8 @@
+#include "sim/time_step.h"
+
 #include "sim/core/parallel.h"
-#include "sim/step.h"
+#include "sim/liquid/energy.h"
+#include "sim/workspace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +28,17 @@ double chooseTimeStep(const Settings& settings, const State& state, double maxSp
     const double bound = time.mode == TimeMode::Fixed ? time.maxCflLiquid : std::min(time.cfl, time.maxCflLiquid);
     if (feelsSurfaceTension(settings.liquid)) dt = std::min(dt, capillaryTimeStep(settings.liquid, settings.cell));
     return std::min(dt, bound * perCfl);
+}
+
+bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work)
+{
+    return time.reflects() && hasLiquid(state) && !(work.coupling && reachesLiquid(state.grid, state.fabric));
+}
+
+double potentialLag(const State& state, const Settings& settings)
+{
+    if (!settings.time.reflects() || state.reflected) return 0.0;
+    return weightWork(state.liquid, settings.gravity, 0.5 * state.lastDt);
 }
 
 }  // namespace sim

@@ -12,7 +12,7 @@ LedFabric::LedFabric(const Fabric& fabric, const FabricSettings& settings)
 {
 }
 
-FabricReport LedFabric::step(double t, double h, const Vec3& gravity, FabricState& state, const LiquidLoads* loads)
+FabricReport LedFabric::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock&, const FabricLoads& loads)
 {
     FabricReport report;
     if (booksEnergy_) before_ = state.v;
@@ -27,7 +27,7 @@ FabricReport LedFabric::step(double t, double h, const Vec3& gravity, FabricStat
         for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
             if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t + h, state, static_cast<int>(e));
     }
-    if (booksEnergy_) report.energyChanges = changes(h, gravity, state, loads);
+    if (booksEnergy_) report.energyChanges = changes(h, gravity, state, loads.onVertices);
     return report;
 }
 

@@ -66,11 +66,11 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     freeAngle_.resize(fabric.edges.size());
 }
 
-FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads)
+FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads)
 {
     FabricReport report;
     if (booksEnergy_) report.energyChanges.emplace();
-    loads_ = loads;
+    loads_ = loads.onVertices;
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
     feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
@@ -79,21 +79,21 @@ FabricReport VertexSolver::step(double t, double h, const Vec3& gravity, FabricS
     if (cohesion_) cohesion_->takeUp(state.absorbed);
     groups_.begin();
     findMomenta(state);
-    advance(t, h, 0, gravity, state, report, clock);
+    advanceInParts(t, h, 0, gravity, state, report, clock);
     keepMomentum(h, gravity, state);
     if (forces_ && loads_) tellLiquid(state);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
 }
 
-void VertexSolver::advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::advanceInParts(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
 {
     if (attempt(t, h, level, gravity, state, report, clock)) return;
     ++report.halvings;
     start_.lastFraction = state.lastFraction;
     state = start_;
-    advance(t, 0.5 * h, level + 1, gravity, state, report, clock);
-    advance(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
+    advanceInParts(t, 0.5 * h, level + 1, gravity, state, report, clock);
+    advanceInParts(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
 }
 
 /// Where vertices and angles go without forces of the fabric's own, and in move_ where forces like those of the last step take the

@@ -5,7 +5,7 @@
 #include "sim/fabric/energies.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/groups.h"
-#include "sim/fabric/liquid_loads.h"
+#include "sim/fabric/integrator.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
 #include "sim/fabric/vertex_system.h"
@@ -20,28 +20,19 @@ namespace sim {
 
 /// `fabric.solver: vertex`: backward Euler in vertex space with a pairwise-limited Newton step (fabric/README.md, The step in vertices). Nothing ever
 /// crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
-class VertexSolver {
+class VertexSolver final : public FabricIntegrator {
  public:
     /// @param cohesion  of wet fabric; none without
     VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles,
                  std::optional<Cohesion> cohesion = std::nullopt);
-    VertexSolver(const VertexSolver&) = delete;  // its parts refer to each other
-    VertexSolver& operator=(const VertexSolver&) = delete;
 
-    /// From t to t + h [s]. A step that could not be taken is redone as two halves, and so on; each then takes its part of the loads.
-    /// @param loads  of the liquid over the whole step; null without liquid
-    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const LiquidLoads* loads = nullptr);
-    /// From now on reports tell where energy goes: takes as long as a Newton iteration.
-    void bookEnergy() { booksEnergy_ = true; }
-    /// From now on steps add there what acts between the fabric and what it touches, hangs on and meets of the liquid.
-    void tellForces(Forces& forces) { forces_ = &forces; }
-    /// Not by two threads at once: it remembers the state that it was asked for last.
-    FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
-    /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
-    double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
+    /// A step that could not be taken is redone as two halves, and so on; each then takes its part of the loads, which are on vertices.
+    FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) override;
+    FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override;
+    double deepestInObstacles(const FabricState& state) const override { return obstacles_.deepest(fabric_, state.x); }
+    /// Those of the last Newton iteration.
+    const ActiveContacts* contacts() const override { return contacts_; }
     double leastDistance() const;
-    /// Pairs of fabric that acted at the last Newton iteration of the last step; null before the first, and where none were near.
-    const ActiveContacts* contacts() const { return contacts_; }
 
  private:
     static constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough: less is not felt [feltAcceleration]
@@ -59,7 +50,7 @@ class VertexSolver {
 
     /// One attempt at a step; false if it should be redone in halves.
     bool attempt(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
-    void advance(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    void advanceInParts(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
     bool begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
     void predict(double t, double h, const Vec3& gravity, const FabricState& state);
     void look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
@@ -113,8 +104,6 @@ class VertexSolver {
     std::vector<int> nearestPin_;                ///< of each vertex (nearestPins)
 
     mutable ElasticEnergies elastic_;
-    bool booksEnergy_ = false;
-    Forces* forces_ = nullptr;                   ///< where they are wanted
     const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …
     std::span<const ObstacleContact> touching_;  ///< … and with obstacles
     LimitReport limits_;                         ///< of the attempt under way …

@@ -207,7 +207,7 @@ std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, doub
     return obstacles_.at(fabric_, reached_, start, nearest);
 }
 
-void GridFabricSolver::spread(FabricState& state, StageClock& clock)
+void GridFabricSolver::prepare(FabricState& state, StageClock& clock)
 {
     begin(state);
     clock.start(Stage::FabricToGrid);
@@ -225,10 +225,10 @@ StepOutlook GridFabricSolver::outlookOn(double h, const FaceTolerance& tolerance
     return {motion_, h, particles_.grid().dx, kNegligible * tolerance.wanted / h};
 }
 
-FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock,
-                                       const FaceLoads* loads)
+FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& of)
 {
     FabricReport report;
+    const FaceLoads* loads = of.onFaces;
     const double felt = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     const FaceTolerance until{tolerance, kMaxIterations, kBearable * felt * h, kMostIterations};

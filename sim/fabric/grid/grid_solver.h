@@ -3,7 +3,7 @@
 #include "sim/fabric/energies.h"
 #include "sim/fabric/grid/face_system.h"
 #include "sim/fabric/groups.h"
-#include "sim/fabric/liquid_loads.h"
+#include "sim/fabric/integrator.h"
 #include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
 #include "sim/forces.h"
@@ -18,38 +18,21 @@ namespace sim {
 /// the surface of a solid. The vertices are particles of a MAC grid whose face velocities are the unknowns of one linearised backward Euler step;
 /// contact is a continuum that the grid resolves to a cell, so that nothing keeps yarns from crossing within one. Contact is implicit and acts on
 /// the mesh too, and twist angles are unknowns of their own.
-class GridFabricSolver {
+class GridFabricSolver final : public FabricIntegrator {
  public:
     /// @param meetsLiquid  is there any in the scene?
     GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles,
                      bool meetsLiquid = false);
-    GridFabricSolver(const GridFabricSolver&) = delete;  // its parts refer to each other
-    GridFabricSolver& operator=(const GridFabricSolver&) = delete;
 
-    /// From t to t + h [s]. h must keep within time.maxCflFabric (chooseTimeStep in step.h).
-    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
-    {
-        spread(state, clock);
-        return advance(t, h, gravity, state, clock, nullptr);
-    }
-    /// The same in two parts: the fabric's masses and velocities on the grid, then all the rest.
-    /// @param loads  of the liquid on the same cells, or null
-    void spread(FabricState& state, StageClock& clock);
-    FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock,
-                         const FaceLoads* loads);
-    /// Velocities on the grid: those that the vertices brought after spread, those at the end of the step after
-    /// advance.
-    FabricFaces faces() const { return {particles_.grid(), particles_.faces().velocity}; }
-    /// From now on reports tell where energy goes: takes as long as some iterations of the solve.
-    void bookEnergy() { booksEnergy_ = true; }
-    /// From now on steps add there what acts between the fabric and solids, pins and liquid. What fabrics do to each other on faces that both
-    /// reach is not told apart.
-    void tellForces(Forces& forces) { forces_ = &forces; }
-    FabricEnergies energies(const FabricState& state, const Vec3& gravity) const;
+    /// The fabric's masses and velocities on the grid.
+    void prepare(FabricState& state, StageClock& clock) override;
+    /// h must keep within time.maxCflFabric (chooseTimeStep); loads are on the faces of a grid with the same cells.
+    FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) override;
+    std::optional<FabricFaces> faces() const override { return FabricFaces{particles_.grid(), particles_.faces().velocity}; }
+    FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override;
+    double deepestInObstacles(const FabricState& state) const override { return obstacles_.deepest(fabric_, state.x); }
     /// Energy that contact on the grid held at the start of the last step [erg].
     double contactEnergy() const { return contact_.energy(); }
-    /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
-    double deepestInObstacles(const FabricState& state) const { return obstacles_.deepest(fabric_, state.x); }
 
  private:
     void begin(FabricState& state);
@@ -101,8 +84,7 @@ class GridFabricSolver {
     FabricGroups groups_;                           ///< of the step under way …
     std::vector<int> groupOfBlock_, nearBlock_;     ///< … and of blocks (findGroups)
     FaceVector velocity_;
-    bool meetsLiquid_, booksEnergy_ = false;
-    Forces* forces_ = nullptr;  ///< where they are wanted
+    bool meetsLiquid_;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
     // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did
     // [cm/s^2].

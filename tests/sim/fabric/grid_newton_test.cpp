@@ -1,5 +1,4 @@
 // Steps in which fabric moves about as far as its edges are long.
-#include "sim/step.h"
 #include "tests/sim/fabric/grid_runs.h"
 
 #include <gtest/gtest.h>
@@ -56,8 +55,8 @@ TEST(GridFabric, FabricThatLiquidDrawsGainsNothingElse)
         StepReport report;
         StageClock clock(report);
         const double start = run.energies().total(), heavier = std::pow(10.0, 1.0 + noise()), edges = 5.0 * std::abs(noise());
-        run.solver.spread(run.state, clock);
-        const BlockGrid grid = run.solver.faces().grid;
+        run.solver.prepare(run.state, clock);
+        const BlockGrid grid = run.solver.faces()->grid;
         BlockArray<double, 3> drag, impulse;
         for (BlockArray<double, 3>* of : {&drag, &impulse}) of->resize(grid.count());
         for (int b = 0; b < grid.count(); ++b)
@@ -67,7 +66,7 @@ TEST(GridFabric, FabricThatLiquidDrawsGainsNothingElse)
                     impulse.block(b, a)[c] = heavier * run.fabric.mass[1] * (edges * noise()) * kEdge / kStep;
                 }
         const FaceLoads loads{grid, drag, impulse};
-        const FabricReport done = run.solver.advance(0.0, kStep, Vec3::Zero(), run.state, clock, &loads);
+        const FabricReport done = run.solver.advance(0.0, kStep, Vec3::Zero(), run.state, clock, {.onFaces = &loads});
         const double work = (*done.energyChanges)[EnergyChange::Drag], pins = (*done.energyChanges)[EnergyChange::Pins];
         const double gained = run.energies().total() - start - work - pins;
         EXPECT_LT(gained, 1.0e-3 * work) << "state " << n << ", drawn by " << edges << " edges";

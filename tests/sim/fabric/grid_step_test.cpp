@@ -1,5 +1,5 @@
 // Whole steps of the fabric on the grid (fabric/grid/README.md, Linear system).
-#include "sim/step.h"
+#include "sim/time_step.h"
 #include "tests/sim/fabric/grid_runs.h"
 #include "tests/sim/fixtures.h"
 

@@ -1,7 +1,7 @@
 // Curvature of surfaces that are known, and what its pressure does on the grid (liquid/README.md, Surface tension).
 #include "sim/liquid/surface_tension.h"
 #include "sim/core/units.h"
-#include "sim/step.h"
+#include "sim/time_step.h"
 #include "tests/sim/fixtures.h"
 #include "tests/sim/liquid/grid_scene.h"
 

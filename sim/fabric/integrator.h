@@ -1,0 +1,65 @@
+#pragma once
+
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/liquid_loads.h"
+#include "sim/step_report.h"
+
+#include <limits>
+#include <optional>
+
+namespace sim {
+
+struct ActiveContacts;
+struct Forces;
+
+/// What liquid does to fabric over a step, on the unknowns that its integrator solves for; both are null without liquid.
+struct FabricLoads {
+    const LiquidLoads* onVertices = nullptr;
+    const FaceLoads* onFaces = nullptr;
+};
+
+/// Advances the fabric in time: `fabric.solver` says which of its implementations does.
+class FabricIntegrator {
+ public:
+    FabricIntegrator() = default;
+    FabricIntegrator(const FabricIntegrator&) = delete;  // its parts refer to each other
+    FabricIntegrator& operator=(const FabricIntegrator&) = delete;
+    virtual ~FabricIntegrator() = default;
+
+    /// Before the liquid's mixture with the fabric is found: what the integrator solves for, as the vertices have it now.
+    virtual void prepare(FabricState&, StageClock&) {}
+    /// From t to t + h [s].
+    virtual FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) = 0;
+    /// The same on its own, without liquid.
+    FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
+    {
+        prepare(state, clock);
+        return advance(t, h, gravity, state, clock, {});
+    }
+    /// Velocities on the faces of a grid, of an integrator that has its unknowns there: after prepare() those that the vertices brought,
+    /// after advance() those at the end of the step.
+    virtual std::optional<FabricFaces> faces() const { return std::nullopt; }
+
+    /// Not by two threads at once: implementations may remember the state that they were asked for last.
+    virtual FabricEnergies energies(const FabricState& state, const Vec3& gravity) const = 0;
+    /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
+    virtual double deepestInObstacles(const FabricState&) const { return -std::numeric_limits<double>::infinity(); }
+    /// Pairs of fabric that acted in the last step; null before the first, where none were near, and where contact is not by pairs.
+    virtual const ActiveContacts* contacts() const { return nullptr; }
+
+    /// From now on reports tell where energy goes, which takes about as long as an iteration of a solve.
+    void bookEnergy() { booksEnergy_ = true; }
+    /// Can it tell the forces that act on the fabric?
+    virtual bool tellsForces() const { return true; }
+    /// From now on steps add there what acts between the fabric and what it touches, hangs on and meets of the liquid.
+    void tellForces(Forces& forces)
+    {
+        if (tellsForces()) forces_ = &forces;
+    }
+
+ protected:
+    bool booksEnergy_ = false;
+    Forces* forces_ = nullptr;  ///< where they are wanted
+};
+
+}  // namespace sim

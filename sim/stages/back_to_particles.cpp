@@ -1,0 +1,155 @@
+#include "sim/core/parallel.h"
+#include "sim/liquid/cells.h"
+#include "sim/liquid/energy.h"
+#include "sim/liquid/push_out.h"
+#include "sim/liquid/walls.h"
+#include "sim/stages/stages.h"
+
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+/// A factor that is given per keepDt, for one step of dt.
+double factorOver(double dt, double factor, const TransferSettings& transfer)
+{
+    return transfer.keepPerStep ? factor : std::pow(factor, dt / transfer.keepDt);
+}
+
+/// Share of their own velocities that particles keep [-].
+double flipRatio(const StepContext& c)
+{
+    return c.isFlip() ? factorOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0;
+}
+
+/// May what holds liquid move?
+bool isFrameMoving(const StepContext& c) { return c.plan.isMixed || c.work.obstacles.anyMoving(); }
+
+/// Velocities of the faces that particles read.
+BlockArray<double, 3>& velocityRead(StepContext& c) { return c.plan.reflects ? c.work.reflection.velocity : c.work.grid.faces.velocity; }
+
+GatherSettings gatherSettings(const StepContext& c)
+{
+    const TransferSettings& transfer = c.settings().transfer;
+    const Workspace& work = c.work;
+    GatherSettings settings;
+    settings.dt = c.dt;
+    settings.modes = transfer.modeCount();
+    const bool damps = transfer.method == TransferMethod::Apic || (transfer.method == TransferMethod::PolyPic && transfer.dampModes);
+    settings.keep = damps ? factorOver(c.dt, transfer.keepAffine, transfer) : 1.0;
+    if (c.isFlip()) {
+        settings.flipRatio = flipRatio(c);
+        settings.flipVelocity = &work.grid.advected;
+    }
+    if (settings.modes > kModesAtSurface) settings.manyModes = &work.grid.deep;
+    if (c.plan.relaxes) settings.displacement = work.displacement.data();
+    if (c.plan.corrects) settings.faceDisplacement = &work.volume.displacement;
+    if (c.plan.reflects) settings.reflected = &work.reflection.velocity;
+    if (c.settings().time.reflects()) settings.atMidpoint = &work.free.held;
+    if (c.settings().time.reflects() && isFrameMoving(c)) settings.frames = work.free.frames.data();
+    return settings;
+}
+
+/// Keep where the particles are before they move.
+void keepPlaces(const LiquidParticles& particles, std::array<AlignedArray<double>, kAxes>& places)
+{
+    for (int a = 0; a < kAxes; ++a) {
+        places[a].resize(particles.x[a].size());
+        parallelFor(particles.count, 4096, [&](std::size_t p) { places[a][p] = particles.x[a][p]; });
+    }
+}
+
+/// @param fastest  speed at which particles may have moved [cm/s]
+PushedOut pushOut(StepContext& c, double fastest)
+{
+    if (!c.hasObstacles()) return {};
+    Workspace& work = c.work;
+    work.obstacles.moveTo(c.state.time, c.state.time + c.dt);
+    const double farthest = fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) +
+                            (c.plan.corrects ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
+    return pushOutOfObstacles(work.order, c.state.grid, work.obstacleField, work.obstacles, farthest, &work.places, c.state.liquid,
+                              work.pushedSolids);
+}
+
+}  // namespace
+
+void findHeld(StepContext& c)
+{
+    if (!c.plan.isWet || !c.settings().time.reflects()) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    Workspace& work = c.work;
+    findHeldCells(c.state.grid, work.pressure, work.grid, work.free);
+    if (!isFrameMoving(c)) return;
+    const Vec3 ofFabric = c.plan.isMixed ? meanVelocity(work.coupling->fabric, c.state.fabric) : Vec3(Vec3::Zero());
+    findFrames(c.state.grid, work.obstacleField, work.pressure, work.grid, ofFabric, work.free);
+}
+
+void applyWalls(StepContext& c)
+{
+    if (!c.plan.isWet || !c.hasObstacles()) return;
+    const StageScope scope(c.clock, Stage::Walls);
+    Workspace& work = c.work;
+    LiquidGrid& liquid = work.grid;
+    const LiquidSettings& settings = c.settings().liquid;
+    const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
+        applyWalls(c.state.grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.wallFaces, valid,
+                   velocity);
+    };
+    if (c.isFlip()) {
+        liquid.advectedValid = liquid.faces.valid;
+        apply(liquid.advectedValid, liquid.advected);
+    }
+    if (c.plan.reflects) apply(work.reflection.valid, work.reflection.velocity);
+    apply(liquid.faces.valid, liquid.faces.velocity);
+    c.energy.walls(velocityRead(c), c.fallTime() * c.settings().gravity, flipRatio(c));
+}
+
+void pushSolids(StepContext& c)
+{
+    if (!c.plan.isWet || !c.hasObstacles()) return;
+    const StageScope scope(c.clock, Stage::GridToParticles);
+    Workspace& work = c.work;
+    if (c.plan.isMixed) {
+        work.onSolids.meetFabric();
+        work.coupling->mixture.forEachImpulseTaken(
+            [&](int block, int axis, int cell, double impulse) { work.onSolids.fabricTook(block, axis, cell, impulse); });
+    }
+    const LiquidOnSolids::Outcome outcome{.velocity = velocityRead(c),
+                                          .liquid = work.grid,
+                                          .system = work.pressure,
+                                          .pressure = c.state.pressure,
+                                          .again = c.plan.reflects ? &work.reflection.potential : nullptr,
+                                          .flipVelocity = c.isFlip() ? &work.grid.advected : nullptr,
+                                          .flipRatio = flipRatio(c),
+                                          .perPressure = c.dt * work.grid.fullMass / (c.settings().liquid.density * c.state.grid.dx),
+                                          .fall = c.fallTime() * c.settings().gravity};
+    work.onSolids.finish(c.state.grid, work.obstacleField, outcome);
+}
+
+void gridToParticles(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::GridToParticles);
+    Workspace& work = c.work;
+    LiquidParticles& particles = c.state.liquid;
+    const BlockGrid& grid = c.state.grid;
+    if (work.kept) work.kept->keepModes(particles, c.isFlip());
+    if (c.hasObstacles()) keepPlaces(particles, work.places);
+    GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gatherSettings(c), work.gather, particles);
+    const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
+    const PushedOut pushed = pushOut(c, std::max(held, along));
+    sums.kinetic -= pushed.lost;
+    const WeightSums weights = weightSums(particles, c.settings().gravity);
+    c.report.maxSpeed = c.plan.reflects ? along : held;
+    c.report.energies = {sums.kinetic, c.isFlip() ? 0.0 : sums.modal, weights.potential, {}};
+    c.report.liquidMass = weights.mass;
+    c.report.blocks = grid.count();
+    c.report.liquidCells = countLiquidCells(grid, work.grid);
+    if (!std::isfinite(held) || !std::isfinite(c.report.energies.total())) c.report.failure = "velocities are not finite";
+    work.momentum.liquidMoved(sums.momentum, weights.mass * c.fallTime() * c.settings().gravity, work.onSolids, work.pushedSolids);
+    c.energy.solidsGave();
+    c.energy.toParticles(c.dt, pushed);
+}
+
+}  // namespace sim

@@ -1,0 +1,71 @@
+#include "sim/core/parallel.h"
+#include "sim/liquid/cells.h"
+#include "sim/liquid/energy.h"
+#include "sim/liquid/face_velocity.h"
+#include "sim/liquid/walls.h"
+#include "sim/stages/stages.h"
+#include "sim/transfer/scatter_bounded.h"
+
+namespace sim {
+
+namespace {
+
+/// Do walls act on the liquid by its image behind them?
+bool hasImages(const StepContext& c) { return c.hasObstacles() && wallsMirror(c.settings().liquid.wallFriction); }
+
+}  // namespace
+
+void particlesToGrid(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::ParticlesToGrid);
+    const BlockGrid& grid = c.state.grid;
+    const TransferSettings& transfer = c.settings().transfer;
+    Workspace& work = c.work;
+    if (differsFromTranslation(transfer.xi, transfer.modeCount())) {
+        const Energies own = liquidEnergies(c.state.liquid, grid, c.settings().gravity, &work.order);
+        particlesToFacesBounded(c.state.liquid, work.order, grid, transfer.xi, c.state.lastDt, own.kinetic + own.modal, work.bounded,
+                                work.grid.faces);
+    } else particlesToFaces(c.state.liquid, work.order, grid, work.scatter, work.grid.faces);
+    work.momentum.liquidOnFaces(work.grid.faces, grid.count());
+    if (c.hasObstacles()) work.onSolids.begin(grid, work.obstacleField, work.obstacles, work.grid.faces);
+    if (hasImages(c)) foldAtWalls(grid, work.obstacles, c.settings().liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
+    c.energy.toGrid();
+}
+
+void applyGravity(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::ParticlesToGrid);
+    const BlockGrid& grid = c.state.grid;
+    const Vec3& gravity = c.settings().gravity;
+    divideAndAddGravity(grid, gravity, c.fallTime(), c.keepsAdvected(), c.work.grid);
+    if (hasImages(c)) withholdWeightOfImages(grid, c.work.obstacles, gravity, c.fallTime(), c.work.grid);
+    c.work.grid.unpressed = c.work.grid.faces.velocity;
+    c.energy.onFaces(EnergyChange::Gravity);
+}
+
+void applyViscosity(StepContext& c)
+{
+    if (!c.isViscous()) return;
+    const StageScope scope(c.clock, Stage::Viscosity);
+    const BlockGrid& grid = c.state.grid;
+    Workspace& work = c.work;
+    if (c.hasObstacles()) work.onSolids.beforeViscosity(work.grid.faces.velocity);
+    c.report.viscosity = solveViscosity(grid, work.obstacleField, c.settings().liquid, c.settings().solver, c.fallTime(), work.viscosity, work.grid);
+    const double bySolids = c.hasObstacles() ? work.onSolids.afterViscosity(grid, work.obstacleField, work.viscosity.system, work.grid) : 0.0;
+    BlockArray<double, 3>& velocity = work.grid.faces.velocity;
+    parallelFor(velocity.size(), 4096, [&](std::size_t i) { velocity.block(0)[i] += work.viscosity.withheld.block(0)[i]; });
+    work.grid.unpressed = velocity;
+    c.energy.viscosity(bySolids);
+}
+
+void findCells(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::Cells);
+    findLiquidCells(c.state.grid, c.work.obstacleField, c.settings().liquid.full, c.work.grid);
+    findSurface(c.state.grid, c.work.obstacleField, c.work.grid);
+}
+
+}  // namespace sim

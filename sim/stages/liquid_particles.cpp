@@ -1,0 +1,81 @@
+#include "sim/core/parallel.h"
+#include "sim/liquid/relax_at_walls.h"
+#include "sim/particles/emit.h"
+#include "sim/stages/correction.h"
+#include "sim/stages/stages.h"
+
+namespace sim {
+
+namespace {
+
+/// Pressure of the last step, in the blocks of this one.
+void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockArray<double>& old, BlockArray<double>& pressure)
+{
+    if (!order.blocksChanged) return;
+    old.swap(pressure);
+    pressure.resize(grid.count());
+    parallelFor(grid.count(), 8, [&](std::size_t n) {
+        const int b = static_cast<int>(n), from = order.previous[b];
+        if (from == BlockGrid::kNone) std::fill_n(pressure.block(b), kBlockCells, 0.0);
+        else std::copy_n(old.block(from), kBlockCells, pressure.block(b));
+    });
+}
+
+}  // namespace
+
+void emit(StepContext& c)
+{
+    State& state = c.state;
+    c.work.emission.inflows.clear();
+    if (!emits(c.scene, state, state.time, state.time + c.dt)) return;
+    const StageScope scope(c.clock, Stage::Emit);
+    const std::size_t before = state.liquid.count;
+    emitLiquid(c.scene, state, state.time, state.time + c.dt, c.work.emission);
+    for (std::size_t p = before; p < state.liquid.count; ++p)
+        c.report.emittedKinetic += 0.5 * state.liquid.mass[p] * state.liquid.velocity(p).squaredNorm();
+    c.work.momentum.entered(state, before);
+}
+
+void sort(StepContext& c)
+{
+    State& state = c.state;
+    Workspace& work = c.work;
+    BlockGrid& grid = state.grid;
+    c.plan.isWet = hasLiquid(state);
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::Sort);
+    sortParticles(state.liquid, grid, c.scene.domain ? &*c.scene.domain : nullptr, work.order, state.ledger);
+    carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
+    work.grid.resize(grid.count(), c.keepsAdvected());
+    work.grid.fullMass = work.packing * c.settings().liquid.density * grid.dx * grid.dx * grid.dx;
+    work.momentum.left(state);
+    c.energy.sorted();
+}
+
+void findObstacles(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock);
+    if (c.hasObstacles()) c.clock.start(Stage::Obstacles);
+    // Particles are outside the solids where these are when the step begins.
+    c.work.obstacles.startAt(c.state.time, c.state.time + c.dt);
+    c.work.obstacleField.update(c.state.grid, c.work.order.previous, c.work.obstacles, wallsMirror(c.settings().liquid.wallFriction));
+}
+
+void relax(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    State& state = c.state;
+    Workspace& work = c.work;
+    const double rate = c.settings().liquid.relax.rate;
+    state.unrelaxed += c.dt;
+    c.plan.relaxes = work.relaxReach > 0.0 && isDue(rate, state.unrelaxed, c.dt);
+    if (!c.plan.relaxes) return;
+    const StageScope scope(c.clock, Stage::Relax);
+    relaxationDisplacements(state.liquid, work.order, state.grid, rate, work.relaxReach, state.unrelaxed, work.relax, work.displacement);
+    keepRelaxationFromLifting(work.order, state.grid, work.obstacleField, work.obstacles, c.settings().gravity, work.relaxReach, state.liquid,
+                              work.displacement);
+    state.unrelaxed = 0.0;
+}
+
+}  // namespace sim

@@ -1,0 +1,178 @@
+#include "sim/core/parallel.h"
+#include "sim/liquid/cells.h"
+#include "sim/liquid/inflow.h"
+#include "sim/liquid/surface_weight.h"
+#include "sim/stages/correction.h"
+#include "sim/stages/stages.h"
+
+namespace sim {
+
+namespace {
+
+/// Largest share of an error of volume that a long step corrects; to correct all of it at once would overshoot [-].
+constexpr double kLargestShare = 0.5;
+
+/// What pressure and surface tension have changed of velocities [cm/s], in FreeLiquid::change.
+void findChange(const BlockArray<double, 3>& velocity, int blocks, Workspace& work)
+{
+    work.free.change.resize(blocks);
+    parallelFor(blocks, 4, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        const double *now = velocity.block(b), *before = work.grid.unpressed.block(b);
+        double* by = work.free.change.block(b);
+        for (std::size_t i = 0; i < BlockArray<double, 3>::kStride; ++i) by[i] = now[i] - before[i];
+    });
+}
+
+/// Pressure and surface tension leave free liquid, and fabric that it carries along, the momentum that they have.
+/// @param velocity  of the faces, after both
+void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
+{
+    const BlockGrid& grid = c.state.grid;
+    Workspace& work = c.work;
+    findChange(velocity, grid.count(), work);
+    findUnheldFaces(grid, work.obstacleField, work.free);
+    const bool carries = c.plan.isMixed && c.settings().coupling.pressureOnFabric;
+    if (carries) work.coupling->mixture.toPairs(work.grid, work.free.change);
+    else if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
+    takeMeans(grid, work.pressure, work.grid, work.free.change, work.free, velocity);
+    if (carries) work.coupling->mixture.fromPairs(work.grid);
+    if (c.hasObstacles()) work.gainAtWalls.bound(work.obstacleField, velocity);
+}
+
+/// Work of sources that press liquid into liquid, and which of them are shut in.
+void pressIn(StepContext& c)
+{
+    Workspace& work = c.work;
+    const BlockGrid& grid = c.state.grid;
+    if (work.emission.inflows.empty()) return;
+    c.report.inflowWork = inflowWork(grid, work.inflow, c.state.pressure, c.dt);
+    for (const Inflow& inflow : work.emission.inflows) {
+        const bool isShut = isShutIn(inflow.source, work.inflow, grid, work.grid, work.pressure.solver.components());
+        c.state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
+    }
+    c.energy.pressedIn(c.report.inflowWork);
+}
+
+/// Is there weight that solids may hold?
+bool hasHeldWeight(const StepContext& c) { return c.hasObstacles() && !c.settings().liquid.full && !c.settings().gravity.isZero(0.0); }
+
+/// Take the noise out of the weight of liquid that solids hold. Fabric that goes through it keeps what is on its faces.
+/// @param onSolids  is told, if not null
+void levelHeldWeight(StepContext& c, LiquidOnSolids* onSolids)
+{
+    const BlockGrid& grid = c.state.grid;
+    Workspace& work = c.work;
+    findUnheldFaces(grid, work.obstacleField, work.free);
+    findHeldBodies(grid, work.pressure, work.grid, work.free);
+    if (c.plan.isMixed) {
+        work.free.bare.resize(grid.count());
+        std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+        work.coupling->mixture.clearShared(work.free.bare);
+    }
+    levelWeight(grid, work.obstacleField, work.pressure, work.free, c.plan.isMixed ? &work.free.bare : nullptr,
+                c.fallTime() * c.settings().gravity, work.grid, onSolids);
+}
+
+}  // namespace
+
+void findSurfaceTension(StepContext& c)
+{
+    if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
+    const StageScope scope(c.clock, Stage::SurfaceTension);
+    findSurfaceSteps(c.state.grid, c.work.obstacleField, c.settings().liquid, c.work.grid, c.work.surfaceTension);
+}
+
+void withholdPressure(StepContext& c)
+{
+    if (!c.isViscous()) return;
+    const StageScope scope(c.clock, Stage::Viscosity);
+    const BlockGrid& grid = c.state.grid;
+    Workspace& work = c.work;
+    BlockArray<double, 3>& velocity = work.grid.faces.velocity;
+    work.viscosity.withheld = velocity;
+    findLiquidCells(grid, work.obstacleField, c.settings().liquid.full, work.grid);
+    findSurface(grid, work.obstacleField, work.grid);
+    findPressureFaces(grid, work.obstacleField, c.settings().liquid, c.dt, work.grid, work.pressure);
+    preparePressure(grid, work.grid, work.pressure);
+    if (hasHeldWeight(c)) levelHeldWeight(c, nullptr);
+    solvePressure(grid, work.obstacleField, c.settings().solver, {}, work.pressure, work.grid, c.state.pressure);
+    parallelFor(velocity.size(), 4096, [&](std::size_t i) { work.viscosity.withheld.block(0)[i] -= velocity.block(0)[i]; });
+}
+
+void assemblePressure(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    Workspace& work = c.work;
+    findPressureFaces(c.state.grid, work.obstacleField, c.settings().liquid, c.dt, work.grid, work.pressure);
+    if (c.plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    preparePressure(c.state.grid, work.grid, work.pressure);
+}
+
+void levelWeight(StepContext& c)
+{
+    if (!c.plan.isWet || !hasHeldWeight(c)) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    levelHeldWeight(c, &c.work.onSolids);
+    c.energy.onFaces(EnergyChange::Gravity);
+}
+
+void applySurfaceTension(StepContext& c)
+{
+    if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
+    const StageScope scope(c.clock, Stage::SurfaceTension);
+    applySurfaceSteps(c.state.grid, c.work.obstacleField, c.work.pressure, c.fallTime() / c.dt, c.work.surfaceTension, c.work.grid);
+    c.energy.surfaceTension(c.plan.isMixed);
+}
+
+void project(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    const BlockGrid& grid = c.state.grid;
+    Workspace& work = c.work;
+    if (c.hasObstacles()) work.gainAtWalls.begin(work.obstacleField, work.grid.faces.velocity);
+    findInflowCells(grid, work.grid, work.emission.inflows, work.packing, c.dt, work.inflow);
+    c.report.pressure = solvePressure(grid, work.obstacleField, c.settings().solver, work.inflow, work.pressure, work.grid, c.state.pressure);
+    pressIn(c);
+}
+
+void correctVolume(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    State& state = c.state;
+    Workspace& work = c.work;
+    const double rate = c.settings().liquid.volume.rate;
+    state.uncorrected += c.dt;
+    c.plan.corrects = isDue(rate, state.uncorrected, c.dt);
+    if (!c.plan.corrects) return;
+    const StageScope scope(c.clock, Stage::Volume);
+    const double strength = std::min(kLargestShare, rate * state.uncorrected);
+    c.report.volume = correctVolume(state.grid, work.obstacleField, work.pressure, c.settings().gravity, work.grid, strength,
+                                    c.settings().solver, work.volume);
+    state.uncorrected = 0.0;
+    findUnheldFaces(state.grid, work.obstacleField, work.free);
+    if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
+    takeMeans(state.grid, work.pressure, work.grid, work.volume.displacement, work.free, work.volume.displacement);
+}
+
+void keepMomentum(StepContext& c)
+{
+    if (!c.plan.isWet) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    restoreMomentum(c, c.work.grid.faces.velocity);
+}
+
+void reflect(StepContext& c)
+{
+    if (!c.plan.reflects) return;
+    const StageScope scope(c.clock, Stage::Reflection);
+    Workspace& work = c.work;
+    c.report.reflection =
+        reflect(c.state.grid, work.obstacleField, c.settings().solver, work.inflow, work.pressure, work.grid, work.reflection);
+    restoreMomentum(c, work.reflection.velocity);
+    c.energy.reflected(c.dt);
+}
+
+}  // namespace sim

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "sim/energy_book.h"
+#include "sim/scene/scene.h"
+#include "sim/state.h"
+#include "sim/step_report.h"
+#include "sim/workspace.h"
+
+namespace sim {
+
+/// What the stages of a step find out about it, for those that follow.
+struct StepPlan {
+    bool isWet = false;        ///< there is liquid
+    bool reflects = false;     ///< it is the first of two steps, whose velocities are reflected about the projected ones
+    bool meetsFabric = false;  ///< liquid is within reach of fabric …
+    bool isMixed = false;      ///< … and both are on some faces
+    bool relaxes = false;      ///< particles are pushed apart
+    bool corrects = false;     ///< the liquid's volume is corrected
+    bool fabricIsWet = false;  ///< fabric holds liquid
+};
+
+/// A step under way: what it works on, and what its stages tell each other.
+struct StepContext {
+    const Scene& scene;
+    State& state;
+    Workspace& work;
+    double dt;  ///< [s]
+    StepReport& report;
+    StageClock& clock;
+    EnergyBook energy{state, scene.settings, work, report};
+    StepPlan plan{};
+
+    const Settings& settings() const { return scene.settings; }
+    bool hasObstacles() const { return !work.obstacles.empty(); }
+    bool isFlip() const { return settings().transfer.method == TransferMethod::Flip; }
+    bool isViscous() const { return plan.isWet && settings().liquid.solveViscosity && settings().liquid.viscosity > 0.0; }
+    /// Are the velocities before the pressure needed after it?
+    bool keepsAdvected() const { return isFlip() || plan.reflects; }
+
+    /// How long weight, viscosity and surface tension act on the velocities of the liquid [s]. With the integrator reflected velocities are
+    /// those halfway through the step: steps of any length then fall as far as they should. Not so near fabric, which bears its weight over dt:
+    /// to liquid and fabric that fall together gravity does the same when steps change their length.
+    double fallTime() const
+    {
+        const bool isFirst = state.lastDt == 0.0;
+        return settings().time.reflects() && (isFirst || !plan.meetsFabric) ? 0.5 * (state.lastDt + dt) : dt;
+    }
+    /// Gravity on the fabric over dt: what near liquid does to it what gravity does to the liquid over fallTime [cm/s^2].
+    Vec3 gravityOnFabric() const { return plan.meetsFabric ? Vec3(settings().gravity * (fallTime() / dt)) : settings().gravity; }
+};
+
+}  // namespace sim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "sim/coupling/coupling.h"
+#include "sim/fabric/integrator.h"
+#include "sim/kept_state.h"
+#include "sim/liquid/free_liquid.h"
+#include "sim/liquid/gain_at_walls.h"
+#include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/liquid_on_solids.h"
+#include "sim/liquid/pressure.h"
+#include "sim/liquid/reflection.h"
+#include "sim/liquid/surface_tension.h"
+#include "sim/liquid/viscosity.h"
+#include "sim/liquid/volume.h"
+#include "sim/liquid/walls.h"
+#include "sim/momentum_book.h"
+#include "sim/particles/emit.h"
+#include "sim/particles/relax.h"
+#include "sim/transfer/gather.h"
+#include "sim/transfer/scatter_bounded.h"
+
+#include <memory>
+
+namespace sim {
+
+/// What a step needs beside the State: computed anew in every step, or buffers kept so that nothing is allocated.
+struct Workspace {
+    ParticleOrder order;
+    Obstacles obstacles;
+    ObstacleField obstacleField;
+    LiquidGrid grid;
+    ScatterScratch scatter;
+    BoundedScratch bounded;  ///< of affine maps
+    GatherScratch gather;
+    ViscosityWorkspace viscosity;
+    PressureWorkspace pressure;
+    EmissionWorkspace emission;
+    std::vector<InflowCell> inflow;                        ///< of the sources of this step
+    WallFaces wallFaces;
+    ReflectionWorkspace reflection;
+    VolumeWorkspace volume;
+    FreeLiquid free;
+    SurfaceTensionWorkspace surfaceTension;
+    std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
+    std::array<AlignedArray<double>, kAxes> places;        ///< of the particles before they move, where there are obstacles [cm]
+    BlockArray<double> oldPressure;
+    RelaxScratch relax;
+    double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
+    double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
+    std::unique_ptr<KeptState> kept;                       ///< mode adaptive: the state before the step
+    GainAtWalls gainAtWalls;
+    LiquidOnSolids onSolids;                               ///< by the faces of the liquid …
+    ChunkSums<Impulse> pushedSolids;                       ///< … and by particles kept out of solids [g cm/s]
+    MomentumBook momentum;
+    Stage failedStage = Stage::Emit;                       ///< of the last step that threw
+    bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
+    std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
+    std::unique_ptr<FabricIntegrator> fabric;              ///< by the scene's fabric.solver, where there is fabric
+};
+
+}  // namespace sim
