@@ -41,6 +41,14 @@ double packingOfSources(const Scene& scene)
     return packing > 0.0 ? packing : 1.0;
 }
 
+/// Of the source with the fewest particles, in cells; that of a lattice by default where there is none.
+double pitchOfSources(const Scene& scene)
+{
+    double pitch = 0.0;
+    for (const SourceSettings& source : scene.sources) pitch = std::max(pitch, particleSpacing(source.fill, scene.settings.cell) / scene.settings.cell);
+    return pitch > 0.0 ? pitch : particleSpacing(FillSettings(), 1.0);
+}
+
 /// Of a particle that fabric lets go: like those of the first source [g].
 double nominalMass(const Scene& scene)
 {
@@ -140,6 +148,7 @@ void Simulation::prepareWorkspace()
     work_.momentum.prepare(scene_, fabric_);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_);
+    work_.grid.pitch = pitchOfSources(scene_);
     if (scene_.settings.fabric.solver == FabricSolver::Off) {
         std::ranges::fill(fabric_.pinned, 1);
         std::ranges::fill(state_.fabric.held, Vec3::Ones());

@@ -14,6 +14,7 @@ struct LiquidGrid {
     BlockArray<double, 3> unpressed;     ///< velocities when weight and viscosity have acted, but not yet pressure and surface tension [cm/s]
     BlockArray<double, 3> weightless;    ///< mass of each face near plane walls that images behind them hold against weight [g]
     double fullMass = 1.0;               ///< of a face with all its room, amid liquid [g]
+    double pitch = 0.5;                  ///< of the particles' lattice [cells]
     BlockArray<double> fill;             ///< liquid in and around each cell relative to a cell amid liquid [-]
     BlockBits<> inside;                  ///< cells with a pressure
     BlockBits<> surface;                 ///< those of them beside air

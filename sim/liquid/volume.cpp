@@ -37,49 +37,26 @@ double leastFill(const BlockGrid& grid, const ObstacleField& obstacles, const Ve
     return liquid.deep.test(b, c) ? 1.0 : kFillBelowSurface;
 }
 
-/// Mass and room of faces [g, -].
-struct Content {
-    double mass = 0.0, room = 0.0;
-};
-
-/// Add the faces of a cell that are open, or those that are closed.
-void addFaces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const CellRef& cell, bool open, Content& content)
+/// Error of a cell's volume that is noise [-]. At each wall that does not mirror the liquid kernels are cut off.
+double noiseOf(const BlockGrid& grid, const ObstacleField& obstacles, double pitch, int b, int c)
 {
+    if (!obstacles.nearSolid(b) || obstacles.mirrors()) return kVolumeNoise;
+    int closed = 0;
     for (int a = 0; a < kAxes; ++a)
         for (int side = 0; side < 2; ++side) {
-            Vec3i at(cell.cell & 7, cell.cell >> 3 & 7, cell.cell >> 6);
-            at[a] += side;
-            const CellRef face = cellNear(grid, cell.block, at.x(), at.y(), at.z());
-            if (face.block == grid.count() || (obstacles.open(face.block, a)[face.cell] > 0.0) != open) continue;
-            content.mass += liquid.faces.sums.block(face.block, FaceFields::kMass + a)[face.cell];
-            content.room += obstacles.room(face.block, a)[face.cell];
-        }
-}
-
-/// Fill of a cell at walls behind which the particles' kernels reach: on a lattice of pitch p in cells a kernel that a wall cuts off sums up to p^2/24 more
-/// than its integral, 1.25 % of a face's room for the usual lattice, and to as much less behind the wall. So the closed faces of the solid cells
-/// beside it are counted with its own.
-double fillAcrossWalls(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, int b, int c)
-{
-    Content content;
-    addFaces(grid, obstacles, liquid, {b, c}, true, content);
-    for (int a = 0; a < kAxes; ++a)
-        for (int step : {-1, 1}) {
             Vec3i at(c & 7, c >> 3 & 7, c >> 6);
-            at[a] += step;
-            const CellRef beside = cellNear(grid, b, at.x(), at.y(), at.z());
-            if (beside.block != grid.count() && obstacles.blocked(beside.block)[beside.cell >> 6] >> (beside.cell & 63) & 1)
-                addFaces(grid, obstacles, liquid, beside, false, content);
+            at[a] += side;
+            const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
+            closed += obstacles.open(face.block, a)[face.cell] == 0.0;
         }
-    return content.room > 0.0 ? content.mass / (content.room * liquid.fullMass) : 0.0;
+    return kVolumeNoise + closed * kCutOffNoise * pitch * pitch;
 }
 
 /// Volume that a cell lacks (negative) or has too much, beyond noise, relative to its own.
 double volumeError(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
-    const bool isCutOff = obstacles.nearSolid(b) && !obstacles.mirrors();
-    const double fill = isCutOff ? fillAcrossWalls(grid, obstacles, liquid, b, c) : liquid.fill.block(b)[c];
-    if (fill > 1.0) return std::clamp(fill - 1.0 - kVolumeNoise, 0.0, kLargestError);
+    const double fill = liquid.fill.block(b)[c];
+    if (fill > 1.0) return std::clamp(fill - 1.0 - noiseOf(grid, obstacles, liquid.pitch, b, c), 0.0, kLargestError);
     return fill < 1.0 ? std::min(fill + kVolumeNoise - leastFill(grid, obstacles, gravity, liquid, b, c), 0.0) : 0.0;
 }
 

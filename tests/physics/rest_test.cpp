@@ -55,6 +55,29 @@ void makeViscous(Scene& scene, double viscosity, double wallFriction)
     scene.settings.liquid.wallFriction = wallFriction;
 }
 
+/// So it does between walls that hold the liquid by friction, or fast.
+TEST(Rest, OfAPoolBetweenWallsWithFrictionLasts)
+{
+    for (const double friction : {0.1, 0.5, 1.0})
+        for (const double spacing : {0.4, 0.5})
+            for (const double depth : {4.3, 5.0})
+                for (const Transfer& transfer : {kPoly8, kPic}) {
+                    Scene scene = pool(transfer, 0.5, depth, spacing, transfer.name == kPic.name ? TimeIntegrator::Plain : TimeIntegrator::Reflected);
+                    scene.settings.liquid.wallFriction = friction;
+                    Simulation simulation(scene);
+                    const double start = simulation.energies().potential, mass = std::pow(8.0, 2) * depth * std::pow(0.5, 3);
+                    double fastest = 0.0;
+                    Energies now;
+                    for (int step = 0; step < 100; ++step) {
+                        now = simulation.step(1.0e9).energies;
+                        fastest = std::max(fastest, std::sqrt(2.0 * now.kinetic / mass));
+                    }
+                    EXPECT_LT(fastest, 0.15) << transfer.name << ", friction " << friction << ", pitch " << spacing;  // .1 but for a first step
+                    EXPECT_NEAR((start - now.potential) / (0.5 * mass * 981.0 * depth * 0.5), 0.0, 2.0e-3)
+                        << transfer.name << ", friction " << friction << ", pitch " << spacing;
+                }
+}
+
 /// So does that of viscous liquid between walls that stick: they hold it against weight only where it shears.
 TEST(Rest, OfViscousLiquidLasts)
 {

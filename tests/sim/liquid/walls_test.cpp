@@ -335,6 +335,32 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
     }
 }
 
+/// Along a wall weight gives all faces the same velocity, whatever the friction: only so can a pressure hold it.
+TEST(Walls, WeightIsEvenAlongThem)
+{
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        GridScene scene({-3, -3, -3}, {16, 16, 16});
+        const Vec3i size(10, 9, 10);
+        scene.add(tankOfCells(scene, {0, 0, 0}, size));
+        FaceFields& faces = scene.liquid.faces;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            if ((c.array() < -1).any() || (c.array() > size.array() + Vec3i::Unit(a).array()).any()) return;
+            faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = std::pow(10.0, 2.0 * unit(random));
+        });
+        const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
+        WallFaces followers;
+        foldAtWalls(scene.grid, scene.obstacles, std::array{0.0, 0.3, 0.9}[seed % 3], scene.field, followers, scene.liquid);
+        divideAndAddGravity(scene.grid, gravity, 0.01, false, scene.liquid);
+        withholdWeightOfImages(scene.grid, scene.obstacles, gravity, 0.01, scene.liquid);
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            if (!(scene.open(a, c) > 0.0) || c[a] < 3 || c[a] > size[a] - 3) return;
+            EXPECT_NEAR(scene.velocity(a, c), 0.01 * gravity[a], 1.0e-12) << seed << ", axis " << a << ", face " << c.transpose();
+        });
+    }
+}
+
 TEST(Walls, FrictionlessOnesOffTheGridKeepMassAndMomentum)
 {
     for (unsigned seed = 1; seed <= 20; ++seed) {
