@@ -93,8 +93,7 @@ Parts drenchParts()
 {
     return {.loadScene = loadScene,
             .startSimulation = [](const SceneSetup& setup) { return std::make_unique<RealSimulation>(setup.scene); },
-            .resumeSimulation =
-                [](const SceneSetup& setup, const sim::State& state) { return std::make_unique<RealSimulation>(setup.scene, state); },
+            .resumeSimulation = [](const SceneSetup& setup, const sim::State& state) { return std::make_unique<RealSimulation>(setup.scene, state); },
             .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
             .startRenderer = startOffscreenRenderer,
             .drawnBy = offscreenRendererName,

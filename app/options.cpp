@@ -3,8 +3,8 @@
 #include "app/provenance/provenance.h"
 #include "sim/core/check.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -20,9 +20,7 @@ constexpr int kMaxThreads = 1024;
 CLI::Option* addScene(CLI::App& verb, Options& options)
 {
     auto* scene = verb.add_option("scene", options.scene, "scene file (YAML)")->required();
-    verb.add_option("--set", options.sets, "override a key of the scene: dotted.key=value")
-        ->take_all()
-        ->allow_extra_args(false);
+    verb.add_option("--set", options.sets, "override a key of the scene: dotted.key=value")->take_all()->allow_extra_args(false);
     return scene;
 }
 
@@ -47,9 +45,9 @@ CLI::App* addBenchPrecision(CLI::App& bench, Options& options)
     verb->add_option("case", options.cases, "names in scenes/bench/precision (default: all)");
     verb->add_option("--out", options.out, "folder of table, plots and report");
     auto* threads = verb->add_option("--threads", options.threads, "threads of the simulation (default: 2)")->check(CLI::Range(1, kMaxThreads));
-    auto* repeats = verb->add_option("--repeats", options.repeats,
-                                     "runs of the front and of the published scheme, of which the median counts (default: 1)")
-                        ->check(CLI::Range(1, 1000));
+    auto* repeats =
+        verb->add_option("--repeats", options.repeats, "runs of the front and of the published scheme, of which the median counts (default: 1)")
+            ->check(CLI::Range(1, 1000));
     verb->add_flag("--quick", options.quick, "few of them, within minutes");
     verb->add_flag("--csv", options.csv, "keep them in <results>/<machine>/precision");
     verb->add_option("--results", options.results, "folder of the machines' results");
@@ -125,7 +123,8 @@ void addExport(CLI::App& program, Options& options)
 void addDiff(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand("diff", "tell whether two results are the same: exit code 0 same, 1 different, 2 cannot be compared");
-    verb->add_option("A", options.diff.a, "what is expected: a picture, a folder of pictures, a video, a run, a series, a report or a state")->required();
+    verb->add_option("A", options.diff.a, "what is expected: a picture, a folder of pictures, a video, a run, a series, a report or a state")
+        ->required();
     verb->add_option("B", options.diff.b, "what is held against it")->required();
     verb->add_option("--tolerances", options.diff.tolerances,
                      "a file of tolerances, or a scene with compare.tolerance (default: tolerance.yaml beside A, or the scene of A's run)");
@@ -149,7 +148,8 @@ void addProbe(CLI::App& program, Options& options)
 void addSchema(CLI::App& program, Options& options)
 {
     auto* verb = program.add_subcommand("schema", "write the JSON schema of scene files or studies, by which editors complete and check them");
-    verb->add_option("kind", options.scene, "scene (default), study, or keys: the keys of scenes as tables in Markdown")->check(CLI::IsMember({"scene", "study", "keys"}));
+    verb->add_option("kind", options.scene, "scene (default), study, or keys: the keys of scenes as tables in Markdown")
+        ->check(CLI::IsMember({"scene", "study", "keys"}));
     verb->add_option("--out", options.out, "file to write (default: to standard output)");
     verb->callback([&options] { options.verb = Verb::Schema; });
 }
@@ -161,8 +161,8 @@ void addSweep(CLI::App& program, Options& options)
     verb->add_option("study", options.scene, "study file (YAML): scene, runs, and what holds for all of them")->required();
     verb->add_option("--out", options.out, "folder of the study (default: out/<study>)");
     verb->add_option("--jobs", options.jobs, "runs side by side (default: 1)")->check(CLI::Range(1, 10'000));
-    auto* threads = verb->add_option("--threads", options.threads, "threads of each run (default: all, shared among them)")
-                        ->check(CLI::Range(1, kMaxThreads));
+    auto* threads =
+        verb->add_option("--threads", options.threads, "threads of each run (default: all, shared among them)")->check(CLI::Range(1, kMaxThreads));
     auto* onSlurm = verb->add_option("--on", "where: here (default), or slurm")->check(CLI::IsMember({"here", "slurm"}));
     verb->add_flag("!--no-wait", options.wait, "with slurm: hand over the jobs, and that is all");
     verb->add_option("--task", options.task, "do this run alone, as a job of slurm does: a number from 0")->check(CLI::NonNegativeNumber);
@@ -195,8 +195,8 @@ void addVerbs(CLI::App& program, Options& options)
     addScene(*run, options)->required(false);
     addVariant(*run, options);
     addOutput(*run, options);
-    auto* resume = run->add_option("--resume", options.resume,
-                                   "go on with the run in this folder; with --out go on elsewhere, where --set may change settings");
+    auto* resume =
+        run->add_option("--resume", options.resume, "go on with the run in this folder; with --out go on elsewhere, where --set may change settings");
     run->add_option("--from-frame", options.fromFrame, "go on from the checkpoint of this frame (default: the last one)")
         ->check(CLI::NonNegativeNumber)
         ->needs(resume);
@@ -204,7 +204,8 @@ void addVerbs(CLI::App& program, Options& options)
     run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
     run->callback([&options] {
         options.verb = Verb::Run;
-        if (!options.scene.empty() + !options.resume.empty() + !options.again.empty() != 1) throw CLI::RequiredError("either scene, --resume or --again");
+        if (!options.scene.empty() + !options.resume.empty() + !options.again.empty() != 1)
+            throw CLI::RequiredError("either scene, --resume or --again");
         if (!options.resume.empty() && !options.variants.empty()) throw CLI::ExcludesError("--resume", "--variant");
         if (!options.again.empty() && !options.variants.empty()) throw CLI::ExcludesError("--again", "--variant");
         if (!options.again.empty() && !options.sets.empty()) throw CLI::ExcludesError("--again", "--set");
@@ -212,8 +213,7 @@ void addVerbs(CLI::App& program, Options& options)
 
     auto* compare = program.add_subcommand("compare", "run the scene's variants and put them side by side");
     addScene(*compare, options)->required(false);
-    compare
-        ->add_option("--from", options.from, "put runs side by side that are there, each in its folder, in place of a scene's; needs --out")
+    compare->add_option("--from", options.from, "put runs side by side that are there, each in its folder, in place of a scene's; needs --out")
         ->take_all()
         ->allow_extra_args(false);
     addOutput(*compare, options);
@@ -265,9 +265,7 @@ void addVerbs(CLI::App& program, Options& options)
 
     auto* bench = program.add_subcommand("bench", "time a scene by stage");
     bench->add_option("--scene", options.scene, "a name in scenes/bench, or a scene file");
-    bench->add_option("--threads", options.benchThreads, "numbers of threads to try: 1,2,4")
-        ->delimiter(',')
-        ->check(CLI::Range(1, kMaxThreads));
+    bench->add_option("--threads", options.benchThreads, "numbers of threads to try: 1,2,4")->delimiter(',')->check(CLI::Range(1, kMaxThreads));
     bench->add_option("--repeats", options.repeats, "runs of each")->check(CLI::Range(1, 1000));
     bench->add_option("--steps", options.steps, "steps that are timed")->check(CLI::Range(1, 1'000'000));
     bench->add_option("--warmup", options.warmupSteps, "steps before those")->check(CLI::Range(0, 1'000'000));
@@ -314,8 +312,7 @@ std::optional<Options> readOptions(int argc, const char* const* argv)
         program.exit(error);
         return std::nullopt;
     }
-    if (options.verb != Verb::Compare && options.variants.size() > 1)
-        throw sim::InputError("--variant: only one at a time, except for compare");
+    if (options.verb != Verb::Compare && options.variants.size() > 1) throw sim::InputError("--variant: only one at a time, except for compare");
     return options;
 }
 

@@ -30,63 +30,63 @@ struct ImportOptions {
 
 /// What the command line says to drench diff, beside --set and --out.
 struct DiffOptions {
-    std::filesystem::path a, b;          ///< what is expected, and what is held against it
-    std::filesystem::path tolerances;    ///< a scene, or a file with its compare.tolerance alone; empty: that of A
-    bool subset = false;                 ///< pictures that only B has do not count
+    std::filesystem::path a, b;        ///< what is expected, and what is held against it
+    std::filesystem::path tolerances;  ///< a scene, or a file with its compare.tolerance alone; empty: that of A
+    bool subset = false;               ///< pictures that only B has do not count
 };
 
 /// The command line.
 struct Options {
     Verb verb = Verb::Run;
-    std::string scene;                   ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; …
-                                         ///< for render and export a folder; for sweep a study; for schema what it is of
-    std::vector<std::string> variants;   ///< run, check, bench: at most one; compare: only these
-    std::vector<std::string> sets;       ///< "dotted.key=value"
-    std::filesystem::path out;           ///< empty: out/<scene>/<variant>
-    int threads = 1;                     ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
+    std::string scene;                  ///< a scene file; for bench a name in scenes/bench, or a file; for import one of libWetCloth; …
+                                        ///< for render and export a folder; for sweep a study; for schema what it is of
+    std::vector<std::string> variants;  ///< run, check, bench: at most one; compare: only these
+    std::vector<std::string> sets;      ///< "dotted.key=value"
+    std::filesystem::path out;          ///< empty: out/<scene>/<variant>
+    int threads = 1;                    ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
     bool frames = true, video = true;
-    bool asPanel = false;                ///< pictures are to stand beside others: nothing is written over them
-    std::filesystem::path resume;        ///< run: go on with the run in this folder
-    std::filesystem::path again;         ///< run: repeat the run of this report.json
-    std::optional<std::int64_t> fromFrame;  ///< run: from this frame's checkpoint; nothing: the last one
-    bool force = false;                  ///< compare, paper: redo variants that are done
-    bool quick = false;                  ///< paper, validate, bench precision, stress: shortened
-    bool full = false;                   ///< validate: not shortened, as is the default
-    std::vector<std::string> cases;      ///< validate, bench precision: names of scenes; none: all
+    bool asPanel = false;                     ///< pictures are to stand beside others: nothing is written over them
+    std::filesystem::path resume;             ///< run: go on with the run in this folder
+    std::filesystem::path again;              ///< run: repeat the run of this report.json
+    std::optional<std::int64_t> fromFrame;    ///< run: from this frame's checkpoint; nothing: the last one
+    bool force = false;                       ///< compare, paper: redo variants that are done
+    bool quick = false;                       ///< paper, validate, bench precision, stress: shortened
+    bool full = false;                        ///< validate: not shortened, as is the default
+    std::vector<std::string> cases;           ///< validate, bench precision: names of scenes; none: all
     std::vector<std::filesystem::path> from;  ///< compare: folders of runs that are there, in place of a scene
-    bool orRun = false;                  ///< compare: run a scene without variants, or just the one asked for, as run does
+    bool orRun = false;                       ///< compare: run a scene without variants, or just the one asked for, as run does
 
-    std::vector<std::string> scenes;     ///< stress: files, or names in scenes/; none: the paper's
-    std::vector<std::string> methods;    ///< stress: like polypic_8; none: all
-    std::vector<double> stepFactors;     ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
-    bool largestOnly = false;            ///< stress: no shorter steps than the largest stable one
-    std::string knob;                    ///< stress: what else is turned …
+    std::vector<std::string> scenes;                                  ///< stress: files, or names in scenes/; none: the paper's
+    std::vector<std::string> methods;                                 ///< stress: like polypic_8; none: all
+    std::vector<double> stepFactors;                                  ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
+    bool largestOnly = false;                                         ///< stress: no shorter steps than the largest stable one
+    std::string knob;                                                 ///< stress: what else is turned …
     std::vector<double> knobFactors = {0.01, 0.1, 1.0, 10.0, 100.0};  ///< … and how far
-    double duration = 0.0;               ///< stress: simulated time of each run [s]; 0: enough for the first moments
-    int randomScenes = 0;                ///< stress: instead so many random scenes …
-    int firstScene = 0;                  ///< … from this number on …
-    std::uint64_t seed = 1;              ///< … of this seed
-    double limitSeconds = 3600.0;        ///< stress: a run is ended that takes longer
+    double duration = 0.0;                                            ///< stress: simulated time of each run [s]; 0: enough for the first moments
+    int randomScenes = 0;                                             ///< stress: instead so many random scenes …
+    int firstScene = 0;                                               ///< … from this number on …
+    std::uint64_t seed = 1;                                           ///< … of this seed
+    double limitSeconds = 3600.0;                                     ///< stress: a run is ended that takes longer
 
-    std::vector<std::string> formats;    ///< export: of geometry files; none: as the scene says
-    std::filesystem::path probes;        ///< probe: a file with the section; empty: as the scene says
-    int jobs = 1;                        ///< sweep: runs side by side
-    bool onSlurm = false;                ///< sweep: hand them to Slurm …
-    bool wait = true;                    ///< … and wait until it has done them
-    std::optional<std::size_t> task;     ///< sweep: do this run alone, as a job of Slurm's does
+    std::vector<std::string> formats;  ///< export: of geometry files; none: as the scene says
+    std::filesystem::path probes;      ///< probe: a file with the section; empty: as the scene says
+    int jobs = 1;                      ///< sweep: runs side by side
+    bool onSlurm = false;              ///< sweep: hand them to Slurm …
+    bool wait = true;                  ///< … and wait until it has done them
+    std::optional<std::size_t> task;   ///< sweep: do this run alone, as a job of Slurm's does
 
-    ViewOptions view;                    ///< view: how the window begins
+    ViewOptions view;  ///< view: how the window begins
 
-    ImportOptions import;                ///< import: what may be decided this way or that; its result goes to `out`
+    ImportOptions import;  ///< import: what may be decided this way or that; its result goes to `out`
 
-    DiffOptions diff;                    ///< diff: what is compared, and how
+    DiffOptions diff;  ///< diff: what is compared, and how
 
     std::vector<int> benchThreads = {1};
     int repeats = 3;
     int steps = 20, warmupSteps = 2;
     bool csv = false;
     std::filesystem::path results = "tests/bench/results";
-    std::string machine;                 ///< names the folder of bench's CSV; empty: after the processor
+    std::string machine;  ///< names the folder of bench's CSV; empty: after the processor
 
     /// The scene with the variant asked for, if any.
     SceneRequest request() const { return {scene, variants.empty() ? "" : variants.front(), sets}; }

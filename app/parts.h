@@ -22,16 +22,16 @@ class Steppable {
  public:
     virtual ~Steppable() = default;
     virtual const sim::State& state() const = 0;
-    virtual const sim::Fabric& fabric() const = 0;   ///< what state().fabric is the state of
-    virtual const sim::ActiveContacts* contacts() const = 0;   ///< between fabric and fabric, of the last step; null where there are none
-    virtual const sim::LiquidGrid& liquidGrid() const = 0;   ///< of the last step, in state().grid
-    virtual const sim::Forces& forces() const = 0;   ///< of the last step
+    virtual const sim::Fabric& fabric() const = 0;            ///< what state().fabric is the state of
+    virtual const sim::ActiveContacts* contacts() const = 0;  ///< between fabric and fabric, of the last step; null where there are none
+    virtual const sim::LiquidGrid& liquidGrid() const = 0;    ///< of the last step, in state().grid
+    virtual const sim::Forces& forces() const = 0;            ///< of the last step
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
-    virtual sim::Energies energies() const = 0;   ///< of the state as it is [erg]
-    virtual void bookEnergy() = 0;                ///< from now on reports tell where energy goes
+    virtual sim::Energies energies() const = 0;  ///< of the state as it is [erg]
+    virtual void bookEnergy() = 0;               ///< from now on reports tell where energy goes
     virtual std::uint64_t stateHash() const = 0;
-    virtual void setChanges(std::vector<sim::SettingsChange> changes) = 0;   ///< see sim::Simulation
+    virtual void setChanges(std::vector<sim::SettingsChange> changes) = 0;  ///< see sim::Simulation
 };
 
 /// Puts the triangles of every obstacle where they are at a time [s], reusing the storage.
@@ -39,19 +39,19 @@ using PlaceObstacles = std::function<void(double time, std::vector<FrameSnapshot
 
 /// Pixels of a picture made of others.
 struct RgbPicture {
-    int width = 0, height = 0;               ///< [pixels]
-    std::vector<std::uint8_t> rgb;           ///< rows from the top, 3 · width · height
+    int width = 0, height = 0;      ///< [pixels]
+    std::vector<std::uint8_t> rgb;  ///< rows from the top, 3 · width · height
 };
 
 struct Panel {
-    std::filesystem::path picture;           ///< a PNG
+    std::filesystem::path picture;  ///< a PNG
     std::string label;
 };
 
 /// What the program is put together from.
 struct Parts {
-    std::function<SceneSetup(const SceneRequest&)> loadScene;                       ///< throws InputError
-    std::function<std::unique_ptr<Steppable>(const SceneSetup&)> startSimulation;   ///< throws InputError
+    std::function<SceneSetup(const SceneRequest&)> loadScene;                      ///< throws InputError
+    std::function<std::unique_ptr<Steppable>(const SceneSetup&)> startSimulation;  ///< throws InputError
     /// The same from a state of that scene: what follows is what would have followed.
     std::function<std::unique_ptr<Steppable>(const SceneSetup&, const sim::State&)> resumeSimulation;
     std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
@@ -61,7 +61,7 @@ struct Parts {
     std::function<std::string()> drawnBy;
     /// Pictures of one time [s], one per variant, put together into one; always of the same size for the same panels.
     std::function<RgbPicture(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
-    std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;   ///< whole or not at all
+    std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;  ///< whole or not at all
     /// Show a scene in a window until that is closed. Empty in a program without windows; throws RunError where there is no display.
     std::function<void(const SceneRequest&, const Parts&, const ViewOptions&)> view;
 };

@@ -11,17 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-double radians(double degrees)
-{
-    return degrees * std::numbers::pi / 180.0;
-}
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// Tangents of half the vertical and half the horizontal field of view.
 struct HalfTangents {
-    HalfTangents(const Camera& camera, double aspect)
-        : vertical(std::tan(0.5 * radians(camera.fovDegrees))), horizontal(vertical * aspect)
-    {
-    }
+    HalfTangents(const Camera& camera, double aspect) : vertical(std::tan(0.5 * radians(camera.fovDegrees))), horizontal(vertical * aspect) {}
     double vertical, horizontal;
 };
 
@@ -35,12 +29,10 @@ Camera lookingAt(const Vector3d& target, double distance, const Camera& camera)
 
 }  // namespace
 
-Camera orbitCamera(const Vector3d& target, double distance, double azimuthDegrees, double elevationDegrees,
-                   double fovDegrees)
+Camera orbitCamera(const Vector3d& target, double distance, double azimuthDegrees, double elevationDegrees, double fovDegrees)
 {
     const double azimuth = radians(azimuthDegrees), elevation = radians(elevationDegrees);
-    const Vector3d towardsEye = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                                 std::cos(azimuth) * std::cos(elevation)};
+    const Vector3d towardsEye = {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
     return {target + distance * towardsEye, target, Vector3d::UnitY(), fovDegrees};
 }
 
@@ -65,8 +57,7 @@ Camera frameBox(const Eigen::AlignedBox3d& box, double aspect, const Camera& cam
     for (int i = 0; i < 8; ++i) {
         const auto corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
         const Vector3d c = toEye * (corner - box.center());
-        distance = std::max({distance, c.z() + std::abs(c.x()) / (free * tangents.horizontal),
-                             c.z() + std::abs(c.y()) / (free * tangents.vertical)});
+        distance = std::max({distance, c.z() + std::abs(c.x()) / (free * tangents.horizontal), c.z() + std::abs(c.y()) / (free * tangents.vertical)});
     }
     return lookingAt(box.center(), distance > 0.0 ? distance : 1.0, camera);
 }

@@ -7,16 +7,15 @@ namespace render {
 
 /// Where the picture is taken from. Right-handed world; lengths in cm, angles in degrees as scenes give them.
 struct Camera {
-    Eigen::Vector3d eye = {0.0, 0.0, 100.0};       ///< [cm]
+    Eigen::Vector3d eye = {0.0, 0.0, 100.0};           ///< [cm]
     Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< the point in the middle of the picture [cm]
-    Eigen::Vector3d up = Eigen::Vector3d::UnitY(); ///< need not be perpendicular to the view
-    double fovDegrees = 40.0;                      ///< vertical field of view, in (0, 180)
+    Eigen::Vector3d up = Eigen::Vector3d::UnitY();     ///< need not be perpendicular to the view
+    double fovDegrees = 40.0;                          ///< vertical field of view, in (0, 180)
 };
 
 /// A camera on a sphere about the target: azimuth 0 looks along −z, grows to the right (eye towards +x);
 /// elevation lifts the eye, in (−90, 90).
-Camera orbitCamera(const Eigen::Vector3d& target, double distance, double azimuthDegrees, double elevationDegrees,
-                   double fovDegrees = 40.0);
+Camera orbitCamera(const Eigen::Vector3d& target, double distance, double azimuthDegrees, double elevationDegrees, double fovDegrees = 40.0);
 
 /// The direction of `camera`, moved so that the ball about the box fills the smaller side of the picture:
 /// radius = half diagonal, distance = radius / sin(fov / 2). The picture does not jump when the camera turns.

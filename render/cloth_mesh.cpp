@@ -22,8 +22,7 @@ std::vector<Vector3i> soundTriangles(const FrameView::Cloth& cloth)
     for (const Vector3i& t : cloth.triangles) {
         if (t.minCoeff() < 0 || t.maxCoeff() >= static_cast<int>(cloth.positions.size()))
             throw std::invalid_argument("picture: a triangle of the cloth names a position that is not there");
-        if (cloth.positions[t[0]].allFinite() && cloth.positions[t[1]].allFinite() && cloth.positions[t[2]].allFinite())
-            triangles.push_back(t);
+        if (cloth.positions[t[0]].allFinite() && cloth.positions[t[1]].allFinite() && cloth.positions[t[2]].allFinite()) triangles.push_back(t);
     }
     return triangles;
 }
@@ -71,8 +70,7 @@ std::vector<std::array<int, 2>> borderEdges(const std::vector<Vector3i>& triangl
     return border;
 }
 
-void addRim(const FrameView::Cloth& cloth, const std::vector<Vector3f>& normals, const std::array<int, 2>& edge,
-            ClothMesh& mesh)
+void addRim(const FrameView::Cloth& cloth, const std::vector<Vector3f>& normals, const std::array<int, 2>& edge, ClothMesh& mesh)
 {
     const Vector3f along = cloth.positions[edge[1]] - cloth.positions[edge[0]];
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -11,7 +11,7 @@ namespace render {
 enum class ColorMap { Jet, Turbo, Viridis };
 
 inline constexpr int kColorMapSize = 256;
-using ColorTable = std::array<Eigen::Vector3f, kColorMapSize>;   ///< red, green, blue in 0 … 1
+using ColorTable = std::array<Eigen::Vector3f, kColorMapSize>;  ///< red, green, blue in 0 … 1
 
 /// The map as 256 colours from the lowest value to the highest.
 /// Jet: identical to MATLAB's jet(256). Turbo: cubics through colours of A. Mikhailov's map (Google, 2019).

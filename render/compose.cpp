@@ -12,17 +12,16 @@ namespace {
 struct Plan {
     int columns = 1, rows = 1;
     int panelWidth = 0, panelHeight = 0;
-    float letter = 0.0f;                           ///< size of text
-    int gap = 0;                                   ///< between panels and around all
-    int header = 0, labels = 0, footer = 0;        ///< heights of the strips of text
+    float letter = 0.0f;                     ///< size of text
+    int gap = 0;                             ///< between panels and around all
+    int header = 0, labels = 0, footer = 0;  ///< heights of the strips of text
 
     int width() const { return evened(columns * panelWidth + (columns + 1) * gap); }
     int height() const { return evened(header + rows * (labels + panelHeight) + (rows + 1) * gap + footer); }
     PixelBox panel(int i) const
     {
         const int column = i % columns, row = i / columns;
-        return {gap + column * (panelWidth + gap), header + gap + row * (labels + panelHeight + gap) + labels,
-                panelWidth, panelHeight};
+        return {gap + column * (panelWidth + gap), header + gap + row * (labels + panelHeight + gap) + labels, panelWidth, panelHeight};
     }
 
  private:
@@ -48,8 +47,7 @@ Plan planFor(std::span<const Image> panels, bool hasLabels, const ComposeLook& l
     plan.rows = (count + plan.columns - 1) / plan.columns;
     const auto inLetters = [&](float n) { return static_cast<int>(std::lround(n * plan.letter)); };
     // Read at the size of the whole: a row of many panels needs larger letters than one of them would.
-    plan.letter = std::max(1.15f * textSize(plan.panelWidth, plan.panelHeight),
-                           static_cast<float>(plan.columns * plan.panelWidth) / 75.0f);
+    plan.letter = std::max(1.15f * textSize(plan.panelWidth, plan.panelHeight), static_cast<float>(plan.columns * plan.panelWidth) / 75.0f);
     plan.gap = std::max(2, inLetters(0.25f));
     plan.labels = hasLabels ? inLetters(1.7f) : 0;
     plan.header = look.title.empty() && !look.time ? 0 : inLetters(1.6f);
@@ -61,8 +59,7 @@ void requireComposable(std::span<const Image> panels, std::span<const std::strin
 {
     if (panels.empty()) throw std::invalid_argument("compose: no pictures");
     if (!labels.empty() && labels.size() != panels.size())
-        throw std::invalid_argument("compose: " + std::to_string(labels.size()) + " labels for " +
-                                    std::to_string(panels.size()) + " pictures");
+        throw std::invalid_argument("compose: " + std::to_string(labels.size()) + " labels for " + std::to_string(panels.size()) + " pictures");
     for (const Image& panel : panels)
         if (panel.width != panels.front().width || panel.height != panels.front().height || panel.width <= 0)
             throw std::invalid_argument("compose: pictures differ in size");
@@ -79,8 +76,7 @@ void drawHeader(Image& image, const Font& font, const Plan& plan, const ComposeL
     font.draw(image, time, right - font.width(time, plan.letter), baseline, plan.letter, ink);
 }
 
-void drawPanelLabel(Image& image, const Font& font, const Plan& plan, const PixelBox& panel, const std::string& label,
-                    Rgb ink)
+void drawPanelLabel(Image& image, const Font& font, const Plan& plan, const PixelBox& panel, const std::string& label, Rgb ink)
 {
     const float x = static_cast<float>(panel.x) + 0.5f * (static_cast<float>(panel.width) - font.width(label, plan.letter));
     const float middle = static_cast<float>(panel.y) - 0.5f * static_cast<float>(plan.labels);
@@ -89,8 +85,7 @@ void drawPanelLabel(Image& image, const Font& font, const Plan& plan, const Pixe
 
 }  // namespace
 
-Composition compose(std::span<const Image> panels, std::span<const std::string> labels, const Font& font,
-                    const ComposeLook& look)
+Composition compose(std::span<const Image> panels, std::span<const std::string> labels, const Font& font, const ComposeLook& look)
 {
     requireComposable(panels, labels);
     const Plan plan = planFor(panels, !labels.empty(), look);

@@ -16,9 +16,9 @@ enum class PanelLayout { Columns, Rows, Grid };
 /// What stands around the panels of a comparison. Empty texts take no room.
 struct ComposeLook {
     PanelLayout layout = PanelLayout::Columns;
-    std::string title;                             ///< above everything
-    std::optional<double> time;                    ///< [s], stamped at the top right
-    std::optional<ColorBar> colorBar;              ///< one for all, below everything
+    std::string title;                 ///< above everything
+    std::optional<double> time;        ///< [s], stamped at the top right
+    std::optional<ColorBar> colorBar;  ///< one for all, below everything
     Rgb background = {255, 255, 255};
 };
 
@@ -31,7 +31,6 @@ struct Composition {
 /// Panels side by side, each under its label, unchanged to the pixel. Width and height come out even (H.264 needs it).
 /// @param labels  one per panel, or none
 /// Throws std::invalid_argument if there are no panels, they differ in size, or the labels do not match.
-Composition compose(std::span<const Image> panels, std::span<const std::string> labels, const Font& font,
-                    const ComposeLook& look = {});
+Composition compose(std::span<const Image> panels, std::span<const std::string> labels, const Font& font, const ComposeLook& look = {});
 
 }  // namespace render

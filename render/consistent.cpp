@@ -16,33 +16,21 @@ void requireConsistent(const FrameView::Yarns& yarns, const YarnLook& look)
 {
     if (yarns.begin.empty()) return;
     const std::size_t count = yarns.positions.size(), strands = yarns.begin.size() - 1;
-    require(yarns.begin.front() == 0 && yarns.begin.back() == static_cast<int>(count) &&
-                std::ranges::is_sorted(yarns.begin),
+    require(yarns.begin.front() == 0 && yarns.begin.back() == static_cast<int>(count) && std::ranges::is_sorted(yarns.begin),
             "picture: the strands must begin one behind the other and end with the last position");
-    require(yarns.directions.size() == count && yarns.along.size() == count,
-            "picture: the yarns need one direction and length per position");
-    require(yarns.halfAxes.size() == strands && yarns.materials.size() == strands,
-            "picture: the yarns need one section and material per strand");
-    require(yarns.values.size() == (look.byValue           ? count
-                                    : yarns.values.empty() ? 0
-                                                           : count),
-            "picture: the yarns need one value per position");
-    require(look.range[0] < look.range[1],
-            "picture: the colour range of yarns must grow from its first to its second number");
+    require(yarns.directions.size() == count && yarns.along.size() == count, "picture: the yarns need one direction and length per position");
+    require(yarns.halfAxes.size() == strands && yarns.materials.size() == strands, "picture: the yarns need one section and material per strand");
+    require(yarns.values.size() == (look.byValue ? count : yarns.values.empty() ? 0 : count), "picture: the yarns need one value per position");
+    require(look.range[0] < look.range[1], "picture: the colour range of yarns must grow from its first to its second number");
 }
 
 void requireConsistent(const FrameView::Cloth& cloth, const FabricLook& look)
 {
     if (cloth.triangles.empty()) return;
     const std::size_t count = cloth.positions.size();
-    require(cloth.thickness.size() == count && cloth.materials.size() == count,
-            "picture: the cloth needs one thickness and material per position");
-    require(cloth.values.size() == (look.byValue           ? count
-                                    : cloth.values.empty() ? 0
-                                                           : count),
-            "picture: the cloth needs one value per position");
-    require(look.range[0] < look.range[1],
-            "picture: the colour range of cloth must grow from its first to its second number");
+    require(cloth.thickness.size() == count && cloth.materials.size() == count, "picture: the cloth needs one thickness and material per position");
+    require(cloth.values.size() == (look.byValue ? count : cloth.values.empty() ? 0 : count), "picture: the cloth needs one value per position");
+    require(look.range[0] < look.range[1], "picture: the colour range of cloth must grow from its first to its second number");
 }
 
 void requireConsistent(const FrameView::LiquidSurface& surface, const LiquidLook& look)
@@ -63,8 +51,7 @@ void requireConsistent(const FrameView& view, const Look& look)
     requireConsistent(view.yarns, look.yarns);
     requireConsistent(view.cloth, look.cloth);
     requireConsistent(view.surface, look.liquid);
-    for (const FrameView::Lines& lines : view.lines)
-        require(lines.points.size() % 2 == 0, "picture: lines need two points per segment");
+    for (const FrameView::Lines& lines : view.lines) require(lines.points.size() % 2 == 0, "picture: lines need two points per segment");
     if (look.width <= 0 || look.height <= 0) throw std::invalid_argument("picture: width and height must be positive");
     if (!look.liquid.flat && view.liquid.values.size() != view.liquid.positions.size())
         throw std::invalid_argument("picture: the liquid needs one value per position");

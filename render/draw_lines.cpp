@@ -13,8 +13,7 @@ static_assert(sizeof(Segment) == 2 * sizeof(Eigen::Vector3f), "two points of Fra
 
 }  // namespace
 
-DrawLines::DrawLines(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), program_(gl, shaderDir, "lines"), vertices_(gl), segments_(gl)
+DrawLines::DrawLines(const Gl& gl, const std::filesystem::path& shaderDir) : gl_(gl), program_(gl, shaderDir, "lines"), vertices_(gl), segments_(gl)
 {
     gl.BindVertexArray(vertices_.id());
     gl.BindBuffer(GL_ARRAY_BUFFER, segments_.id());
@@ -44,17 +43,14 @@ void DrawLines::draw(std::span<const FrameView::Lines> groups, const ViewTransfo
     requireNoGlError(gl_, "drawing lines");
 }
 
-void DrawLines::drawGroup(const FrameView::Lines& lines, const Eigen::Vector3f& color, float rim,
-                          const ViewTransforms& transforms)
+void DrawLines::drawGroup(const FrameView::Lines& lines, const Eigen::Vector3f& color, float rim, const ViewTransforms& transforms)
 {
     gl_.BindBuffer(GL_ARRAY_BUFFER, segments_.id());
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.points.size_bytes()), lines.points.data(),
-                   GL_STREAM_DRAW);
+    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.points.size_bytes()), lines.points.data(), GL_STREAM_DRAW);
     program_.use();
     gl_.UniformMatrix4fv(program_["view"], 1, GL_FALSE, transforms.view.data());
     gl_.UniformMatrix4fv(program_["projection"], 1, GL_FALSE, transforms.projection.data());
-    gl_.Uniform2f(program_["halfPicture"], 0.5f * static_cast<float>(transforms.width),
-                  0.5f * static_cast<float>(transforms.height));
+    gl_.Uniform2f(program_["halfPicture"], 0.5f * static_cast<float>(transforms.width), 0.5f * static_cast<float>(transforms.height));
     const float perUnit = static_cast<float>(transforms.height) / 720.0f;
     gl_.Uniform1f(program_["linePixels"], std::max(1.0f, lines.width * perUnit));
     gl_.Uniform1f(program_["rimPixels"], rim * perUnit);

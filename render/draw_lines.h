@@ -16,8 +16,7 @@ class DrawLines {
     void draw(std::span<const FrameView::Lines> groups, const ViewTransforms& transforms);
 
  private:
-    void drawGroup(const FrameView::Lines& lines, const Eigen::Vector3f& color, float rim,
-                   const ViewTransforms& transforms);
+    void drawGroup(const FrameView::Lines& lines, const Eigen::Vector3f& color, float rim, const ViewTransforms& transforms);
 
     const Gl& gl_;
     Program program_;

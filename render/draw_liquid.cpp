@@ -38,8 +38,7 @@ DrawLiquid::DrawLiquid(const Gl& gl, const std::filesystem::path& shaderDir, boo
     gl.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
-void DrawLiquid::draw(const FrameView::Liquid& all, const ViewTransforms& transforms, const LiquidLook& look,
-                      int samples)
+void DrawLiquid::draw(const FrameView::Liquid& all, const ViewTransforms& transforms, const LiquidLook& look, int samples)
 {
     const FrameView::Liquid liquid = isSoftware_ ? visible_.of(all, transforms, look, samples) : all;
     if (liquid.positions.empty()) return;
@@ -79,8 +78,8 @@ void DrawLiquid::calibrate(int samples)
     black.flat = true;
     black.flatColor.setZero();
     black.pointPixels = 12.0f * 720.0f / kSize;
-    const ViewTransforms transforms = {Eigen::Matrix4f::Identity(), projection({}, 1.0, 0.5, 2.0).cast<float>(),
-                                       {0.0f, 0.0f, 0.0f}, 0.5f, 2.0f, kSize, kSize};
+    const ViewTransforms transforms = {
+        Eigen::Matrix4f::Identity(), projection({}, 1.0, 0.5, 2.0).cast<float>(), {0.0f, 0.0f, 0.0f}, 0.5f, 2.0f, kSize, kSize};
     const DrawTargets targets(gl_, kSize, kSize, samples);
     targets.beginScene({1.0f, 1.0f, 1.0f});
     draw({{&position, 1}, {&noValue, 1}, 0.1f}, transforms, black, samples);
@@ -102,8 +101,8 @@ void DrawLiquid::upload(const FrameView::Liquid& liquid, bool withValues) const
     else gl_.DisableVertexAttribArray(1);
 }
 
-void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,
-                             bool smoothEdges, const Eigen::Vector2f& pointShift) const
+void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look, bool smoothEdges,
+                             const Eigen::Vector2f& pointShift) const
 {
     const bool dots = look.style == LiquidStyle::Points;
     gl_.UniformMatrix4fv(program_["view"], 1, GL_FALSE, transforms.view.data());
@@ -111,11 +110,9 @@ void DrawLiquid::setUniforms(const FrameView::Liquid& liquid, const ViewTransfor
     gl_.Uniform1f(program_["radius"], liquid.radius * look.radiusFactor);
     gl_.Uniform1f(program_["pixelsPerTangent"], transforms.pixelsPerTangent());
     gl_.Uniform1f(program_["smallestDisc"], kSmallestDisc);
-    gl_.Uniform1f(program_["dotPixels"],
-                  dots ? look.pointPixels * static_cast<float>(transforms.height) / 720.0f : 0.0f);
+    gl_.Uniform1f(program_["dotPixels"], dots ? look.pointPixels * static_cast<float>(transforms.height) / 720.0f : 0.0f);
     gl_.Uniform2f(program_["range"], look.range[0], look.range[1]);
-    gl_.Uniform4f(program_["flatColor"], look.flatColor.x(), look.flatColor.y(), look.flatColor.z(),
-                  look.flat ? 1.0f : 0.0f);
+    gl_.Uniform4f(program_["flatColor"], look.flatColor.x(), look.flatColor.y(), look.flatColor.z(), look.flat ? 1.0f : 0.0f);
     gl_.Uniform1i(program_["colorMap"], 0);
     gl_.Uniform1i(program_["smoothEdges"], smoothEdges ? 1 : 0);
     gl_.Uniform2f(program_["clipShift"], 2.0f * pointShift.x() / static_cast<float>(transforms.width),

@@ -25,8 +25,8 @@ class DrawLiquid {
 
  private:
     void upload(const FrameView::Liquid& liquid, bool withValues) const;
-    void setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look,
-                     bool smoothEdges, const Eigen::Vector2f& pointShift) const;
+    void setUniforms(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look, bool smoothEdges,
+                     const Eigen::Vector2f& pointShift) const;
 
     const Gl& gl_;
     const bool isSoftware_;
@@ -35,7 +35,7 @@ class DrawLiquid {
     Buffer positions_, values_;
     ColorMapTexture colorMap_;
     VisibleParticles visible_;
-    std::map<int, Eigen::Vector2f> pointShift_;    ///< by number of samples [pixels]
+    std::map<int, Eigen::Vector2f> pointShift_;  ///< by number of samples [pixels]
 };
 
 }  // namespace render

@@ -26,8 +26,7 @@ std::vector<FaceVertex> faceVertices(const FrameView::Mesh& mesh, const MeshEdge
     std::vector<FaceVertex> vertices;
     vertices.reserve(3 * mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-            vertices.push_back({mesh.positions[mesh.triangles[t][k]], outline.cornerNormals[t][k], outline.bend[t]});
+        for (int k = 0; k < 3; ++k) vertices.push_back({mesh.positions[mesh.triangles[t][k]], outline.cornerNormals[t][k], outline.bend[t]});
     return vertices;
 }
 
@@ -35,15 +34,11 @@ std::vector<EdgeInstance> edgeInstances(const MeshEdges& outline)
 {
     std::vector<EdgeInstance> instances;
     instances.reserve(outline.edges.size());
-    for (const MeshEdges::Edge& e : outline.edges)
-        instances.push_back({e.a, e.b, e.normal0, e.normal1, e.isSharp ? 1.0f : 0.0f});
+    for (const MeshEdges::Edge& e : outline.edges) instances.push_back({e.a, e.b, e.normal0, e.normal1, e.isSharp ? 1.0f : 0.0f});
     return instances;
 }
 
-bool isSolid(const FrameView::Mesh& mesh, const ObstacleLook& look)
-{
-    return look.style == ObstacleStyle::Solid && !mesh.inside;
-}
+bool isSolid(const FrameView::Mesh& mesh, const ObstacleLook& look) { return look.style == ObstacleStyle::Solid && !mesh.inside; }
 
 void setCommonUniforms(const Gl& gl, const Program& program, const ViewTransforms& transforms, const Vector3f& color)
 {
@@ -81,8 +76,7 @@ DrawObstacles::DrawObstacles(const Gl& gl, const std::filesystem::path& shaderDi
     for (GLuint index = 0; index < 5; ++index) gl.VertexAttribDivisor(index, 1);
 }
 
-void DrawObstacles::drawSolid(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms,
-                              const ObstacleLook& look)
+void DrawObstacles::drawSolid(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms, const ObstacleLook& look)
 {
     for (const FrameView::Mesh& mesh : meshes) {
         if (!isSolid(mesh, look) || mesh.triangles.empty()) continue;
@@ -97,8 +91,7 @@ void DrawObstacles::drawSolid(std::span<const FrameView::Mesh> meshes, const Vie
     requireNoGlError(gl_, "drawing solid obstacles");
 }
 
-void DrawObstacles::draw(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms,
-                         const ObstacleLook& look)
+void DrawObstacles::draw(std::span<const FrameView::Mesh> meshes, const ViewTransforms& transforms, const ObstacleLook& look)
 {
     if (look.style == ObstacleStyle::Hidden) return;
     gl_.Enable(GL_DEPTH_TEST);
@@ -127,8 +120,7 @@ void DrawObstacles::draw(std::span<const FrameView::Mesh> meshes, const ViewTran
     requireNoGlError(gl_, "drawing the obstacles");
 }
 
-void DrawObstacles::drawFaces(GLenum culled, GLsizei vertices, const ViewTransforms& transforms,
-                              const ObstacleLook& look) const
+void DrawObstacles::drawFaces(GLenum culled, GLsizei vertices, const ViewTransforms& transforms, const ObstacleLook& look) const
 {
     setCommonUniforms(gl_, faceProgram_, transforms, look.color);
     gl_.Uniform1f(faceProgram_["opacity"], look.opacity);
@@ -143,8 +135,7 @@ void DrawObstacles::drawEdges(GLsizei edges, const ViewTransforms& transforms, c
 {
     setCommonUniforms(gl_, edgeProgram_, transforms, look.color);
     gl_.Uniform3f(edgeProgram_["eyePosition"], transforms.eye.x(), transforms.eye.y(), transforms.eye.z());
-    gl_.Uniform2f(edgeProgram_["halfPicture"], 0.5f * static_cast<float>(transforms.width),
-                  0.5f * static_cast<float>(transforms.height));
+    gl_.Uniform2f(edgeProgram_["halfPicture"], 0.5f * static_cast<float>(transforms.width), 0.5f * static_cast<float>(transforms.height));
     gl_.Uniform1f(edgeProgram_["linePixels"], std::max(1.0f, 1.5f * static_cast<float>(transforms.height) / 720.0f));
     gl_.BindVertexArray(edgeVertices_.id());
     gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, edges);

@@ -2,13 +2,9 @@
 
 namespace render {
 
-DrawOcclusion::DrawOcclusion(const Gl& gl, const std::filesystem::path& shaderDir)
-    : gl_(gl), program_(gl, shaderDir, "occlusion"), noVertices_(gl)
-{
-}
+DrawOcclusion::DrawOcclusion(const Gl& gl, const std::filesystem::path& shaderDir) : gl_(gl), program_(gl, shaderDir, "occlusion"), noVertices_(gl) {}
 
-void DrawOcclusion::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms,
-                         const std::array<float, 2>& reach)
+void DrawOcclusion::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, const std::array<float, 2>& reach)
 {
     program_.use();
     gl_.Uniform1i(program_["colors"], 0);

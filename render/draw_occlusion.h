@@ -13,8 +13,7 @@ class DrawOcclusion {
     DrawOcclusion(const Gl& gl, const std::filesystem::path& shaderDir);
     /// Writes openness (1 = open) and distance from the eye [cm] into the bound framebuffer.
     /// @param reach  smallest and largest distance from which anything darkens [cm]
-    void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms,
-              const std::array<float, 2>& reach);
+    void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, const std::array<float, 2>& reach);
 
  private:
     const Gl& gl_;

@@ -50,8 +50,7 @@ void DrawOverlay::write(const Notes& notes, const Font& font, int width, int hei
     drawNotes(onWhite, font, notes);
     const std::vector<std::uint8_t> rgba = withoutGround(onBlack, onWhite);
     gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
     written_ = notes;
     width_ = width;
     height_ = height;

@@ -11,8 +11,7 @@ DrawShading::DrawShading(const Gl& gl, const std::filesystem::path& shaderDir)
 {
 }
 
-void DrawShading::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength,
-                       float step, const Solids& solids)
+void DrawShading::draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength, float step, const Solids& solids)
 {
     const Program& program = solids.all ? solidsProgram_ : solids.any ? mixedProgram_ : liquidProgram_;
     program.use();

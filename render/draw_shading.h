@@ -20,8 +20,7 @@ class DrawShading {
     DrawShading(const Gl& gl, const std::filesystem::path& shaderDir);
     /// @param strength  0 = copy the colours as they are … 1 = dark
     /// @param step      drop in depth [cm] that counts as a full edge
-    void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength, float step,
-              const Solids& solids);
+    void draw(GLuint colorTexture, GLuint depthTexture, const ViewTransforms& transforms, float strength, float step, const Solids& solids);
 
  private:
     const Gl& gl_;

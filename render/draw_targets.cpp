@@ -11,17 +11,14 @@ void makeTexture(const Gl& gl, GLuint id, int width, int height, GLint format, G
 {
     gl.BindTexture(GL_TEXTURE_2D, id);
     gl.TexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-        gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
 void requireComplete(const Gl& gl, int width, int height)
 {
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("OpenGL: cannot draw pictures of " + std::to_string(width) + " x " +
-                                 std::to_string(height) + " pixels");
+        throw std::runtime_error("OpenGL: cannot draw pictures of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
 }
 
 }  // namespace
@@ -85,10 +82,7 @@ DrawTargets::DrawTargets(const Gl& gl, int width, int height, int samples)
     requireNoGlError(gl, "making framebuffers");
 }
 
-bool DrawTargets::fits(int width, int height, int samples) const
-{
-    return width == width_ && height == height_ && samples == samples_;
-}
+bool DrawTargets::fits(int width, int height, int samples) const { return width == width_ && height == height_ && samples == samples_; }
 
 void DrawTargets::beginScene(const Eigen::Vector3f& background) const
 {
@@ -119,10 +113,7 @@ void DrawTargets::beginOcclusion()
     hasOpenness_ = true;
 }
 
-void DrawTargets::endOcclusion() const
-{
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id());
-}
+void DrawTargets::endOcclusion() const { gl_.BindFramebuffer(GL_FRAMEBUFFER, picture_.id()); }
 
 void DrawTargets::show(int x, int y) const
 {

@@ -43,7 +43,8 @@ void DrawYarns::draw(const FrameView::Yarns& yarns, const ViewTransforms& transf
     const TubeDetail detail = {transforms.eye, transforms.pixelsPerTangent(), look.tubeSides};
     for (int s = 0; s < strands; ++s) {
         Batch& batch = isThin(yarns, s, detail) ? thin_ : thick_;
-        addTube(yarns, s, detail, [&](float wetness) { return paintOf(look, yarns.materials[s], wetness); }, batch.mesh);
+        addTube(
+            yarns, s, detail, [&](float wetness) { return paintOf(look, yarns.materials[s], wetness); }, batch.mesh);
         if (batch.mesh.vertices.size() > kVerticesPerBatch) drawMesh(batch);
     }
     drawMesh(thick_);

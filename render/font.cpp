@@ -63,8 +63,7 @@ float walk(const stbtt_fontinfo& info, std::string_view text, float scale, Visit
         stbtt_GetCodepointHMetrics(&info, points[i], &advance, &bearing);
         visit(points[i], pen);
         pen += scale * static_cast<float>(advance);
-        if (i + 1 < points.size())
-            pen += scale * static_cast<float>(stbtt_GetCodepointKernAdvance(&info, points[i], points[i + 1]));
+        if (i + 1 < points.size()) pen += scale * static_cast<float>(stbtt_GetCodepointKernAdvance(&info, points[i], points[i + 1]));
     }
     return pen;
 }
@@ -116,8 +115,7 @@ PixelBox Font::draw(Image& image, std::string_view text, float x, float y, float
         const PixelBox box = {static_cast<int>(start) + x0, baseline + y0, x1 - x0, y1 - y0};
         if (box.width <= 0 || box.height <= 0) return;
         coverage.assign(static_cast<std::size_t>(box.width) * box.height, 0);
-        stbtt_MakeCodepointBitmapSubpixel(&face_->info, coverage.data(), box.width, box.height, box.width, scale,
-                                          scale, shift, 0.0f, point);
+        stbtt_MakeCodepointBitmapSubpixel(&face_->info, coverage.data(), box.width, box.height, box.width, scale, scale, shift, 0.0f, point);
         blendGlyph(image, coverage, box, color);
         left = std::min(left, box.x), right = std::max(right, box.x + box.width);
         top = std::min(top, box.y), bottom = std::max(bottom, box.y + box.height);

@@ -20,8 +20,8 @@ const char* glErrorName(GLenum error)
 Gl loadGl(const std::function<void*(const char*)>& getProcAddress)
 {
     Gl gl;
-#define RENDER_GL_LOAD(type, name)                                  \
-    gl.name = reinterpret_cast<type>(getProcAddress("gl" #name));   \
+#define RENDER_GL_LOAD(type, name)                                \
+    gl.name = reinterpret_cast<type>(getProcAddress("gl" #name)); \
     if (gl.name == nullptr) throw std::runtime_error("OpenGL: this context has no function gl" #name);
     RENDER_GL_FUNCTIONS(RENDER_GL_LOAD)
 #undef RENDER_GL_LOAD
@@ -31,8 +31,7 @@ Gl loadGl(const std::function<void*(const char*)>& getProcAddress)
 void requireNoGlError(const Gl& gl, const char* doing)
 {
     const GLenum error = gl.GetError();
-    if (error != GL_NO_ERROR)
-        throw std::runtime_error(std::string("OpenGL: ") + glErrorName(error) + " while " + doing);
+    if (error != GL_NO_ERROR) throw std::runtime_error(std::string("OpenGL: ") + glErrorName(error) + " while " + doing);
 }
 
 }  // namespace render

@@ -26,12 +26,8 @@ class GlfwContext final : public GlContext {
     {
         const bool isKhr = glfwExtensionSupported("GL_KHR_debug") == GLFW_TRUE;
         const bool isArb = glfwExtensionSupported("GL_ARB_debug_output") == GLFW_TRUE;
-        const char* const name = isKhr   ? "glDebugMessageCallback"
-                                 : isArb ? "glDebugMessageCallbackARB"
-                                         : nullptr;
-        const auto listen = name == nullptr
-                                ? nullptr
-                                : reinterpret_cast<PFNGLDEBUGMESSAGECALLBACKPROC>(glfwGetProcAddress(name));
+        const char* const name = isKhr ? "glDebugMessageCallback" : isArb ? "glDebugMessageCallbackARB" : nullptr;
+        const auto listen = name == nullptr ? nullptr : reinterpret_cast<PFNGLDEBUGMESSAGECALLBACKPROC>(glfwGetProcAddress(name));
         if (listen == nullptr) return;
         if (isKhr) gl_.Enable(GL_DEBUG_OUTPUT);
         gl_.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -49,9 +45,6 @@ class GlfwContext final : public GlContext {
 
 }  // namespace
 
-std::unique_ptr<GlContext> contextOf(GLFWwindow* window)
-{
-    return std::make_unique<GlfwContext>(window);
-}
+std::unique_ptr<GlContext> contextOf(GLFWwindow* window) { return std::make_unique<GlfwContext>(window); }
 
 }  // namespace render

@@ -45,8 +45,7 @@ class OsMesa {
     {
         if (library_ == nullptr) library_ = dlopen(RENDER_OSMESA_LIBRARY, RTLD_NOW | RTLD_LOCAL);
         void* const symbol = library_ != nullptr ? dlsym(library_, name) : nullptr;
-        if (symbol == nullptr)
-            throw std::runtime_error(std::string("OSMesa cannot be loaded (is libosmesa6 installed?): ") + dlerror());
+        if (symbol == nullptr) throw std::runtime_error(std::string("OSMesa cannot be loaded (is libosmesa6 installed?): ") + dlerror());
         function = reinterpret_cast<F>(symbol);
     }
 
@@ -115,9 +114,6 @@ class OsMesaContext final : public GlContext {
 
 }  // namespace
 
-std::unique_ptr<GlContext> makeOsMesaContext()
-{
-    return std::make_unique<OsMesaContext>();
-}
+std::unique_ptr<GlContext> makeOsMesaContext() { return std::make_unique<OsMesaContext>(); }
 
 }  // namespace render

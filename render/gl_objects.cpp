@@ -32,9 +32,7 @@ std::string readShader(const fs::path& path, const std::string& defined)
     std::string text;
     for (std::string line; std::getline(lines, line);) {
         const bool isInclude = line.starts_with(kInclude) && line.back() == '"';
-        text += isInclude
-                    ? readText(path.parent_path() / line.substr(kInclude.size(), line.size() - kInclude.size() - 1))
-                    : line;
+        text += isInclude ? readText(path.parent_path() / line.substr(kInclude.size(), line.size() - kInclude.size() - 1)) : line;
         text += '\n';
         if (line.starts_with("#version") && !defined.empty()) text += "#define " + defined + "\n";
     }
@@ -52,8 +50,7 @@ std::string oneLine(std::string log)
 /// A shader object for as long as the program is linked.
 class Shader {
  public:
-    Shader(const Gl& gl, GLenum stage, const fs::path& path, const std::string& defined)
-        : gl_(gl), id_(gl.CreateShader(stage))
+    Shader(const Gl& gl, GLenum stage, const fs::path& path, const std::string& defined) : gl_(gl), id_(gl.CreateShader(stage))
     {
         const std::string text = readShader(path, defined);
         const char* source = text.c_str();
@@ -81,15 +78,13 @@ class Shader {
 
 void describeAttribute(const Gl& gl, GLuint index, int count, std::size_t stride, std::size_t offset)
 {
-    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                           reinterpret_cast<const void*>(offset));
+    gl.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), reinterpret_cast<const void*>(offset));
     gl.EnableVertexAttribArray(index);
 }
 
 void describeColorAttribute(const Gl& gl, GLuint index, std::size_t stride, std::size_t offset)
 {
-    gl.VertexAttribPointer(index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride),
-                           reinterpret_cast<const void*>(offset));
+    gl.VertexAttribPointer(index, 4, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride), reinterpret_cast<const void*>(offset));
     gl.EnableVertexAttribArray(index);
 }
 
@@ -103,8 +98,7 @@ void drawOpaque(const Gl& gl)
     gl.CullFace(GL_BACK);
 }
 
-Program::Program(const Gl& gl, const fs::path& shaderDir, const std::string& name, const std::string& defined)
-    : gl_(&gl)
+Program::Program(const Gl& gl, const fs::path& shaderDir, const std::string& name, const std::string& defined) : gl_(&gl)
 {
     const Shader vertex(gl, GL_VERTEX_SHADER, shaderDir / (name + ".vert"), defined);
     const Shader fragment(gl, GL_FRAGMENT_SHADER, shaderDir / (name + ".frag"), defined);
@@ -140,8 +134,7 @@ fs::path findShaderDir(const fs::path& wanted)
         if (fs::exists(place / "liquid.vert", unreadable)) return place;
         looked += (looked.empty() ? "" : ", ") + place.string();
     }
-    throw std::runtime_error("no shaders in " + looked +
-                             " (set DRENCH_SHADER_DIR to the folder that holds liquid.vert)");
+    throw std::runtime_error("no shaders in " + looked + " (set DRENCH_SHADER_DIR to the folder that holds liquid.vert)");
 }
 
 }  // namespace render

@@ -51,8 +51,7 @@ class Program {
  public:
     /// @param defined  a word that the shaders may ask for by #ifdef; empty: none
     /// Throws std::runtime_error with one line naming the file if it is missing or does not compile.
-    Program(const Gl& gl, const std::filesystem::path& shaderDir, const std::string& name,
-            const std::string& defined = {});
+    Program(const Gl& gl, const std::filesystem::path& shaderDir, const std::string& name, const std::string& defined = {});
     ~Program() { gl_->DeleteProgram(id_); }
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;

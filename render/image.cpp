@@ -9,8 +9,7 @@ namespace render {
 
 Image::Image(int w, int h, Rgb color) : width(w), height(h)
 {
-    if (w <= 0 || h <= 0)
-        throw std::invalid_argument("an image of " + std::to_string(w) + " x " + std::to_string(h) + " pixels");
+    if (w <= 0 || h <= 0) throw std::invalid_argument("an image of " + std::to_string(w) + " x " + std::to_string(h) + " pixels");
     pixels.resize(3 * static_cast<std::size_t>(w) * h);
     fill(*this, {0, 0, w, h}, color);
 }
@@ -31,8 +30,7 @@ void paste(const Image& source, int x, int y, Image& target)
     const int x0 = std::max(x, 0), x1 = std::min(x + source.width, target.width);
     const int y0 = std::max(y, 0), y1 = std::min(y + source.height, target.height);
     if (x0 >= x1) return;
-    for (int row = y0; row < y1; ++row)
-        std::memcpy(target.at(x0, row), source.at(x0 - x, row - y), 3 * static_cast<std::size_t>(x1 - x0));
+    for (int row = y0; row < y1; ++row) std::memcpy(target.at(x0, row), source.at(x0 - x, row - y), 3 * static_cast<std::size_t>(x1 - x0));
 }
 
 void blend(Image& image, int x, int y, Rgb color, float opacity)

@@ -26,8 +26,8 @@ struct Image {
     const std::uint8_t* at(int x, int y) const { return &pixels[3 * (static_cast<std::size_t>(y) * width + x)]; }
     Rgb color(int x, int y) const { return {at(x, y)[0], at(x, y)[1], at(x, y)[2]}; }
 
-    int width = 0, height = 0;                     ///< [pixels]
-    std::vector<std::uint8_t> pixels;              ///< 3 · width · height
+    int width = 0, height = 0;         ///< [pixels]
+    std::vector<std::uint8_t> pixels;  ///< 3 · width · height
 };
 
 /// Part of an image [pixels]: columns x … x + width − 1, rows y … y + height − 1.

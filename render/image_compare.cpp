@@ -11,19 +11,15 @@ namespace render {
 
 namespace {
 
-using Plane = std::vector<double>;                 ///< one number per pixel, row by row
+using Plane = std::vector<double>;  ///< one number per pixel, row by row
 
 void requireSameSize(const Image& a, const Image& b)
 {
     const auto size = [](const Image& i) { return std::to_string(i.width) + " x " + std::to_string(i.height); };
-    if (a.width != b.width || a.height != b.height)
-        throw std::invalid_argument("pictures differ in size: " + size(a) + " and " + size(b));
+    if (a.width != b.width || a.height != b.height) throw std::invalid_argument("pictures differ in size: " + size(a) + " and " + size(b));
 }
 
-double luminance(const std::uint8_t* pixel)
-{
-    return 0.299 * pixel[0] + 0.587 * pixel[1] + 0.114 * pixel[2];
-}
+double luminance(const std::uint8_t* pixel) { return 0.299 * pixel[0] + 0.587 * pixel[1] + 0.114 * pixel[2]; }
 
 /// Difference of two pixels in the channel where it is largest, in steps of 255.
 int largestStep(const std::uint8_t* a, const std::uint8_t* b)
@@ -38,7 +34,7 @@ Plane luminancePlane(const Image& image)
     return plane;
 }
 
-constexpr int kReach = 5;                          ///< of the window to either side [pixels]
+constexpr int kReach = 5;  ///< of the window to either side [pixels]
 using Window = std::array<double, 2 * kReach + 1>;
 
 Window gaussian()
@@ -155,9 +151,8 @@ Image differenceImage(const Image& actual, const Image& expected)
             const int largest = largestStep(a, b);
             const auto grey = static_cast<std::uint8_t>(200.0 + 55.0 * luminance(b) / 255.0);
             fill(result, {x, y, 1, 1}, {grey, grey, grey});
-            constexpr float kFaintest = 0.25f;     // so that a difference of one step is still seen
-            if (largest > 0)
-                blend(result, x, y, {200, 0, 0}, kFaintest + (1.0f - kFaintest) * std::min(1.0f, static_cast<float>(largest) / 64.0f));
+            constexpr float kFaintest = 0.25f;  // so that a difference of one step is still seen
+            if (largest > 0) blend(result, x, y, {200, 0, 0}, kFaintest + (1.0f - kFaintest) * std::min(1.0f, static_cast<float>(largest) / 64.0f));
         }
     return result;
 }

@@ -26,7 +26,7 @@ float halfDiagonal(std::span<const Vector3f> positions)
 std::vector<int> weld(std::span<const Vector3f> positions, float size)
 {
     const float pitch = size > 0.0f ? 1e-5f * size : 1.0f;
-    std::vector<std::array<long, 4>> places;       // lattice place, then index
+    std::vector<std::array<long, 4>> places;  // lattice place, then index
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Vector3f place = positions[i] / pitch;
         places.push_back({std::lround(place.x()), std::lround(place.y()), std::lround(place.z()), static_cast<long>(i)});
@@ -41,8 +41,8 @@ std::vector<int> weld(std::span<const Vector3f> positions, float size)
 }
 
 struct Faces {
-    std::vector<Vector3i> corners;                 ///< welded
-    std::vector<Vector3f> normals;                 ///< unit, zero for triangles without area
+    std::vector<Vector3i> corners;  ///< welded
+    std::vector<Vector3f> normals;  ///< unit, zero for triangles without area
     std::vector<float> areas;
 };
 
@@ -82,10 +82,7 @@ std::vector<HalfEdge> sortedHalfEdges(const Faces& faces)
     return halves;
 }
 
-float angleBetween(const Vector3f& a, const Vector3f& b)
-{
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
+float angleBetween(const Vector3f& a, const Vector3f& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// Area-weighted mean of the normals around each corner, over the faces that meet this one below the crease angle.
 void smoothNormals(const Faces& faces, std::size_t positions, float cosCrease, MeshEdges& result)
@@ -98,8 +95,7 @@ void smoothNormals(const Faces& faces, std::size_t positions, float cosCrease, M
         for (int k = 0; k < 3; ++k) {
             Vector3f sum = Vector3f::Zero();
             for (const int other : around[faces.corners[f][k]])
-                if (faces.normals[other].dot(faces.normals[f]) >= cosCrease)
-                    sum += faces.areas[other] * faces.normals[other];
+                if (faces.normals[other].dot(faces.normals[f]) >= cosCrease) sum += faces.areas[other] * faces.normals[other];
             result.cornerNormals[f][k] = sum.normalized();
         }
 }
@@ -108,9 +104,9 @@ void smoothNormals(const Faces& faces, std::size_t positions, float cosCrease, M
 
 MeshEdges meshEdges(const FrameView::Mesh& mesh, float creaseDegrees)
 {
-    constexpr float kFlat = 1e-3f;                 // [rad]: faces this close to one plane share no line
+    constexpr float kFlat = 1e-3f;  // [rad]: faces this close to one plane share no line
     const float crease = creaseDegrees * std::numbers::pi_v<float> / 180.0f;
-    constexpr float kSliver = 1e-6f;               // triangles smaller than this share of size² say nothing of curvature
+    constexpr float kSliver = 1e-6f;  // triangles smaller than this share of size² say nothing of curvature
     const float size = halfDiagonal(mesh.positions);
     const Faces faces = facesOf(mesh, size);
     const std::vector<HalfEdge> halves = sortedHalfEdges(faces);
@@ -131,8 +127,7 @@ MeshEdges meshEdges(const FrameView::Mesh& mesh, float creaseDegrees)
             result.edges.push_back({a, b, faces.normals[half.face], faces.normals[other], isSharp});
             // The bend along an edge, angle · length, belongs by halves to the faces that meet there.
             for (const int f : {half.face, other})
-                if (!isSharp && faces.areas[f] > kSliver * size * size)
-                    result.bend[f] += 0.5f * angle * (b - a).norm() / faces.areas[f] * size;
+                if (!isSharp && faces.areas[f] > kSliver * size * size) result.bend[f] += 0.5f * angle * (b - a).norm() / faces.areas[f] * size;
         }
         h = end;
     }

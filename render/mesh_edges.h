@@ -12,13 +12,13 @@ namespace render {
 /// What the outline of a triangle mesh is made of. Corners at the same place count as one, however they are indexed.
 struct MeshEdges {
     struct Edge {
-        Eigen::Vector3f a, b;                      ///< ends [cm]
-        Eigen::Vector3f normal0, normal1;          ///< of the faces left and right; equal at an open border
-        bool isSharp = false;                      ///< a crease or a border; others show as silhouettes only
+        Eigen::Vector3f a, b;              ///< ends [cm]
+        Eigen::Vector3f normal0, normal1;  ///< of the faces left and right; equal at an open border
+        bool isSharp = false;              ///< a crease or a border; others show as silhouettes only
     };
-    std::vector<Edge> edges;                       ///< without those inside of flat faces
+    std::vector<Edge> edges;                                    ///< without those inside of flat faces
     std::vector<std::array<Eigen::Vector3f, 3>> cornerNormals;  ///< per triangle: smooth, but for creases
-    std::vector<float> bend;                       ///< per triangle: its curvature · the mesh's half diagonal [-]
+    std::vector<float> bend;                                    ///< per triangle: its curvature · the mesh's half diagonal [-]
 };
 
 /// @param creaseDegrees  faces that meet at more than this make a sharp edge

@@ -8,10 +8,7 @@ namespace render {
 
 namespace {
 
-int rounded(float x)
-{
-    return static_cast<int>(std::lround(x));
-}
+int rounded(float x) { return static_cast<int>(std::lround(x)); }
 
 std::string tickText(double value)
 {
@@ -21,15 +18,9 @@ std::string tickText(double value)
 }
 
 /// Colour of pixel i of n along the bar: its middle's.
-Rgb barColor(const ColorTable& table, int i, int n)
-{
-    return toRgb(colorAt(table, (static_cast<float>(i) + 0.5f) / static_cast<float>(n)));
-}
+Rgb barColor(const ColorTable& table, int i, int n) { return toRgb(colorAt(table, (static_cast<float>(i) + 0.5f) / static_cast<float>(n))); }
 
-double fractionOf(double value, const std::array<float, 2>& range)
-{
-    return (value - range[0]) / (static_cast<double>(range[1]) - range[0]);
-}
+double fractionOf(double value, const std::array<float, 2>& range) { return (value - range[0]) / (static_cast<double>(range[1]) - range[0]); }
 
 /// A line one pixel wide around the box, outside of it.
 void frame(Image& image, const PixelBox& box, Rgb ink)
@@ -41,17 +32,11 @@ void frame(Image& image, const PixelBox& box, Rgb ink)
 }
 
 /// Of the letters beside an upright colour bar [pixels].
-float barTextSize(const Image& image)
-{
-    return 0.9f * textSize(image.width, image.height);
-}
+float barTextSize(const Image& image) { return 0.9f * textSize(image.width, image.height); }
 
 }  // namespace
 
-float textSize(int width, int height)
-{
-    return std::max(11.0f, static_cast<float>(std::min(height, width)) / 30.0f);
-}
+float textSize(int width, int height) { return std::max(11.0f, static_cast<float>(std::min(height, width)) / 30.0f); }
 
 Rgb inkOn(Rgb background)
 {
@@ -105,11 +90,9 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
     for (int i = 0; i < height; ++i) fill(image, {box.x, box.y + height - 1 - i, width, 1}, barColor(table, i, height));
     frame(image, box, ink);
     for (const double tick : ticks) {
-        const int y =
-            box.y + height - rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(height));
+        const int y = box.y + height - rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(height));
         fill(image, {box.x + width + 1, std::min(y, box.y + height), std::max(2, rounded(0.2f * size)), 1}, ink);
-        font.draw(image, tickText(tick), static_cast<float>(box.x + width) + 0.5f * size,
-                  static_cast<float>(y) + 0.5f * cap, size, ink);
+        font.draw(image, tickText(tick), static_cast<float>(box.x + width) + 0.5f * size, static_cast<float>(y) + 0.5f * cap, size, ink);
     }
     const float titleX = static_cast<float>(right) - font.width(bar.title, size);
     font.draw(image, bar.title, titleX, static_cast<float>(box.y) - 0.9f * size, size, ink);
@@ -134,15 +117,13 @@ void drawNotes(Image& image, const Font& font, const Notes& notes)
     drawColorBars(image, font, notes.bars, notes.ink);
 }
 
-PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size,
-                           Rgb ink)
+PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size, Rgb ink)
 {
     const ColorTable table = colorTable(bar.map);
     const float cap = font.capHeight(size), titleWidth = font.width(bar.title, size);
     const float gap = bar.title.empty() ? 0.0f : 0.8f * size;
     const int height = std::max(4, rounded(0.6f * size));
-    const int width =
-        std::max(16, std::min(rounded(16.0f * size), place.width - rounded(titleWidth + gap + 4.0f * size)));
+    const int width = std::max(16, std::min(rounded(16.0f * size), place.width - rounded(titleWidth + gap + 4.0f * size)));
     const int left = place.x + rounded(0.5f * (static_cast<float>(place.width - width) - titleWidth - gap));
     const int top = place.y + rounded(0.5f * (static_cast<float>(place.height - height) - 1.5f * cap));
     const PixelBox box = {left + rounded(titleWidth + gap), top, width, height};
@@ -153,11 +134,10 @@ PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, 
         const int x = box.x + rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(width));
         fill(image, {std::min(x, box.x + width), box.y + height + 1, 1, std::max(2, rounded(0.2f * size))}, ink);
         const std::string text = tickText(tick);
-        font.draw(image, text, static_cast<float>(x) - 0.5f * font.width(text, size),
-                  static_cast<float>(box.y + height) + 0.35f * size + cap, size, ink);
+        font.draw(image, text, static_cast<float>(x) - 0.5f * font.width(text, size), static_cast<float>(box.y + height) + 0.35f * size + cap, size,
+                  ink);
     }
-    font.draw(image, bar.title, static_cast<float>(left),
-              static_cast<float>(top) + 0.5f * (static_cast<float>(height) + cap), size, ink);
+    font.draw(image, bar.title, static_cast<float>(left), static_cast<float>(top) + 0.5f * (static_cast<float>(height) + cap), size, ink);
     return box;
 }
 

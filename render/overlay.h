@@ -60,7 +60,6 @@ void drawNotes(Image& image, const Font& font, const Notes& notes);
 
 /// Lying bar in the middle of `box`, title to its left, ticks below; letters of `size` pixels. Returns the box of the
 /// colours alone.
-PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& box, float size,
-                           Rgb ink);
+PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& box, float size, Rgb ink);
 
 }  // namespace render

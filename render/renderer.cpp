@@ -67,8 +67,8 @@ float fabricRadius(const FrameView& view)
 /// Something is drawn that is shaded as a solid.
 bool hasSolids(const FrameView& view, const Look& look)
 {
-    const bool solidObstacle = look.obstacles.style == ObstacleStyle::Solid &&
-                               std::ranges::any_of(view.obstacles, [](const FrameView::Mesh& m) { return !m.inside; });
+    const bool solidObstacle =
+        look.obstacles.style == ObstacleStyle::Solid && std::ranges::any_of(view.obstacles, [](const FrameView::Mesh& m) { return !m.inside; });
     return solidObstacle || !view.surface.triangles.empty() || view.yarns.begin.size() > 1 || !view.cloth.triangles.empty();
 }
 
@@ -132,12 +132,9 @@ Notes notesOn(const FrameView& view, const Look& look)
     const auto add = [&](const ColorBar& bar) {
         if (std::ranges::find(notes.bars, bar) == notes.bars.end()) notes.bars.push_back(bar);
     };
-    if (overlay.liquidBar && look.liquid.isShown && !look.liquid.flat)
-        add({look.liquid.colorMap, look.liquid.range, overlay.colorBarTitle});
-    if (look.yarns.byValue && view.yarns.begin.size() > 1)
-        add({look.yarns.colorMap, look.yarns.range, look.yarns.colorBarTitle});
-    if (look.cloth.byValue && !view.cloth.triangles.empty())
-        add({look.cloth.colorMap, look.cloth.range, look.cloth.colorBarTitle});
+    if (overlay.liquidBar && look.liquid.isShown && !look.liquid.flat) add({look.liquid.colorMap, look.liquid.range, overlay.colorBarTitle});
+    if (look.yarns.byValue && view.yarns.begin.size() > 1) add({look.yarns.colorMap, look.yarns.range, look.yarns.colorBarTitle});
+    if (look.cloth.byValue && !view.cloth.triangles.empty()) add({look.cloth.colorMap, look.cloth.range, look.cloth.colorBarTitle});
     return notes;
 }
 
@@ -230,8 +227,7 @@ Eigen::AlignedBox3d bounds(const FrameView& view)
             if (x.allFinite()) box.extend(x);
     for (const Eigen::Vector3i& triangle : view.cloth.triangles)
         for (const int v : triangle)
-            if (static_cast<std::size_t>(v) < view.cloth.positions.size() && view.cloth.positions[v].allFinite())
-                box.extend(view.cloth.positions[v]);
+            if (static_cast<std::size_t>(v) < view.cloth.positions.size() && view.cloth.positions[v].allFinite()) box.extend(view.cloth.positions[v]);
     return box.isEmpty() ? Eigen::AlignedBox3d() : box.cast<double>();
 }
 

@@ -44,9 +44,7 @@ class Strand {
         // A yarn of three plies that lie at about 30 degrees: pitch = π · diameter / tan 30°.
         pitch_ = 5.4f * (a_ + b_);
         const int end = yarns.begin[strand + 1];
-        while (first_ + size_ < end && yarns.positions[first_ + size_].allFinite() &&
-               yarns.directions[first_ + size_].allFinite())
-            ++size_;
+        while (first_ + size_ < end && yarns.positions[first_ + size_].allFinite() && yarns.directions[first_ + size_].allFinite()) ++size_;
     }
 
     int size() const { return size_; }
@@ -93,11 +91,7 @@ class Fineness {
         float nearest = std::numeric_limits<float>::infinity();
         for (int i = 0; i < strand.size(); ++i) nearest = std::min(nearest, (strand.x(i) - detail.eye).squaredNorm());
         radiusPixels_ = pixelsOf(std::max(strand.a(), strand.b()), std::sqrt(nearest));
-        const int enough = radiusPixels_ < 1.0f          ? 4
-                           : radiusPixels_ < kThinPixels ? 5
-                           : radiusPixels_ < 5.0f        ? 6
-                           : radiusPixels_ < 8.0f        ? 8
-                                                         : 64;
+        const int enough = radiusPixels_ < 1.0f ? 4 : radiusPixels_ < kThinPixels ? 5 : radiusPixels_ < 5.0f ? 6 : radiusPixels_ < 8.0f ? 8 : 64;
         sides_ = std::clamp(enough, 3, std::max(3, detail.sides));
     }
 
@@ -111,9 +105,7 @@ class Fineness {
         const Vector3f edge = strand_.x(i + 1) - strand_.x(i);
         const float length = edge.norm();
         if (!(length > 0.0f)) return 1;
-        const auto angleTo = [&](const Vector3f& slope) {
-            return std::atan2(edge.cross(slope).norm(), edge.dot(slope));
-        };
+        const auto angleTo = [&](const Vector3f& slope) { return std::atan2(edge.cross(slope).norm(), edge.dot(slope)); };
         const float turn = angleTo(strand_.slope(i)) + angleTo(strand_.slope(i + 1));
         constexpr float kTurnPerPiece = 12.0f * kPi / 180.0f, kPixelsPerPiece = 6.0f;
         const float visible = pixelsOf(length, (strand_.x(i) - detail_.eye).norm()) / kPixelsPerPiece;
@@ -121,10 +113,7 @@ class Fineness {
     }
 
  private:
-    float pixelsOf(float length, float distance) const
-    {
-        return detail_.pixelsPerTangent * length / std::max(distance, 1.0e-6f);
-    }
+    float pixelsOf(float length, float distance) const { return detail_.pixelsPerTangent * length / std::max(distance, 1.0e-6f); }
 
     const Strand& strand_;
     const TubeDetail& detail_;
@@ -135,8 +124,7 @@ class Fineness {
 /// Writes rings of `sides` + 1 corners (the seam has two) and joins each to the one before it.
 class RingWriter {
  public:
-    RingWriter(const Strand& strand, int sides, const TubePaint& paint, TubeMesh& mesh)
-        : strand_(strand), sides_(sides), paint_(paint), mesh_(mesh)
+    RingWriter(const Strand& strand, int sides, const TubePaint& paint, TubeMesh& mesh) : strand_(strand), sides_(sides), paint_(paint), mesh_(mesh)
     {
         // Seen from all around, a polygon with corners on a circle is narrower than the circle: on average by this.
         const float n = static_cast<float>(sides);
@@ -155,8 +143,7 @@ class RingWriter {
         for (int k = 0; k <= sides_; ++k) {
             const float angle = static_cast<float>(k) / static_cast<float>(sides_);
             const float c = std::cos(2.0f * kPi * angle), s = std::sin(2.0f * kPi * angle);
-            const Vector3f normal =
-                (shrink * (b * c * ring.m1 + a * s * m2).normalized() + tip * ring.tangent).normalized();
+            const Vector3f normal = (shrink * (b * c * ring.m1 + a * s * m2).normalized() + tip * ring.tangent).normalized();
             mesh_.vertices.push_back({.position = center + shrink * widening_ * (a * c * ring.m1 + b * s * m2),
                                       .normal = normal,
                                       .turn = ring.turn + strand_.turnsOf(reach),
@@ -172,8 +159,7 @@ class RingWriter {
     void join(std::uint32_t from, std::uint32_t to)
     {
         for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(sides_); ++k)
-            mesh_.indices.insert(mesh_.indices.end(),
-                                 {from + k, from + k + 1, to + k + 1, from + k, to + k + 1, to + k});
+            mesh_.indices.insert(mesh_.indices.end(), {from + k, from + k + 1, to + k + 1, from + k, to + k + 1, to + k});
     }
 
     const Strand& strand_;
@@ -201,8 +187,7 @@ void addTube(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& d
     const int caps = fineness.capRings(), last = strand.size() - 2;
 
     const Ring begin = strand.ring(0, 0.0f);
-    for (int k = 0; k < caps; ++k)
-        writer.add(begin, -0.5f * kPi * (1.0f - static_cast<float>(k) / static_cast<float>(caps)));
+    for (int k = 0; k < caps; ++k) writer.add(begin, -0.5f * kPi * (1.0f - static_cast<float>(k) / static_cast<float>(caps)));
     for (int i = 0; i <= last; ++i) {
         const int pieces = fineness.pieces(i);
         for (int k = 0; k < pieces; ++k) writer.add(strand.ring(i, static_cast<float>(k) / static_cast<float>(pieces)));

@@ -8,10 +8,10 @@ namespace render {
 
 namespace {
 
-constexpr std::size_t kFewParticles = 4096;        // not worth the search
-constexpr float kLargestDisc = 64.0f;              // pixels: drivers draw no point larger than some size of theirs
-constexpr float kPlaceError = 0.2f;                // pixels: how well it is known where the driver puts a sprite
-constexpr float kDepthError = 2.5e-7f;             // of the depth buffer's range: four steps of its 24 bits
+constexpr std::size_t kFewParticles = 4096;  // not worth the search
+constexpr float kLargestDisc = 64.0f;        // pixels: drivers draw no point larger than some size of theirs
+constexpr float kPlaceError = 0.2f;          // pixels: how well it is known where the driver puts a sprite
+constexpr float kDepthError = 2.5e-7f;       // of the depth buffer's range: four steps of its 24 bits
 
 struct PixelRange {
     int begin, end;
@@ -25,10 +25,7 @@ PixelRange pixelsWithin(float x, float reach, int count)
 }
 
 /// How far from the centre of a disc `inside` of shaders/liquid.frag, D (1 - r^2) / 4 with r in radii, falls to a value.
-float reachOf(float diameter, float inside)
-{
-    return 0.5f * diameter * std::sqrt(std::max(0.0f, 1.0f - 4.0f * inside / diameter));
-}
+float reachOf(float diameter, float inside) { return 0.5f * diameter * std::sqrt(std::max(0.0f, 1.0f - 4.0f * inside / diameter)); }
 
 /// Diameter of the disc that shows a particle [pixels], as shaders/liquid.vert finds it.
 float discPixels(float eyeZ, float radius, const ViewTransforms& transforms)
@@ -45,8 +42,7 @@ float depthError(float depth, const ViewTransforms& transforms)
 
 }  // namespace
 
-FrameView::Liquid VisibleParticles::of(const FrameView::Liquid& liquid, const ViewTransforms& transforms,
-                                       const LiquidLook& look, int samples)
+FrameView::Liquid VisibleParticles::of(const FrameView::Liquid& liquid, const ViewTransforms& transforms, const LiquidLook& look, int samples)
 {
     if (liquid.positions.size() < kFewParticles || look.style == LiquidStyle::Points) return liquid;
     place(liquid, transforms, liquid.radius * look.radiusFactor);
@@ -75,8 +71,7 @@ void VisibleParticles::place(const FrameView::Liquid& liquid, const ViewTransfor
         const float depth = clip.w();  // of a perspective view: the distance along it
         const bool isSeen = std::isfinite(clip.sum()) && depth > transforms.zNear && depth < transforms.zFar;
         const float diameter = isSeen ? discPixels(depth, radius, transforms) : 0.0f;
-        discs_[i] = {halfWidth * (1.0f + clip.x() / depth), halfHeight * (1.0f + clip.y() / depth), depth,
-                     diameter < kLargestDisc ? diameter : 0.0f};
+        discs_[i] = {halfWidth * (1.0f + clip.x() / depth), halfHeight * (1.0f + clip.y() / depth), depth, diameter < kLargestDisc ? diameter : 0.0f};
     }
 }
 

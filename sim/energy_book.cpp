@@ -61,11 +61,29 @@ void EnergyBook::viscosity(double bySolids)
     onFaces(EnergyChange::Viscosity);
 }
 
+void EnergyBook::remember()
+{
+    if (changes_) remembered_ = work_.grid.faces.velocity;
+}
+
+void EnergyBook::levelled()
+{
+    if (!changes_) return;
+    const BlockArray<double, 3>& now = work_.grid.faces.velocity;
+    const double gained = parallelSum(mass_.size(), [&](std::size_t i) {
+        const double u = now.block(0)[i], before = remembered_.block(0)[i];
+        return 0.5 * mass_.block(0)[i] * (u - before) * (u + before);
+    });
+    parallelFor(fallen_.size(), 4096, [&](std::size_t i) { fallen_.block(0)[i] += now.block(0)[i] - remembered_.block(0)[i]; });
+    book(EnergyChange::Gravity, gained);
+    last_.liquidKinetic += gained;
+}
+
 void EnergyBook::surfaceTension(bool isMixed)
 {
     if (!changes_) return;
     pulled_ = work_.grid.faces.velocity;
-    parallelFor(pulled_.size(), 4096, [&](std::size_t i) { pulled_.block(0)[i] -= fallen_.block(0)[i]; });
+    parallelFor(pulled_.size(), 4096, [&](std::size_t i) { pulled_.block(0)[i] -= remembered_.block(0)[i]; });
     if (!isMixed) return;
     pulledMixture_ = pulled_;
     work_.coupling->mixture.clearShared(pulled_);
@@ -75,9 +93,7 @@ double EnergyBook::workOfSurfaceTension() const
 {
     if (pulled_.size() == 0) return 0.0;
     const BlockArray<double, 3>& now = work_.grid.faces.velocity;
-    return parallelSum(mass_.size(), [&](std::size_t i) {
-        return mass_.block(0)[i] * pulled_.block(0)[i] * now.block(0)[i];
-    });
+    return parallelSum(mass_.size(), [&](std::size_t i) { return mass_.block(0)[i] * pulled_.block(0)[i] * now.block(0)[i]; });
 }
 
 void EnergyBook::after(EnergyChange change)

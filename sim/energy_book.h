@@ -21,6 +21,10 @@ class EnergyBook {
     void onFaces(EnergyChange change);
     /// Viscosity has, through which solids that move did this work [erg].
     void viscosity(double bySolids);
+    /// Before weight is levelled, or surface tension acts: faces that fabric is on have the mixture's velocities by then, which are not looked at.
+    void remember();
+    /// Weight has been moved between faces that only liquid is on.
+    void levelled();
     /// Surface tension has acted there, too, but not yet the pressure that holds against it.
     /// On faces that liquid and fabric share its work is part of the pressure's.
     void surfaceTension(bool isMixed);
@@ -73,11 +77,12 @@ class EnergyBook {
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
+    BlockArray<double, 3> remembered_;     ///< velocities before they were levelled or pulled [cm/s]
     BlockArray<double, 3> pulled_;         ///< by how much surface tension changed velocities [cm/s], if it acts: of faces that only liquid is on,
     BlockArray<double, 3> pulledMixture_;  ///< … and of all, where others are shared
     Energy last_;
     double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
-    double lag_ = 0.0;  ///< of potential energy behind the present places [erg]
+    double lag_ = 0.0;        ///< of potential energy behind the present places [erg]
 };
 
 }  // namespace sim

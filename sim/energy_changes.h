@@ -8,21 +8,21 @@ namespace sim {
 /// Where energy goes in a step (sim/README.md, Energy): stages by the energy before and after them, forces by their work along the move that
 /// was made. What they do not explain is the error of the solves.
 enum class EnergyChange {
-    Sources,           ///< liquid that was emitted, or left the domain, and the work of pressing it in
-    Capture,           ///< velocities mix where fabric takes up liquid
-    ToGrid,            ///< liquid from particles to faces
-    Gravity,           ///< its work on the faces, and what the particles fell for it
-    Viscosity,         ///< of the liquid, on the faces
-    SurfaceTension,    ///< its work on the faces: the surface's energy is not in the sum
-    Pressure,          ///< on both phases, and what the projection takes from liquid alone
+    Sources,         ///< liquid that was emitted, or left the domain, and the work of pressing it in
+    Capture,         ///< velocities mix where fabric takes up liquid
+    ToGrid,          ///< liquid from particles to faces
+    Gravity,         ///< its work on the faces, and what the particles fell for it
+    Viscosity,       ///< of the liquid, on the faces
+    SurfaceTension,  ///< its work on the faces: the surface's energy is not in the sum
+    Pressure,        ///< on both phases, and what the projection takes from liquid alone
     Suction,
-    Drag,              ///< between liquid and fabric
-    Implicit,          ///< backward Euler: ½ m Δv² of the fabric and of liquid under drag, and what elastic forces did beyond their energy
-    Damping,           ///< of the fabric's material
-    Contact,           ///< of fabric with itself, beyond the energy that it holds (FabricState::stored). Solver grid: with friction
-    Friction,          ///< of fabric on fabric
-    Obstacles,         ///< on fabric, with friction, and on what contact with them holds
-    Solids,            ///< moving ones on the liquid: by its pressure on them, by its viscosity, by what follows them at walls, by contact
+    Drag,       ///< between liquid and fabric
+    Implicit,   ///< backward Euler: ½ m Δv² of the fabric and of liquid under drag, and what elastic forces did beyond their energy
+    Damping,    ///< of the fabric's material
+    Contact,    ///< of fabric with itself, beyond the energy that it holds (FabricState::stored). Solver grid: with friction
+    Friction,   ///< of fabric on fabric
+    Obstacles,  ///< on fabric, with friction, and on what contact with them holds
+    Solids,     ///< moving ones on the liquid: by its pressure on them, by its viscosity, by what follows them at walls, by contact
     Pins,
     FabricToGrid,      ///< solver grid: from vertices to faces …
     FabricToVertices,  ///< … and back, with the fading of velocities
@@ -35,8 +35,9 @@ enum class EnergyChange {
 };
 inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
 inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources", "capture", "to_grid", "gravity", "viscosity", "surface_tension", "pressure", "suction", "drag", "implicit", "damping", "contact",
-    "friction", "obstacles", "solids", "pins", "fabric_to_grid", "fabric_to_vertices", "walls", "to_particles", "places", "drip", "wicking"};
+    "sources",  "capture",      "to_grid", "gravity",  "viscosity", "surface_tension", "pressure", "suction",        "drag",
+    "implicit", "damping",      "contact", "friction", "obstacles", "solids",          "pins",     "fabric_to_grid", "fabric_to_vertices",
+    "walls",    "to_particles", "places",  "drip",     "wicking"};
 
 /// Energy that each gave, or took if negative [erg].
 struct EnergyChanges {

@@ -50,16 +50,16 @@ struct MomentumBalance {
 /// What acted on everything in a step of dt [s], whose mean forces are these impulses over dt. Empty before the first step, and where there is
 /// neither a solid nor fabric.
 struct Forces {
-    double dt = 0.0;               ///< [s]
-    std::vector<Load> obstacles;   ///< of each of the scene
-    std::vector<Load> fabrics;     ///< likewise; without weight and pins
-    std::vector<Impulse> pins;     ///< by their fabric on each group of Fabric::Pins
+    double dt = 0.0;              ///< [s]
+    std::vector<Load> obstacles;  ///< of each of the scene
+    std::vector<Load> fabrics;    ///< likewise; without weight and pins
+    std::vector<Impulse> pins;    ///< by their fabric on each group of Fabric::Pins
     MomentumBalance balance;
 
     /// The hardest push of each fabric on a solid in the step.
     struct Touch {
         int obstacle = kNone;
-        double size = 0.0;         ///< [g cm/s]
+        double size = 0.0;  ///< [g cm/s]
         static constexpr int kNone = -1;
     };
     std::vector<Touch> hardest;

@@ -157,8 +157,7 @@ void MomentumBook::settleHeld(std::size_t piece, const FabricState& state)
     for (int group : pinsOf_[piece]) vertices += pinned_[group];
     for (std::size_t i = 0; i < fabric_->pins.vertex.size(); ++i) {
         const int v = fabric_->pins.vertex[i];
-        if (fabric_->pieceOf(v) == static_cast<int>(piece))
-            forces_.pins[fabric_->pins.motion[i]] += Impulse::at(state.x[v], -missing / vertices);
+        if (fabric_->pieceOf(v) == static_cast<int>(piece)) forces_.pins[fabric_->pins.motion[i]] += Impulse::at(state.x[v], -missing / vertices);
     }
 }
 

@@ -50,10 +50,10 @@ class MomentumBook {
     /// What a fabric has.
     struct Piece {
         Impulse momentum;
-        double mass = 0.0;           ///< with what it has absorbed [g]
-        Vec3 moment = Vec3::Zero();  ///< of it [g cm]
+        double mass = 0.0;                                    ///< with what it has absorbed [g]
+        Vec3 moment = Vec3::Zero();                           ///< of it [g cm]
         Vec3 byLiquid = Vec3::Zero(), onPins = Vec3::Zero();  ///< what it got and gave in this step before its solver ran [g cm/s]
-        Vec3 missing = Vec3::Zero(); ///< change of its momentum that no force explains [g cm/s]
+        Vec3 missing = Vec3::Zero();                          ///< change of its momentum that no force explains [g cm/s]
         Vec3 middle() const { return moment / mass; }
     };
     void look(const FabricState& state);
@@ -65,14 +65,14 @@ class MomentumBook {
 
     const Fabric* fabric_ = nullptr;
     Forces forces_;
-    Vec3 liquid_ = Vec3::Zero();                 ///< momentum that the liquid should have by what has been booked; until it is on the faces the
-                                                 ///< change of it since the start of the step [g cm/s]
-    Borne borneOfLiquid_;                        ///< in the last step
-    Vec3 leftSoFar_ = Vec3::Zero();              ///< Ledger::leftMomentum at the start of the step [g cm/s]
-    std::vector<Piece> pieces_;                  ///< as they were when they were last looked at …
-    std::vector<Impulse> before_;                ///< … and their momenta before that
-    std::vector<std::vector<int>> pinsOf_;       ///< groups of each fabric
-    std::vector<int> pinned_;                    ///< vertices of each group
+    Vec3 liquid_ = Vec3::Zero();            ///< momentum that the liquid should have by what has been booked; until it is on the faces the
+                                            ///< change of it since the start of the step [g cm/s]
+    Borne borneOfLiquid_;                   ///< in the last step
+    Vec3 leftSoFar_ = Vec3::Zero();         ///< Ledger::leftMomentum at the start of the step [g cm/s]
+    std::vector<Piece> pieces_;             ///< as they were when they were last looked at …
+    std::vector<Impulse> before_;           ///< … and their momenta before that
+    std::vector<std::vector<int>> pinsOf_;  ///< groups of each fabric
+    std::vector<int> pinned_;               ///< vertices of each group
 };
 
 }  // namespace sim

@@ -16,14 +16,14 @@ enum class TransferMethod { Pic, Flip, Apic, PolyPic };
 enum class XiMap { Translation, Affine, AffineConservative };
 
 struct TimeSettings {
-    double dt = 1.0e-3;        ///< Time step; in modes cfl and adaptive its upper bound [s]
-    double duration = 1.0;     ///< Simulated time from start to end [s]
-    double start = 0.0;        ///< Time of the initial state [s]
-    TimeMode mode = TimeMode::Fixed;  ///< Adaptive: as cfl, and a step that turns out bad is made again in halves
-    double cfl = 1.0;          ///< Cells a particle may cross per step, modes cfl and adaptive [-]
-    double maxCflLiquid = 3.0; ///< Hard bound on the same number in every mode [-]
-    double maxCflFabric = 1.0 / 3.0;  ///< The fabric's bound, read by fabric.solver grid only [-]
-    double dtMin = 1.0e-8;     ///< A run that would need smaller steps stops with a message [s]
+    double dt = 1.0e-3;                                     ///< Time step; in modes cfl and adaptive its upper bound [s]
+    double duration = 1.0;                                  ///< Simulated time from start to end [s]
+    double start = 0.0;                                     ///< Time of the initial state [s]
+    TimeMode mode = TimeMode::Fixed;                        ///< Adaptive: as cfl, and a step that turns out bad is made again in halves
+    double cfl = 1.0;                                       ///< Cells a particle may cross per step, modes cfl and adaptive [-]
+    double maxCflLiquid = 3.0;                              ///< Hard bound on the same number in every mode [-]
+    double maxCflFabric = 1.0 / 3.0;                        ///< The fabric's bound, read by fabric.solver grid only [-]
+    double dtMin = 1.0e-8;                                  ///< A run that would need smaller steps stops with a message [s]
     TimeIntegrator integrator = TimeIntegrator::Reflected;  ///< Reflected: of two steps the first reflects (liquid/README.md, Reflection)
 
     bool reflects() const { return integrator == TimeIntegrator::Reflected; }
@@ -32,13 +32,13 @@ struct TimeSettings {
 /// How one phase's velocities go to the grid and back.
 struct TransferSettings {
     TransferMethod method = TransferMethod::PolyPic;
-    int modes = 8;                      ///< PolyPIC modes per component, read by polypic only [1..27]
+    int modes = 8;  ///< PolyPIC modes per component, read by polypic only [1..27]
     XiMap xi = XiMap::Translation;
-    double flipRatio = 0.99;            ///< FLIP share kept per keepDt [0..1]
-    double keepAffine = 1.0;            ///< Factor on all modes but the mean, kept per keepDt; 1 = no damping [0..1]
-    double keepDt = 2.0e-4;             ///< The step the two factors above refer to [s]
-    bool keepPerStep = false;           ///< Factors are taken literally per step, as published
-    bool dampModes = true;              ///< keepAffine acts on PolyPIC modes too
+    double flipRatio = 0.99;   ///< FLIP share kept per keepDt [0..1]
+    double keepAffine = 1.0;   ///< Factor on all modes but the mean, kept per keepDt; 1 = no damping [0..1]
+    double keepDt = 2.0e-4;    ///< The step the two factors above refer to [s]
+    bool keepPerStep = false;  ///< Factors are taken literally per step, as published
+    bool dampModes = true;     ///< keepAffine acts on PolyPIC modes too
 
     /// N_r: modes per component gathered from the grid.
     int modeCount() const
@@ -56,7 +56,7 @@ struct FabricTransferSettings {
     static constexpr int kMostModes = 8;  ///< a sheet is surface everywhere, where quadratic modes feed on faces that carry next to nothing
 
     TransferMethod method = TransferMethod::PolyPic;  ///< never Flip: the fabric then runs apic
-    int modes = 8;                        ///< PolyPIC modes per component, read by polypic only [1..kMostModes]
+    int modes = 8;                                    ///< PolyPIC modes per component, read by polypic only [1..kMostModes]
     XiMap xi = XiMap::Translation;
     double keepStretch = 1.0;   ///< Factor on the symmetric part of the velocity gradient, kept per keepDt [0..1]
     double keepRotation = 1.0;  ///< Factor on its antisymmetric part, kept per keepDt [0..1]
@@ -64,8 +64,8 @@ struct FabricTransferSettings {
 };
 
 struct RelaxSettings {
-    double rate = 0.0;    ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
-    double range = 2.0;   ///< Reach of the push in nominal particle radii [-]
+    double rate = 0.0;   ///< Rate at which crowded particles are pushed apart; 0 = off [1/s]
+    double range = 2.0;  ///< Reach of the push in nominal particle radii [-]
 };
 
 struct VolumeSettings {
@@ -73,17 +73,17 @@ struct VolumeSettings {
 };
 
 struct LiquidSettings {
-    double density = 1.0;          ///< [g/cm^3]
-    double viscosity = 8.9e-3;     ///< [P]
-    bool solveViscosity = false;   ///< Viscosity acts inside the liquid, not on fabric alone
-    int viscositySubsteps = 1;     ///< Parts of a step, each of which viscosity is solved for [-]
-    double surfaceTension = 72.0;  ///< [dyn/cm]
-    bool surfaceTensionForce = false;  ///< Surface tension moves the liquid
-    int curvatureSmoothing = 7;    ///< Smoothing passes over the fill before its curvature is taken [-]
+    double density = 1.0;                      ///< [g/cm^3]
+    double viscosity = 8.9e-3;                 ///< [P]
+    bool solveViscosity = false;               ///< Viscosity acts inside the liquid, not on fabric alone
+    int viscositySubsteps = 1;                 ///< Parts of a step, each of which viscosity is solved for [-]
+    double surfaceTension = 72.0;              ///< [dyn/cm]
+    bool surfaceTensionForce = false;          ///< Surface tension moves the liquid
+    int curvatureSmoothing = 7;                ///< Smoothing passes over the fill before its curvature is taken [-]
     double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
-    bool full = false;             ///< The liquid fills a closed box: there is no air
-    double particleSpacing = 0.0;  ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]
-    double wallFriction = 0.0;     ///< 0 = free slip … 1 = the liquid sticks to walls [-]
+    bool full = false;                         ///< The liquid fills a closed box: there is no air
+    double particleSpacing = 0.0;              ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]
+    double wallFriction = 0.0;                 ///< 0 = free slip … 1 = the liquid sticks to walls [-]
     VolumeSettings volume;
     RelaxSettings relax;
 };
@@ -99,14 +99,14 @@ struct FabricSettings {
     FabricSolver solver = FabricSolver::Vertex;  ///< Off: pins follow their motions, all else stays
     MembraneModel membrane = MembraneModel::StVk;
     BendingModel bending = BendingModel::ShapeOperator;
-    double hingeConstant = 1.0;       ///< c (fabric/shells/README.md, Hinges), bending hinge only; the published code has 3 [-]
+    double hingeConstant = 1.0;  ///< c (fabric/shells/README.md, Hinges), bending hinge only; the published code has 3 [-]
     HingeMeasure hingeMeasure = HingeMeasure::Angle;
     TorsionModel torsion = TorsionModel::Ellipse;  ///< Ellipse: St-Venant; Polar: G times the polar moment, as published
-    bool twist = true;                ///< yarns resist twisting
-    int newton = 2;                   ///< Newton iterations per step, vertex only
-    double tolerance = 0.0;           ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5e-3 of gravity times the step
-    bool contact = true;              ///< fabric touches itself and obstacles
-    int maxHalvings = 4;              ///< of a step that could not be taken, vertex only; of driven fabric at least 2 are made
+    bool twist = true;                             ///< yarns resist twisting
+    int newton = 2;                                ///< Newton iterations per step, vertex only
+    double tolerance = 0.0;  ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5e-3 of gravity times the step
+    bool contact = true;     ///< fabric touches itself and obstacles
+    int maxHalvings = 4;     ///< of a step that could not be taken, vertex only; of driven fabric at least 2 are made
 };
 
 /// What fabric is like inside: fibres and the pores between them.
@@ -135,28 +135,28 @@ struct CaptureSettings {
 
 /// How liquid moves in fabric.
 struct WickingSettings {
-    double rateScale = 1.0;     ///< Factor on the flow; 0 = liquid stays where it was taken up [-]
-    bool pressure = true;       ///< The pressure of the liquid around drives it too
+    double rateScale = 1.0;  ///< Factor on the flow; 0 = liquid stays where it was taken up [-]
+    bool pressure = true;    ///< The pressure of the liquid around drives it too
 };
 
 /// How wet fabric sticks, with solver vertex.
 struct CohesionSettings {
-    double strength = 0.0;      ///< of liquid bridges, relative to the capillary force along threads (bridgeForce); published: 2e-3; 0 = none [-]
-    bool fabric = true;         ///< They hold fabric on fabric …
-    bool obstacle = true;       ///< … and on solids
+    double strength = 0.0;  ///< of liquid bridges, relative to the capillary force along threads (bridgeForce); published: 2e-3; 0 = none [-]
+    bool fabric = true;     ///< They hold fabric on fabric …
+    bool obstacle = true;   ///< … and on solids
 };
 
 /// How liquid and fabric act on each other (coupling/README.md, Mixture).
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
     DragFraction dragFraction = DragFraction::Fabric;
-    double dragExponent = 1.6;          ///< of the speed, nonlinear only; 1 = Forchheimer [-]
-    bool pressureOnFabric = true;       ///< the liquid's pressure pushes fabric: buoyancy
-    bool capillary = true;              ///< suction of empty pores draws the liquid around
-    bool capillaryReaction = true;      ///< and the liquid the fabric; not in the published model
+    double dragExponent = 1.6;      ///< of the speed, nonlinear only; 1 = Forchheimer [-]
+    bool pressureOnFabric = true;   ///< the liquid's pressure pushes fabric: buoyancy
+    bool capillary = true;          ///< suction of empty pores draws the liquid around
+    bool capillaryReaction = true;  ///< and the liquid the fabric; not in the published model
     CaptureSettings capture;
     WickingSettings wicking;
-    bool drip = true;                   ///< fabric lets go of what its pores cannot hold
+    bool drip = true;  ///< fabric lets go of what its pores cannot hold
     CohesionSettings cohesion;
 };
 
@@ -169,9 +169,9 @@ struct SolverSettings {
 
 struct Settings {
     TimeSettings time;
-    double cell = 0.0;                          ///< Grid cell size [cm]; required
+    double cell = 0.0;                              ///< Grid cell size [cm]; required
     Vec3 gravity = Vec3(0.0, -kEarthGravity, 0.0);  ///< [cm/s^2]
-    TransferSettings transfer;                  ///< of the liquid
+    TransferSettings transfer;                      ///< of the liquid
     FabricTransferSettings fabricTransfer;
     LiquidSettings liquid;
     FabricSettings fabric;

@@ -45,7 +45,8 @@ double packingOfSources(const Scene& scene)
 double pitchOfSources(const Scene& scene)
 {
     double pitch = 0.0;
-    for (const SourceSettings& source : scene.sources) pitch = std::max(pitch, particleSpacing(source.fill, scene.settings.cell) / scene.settings.cell);
+    for (const SourceSettings& source : scene.sources)
+        pitch = std::max(pitch, particleSpacing(source.fill, scene.settings.cell) / scene.settings.cell);
     return pitch > 0.0 ? pitch : particleSpacing(FillSettings(), 1.0);
 }
 
@@ -61,9 +62,9 @@ double fastestOf(const FabricState& fabric)
     return parallelMax(fabric.v.size(), [&](std::size_t v) { return fabric.v[v].norm(); });
 }
 
-constexpr int kMostTakenBack = 10;  ///< halvings until a run gives up: to a thousandth of the step
+constexpr int kMostTakenBack = 10;       ///< halvings until a run gives up: to a thousandth of the step
 constexpr double kSecondIsFaster = 1.5;  ///< cells that the second of two steps may cross relative to time.cfl [-]
-constexpr double kGrowth = 1.2;     ///< of the longest step allowed, from each good one to the next, after one was taken back
+constexpr double kGrowth = 1.2;          ///< of the longest step allowed, from each good one to the next, after one was taken back
 
 double fastest(const LiquidParticles& particles)
 {
@@ -87,8 +88,7 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     begin();
 }
 
-Simulation::Simulation(Scene scene, State state)
-    : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state))
+Simulation::Simulation(Scene scene, State state) : scene_(std::move(scene)), fabric_(assembleFabric(scene_.fabrics)), state_(std::move(state))
 {
     SIM_CHECK(state_.grid.dx == scene_.settings.cell && state_.emittedVolume.size() == scene_.sources.size());
     SIM_CHECK(state_.fabric.x.size() == fabric_.vertexCount());
@@ -234,9 +234,8 @@ double Simulation::chooseLength(double until) const
     if (!(largest >= least))
         throw failure(
             "time_step",
-            fmt::format(
-                "the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: liquid moves at {:.3g} cm/s, fabric at {:.3g} cm/s",
-                largest, least, state_.memory.maxSpeed, fastestOf(state_.fabric)));
+            fmt::format("the largest stable step, {:.3g} s, is below time.dt_min = {:.3g} s: liquid moves at {:.3g} cm/s, fabric at {:.3g} cm/s",
+                        largest, least, state_.memory.maxSpeed, fastestOf(state_.fabric)));
     return lengthOfStep(until - state_.time, largest);
 }
 

@@ -7,39 +7,39 @@
 namespace sim {
 
 // The stages of a step in the order in which each first runs, with the names that logs and tables give them.
-#define SIM_STAGES(STAGE)                                                                                                        \
-    STAGE(Keep, "keep")                            /* copies the state to go back to if the step is rejected, mode adaptive */   \
-    STAGE(TakenBack, "taken_back")                 /* attempts at the step that were rejected and repeated in halves */          \
-    STAGE(Emit, "emit")                                                                                                          \
-    STAGE(Sort, "sort")                                                                                                          \
-    STAGE(Obstacles, "obstacles")                                                                                                \
-    STAGE(Capture, "capture")                      /* fabric takes up liquid */                                                  \
-    STAGE(Relax, "relax")                                                                                                        \
-    STAGE(ParticlesToGrid, "particles_to_grid")                                                                                  \
-    STAGE(Viscosity, "viscosity")                                                                                                \
-    STAGE(FabricToGrid, "fabric_to_grid")          /* vertices to faces, solver grid only */                                     \
-    STAGE(Mixture, "mixture")                      /* liquid and fabric on the faces that both reach: drag, suction, loads */    \
-    STAGE(Cells, "cells")                                                                                                        \
-    STAGE(SurfaceTension, "surface_tension")                                                                                     \
-    STAGE(Pressure, "pressure")                                                                                                  \
-    STAGE(Volume, "volume")                                                                                                      \
-    STAGE(FabricCandidates, "fabric_candidates")   /* which parts of the fabric may touch within the step */                     \
-    STAGE(FabricContact, "fabric_contact")         /* contact forces, and making moves safe */                                   \
-    STAGE(FabricElastic, "fabric_elastic")         /* elastic forces, their derivatives and energies, the preconditioner */      \
-    STAGE(FabricSolve, "fabric_solve")             /* the linear solves */                                                       \
-    STAGE(GridToFabric, "grid_to_fabric")          /* faces to vertices, solver grid only */                                     \
-    STAGE(FabricStrain, "fabric_strain")           /* strains of contact on the grid, with separation and friction */            \
-    STAGE(Reflection, "reflection")                /* of the velocities about the projected ones, in the first of two steps */   \
-    STAGE(Walls, "walls")                                                                                                        \
-    STAGE(GridToParticles, "grid_to_particles")                                                                                  \
-    STAGE(Wicking, "wicking")                      /* liquid moves in fabric */                                                  \
-    STAGE(Drip, "drip")                            /* fabric lets go of liquid that its pores cannot hold */
+#define SIM_STAGES(STAGE)                                                                                                    \
+    STAGE(Keep, "keep")            /* copies the state to go back to if the step is rejected, mode adaptive */               \
+    STAGE(TakenBack, "taken_back") /* attempts at the step that were rejected and repeated in halves */                      \
+    STAGE(Emit, "emit")                                                                                                      \
+    STAGE(Sort, "sort")                                                                                                      \
+    STAGE(Obstacles, "obstacles")                                                                                            \
+    STAGE(Capture, "capture") /* fabric takes up liquid */                                                                   \
+    STAGE(Relax, "relax")                                                                                                    \
+    STAGE(ParticlesToGrid, "particles_to_grid")                                                                              \
+    STAGE(Viscosity, "viscosity")                                                                                            \
+    STAGE(FabricToGrid, "fabric_to_grid") /* vertices to faces, solver grid only */                                          \
+    STAGE(Mixture, "mixture")             /* liquid and fabric on the faces that both reach: drag, suction, loads */         \
+    STAGE(Cells, "cells")                                                                                                    \
+    STAGE(SurfaceTension, "surface_tension")                                                                                 \
+    STAGE(Pressure, "pressure")                                                                                              \
+    STAGE(Volume, "volume")                                                                                                  \
+    STAGE(FabricCandidates, "fabric_candidates") /* which parts of the fabric may touch within the step */                   \
+    STAGE(FabricContact, "fabric_contact")       /* contact forces, and making moves safe */                                 \
+    STAGE(FabricElastic, "fabric_elastic")       /* elastic forces, their derivatives and energies, the preconditioner */    \
+    STAGE(FabricSolve, "fabric_solve")           /* the linear solves */                                                     \
+    STAGE(GridToFabric, "grid_to_fabric")        /* faces to vertices, solver grid only */                                   \
+    STAGE(FabricStrain, "fabric_strain")         /* strains of contact on the grid, with separation and friction */          \
+    STAGE(Reflection, "reflection")              /* of the velocities about the projected ones, in the first of two steps */ \
+    STAGE(Walls, "walls")                                                                                                    \
+    STAGE(GridToParticles, "grid_to_particles")                                                                              \
+    STAGE(Wicking, "wicking") /* liquid moves in fabric */                                                                   \
+    STAGE(Drip, "drip")       /* fabric lets go of liquid that its pores cannot hold */
 
 enum class Stage {
 #define SIM_STAGE_ENUMERATOR(stage, name) stage,
     SIM_STAGES(SIM_STAGE_ENUMERATOR)
 #undef SIM_STAGE_ENUMERATOR
-    Count
+        Count
 };
 inline constexpr int kStages = static_cast<int>(Stage::Count);
 inline constexpr std::array<std::string_view, kStages> kStageNames = {

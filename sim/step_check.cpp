@@ -13,17 +13,14 @@ namespace sim {
 
 namespace {
 
-constexpr double kLostLiquid = 1.0e-9;   ///< of all liquid: a thousand times what rounding does in the longest runs [-]
-constexpr double kSurprise = 2.0;        ///< by how much speeds may turn out higher than the step was chosen for [-]
-constexpr double kEnergyGain = 0.05;     ///< of the energy there was: three times what the splash scenes gain at their starts from rest [-]
-constexpr double kQuiet = 0.01;          ///< energy counts from where it moves everything this far in a step [cells]
-constexpr double kDepth = 0.25;          ///< how far the middle of fabric may get into an obstacle, or by its own radius [cells]
+constexpr double kLostLiquid = 1.0e-9;  ///< of all liquid: a thousand times what rounding does in the longest runs [-]
+constexpr double kSurprise = 2.0;       ///< by how much speeds may turn out higher than the step was chosen for [-]
+constexpr double kEnergyGain = 0.05;    ///< of the energy there was: three times what the splash scenes gain at their starts from rest [-]
+constexpr double kQuiet = 0.01;         ///< energy counts from where it moves everything this far in a step [cells]
+constexpr double kDepth = 0.25;         ///< how far the middle of fabric may get into an obstacle, or by its own radius [cells]
 
 /// Of motion and elasticity [erg].
-double activeEnergy(const Energies& e)
-{
-    return e.kinetic + e.modal + e.fabric.kinetic + e.fabric.internal();
-}
+double activeEnergy(const Energies& e) { return e.kinetic + e.modal + e.fabric.kinetic + e.fabric.internal(); }
 
 struct Fastest {
     std::size_t index = 0;
@@ -195,8 +192,8 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
     if (feelsSurfaceTension(settings.liquid))
         given += settings.liquid.surfaceTension * settings.cell * settings.cell * static_cast<double>(report.liquidCells);
     const double quiet = kQuiet * settings.cell / report.dt;
-    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + std::max(0.0, report.inflowWork) +
-           given + 0.5 * mass * quiet * quiet;
+    return (1.0 + kEnergyGain) * std::ranges::max(state.memory.energies) + report.emittedKinetic + std::max(0.0, report.inflowWork) + given +
+           0.5 * mass * quiet * quiet;
 }
 
 std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport& report) const

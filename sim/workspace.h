@@ -35,7 +35,7 @@ struct Workspace {
     ViscosityWorkspace viscosity;
     PressureWorkspace pressure;
     EmissionWorkspace emission;
-    std::vector<InflowCell> inflow;                        ///< of the sources of this step
+    std::vector<InflowCell> inflow;  ///< of the sources of this step
     WallFaces wallFaces;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;
@@ -45,17 +45,17 @@ struct Workspace {
     std::array<AlignedArray<double>, kAxes> places;        ///< of the particles before they move, where there are obstacles [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;
-    double packing = 1.0;                                  ///< mass of a full cell relative to the density of the liquid times its volume [-]
-    double relaxReach = 0.0;                               ///< [cm]; 0 = relaxation is off
-    std::unique_ptr<KeptState> kept;                       ///< mode adaptive: the state before the step
+    double packing = 1.0;             ///< mass of a full cell relative to the density of the liquid times its volume [-]
+    double relaxReach = 0.0;          ///< [cm]; 0 = relaxation is off
+    std::unique_ptr<KeptState> kept;  ///< mode adaptive: the state before the step
     GainAtWalls gainAtWalls;
-    LiquidOnSolids onSolids;                               ///< by the faces of the liquid …
-    ChunkSums<Impulse> pushedSolids;                       ///< … and by particles kept out of solids [g cm/s]
+    LiquidOnSolids onSolids;          ///< by the faces of the liquid …
+    ChunkSums<Impulse> pushedSolids;  ///< … and by particles kept out of solids [g cm/s]
     MomentumBook momentum;
-    Stage failedStage = Stage::Emit;                       ///< of the last step that threw
-    bool booksEnergy = false;                              ///< tell where energy goes: takes as long as a step
-    std::unique_ptr<Coupling> coupling;                    ///< where there are liquid and fabric
-    std::unique_ptr<FabricIntegrator> fabric;              ///< by the scene's fabric.solver, where there is fabric
+    Stage failedStage = Stage::Emit;           ///< of the last step that threw
+    bool booksEnergy = false;                  ///< tell where energy goes: takes as long as a step
+    std::unique_ptr<Coupling> coupling;        ///< where there are liquid and fabric
+    std::unique_ptr<FabricIntegrator> fabric;  ///< by the scene's fabric.solver, where there is fabric
 };
 
 }  // namespace sim

@@ -18,7 +18,7 @@ struct ElementOfList {
     static constexpr std::size_t kSize = 1;
 };
 template <class T>
-    requires requires { T::SizeAtCompileTime; }
+requires requires { T::SizeAtCompileTime; }
 struct ElementOfList<T> {
     using Number = typename T::Scalar;
     static constexpr std::size_t kSize = T::SizeAtCompileTime;

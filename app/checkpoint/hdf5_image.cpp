@@ -68,8 +68,7 @@ struct Hdf5Writer::File {
 
     H5::DataSet make(const std::string& name, std::string_view unit, NumberType type, const H5::DataSpace& space)
     {
-        const H5::DataSet set = file.createDataSet(name, typeOf(type), space, H5::DSetCreatPropList::DEFAULT,
-                                                   H5::DSetAccPropList::DEFAULT, making);
+        const H5::DataSet set = file.createDataSet(name, typeOf(type), space, H5::DSetCreatPropList::DEFAULT, H5::DSetAccPropList::DEFAULT, making);
         const H5::StrType text(H5::PredType::C_S1, std::max<std::size_t>(1, unit.size()));
         set.createAttribute("unit", text, H5::DataSpace()).write(text, std::string(unit));
         return set;
@@ -86,8 +85,7 @@ Hdf5Writer::Hdf5Writer()
 
 Hdf5Writer::~Hdf5Writer() = default;
 
-void Hdf5Writer::table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns,
-                       const void* numbers)
+void Hdf5Writer::table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns, const void* numbers)
 {
     withReason(name, [&] {
         const H5::DataSet set = file_->make(name, unit, type, spaceOf(rows, columns));
@@ -101,9 +99,8 @@ void Hdf5Writer::table(const std::string& name, std::string_view unit, NumberTyp
     withReason(name, [&] {
         const H5::DataSet set = file_->make(name, unit, type, spaceOf(rows, columns));
         if (rows * columns > 0)
-            forEachRow(rows, columns, [&](std::size_t r, const H5::DataSpace& memory, const H5::DataSpace& file) {
-                set.write(row(r), typeOf(type), memory, file);
-            });
+            forEachRow(rows, columns,
+                       [&](std::size_t r, const H5::DataSpace& memory, const H5::DataSpace& file) { set.write(row(r), typeOf(type), memory, file); });
     });
 }
 
@@ -179,9 +176,8 @@ void Hdf5Reader::table(const std::string& name, NumberType type, std::size_t row
     withReason(name, [&] {
         const H5::DataSet set = file_->open(name, type, rows, columns);
         if (rows * columns > 0)
-            forEachRow(rows, columns, [&](std::size_t r, const H5::DataSpace& memory, const H5::DataSpace& file) {
-                set.read(row(r), typeOf(type), memory, file);
-            });
+            forEachRow(rows, columns,
+                       [&](std::size_t r, const H5::DataSpace& memory, const H5::DataSpace& file) { set.read(row(r), typeOf(type), memory, file); });
     });
 }
 

@@ -35,8 +35,7 @@ class Hdf5Writer {
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
     /// `rows` rows of `columns` numbers, one behind the other in memory.
-    void table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns,
-               const void* numbers);
+    void table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns, const void* numbers);
     /// The same where row r begins at row(r).
     void table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns,
                const std::function<const void*(std::size_t)>& row);
@@ -62,8 +61,7 @@ class Hdf5Reader {
     std::array<std::size_t, 2> size(const std::string& name) const;
     /// Sizes and types must be those of the file.
     void table(const std::string& name, NumberType type, std::size_t rows, std::size_t columns, void* numbers) const;
-    void table(const std::string& name, NumberType type, std::size_t rows, std::size_t columns,
-               const std::function<void*(std::size_t)>& row) const;
+    void table(const std::string& name, NumberType type, std::size_t rows, std::size_t columns, const std::function<void*(std::size_t)>& row) const;
     std::string text(const std::string& name) const;
 
  private:

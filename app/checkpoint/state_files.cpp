@@ -17,20 +17,14 @@ constexpr std::string_view kHead = "state_", kTail = ".h5";
 
 }  // namespace
 
-fs::path stateFolder(const fs::path& runFolder, StateKind kind)
-{
-    return runFolder / (kind == StateKind::ForGoingOn ? "checkpoints" : "states");
-}
+fs::path stateFolder(const fs::path& runFolder, StateKind kind) { return runFolder / (kind == StateKind::ForGoingOn ? "checkpoints" : "states"); }
 
 fs::path stateFile(const fs::path& runFolder, StateKind kind, std::int64_t frame)
 {
     return stateFolder(runFolder, kind) / fmt::format("{}{:05d}{}", kHead, frame, kTail);
 }
 
-std::vector<std::int64_t> storedFrames(const fs::path& runFolder, StateKind kind)
-{
-    return numbersIn(stateFolder(runFolder, kind), kHead, kTail);
-}
+std::vector<std::int64_t> storedFrames(const fs::path& runFolder, StateKind kind) { return numbersIn(stateFolder(runFolder, kind), kHead, kTail); }
 
 StateKeeper::StateKeeper(fs::path runFolder, const SceneSetup& setup, CheckpointOrigin origin)
     : folder_(std::move(runFolder)), origin_(std::move(origin))
@@ -53,8 +47,7 @@ void StateKeeper::checkpoint(const sim::State& state, std::int64_t frame, std::u
     saveCheckpoint(origin_, state, stateFile(folder_, StateKind::ForGoingOn, frame));
     if (keep_ == 0) return;
     const std::vector<std::int64_t> there = storedFrames(folder_, StateKind::ForGoingOn);
-    for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < there.size(); ++i)
-        fs::remove(stateFile(folder_, StateKind::ForGoingOn, there[i]));
+    for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < there.size(); ++i) fs::remove(stateFile(folder_, StateKind::ForGoingOn, there[i]));
 }
 
 void StateKeeper::picture(const sim::State& state, std::int64_t frame, std::uint64_t stateHash)

@@ -30,9 +30,10 @@ ResultKind kindOf(const fs::path& path)
     if (extension == ".csv" || extension == ".jsonl") return ResultKind::Series;
     if (extension == ".json") return ResultKind::Report;
     if (extension == ".h5") return ResultKind::State;
-    throw sim::InputError(fmt::format("{}: cannot be compared; there are pictures (.png), videos (.mp4), series (.csv, .jsonl), reports (.json), states (.h5) "
-                                      "and folders of pictures or runs",
-                                      path.string()));
+    throw sim::InputError(
+        fmt::format("{}: cannot be compared; there are pictures (.png), videos (.mp4), series (.csv, .jsonl), reports (.json), states (.h5) "
+                    "and folders of pictures or runs",
+                    path.string()));
 }
 
 bool isPictures(ResultKind kind) { return kind == ResultKind::Pictures || kind == ResultKind::Run; }

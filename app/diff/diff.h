@@ -16,9 +16,9 @@ namespace app {
 struct DiffResult {
     DiffOptions of;
     Tolerance tolerance;
-    std::vector<DiffFinding> findings;          ///< of states, series and reports
-    std::vector<PictureDiff> pictures;      ///< the worst first
-    std::shared_ptr<const void> frames;     ///< keeps pictures that were taken out of videos
+    std::vector<DiffFinding> findings;   ///< of states, series and reports
+    std::vector<PictureDiff> pictures;   ///< the worst first
+    std::shared_ptr<const void> frames;  ///< keeps pictures that were taken out of videos
 
     bool differs() const;
     /// "same: 12 pictures", or "different: " with what differs most, and where.

@@ -63,8 +63,8 @@ std::string chart(std::vector<PictureDiff> pictures)
     const auto height = [](const PictureDiff& p) { return p.problem.empty() ? std::max(0.0, 1.0 - p.difference.similarity.mean) : 0.0; };
     double highest = 1e-6;
     for (const PictureDiff& p : pictures) highest = std::max(highest, height(p));
-    std::string svg = fmt::format("<h2>1 &minus; mean SSIM by picture, up to {:.3g}</h2>\n<svg width=\"{:.0f}\" height=\"120\" role=\"img\">", highest,
-                                  barWidth * static_cast<double>(pictures.size()));
+    std::string svg = fmt::format("<h2>1 &minus; mean SSIM by picture, up to {:.3g}</h2>\n<svg width=\"{:.0f}\" height=\"120\" role=\"img\">",
+                                  highest, barWidth * static_cast<double>(pictures.size()));
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const PictureDiff& p = pictures[i];
         const double h = p.problem.empty() ? 1.0 + 118.0 * height(p) / highest : 119.0;  // one that is missing fills the chart
@@ -76,9 +76,10 @@ std::string chart(std::vector<PictureDiff> pictures)
 
 std::string picturesTable(const DiffResult& result)
 {
-    std::string html = fmt::format("<h2>All pictures, the worst first</h2>\n<table><tr><th>picture</th><th>mean SSIM</th><th>lowest</th><th>at</th>"
-                                   "<th>over {}/255 [%]</th><th>largest</th><th>at</th></tr>\n",
-                                   render::kVisibleStep);
+    std::string html = fmt::format(
+        "<h2>All pictures, the worst first</h2>\n<table><tr><th>picture</th><th>mean SSIM</th><th>lowest</th><th>at</th>"
+        "<th>over {}/255 [%]</th><th>largest</th><th>at</th></tr>\n",
+        render::kVisibleStep);
     for (const PictureDiff& p : result.pictures) {
         html += fmt::format("<tr class=\"{}\"><td>{}</td>", classOf(p.differs), escaped(p.pair.name));
         const auto& [similarity, color] = p.difference;
@@ -134,11 +135,13 @@ void writeDiffPage(const DiffResult& result, const fs::path& folder)
     makeFolder(folder);
     forgetEarlierPanels(folder);
     const std::string title = fmt::format("{} against {}", result.of.a.string(), result.of.b.string());
-    std::string html = fmt::format("{}<title>{}</title></head><body>\n<h1>A: {}<br>B: {}</h1>\n<p class=\"{}\">{}</p>\n", kPageHead, escaped(title),
-                                   escaped(result.of.a.string()), escaped(result.of.b.string()), classOf(result.differs()), escaped(result.verdict()));
+    std::string html =
+        fmt::format("{}<title>{}</title></head><body>\n<h1>A: {}<br>B: {}</h1>\n<p class=\"{}\">{}</p>\n", kPageHead, escaped(title),
+                    escaped(result.of.a.string()), escaped(result.of.b.string()), classOf(result.differs()), escaped(result.verdict()));
     for (const PictureDiff* p : drawAllPanels(result, folder))
-        html += fmt::format("<figure><figcaption class=\"{}\">{}</figcaption><img alt=\"A, B and what differs\" src=\"data:image/png;base64,{}\"></figure>\n",
-                            classOf(p->differs), escaped(wordsOf(*p, result.tolerance.pictures)), base64(readWhole(panelsFile(folder, *p))));
+        html += fmt::format(
+            "<figure><figcaption class=\"{}\">{}</figcaption><img alt=\"A, B and what differs\" src=\"data:image/png;base64,{}\"></figure>\n",
+            classOf(p->differs), escaped(wordsOf(*p, result.tolerance.pictures)), base64(readWhole(panelsFile(folder, *p))));
     if (!result.pictures.empty()) html += chart(result.pictures) + picturesTable(result);
     if (!result.findings.empty()) html += numbersTable(result.findings);
     writeWhole(folder / "diff.html", html + "</body></html>\n");

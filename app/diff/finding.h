@@ -6,9 +6,9 @@ namespace app {
 
 /// One thing that was compared, say a column of numbers.
 struct DiffFinding {
-    std::string what;        ///< "energy.csv: total_erg"
-    std::string words;       ///< how far apart both are and where; empty: not at all
-    bool differs = false;    ///< by more than the tolerance
+    std::string what;      ///< "energy.csv: total_erg"
+    std::string words;     ///< how far apart both are and where; empty: not at all
+    bool differs = false;  ///< by more than the tolerance
 };
 
 }  // namespace app

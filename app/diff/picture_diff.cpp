@@ -77,9 +77,8 @@ std::vector<PictureDiff> diffPictures(const std::vector<PicturePair>& pairs, con
         if (stopWanted()) throw sim::InputError("stopped by the user before all was compared");
         diffs[i] = diffOf(pairs[i], tolerance);
     });
-    std::ranges::stable_sort(diffs, [](const PictureDiff& x, const PictureDiff& y) {
-        return x.differs != y.differs ? x.differs : badness(x) > badness(y);
-    });
+    std::ranges::stable_sort(diffs,
+                             [](const PictureDiff& x, const PictureDiff& y) { return x.differs != y.differs ? x.differs : badness(x) > badness(y); });
     return diffs;
 }
 
@@ -89,9 +88,10 @@ std::string wordsOf(const PictureDiff& diff, const render::ImageTolerance& toler
     const auto& [similarity, color] = diff.difference;
     return fmt::format("{}: mean SSIM {:.4f}{}, lowest {:.4f}{} at ({}, {}), {:.3g} % of pixels over {}/255{}, largest difference {}{} at ({}, {})",
                        diff.pair.name, similarity.mean, missed(similarity.mean < tolerance.meanSsim, "at least", tolerance.meanSsim),
-                       similarity.lowest, missed(similarity.lowest < tolerance.lowestSsim, "at least", tolerance.lowestSsim), similarity.x, similarity.y,
-                       100.0 * color.share, render::kVisibleStep, missed(color.share > tolerance.pixels, "at most", 100.0 * tolerance.pixels),
-                       color.largest, missed(color.largest > tolerance.largest, "at most", tolerance.largest), color.x, color.y);
+                       similarity.lowest, missed(similarity.lowest < tolerance.lowestSsim, "at least", tolerance.lowestSsim), similarity.x,
+                       similarity.y, 100.0 * color.share, render::kVisibleStep,
+                       missed(color.share > tolerance.pixels, "at most", 100.0 * tolerance.pixels), color.largest,
+                       missed(color.largest > tolerance.largest, "at most", tolerance.largest), color.x, color.y);
 }
 
 void drawPanels(const PicturePair& pair, const fs::path& target)

@@ -21,8 +21,9 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Keys that tell of the machine and the clock, or are compared elsewhere.
-constexpr std::array<std::string_view, 11> kNotOfTheRun = {"seconds", "wall_seconds", "seconds_per_step", "peak_memory_mb", "provenance",
-                                                           "content_hash", "state_hash", "scene", "title", "variant", "label"};
+constexpr std::array<std::string_view, 11> kNotOfTheRun = {
+    "seconds", "wall_seconds", "seconds_per_step", "peak_memory_mb", "provenance", "content_hash", "state_hash",
+    "scene",   "title",        "variant",          "label"};
 
 [[noreturn]] void refuseLine(const std::filesystem::path& file, std::size_t line, const std::string& why)
 {

@@ -87,7 +87,8 @@ std::vector<DiffFinding> StateDiff::findings(const Tolerance& tolerance) const
     };
     const auto addMissing = [&](const char* where, const Missing& missing) {
         if (missing.most > 0)
-            findings.push_back({"particles", fmt::format("{} only in {} at {:.6g} s, particle {} is one", missing.most, where, missing.time, missing.first), true});
+            findings.push_back(
+                {"particles", fmt::format("{} only in {} at {:.6g} s, particle {} is one", missing.most, where, missing.time, missing.first), true});
     };
     addMissing("A", onlyA_);
     addMissing("B", onlyB_);

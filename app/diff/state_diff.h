@@ -28,14 +28,14 @@ class StateDiff {
         const char* unit;
         double value = 0.0;
         std::uint64_t who = 0;
-        double time = 0.0;   ///< [s]
+        double time = 0.0;  ///< [s]
         void offer(double difference, std::uint64_t id, double t);
     };
     /// Who has no like in the other run.
     struct Missing {
-        std::size_t most = 0;      ///< at one time
-        std::uint64_t first = 0;   ///< one of them
-        double time = 0.0;         ///< when there are so many [s]
+        std::size_t most = 0;     ///< at one time
+        std::uint64_t first = 0;  ///< one of them
+        double time = 0.0;        ///< when there are so many [s]
         void offer(const std::vector<std::uint64_t>& ids, double t);
     };
     void addLiquid(const sim::LiquidParticles& a, const sim::LiquidParticles& b, double time);
@@ -43,9 +43,9 @@ class StateDiff {
 
     std::size_t states_ = 0;
     std::optional<double> differsFrom_;
-    Largest position_{"cm"}, velocity_{"cm/s"}, mass_{"g"};                 ///< of particles
+    Largest position_{"cm"}, velocity_{"cm/s"}, mass_{"g"};  ///< of particles
     Largest vertexPosition_{"cm"}, vertexVelocity_{"cm/s"}, absorbed_{"g"};
-    Missing onlyA_, onlyB_;                                                 ///< particles
+    Missing onlyA_, onlyB_;  ///< particles
     std::size_t verticesA_ = 0, verticesB_ = 0;
 };
 

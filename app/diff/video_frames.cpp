@@ -19,10 +19,13 @@ namespace {
 void takeFramesOut(const fs::path& video, const fs::path& folder)
 {
     const auto ffmpeg = findProgram("ffmpeg");
-    if (!ffmpeg) throw std::runtime_error(fmt::format("{}: no ffmpeg along PATH to take its frames out; install it, or compare folders of pictures", video.string()));
+    if (!ffmpeg)
+        throw std::runtime_error(
+            fmt::format("{}: no ffmpeg along PATH to take its frames out; install it, or compare folders of pictures", video.string()));
     fs::create_directories(folder);
-    const ChildExit end = runChild(*ffmpeg, {"-hide_banner", "-loglevel", "error", "-i", fs::absolute(video).string(), "-vsync", "passthrough",
-                                             "-start_number", "0", "-compression_level", "1", "frame_%05d.png"},
+    const ChildExit end = runChild(*ffmpeg,
+                                   {"-hide_banner", "-loglevel", "error", "-i", fs::absolute(video).string(), "-vsync", "passthrough",
+                                    "-start_number", "0", "-compression_level", "1", "frame_%05d.png"},
                                    {.folder = folder});
     if (!end.ok()) throw std::runtime_error(fmt::format("ffmpeg cannot read {}: {}", video.string(), end.lastWords()));
 }

@@ -14,28 +14,20 @@ const char* const kSaturationTitle = "saturation";
 render::ColorMap colorMapOf(ColorMap map)
 {
     switch (map) {
-        case ColorMap::Turbo:
-            return render::ColorMap::Turbo;
-        case ColorMap::Viridis:
-            return render::ColorMap::Viridis;
-        default:
-            return render::ColorMap::Jet;
+        case ColorMap::Turbo: return render::ColorMap::Turbo;
+        case ColorMap::Viridis: return render::ColorMap::Viridis;
+        default: return render::ColorMap::Jet;
     }
 }
 
 render::ObstacleStyle obstacleStyleOf(ObstacleStyle style, const SceneContents& contents)
 {
     switch (style) {
-        case ObstacleStyle::Auto:
-            return contents.fabric() ? render::ObstacleStyle::Solid : render::ObstacleStyle::Translucent;
-        case ObstacleStyle::Solid:
-            return render::ObstacleStyle::Solid;
-        case ObstacleStyle::Wire:
-            return render::ObstacleStyle::Wire;
-        case ObstacleStyle::Hidden:
-            return render::ObstacleStyle::Hidden;
-        default:
-            return render::ObstacleStyle::Translucent;
+        case ObstacleStyle::Auto: return contents.fabric() ? render::ObstacleStyle::Solid : render::ObstacleStyle::Translucent;
+        case ObstacleStyle::Solid: return render::ObstacleStyle::Solid;
+        case ObstacleStyle::Wire: return render::ObstacleStyle::Wire;
+        case ObstacleStyle::Hidden: return render::ObstacleStyle::Hidden;
+        default: return render::ObstacleStyle::Translucent;
     }
 }
 
@@ -51,21 +43,13 @@ void fillIn(const FabricLookSettings& settings, render::FabricLook& look)
 
 }  // namespace
 
-std::array<float, 2> toFloat(const std::array<double, 2>& range)
-{
-    return {static_cast<float>(range[0]), static_cast<float>(range[1])};
-}
+std::array<float, 2> toFloat(const std::array<double, 2>& range) { return {static_cast<float>(range[0]), static_cast<float>(range[1])}; }
 
-const char* titleOf(ColorBy colorBy)
-{
-    return colorBy == ColorBy::Pressure ? kPressureTitle : kSpeedTitle;
-}
+const char* titleOf(ColorBy colorBy) { return colorBy == ColorBy::Pressure ? kPressureTitle : kSpeedTitle; }
 
 const char* titleOf(FabricColorBy colorBy)
 {
-    return colorBy == FabricColorBy::Strain       ? kStrainTitle
-           : colorBy == FabricColorBy::Saturation ? kSaturationTitle
-                                                  : kSpeedTitle;
+    return colorBy == FabricColorBy::Strain ? kStrainTitle : colorBy == FabricColorBy::Saturation ? kSaturationTitle : kSpeedTitle;
 }
 
 render::LiquidStyle liquidStyleOf(LiquidStyle style)
@@ -105,9 +89,7 @@ std::optional<render::ColorBar> sharedBar(const PictureSettings& pictures)
     const RenderSettings& settings = pictures.render;
     if (!settings.colorBar) return std::nullopt;
     if (pictures.contents.liquid && settings.colorBy != ColorBy::Flat)
-        return render::ColorBar{.map = colorMapOf(settings.colorMap),
-                                .range = toFloat(settings.range),
-                                .title = titleOf(settings.colorBy)};
+        return render::ColorBar{.map = colorMapOf(settings.colorMap), .range = toFloat(settings.range), .title = titleOf(settings.colorBy)};
     const auto barOf = [](const FabricLookSettings& fabric) {
         render::FabricLook look;
         fillIn(fabric, look);
@@ -118,18 +100,15 @@ std::optional<render::ColorBar> sharedBar(const PictureSettings& pictures)
     return std::nullopt;
 }
 
-render::Camera cameraAt(const CameraSettings& settings, double time, const Eigen::AlignedBox3d& everything,
-                        double aspect)
+render::Camera cameraAt(const CameraSettings& settings, double time, const Eigen::AlignedBox3d& everything, double aspect)
 {
     if (settings.orbit) {
-        auto camera = render::orbitCamera(settings.lookAt, settings.distance,
-                                          settings.azimuthDegrees + time * settings.turnDegreesPerSecond,
+        auto camera = render::orbitCamera(settings.lookAt, settings.distance, settings.azimuthDegrees + time * settings.turnDegreesPerSecond,
                                           settings.elevationDegrees, settings.fovDegrees);
         camera.up = settings.up;
         return camera;
     }
-    render::Camera camera = {
-        .eye = settings.eye, .target = settings.lookAt, .up = settings.up, .fovDegrees = settings.fovDegrees};
+    render::Camera camera = {.eye = settings.eye, .target = settings.lookAt, .up = settings.up, .fovDegrees = settings.fovDegrees};
     if (!settings.autoFrame) return camera;
     camera.eye = Eigen::Vector3d::UnitZ();
     camera.target = Eigen::Vector3d::Zero();

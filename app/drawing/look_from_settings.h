@@ -30,7 +30,6 @@ std::optional<render::ColorBar> sharedBar(const PictureSettings& pictures);
 
 /// Where the camera is at a time [s].
 /// @param everything  box about the first frame [cm]
-render::Camera cameraAt(const CameraSettings& settings, double time, const Eigen::AlignedBox3d& everything,
-                        double aspect);
+render::Camera cameraAt(const CameraSettings& settings, double time, const Eigen::AlignedBox3d& everything, double aspect);
 
 }  // namespace app

@@ -29,8 +29,7 @@ void place(const sim::Motion& motion, double time, FrameSnapshot::Mesh& mesh)
     Eigen::Matrix3d turning;
     for (int a = 0; a < 3; ++a) turning.col(a) = motion.velocity(time, sim::Vec3::Unit(a)) - origin;
     mesh.velocities.clear();
-    for (const auto& position : mesh.positions)
-        mesh.velocities.push_back((origin + turning * position.cast<double>()).cast<float>());
+    for (const auto& position : mesh.positions) mesh.velocities.push_back((origin + turning * position.cast<double>()).cast<float>());
 }
 
 }  // namespace

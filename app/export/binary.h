@@ -6,8 +6,7 @@
 
 namespace app {
 
-static_assert(std::endian::native == std::endian::little,
-              "binary files are written as memory has them: low byte first");
+static_assert(std::endian::native == std::endian::little, "binary files are written as memory has them: low byte first");
 
 /// Append numbers as they are in memory.
 template <class T>

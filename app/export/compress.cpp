@@ -43,8 +43,7 @@ void appendCompressed(std::span<const std::byte> bytes, bool repeats, std::strin
     const std::size_t count = (bytes.size() + kBlock - 1) / kBlock;
     std::vector<std::string> blocks(count);
     sim::parallelFor(count, [&](std::size_t b) {
-        blocks[b] = compressed(bytes.subspan(b * kBlock, std::min(kBlock, bytes.size() - b * kBlock)),
-                               repeats ? Z_DEFAULT_STRATEGY : Z_HUFFMAN_ONLY);
+        blocks[b] = compressed(bytes.subspan(b * kBlock, std::min(kBlock, bytes.size() - b * kBlock)), repeats ? Z_DEFAULT_STRATEGY : Z_HUFFMAN_ONLY);
     });
     for (const std::size_t number : {count, kBlock, bytes.size() % kBlock}) appendBinary(std::uint64_t{number}, out);
     for (const std::string& block : blocks) appendBinary(std::uint64_t{block.size()}, out);

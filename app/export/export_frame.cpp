@@ -22,19 +22,10 @@ ExportArray floats(const char* name, const char* unit, std::size_t points, int c
     return {name, unit, components, std::vector<float>(points * components)};
 }
 
-ExportArray integers(const char* name, std::size_t points)
-{
-    return {name, "", 1, std::vector<std::uint32_t>(points)};
-}
+ExportArray integers(const char* name, std::size_t points) { return {name, "", 1, std::vector<std::uint32_t>(points)}; }
 
-float* floatsOf(ExportArray& array)
-{
-    return std::get<std::vector<float>>(array.values).data();
-}
-std::uint32_t* integersOf(ExportArray& array)
-{
-    return std::get<std::vector<std::uint32_t>>(array.values).data();
-}
+float* floatsOf(ExportArray& array) { return std::get<std::vector<float>>(array.values).data(); }
+std::uint32_t* integersOf(ExportArray& array) { return std::get<std::vector<std::uint32_t>>(array.values).data(); }
 
 ExportPart emptyPart(std::string name, ExportPart::Kind kind)
 {
@@ -44,10 +35,7 @@ ExportPart emptyPart(std::string name, ExportPart::Kind kind)
     return part;
 }
 
-void put(const Vec3& vector, std::size_t point, float* out)
-{
-    Eigen::Map<Eigen::Vector3f>(out + 3 * point) = vector.cast<float>();
-}
+void put(const Vec3& vector, std::size_t point, float* out) { Eigen::Map<Eigen::Vector3f>(out + 3 * point) = vector.cast<float>(); }
 
 /// Numbers of the particles in the order of their ids.
 std::vector<std::uint32_t> inOrderOfId(const sim::LiquidParticles& liquid)
@@ -71,8 +59,7 @@ ExportPart liquidPart(const sim::LiquidParticles& liquid, double density)
     const std::size_t n = liquid.count;
     ExportPart part = emptyPart("liquid", ExportPart::Kind::Points);
     part.positions.resize(n);
-    part.arrays = {floats("velocity", "cm/s", n, 3), floats("speed", "cm/s", n), floats("volume", "cm^3", n),
-                   integers("id", n)};
+    part.arrays = {floats("velocity", "cm/s", n, 3), floats("speed", "cm/s", n), floats("volume", "cm^3", n), integers("id", n)};
     float *velocity = floatsOf(part.arrays[0]), *speed = floatsOf(part.arrays[1]), *volume = floatsOf(part.arrays[2]);
     std::uint32_t* id = integersOf(part.arrays[3]);
     const std::vector<std::uint32_t> order = inOrderOfId(liquid);
@@ -106,8 +93,7 @@ ExportPart surfacePart(const sim::SurfaceMesh& surface)
 /// Where the vertices of a part of the fabric are, how fast and how wet.
 /// @param vertices    of the fabric, one for each point of the part
 /// @param saturation  of each vertex of the fabric; empty: all is dry
-void addFabricPoints(std::span<const int> vertices, const sim::FabricState& state, std::span<const float> saturation,
-                     ExportPart& part)
+void addFabricPoints(std::span<const int> vertices, const sim::FabricState& state, std::span<const float> saturation, ExportPart& part)
 {
     const std::size_t n = vertices.size();
     ExportArray velocity = floats("velocity", "cm/s", n, 3), wet = floats("saturation", "", n);
@@ -147,8 +133,7 @@ ExportArray vertexNormals(const std::vector<Eigen::Vector3f>& positions, const s
 {
     std::vector<Vec3> sums(positions.size(), Vec3::Zero());
     for (const Eigen::Vector3i& t : triangles) {
-        const Vec3 a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(),
-                   c = positions[t[2]].cast<double>();
+        const Vec3 a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(), c = positions[t[2]].cast<double>();
         for (const int corner : t) sums[corner] += (b - a).cross(c - a);
     }
     ExportArray normal = floats("normal", "", positions.size(), 3);
@@ -176,8 +161,7 @@ ExportPart clothPart(const sim::Fabric& fabric, const sim::FabricState& state, s
     for (std::size_t f = 0; f < fabric.faces.size(); ++f) {
         const sim::Vec3i& face = fabric.faces.vertices[f];
         part.triangles.emplace_back(point[face[0]], point[face[1]], point[face[2]]);
-        for (const int corner : part.triangles.back())
-            integersOf(material)[corner] = static_cast<std::uint32_t>(fabric.faces.material[f]);
+        for (const int corner : part.triangles.back()) integersOf(material)[corner] = static_cast<std::uint32_t>(fabric.faces.material[f]);
     }
     part.arrays.push_back(vertexNormals(part.positions, part.triangles));
     part.arrays.push_back(std::move(material));
@@ -192,9 +176,7 @@ std::string freeName(const std::string& obstacle, const std::vector<ExportPart>&
         const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
         name += isPlain ? c : '_';
     }
-    const auto isTaken = [&](const std::string& wanted) {
-        return std::ranges::count(parts, wanted, &ExportPart::name) > 0;
-    };
+    const auto isTaken = [&](const std::string& wanted) { return std::ranges::count(parts, wanted, &ExportPart::name) > 0; };
     std::string result = name;
     for (int n = 2; isTaken(result); ++n) result = fmt::format("{}_{}", name, n);
     return result;
@@ -206,8 +188,7 @@ ExportPart obstaclePart(const FrameSnapshot::Mesh& obstacle, std::string name)
     part.positions = obstacle.positions;
     part.triangles = obstacle.triangles;
     ExportArray velocity = floats("velocity", "cm/s", part.positions.size(), 3);
-    for (std::size_t i = 0; i < obstacle.velocities.size(); ++i)
-        put(obstacle.velocities[i].cast<double>(), i, floatsOf(velocity));
+    for (std::size_t i = 0; i < obstacle.velocities.size(); ++i) put(obstacle.velocities[i].cast<double>(), i, floatsOf(velocity));
     part.arrays.push_back(std::move(velocity));
     return part;
 }
@@ -237,8 +218,7 @@ ExportFrame exportFrame(std::int64_t number, const sim::State& state, const sim:
     const std::vector<float> saturation = wetnessOf(fabric, state.fabric, density);
     if (fabric.strands.count() > 0) frame.parts.push_back(yarnPart(fabric, state.fabric, saturation));
     if (fabric.faces.size() > 0) frame.parts.push_back(clothPart(fabric, state.fabric, saturation));
-    for (const FrameSnapshot::Mesh& obstacle : obstacles)
-        frame.parts.push_back(obstaclePart(obstacle, freeName(obstacle.name, frame.parts)));
+    for (const FrameSnapshot::Mesh& obstacle : obstacles) frame.parts.push_back(obstaclePart(obstacle, freeName(obstacle.name, frame.parts)));
     return frame;
 }
 

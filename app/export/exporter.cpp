@@ -10,8 +10,7 @@
 
 namespace app {
 
-Exporter::Exporter(std::filesystem::path folder, const GeometryFormats& formats, double secondsPerFrame,
-                   std::vector<FrameTime> earlier)
+Exporter::Exporter(std::filesystem::path folder, const GeometryFormats& formats, double secondsPerFrame, std::vector<FrameTime> earlier)
     : folder_(std::move(folder)), formats_(formats), secondsPerFrame_(secondsPerFrame), frames_(std::move(earlier))
 {
     makeFolder(folder_);
@@ -36,8 +35,7 @@ void Exporter::writeVtp(const ExportFrame& frame) const
 
 void Exporter::writePly(const ExportFrame& frame) const
 {
-    for (const ExportPart& part : frame.parts)
-        writeWhole(folder_ / geometryFileName(part.name, frame.number, "ply"), plyFile(part, frame.time));
+    for (const ExportPart& part : frame.parts) writeWhole(folder_ / geometryFileName(part.name, frame.number, "ply"), plyFile(part, frame.time));
 }
 
 void Exporter::writeUsda(const ExportFrame& frame) const

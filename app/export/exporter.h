@@ -17,8 +17,7 @@ class Exporter {
     /// @param secondsPerFrame  simulated time from one number of a frame to the next [s]
     /// @param earlier          frames that an earlier Exporter has left there, for a run that goes on: collections name
     /// them too
-    Exporter(std::filesystem::path folder, const GeometryFormats& formats, double secondsPerFrame,
-             std::vector<FrameTime> earlier = {});
+    Exporter(std::filesystem::path folder, const GeometryFormats& formats, double secondsPerFrame, std::vector<FrameTime> earlier = {});
 
     /// Frames come in order, with the same parts in each. Throws std::runtime_error when the disk takes no more.
     void write(const ExportFrame& frame);

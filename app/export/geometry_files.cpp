@@ -17,9 +17,8 @@ namespace {
 /// The frame that a file of this name is of, if an Exporter writes such files, or had not finished one: −1 for files of all frames.
 std::optional<std::int64_t> frameOfGeometry(const std::string& name)
 {
-    static const std::regex kPattern(
-        R"((?:(?:liquid|surface|yarns|cloth|obstacle_\w+)(?:_(\d{5,})\.(?:vtp|ply)|\.pvd)|)"
-        R"(frame_(\d{5,})\.(?:obj|usda)|(?:animation|topology)\.usda|provenance\.json)(?:\.part)?)");
+    static const std::regex kPattern(R"((?:(?:liquid|surface|yarns|cloth|obstacle_\w+)(?:_(\d{5,})\.(?:vtp|ply)|\.pvd)|)"
+                                     R"(frame_(\d{5,})\.(?:obj|usda)|(?:animation|topology)\.usda|provenance\.json)(?:\.part)?)");
     std::smatch match;
     if (!std::regex_match(name, match, kPattern)) return std::nullopt;
     const std::string digits = match[1].str() + match[2].str();
@@ -28,10 +27,7 @@ std::optional<std::int64_t> frameOfGeometry(const std::string& name)
 
 }  // namespace
 
-fs::path geometryFolder(const fs::path& runFolder)
-{
-    return runFolder / "geometry";
-}
+fs::path geometryFolder(const fs::path& runFolder) { return runFolder / "geometry"; }
 
 std::string geometryFileName(std::string_view part, std::int64_t frame, std::string_view extension)
 {

@@ -19,8 +19,7 @@ void writeCells(const ExportPart& part, std::size_t first, fmt::memory_buffer& o
         for (int i = part.begin[s]; i < part.begin[s + 1]; ++i) fmt::format_to(to, " {}", first + i);
         out.push_back('\n');
     }
-    for (const Eigen::Vector3i& t : part.triangles)
-        fmt::format_to(to, "f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
+    for (const Eigen::Vector3i& t : part.triangles) fmt::format_to(to, "f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
 }
 
 }  // namespace
@@ -32,8 +31,7 @@ std::string objFile(const ExportFrame& frame)
     std::size_t first = 1;
     for (const ExportPart& part : frame.parts) {
         fmt::format_to(fmt::appender(out), "o {}\ng {}\n", part.name, part.name);
-        for (const Eigen::Vector3f& x : part.positions)
-            fmt::format_to(fmt::appender(out), "v {} {} {}\n", x.x(), x.y(), x.z());
+        for (const Eigen::Vector3f& x : part.positions) fmt::format_to(fmt::appender(out), "v {} {} {}\n", x.x(), x.y(), x.z());
         writeCells(part, first, out);
         first += part.positions.size();
     }

@@ -37,15 +37,13 @@ void writeProperties(const ExportArray& array, std::string& header)
 
 std::string headerOf(const ExportPart& part, double time, std::size_t edges)
 {
-    std::string header =
-        fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}: {}\ncomment time {} s\nelement vertex {}\n",
-                    programName(), unitsOf(part), time, part.positions.size());
+    std::string header = fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}: {}\ncomment time {} s\nelement vertex {}\n", programName(),
+                                     unitsOf(part), time, part.positions.size());
     for (const char axis : {'x', 'y', 'z'}) header += fmt::format("property float {}\n", axis);
     for (const ExportArray& array : part.arrays) writeProperties(array, header);
     if (part.kind == ExportPart::Kind::Triangles)
         header += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", part.triangles.size());
-    if (part.kind == ExportPart::Kind::Lines)
-        header += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\n", edges);
+    if (part.kind == ExportPart::Kind::Lines) header += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\n", edges);
     return header + "end_header\n";
 }
 

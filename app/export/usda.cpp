@@ -30,8 +30,7 @@ class Layer {
 
     /// An attribute that changes with time: declared, and then its elements, each written by writeElement(i).
     template <class WriteElement>
-    void varying(std::string_view type, std::string_view name, bool perPoint, std::size_t count,
-                 WriteElement writeElement)
+    void varying(std::string_view type, std::string_view name, bool perPoint, std::size_t count, WriteElement writeElement)
     {
         add("        {}[] {}{}\n", type, name, perPoint ? " (\n            interpolation = \"vertex\"\n        )" : "");
         if (!sample_) return;
@@ -44,8 +43,7 @@ class Layer {
     }
     void vectors(std::string_view type, std::string_view name, bool perPoint, std::span<const float> xyz)
     {
-        varying(type, name, perPoint, xyz.size() / 3,
-                [&](std::size_t i) { add("({}, {}, {})", xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]); });
+        varying(type, name, perPoint, xyz.size() / 3, [&](std::size_t i) { add("({}, {}, {})", xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]); });
     }
 
     std::string take() const { return fmt::to_string(text_); }
@@ -74,9 +72,7 @@ std::function<float(std::size_t)> widthsOf(const ExportPart& part)
     if (const ExportArray* radius = part.find("radius"))
         return [&r = std::get<std::vector<float>>(radius->values)](std::size_t i) { return 2.0f * r[i]; };
     if (const ExportArray* volume = part.find("volume"))
-        return [&v = std::get<std::vector<float>>(volume->values)](std::size_t i) {
-            return static_cast<float>(std::cbrt(6.0 / sim::kPi * v[i]));
-        };
+        return [&v = std::get<std::vector<float>>(volume->values)](std::size_t i) { return static_cast<float>(std::cbrt(6.0 / sim::kPi * v[i])); };
     return nullptr;
 }
 
@@ -98,8 +94,7 @@ void writeArray(const ExportArray& array, Layer& layer)
     if (const auto* numbers = std::get_if<std::vector<float>>(&array.values)) {
         if (array.name == "velocity") return layer.vectors("vector3f", "velocities", false, *numbers);
         if (array.name == "normal") return layer.vectors("normal3f", "normals", true, *numbers);
-        return layer.varying("float", "primvars:" + array.name, true, numbers->size(),
-                             [&](std::size_t i) { layer.add("{}", (*numbers)[i]); });
+        return layer.varying("float", "primvars:" + array.name, true, numbers->size(), [&](std::size_t i) { layer.add("{}", (*numbers)[i]); });
     }
     const auto& numbers = std::get<std::vector<std::uint32_t>>(array.values);
     const bool isId = array.name == "id";
@@ -132,19 +127,14 @@ void writePrims(std::span<const ExportPart> parts, Layer& layer)
         writeCells(part, layer);
         writeExtent(part, width, layer);
         layer.vectors("point3f", "points", false, flat(part.positions));
-        if (width)
-            layer.varying("float", "widths", true, part.positions.size(),
-                          [&](std::size_t i) { layer.add("{}", width(i)); });
+        if (width) layer.varying("float", "widths", true, part.positions.size(), [&](std::size_t i) { layer.add("{}", width(i)); });
         for (const ExportArray& array : part.arrays) writeArray(array, layer);
         layer.add("    }}\n");
     }
     layer.add("}}\n");
 }
 
-std::string spanOf(std::int64_t first, std::int64_t last)
-{
-    return fmt::format("    endTimeCode = {}\n    startTimeCode = {}\n", last, first);
-}
+std::string spanOf(std::int64_t first, std::int64_t last) { return fmt::format("    endTimeCode = {}\n    startTimeCode = {}\n", last, first); }
 
 }  // namespace
 
@@ -175,9 +165,7 @@ std::string usdaAnimation(std::span<const FrameTime> frames, double secondsPerFr
         files += fmt::format("{}@./{}@", comma, geometryFileName("frame", code, "usda"));
     }
     Layer layer(std::nullopt);
-    writeHead(
-        spanOf(frames.front().number, frames.back().number) + fmt::format("    subLayers = [@./{}@]\n", kUsdaTopology),
-        secondsPerFrame, layer);
+    writeHead(spanOf(frames.front().number, frames.back().number) + fmt::format("    subLayers = [@./{}@]\n", kUsdaTopology), secondsPerFrame, layer);
     layer.add(
         "over \"{}\" (\n    clips = {{\n        dictionary default = {{\n            double2[] active = [{}]\n"
         "            asset[] assetPaths = [{}]\n            asset manifestAssetPath = @./{}@\n"

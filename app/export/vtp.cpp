@@ -24,8 +24,8 @@ class VtpText {
     {
         static_assert(sizeof(T) == 4);
         const char* type = std::is_same_v<T, float> ? "Float32" : std::is_signed_v<T> ? "Int32" : "UInt32";
-        line(fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)",
-                         type, name, components, appended_.size()));
+        line(fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)", type, name, components,
+                         appended_.size()));
         appendCompressed(std::as_bytes(values), std::is_integral_v<T>, appended_);
     }
 
@@ -60,21 +60,16 @@ void writeCells(const ExportPart& part, VtpText& out)
 {
     const std::size_t points = part.positions.size();
     switch (part.kind) {
-        case ExportPart::Kind::Points:
-            return writeCells("Verts", series(points, 0, 1), series(points, 1, 1), out);
-        case ExportPart::Kind::Lines:
-            return writeCells("Lines", series(points, 0, 1), std::span(part.begin).subspan(1), out);
-        case ExportPart::Kind::Triangles:
-            return writeCells("Polys", flat(part.triangles), series(part.triangles.size(), 3, 3), out);
+        case ExportPart::Kind::Points: return writeCells("Verts", series(points, 0, 1), series(points, 1, 1), out);
+        case ExportPart::Kind::Lines: return writeCells("Lines", series(points, 0, 1), std::span(part.begin).subspan(1), out);
+        case ExportPart::Kind::Triangles: return writeCells("Polys", flat(part.triangles), series(part.triangles.size(), 3, 3), out);
     }
 }
 
 std::size_t cellCount(const ExportPart& part, ExportPart::Kind kind)
 {
     if (kind != part.kind) return 0;
-    return kind == ExportPart::Kind::Points  ? part.positions.size()
-           : kind == ExportPart::Kind::Lines ? part.begin.size() - 1
-                                             : part.triangles.size();
+    return kind == ExportPart::Kind::Points ? part.positions.size() : kind == ExportPart::Kind::Lines ? part.begin.size() - 1 : part.triangles.size();
 }
 
 }  // namespace
@@ -85,21 +80,15 @@ std::string vtpFile(const ExportPart& part, double time)
     VtpText out;
     out.line("<?xml version=\"1.0\"?>");
     out.line(fmt::format("<!-- {}: {}, time in s -->", programName(), unitsOf(part)));
-    out.line(
-        R"(<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">)");
+    out.line(R"(<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">)");
     out.line("<PolyData>");
-    out.line(fmt::format(
-        R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{}</DataArray></FieldData>)",
-        time));
-    out.line(fmt::format(
-        R"(<Piece NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfStrips="0" NumberOfPolys="{}">)",
-        part.positions.size(), cellCount(part, Kind::Points), cellCount(part, Kind::Lines),
-        cellCount(part, Kind::Triangles)));
+    out.line(
+        fmt::format(R"(<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{}</DataArray></FieldData>)", time));
+    out.line(fmt::format(R"(<Piece NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfStrips="0" NumberOfPolys="{}">)",
+                         part.positions.size(), cellCount(part, Kind::Points), cellCount(part, Kind::Lines), cellCount(part, Kind::Triangles)));
     out.line("<PointData>");
     for (const ExportArray& array : part.arrays)
-        std::visit(
-            [&]<class T>(const std::vector<T>& values) { out.array(array.name, array.components, std::span(values)); },
-            array.values);
+        std::visit([&]<class T>(const std::vector<T>& values) { out.array(array.name, array.components, std::span(values)); }, array.values);
     out.line("</PointData>");
     out.line("<Points>");
     out.array("Points", 3, flat(part.positions));
@@ -117,8 +106,7 @@ std::string pvdFile(std::string_view part, std::span<const FrameTime> frames)
         "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
         programName());
     for (const FrameTime& frame : frames)
-        out += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time,
-                           geometryFileName(part, frame.number, kVtpExtension));
+        out += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, geometryFileName(part, frame.number, kVtpExtension));
     return out + "</Collection>\n</VTKFile>\n";
 }
 

@@ -52,9 +52,9 @@ class FramePipeline {
     const std::filesystem::path folder_;
     FrameQueue<std::unique_ptr<FrameSnapshot>> toDraw_;
     FrameQueue<Drawn> toWrite_;
-    std::mutex mutex_;                                        ///< guards what follows
+    std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
-    std::int64_t submitted_ = 0, written_ = 0;                ///< frames
+    std::int64_t submitted_ = 0, written_ = 0;  ///< frames
     std::vector<std::unique_ptr<FrameSnapshot>> spare_;
     std::exception_ptr failure_;
     std::jthread drawer_, writer_;

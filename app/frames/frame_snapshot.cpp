@@ -5,8 +5,7 @@ namespace app {
 render::FrameView FrameSnapshot::view()
 {
     borrowedObstacles.clear();
-    for (const Mesh& mesh : obstacles)
-        borrowedObstacles.push_back({.positions = mesh.positions, .triangles = mesh.triangles, .inside = mesh.inside});
+    for (const Mesh& mesh : obstacles) borrowedObstacles.push_back({.positions = mesh.positions, .triangles = mesh.triangles, .inside = mesh.inside});
     borrowedLines.clear();
     for (const Lines& l : lines) borrowedLines.push_back({l.points, l.color, l.width, l.isTapered, l.rim, l.lift});
     return {.time = time,
@@ -27,10 +26,7 @@ render::FrameView FrameSnapshot::view()
                       .values = cloth.values,
                       .wetness = cloth.wetness},
             .lines = borrowedLines,
-            .surface = {.positions = surface.positions,
-                        .normals = surface.normals,
-                        .values = surface.values,
-                        .triangles = surface.triangles}};
+            .surface = {.positions = surface.positions, .normals = surface.normals, .values = surface.values, .triangles = surface.triangles}};
 }
 
 }  // namespace app

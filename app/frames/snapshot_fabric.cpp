@@ -54,14 +54,12 @@ double largestStretch(const std::vector<Vec3>& rest, const std::vector<Vec3>& no
 }
 
 /// What colours each vertex; empty where it is the material.
-std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, const FabricState& state,
-                                 const std::vector<float>& wetness,
+std::vector<double> vertexValues(FabricColorBy colorBy, const Fabric& fabric, const FabricState& state, const std::vector<float>& wetness,
                                  std::vector<double> (*strain)(const Fabric&, const FabricState&))
 {
     if (colorBy == FabricColorBy::Material) return {};
     if (colorBy == FabricColorBy::Saturation)
-        return wetness.empty() ? std::vector<double>(fabric.vertexCount(), 0.0)
-                               : std::vector<double>(wetness.begin(), wetness.end());
+        return wetness.empty() ? std::vector<double>(fabric.vertexCount(), 0.0) : std::vector<double>(wetness.begin(), wetness.end());
     if (colorBy == FabricColorBy::Strain) return strain(fabric, state);
     std::vector<double> speeds;
     speeds.reserve(state.v.size());
@@ -146,8 +144,7 @@ void takeCloth(const Fabric& fabric, const FabricState& state, double liquidDens
 
     out.wetness = wetnessOf(fabric, state, liquidDensity);
     for (const Vec3& x : state.x) out.positions.push_back(x.cast<float>());
-    for (const double value : vertexValues(colorBy, fabric, state, out.wetness, clothStrain))
-        out.values.push_back(static_cast<float>(value));
+    for (const double value : vertexValues(colorBy, fabric, state, out.wetness, clothStrain)) out.values.push_back(static_cast<float>(value));
     for (std::size_t f = 0; f < fabric.faces.size(); ++f)
         for (const int v : fabric.faces.vertices[f]) {
             out.thickness[v] = std::max(out.thickness[v], static_cast<float>(fabric.faces.thickness[f]));

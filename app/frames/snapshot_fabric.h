@@ -7,12 +7,10 @@
 namespace app {
 
 /// Yarns as they are now. Without any, all is empty.
-void takeYarns(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy,
-               FrameSnapshot::Yarns& out);
+void takeYarns(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy, FrameSnapshot::Yarns& out);
 
 /// Cloth as it is now. Without any, all is empty.
-void takeCloth(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy,
-               FrameSnapshot::Cloth& out);
+void takeCloth(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity, FabricColorBy colorBy, FrameSnapshot::Cloth& out);
 
 /// How full the pores of each vertex are, 0 … 1; empty where all are dry.
 std::vector<float> wetnessOf(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity);

@@ -6,8 +6,7 @@ namespace app {
 
 namespace {
 
-const Eigen::Vector3f kBlockColor = {0.55f, 0.62f, 0.70f}, kArrowColor = {0.10f, 0.11f, 0.13f},
-                      kContactColor = {0.90f, 0.12f, 0.10f};
+const Eigen::Vector3f kBlockColor = {0.55f, 0.62f, 0.70f}, kArrowColor = {0.10f, 0.11f, 0.13f}, kContactColor = {0.90f, 0.12f, 0.10f};
 
 /// From the corner at these block coordinates along this axis.
 struct BlockEdge {
@@ -77,15 +76,11 @@ Arrows velocityArrows(const sim::LiquidParticles& liquid, double time, float lif
     return arrows;
 }
 
-FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim::Fabric& fabric,
-                                  std::span<const sim::Vec3> x)
+FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim::Fabric& fabric, std::span<const sim::Vec3> x)
 {
     constexpr double kLift = 1.5;  // radii of the fabric
-    FrameSnapshot::Lines lines{.points = {},
-                               .color = kContactColor,
-                               .width = 3.0f,
-                               .isTapered = false,
-                               .lift = static_cast<float>(kLift * largestRadius(fabric))};
+    FrameSnapshot::Lines lines{
+        .points = {}, .color = kContactColor, .width = 3.0f, .isTapered = false, .lift = static_cast<float>(kLift * largestRadius(fabric))};
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         std::array<sim::Vec3, 2> ends = {sim::Vec3::Zero(), sim::Vec3::Zero()};
         for (int k = 0; k < 4; ++k) {
@@ -97,8 +92,8 @@ FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim
     return lines;
 }
 
-void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts,
-               const SnapshotExtras& extras, float radius, std::vector<FrameSnapshot::Lines>& out)
+void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, const SnapshotExtras& extras, float radius,
+               std::vector<FrameSnapshot::Lines>& out)
 {
     out.clear();
     if (extras.blocks) out.push_back(blockEdges(state.grid));

@@ -9,8 +9,8 @@ namespace app {
 /// The lines that `extras` asks for; none where it asks for none.
 /// @param contacts  between pieces of `fabric`, of the last step; null where there are none
 /// @param radius    of a particle [cm]
-void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts,
-               const SnapshotExtras& extras, float radius, std::vector<FrameSnapshot::Lines>& out);
+void takeLines(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, const SnapshotExtras& extras, float radius,
+               std::vector<FrameSnapshot::Lines>& out);
 
 /// Edges of the blocks that exist, each once.
 FrameSnapshot::Lines blockEdges(const sim::BlockGrid& grid);
@@ -29,7 +29,6 @@ Arrows velocityArrows(const sim::LiquidParticles& liquid, double time, float lif
 
 /// From the one nearest point to the other of each pair, with the vertices at x; lifted out of the fabric, in whose
 /// middle they lie.
-FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim::Fabric& fabric,
-                                  std::span<const sim::Vec3> x);
+FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim::Fabric& fabric, std::span<const sim::Vec3> x);
 
 }  // namespace app

@@ -21,8 +21,7 @@ void takeSurface(const sim::State& state, double density, const SnapshotExtras& 
     sim::parallelFor(count, kGrain, [&](std::size_t v) {
         out.positions[v] = mesh.positions[v].cast<float>();
         out.normals[v] = mesh.normals[v].cast<float>();
-        out.values[v] =
-            static_cast<float>(extras.pressure ? smoothPressure(state, mesh.positions[v]) : mesh.velocities[v].norm());
+        out.values[v] = static_cast<float>(extras.pressure ? smoothPressure(state, mesh.positions[v]) : mesh.velocities[v].norm());
     });
 }
 

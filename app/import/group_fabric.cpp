@@ -77,8 +77,7 @@ std::vector<FabricGroup> groupFabric(const reference::Scene& scene, ImportReport
     };
     for (const reference::Cloth& cloth : scene.cloths)
         for (const sim::Vec3i& f : cloth.faces) groupAt(f[0], cloth.material, true, cloth.line).faces.push_back(f);
-    for (const reference::Yarn& yarn : scene.yarns)
-        groupAt(yarn.particles[0], yarn.material, false, yarn.line).strands.push_back(yarn.particles);
+    for (const reference::Yarn& yarn : scene.yarns) groupAt(yarn.particles[0], yarn.material, false, yarn.line).strands.push_back(yarn.particles);
     std::vector<FabricGroup> groups;
     for (auto& [key, group] : byPart) {
         collectParticles(group);
@@ -92,8 +91,7 @@ std::vector<FabricGroup> groupFabric(const reference::Scene& scene, ImportReport
 FabricGroup merged(const std::vector<FabricGroup>& groups)
 {
     FabricGroup all = groups.front();
-    for (std::size_t i = 1; i < groups.size(); ++i)
-        all.strands.insert(all.strands.end(), groups[i].strands.begin(), groups[i].strands.end());
+    for (std::size_t i = 1; i < groups.size(); ++i) all.strands.insert(all.strands.end(), groups[i].strands.begin(), groups[i].strands.end());
     all.particles.clear();
     collectParticles(all);
     return all;

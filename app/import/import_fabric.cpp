@@ -25,8 +25,7 @@ ListedFabric listed(const FabricGroup& group, const Scene& scene)
         numberOf.emplace(p, static_cast<int>(out.points.size()));
         out.points.push_back(scene.particles[p].x);
     }
-    for (const sim::Vec3i& f : group.faces)
-        out.faces.emplace_back(numberOf.at(f[0]), numberOf.at(f[1]), numberOf.at(f[2]));
+    for (const sim::Vec3i& f : group.faces) out.faces.emplace_back(numberOf.at(f[0]), numberOf.at(f[1]), numberOf.at(f[2]));
     for (std::vector<int> strand : group.strands) {
         for (int& p : strand) p = numberOf.at(p);
         out.strands.push_back(std::move(strand));
@@ -40,8 +39,8 @@ GeneratedFabric asListed(const ListedFabric& fabric)
     GeneratedFabric out;
     out.kind = fabric.faces.empty() ? "points" : "mesh";
     out.geometry = {.points = fabric.points, .strands = fabric.strands, .faces = fabric.faces, .lattice = {}};
-    out.summary = fmt::format("{} vertices, {} yarns, {} faces as they are listed, in a file of their own",
-                              fabric.points.size(), fabric.strands.size(), fabric.faces.size());
+    out.summary = fmt::format("{} vertices, {} yarns, {} faces as they are listed, in a file of their own", fabric.points.size(),
+                              fabric.strands.size(), fabric.faces.size());
     for (std::size_t i = 0; i < fabric.points.size(); ++i) out.pointOf.push_back(static_cast<int>(i));
     return out;
 }
@@ -54,8 +53,7 @@ std::array<double, 2> radiusOf(const ImportedPiece& piece, const Scene& scene, I
     const auto isFirst = [&](int p) { return scene.particles[p].radius == first; };
     if (std::ranges::all_of(piece.particles, isFirst)) return first[0] > 0.0 ? first : material.radius;
     report.warnings.push_back(
-        fmt::format("{}: particles have radii of their own; a piece of fabric has one, so all get that of m{}",
-                    piece.name, piece.material));
+        fmt::format("{}: particles have radii of their own; a piece of fabric has one, so all get that of m{}", piece.name, piece.material));
     return material.radius;
 }
 
@@ -69,8 +67,7 @@ sim::Vec3 velocityOf(const ImportedPiece& piece, const Scene& scene, ImportRepor
         isUniform = isUniform && scene.particles[p].v == first;
     }
     if (isUniform) return first;
-    report.warnings.push_back(fmt::format(
-        "{}: particles have velocities of their own; a piece of fabric has one, so all get the mean", piece.name));
+    report.warnings.push_back(fmt::format("{}: particles have velocities of their own; a piece of fabric has one, so all get the mean", piece.name));
     return mean;
 }
 
@@ -80,8 +77,7 @@ double envelopeVolume(const ImportedPiece& piece)
     const sim::FabricGeometry& g = piece.shape.geometry;
     double volume = 0.0;
     for (const sim::Vec3i& f : g.faces)
-        volume += 0.5 * (g.points[f[1]] - g.points[f[0]]).cross(g.points[f[2]] - g.points[f[0]]).norm() *
-                  (piece.radius[0] + piece.radius[1]);
+        volume += 0.5 * (g.points[f[1]] - g.points[f[0]]).cross(g.points[f[2]] - g.points[f[0]]).norm() * (piece.radius[0] + piece.radius[1]);
     for (const std::vector<int>& s : g.strands)
         for (std::size_t i = 1; i < s.size(); ++i)
             volume += (g.points[s[i]] - g.points[s[i - 1]]).norm() * sim::kPi * piece.radius[0] * piece.radius[1];
@@ -96,8 +92,7 @@ double wetnessOf(const ImportedPiece& piece, const Scene& scene, ImportReport& r
     const double capacity = envelopeVolume(piece) * (1.0 - fraction);
     if (!(absorbed > 0.0) || !(capacity > 0.0)) return 0.0;
     const double wetness = std::min(1.0, absorbed / capacity);
-    report.decisions.push_back(fmt::format("{}: has taken up {:.4g} cm^3, {:.3g} of its pores; it is spread evenly",
-                                           piece.name, absorbed, wetness));
+    report.decisions.push_back(fmt::format("{}: has taken up {:.4g} cm^3, {:.3g} of its pores; it is spread evenly", piece.name, absorbed, wetness));
     return wetness;
 }
 
@@ -106,15 +101,11 @@ void tellLost(const ImportedPiece& piece, const Scene& scene, ImportReport& repo
 {
     const auto tell = [&](const char* what, auto holds) {
         const auto count = std::ranges::count_if(piece.particles, [&](int p) { return holds(scene.particles[p]); });
-        if (count > 0)
-            report.warnings.push_back(
-                fmt::format("{}: {} of {} particles; a piece of fabric has no such thing", piece.name, what, count));
+        if (count > 0) report.warnings.push_back(fmt::format("{}: {} of {} particles; a piece of fabric has no such thing", piece.name, what, count));
     };
-    tell("mass or volume beyond that of the fabric (m, vol)",
-         [](const reference::Particle& p) { return p.mass != 0.0 || p.volume != 0.0; });
+    tell("mass or volume beyond that of the fabric (m, vol)", [](const reference::Particle& p) { return p.mass != 0.0 || p.volume != 0.0; });
     tell("twist at the start (theta, omega)", [](const reference::Particle& p) { return p.isTwisted; });
-    if (scene.liquid.nonuniformFraction)
-        tell("a volume fraction (vf)", [](const reference::Particle& p) { return p.hasFraction; });
+    if (scene.liquid.nonuniformFraction) tell("a volume fraction (vf)", [](const reference::Particle& p) { return p.hasFraction; });
 }
 
 /// Loose yarns of one material that are a weave without borders, or too many to list, become one group.
@@ -127,8 +118,7 @@ std::vector<FabricGroup> withLooseYarnsJoined(std::vector<FabricGroup> groups, c
         if (yarns.size() < 2) continue;
         FabricGroup all = merged(yarns);
         if (yarns.size() <= kFewYarns && !recogniseWeave(listed(all, scene))) continue;
-        std::erase_if(groups,
-                      [&, number = material](const FabricGroup& g) { return g.isLooseYarn() && g.material == number; });
+        std::erase_if(groups, [&, number = material](const FabricGroup& g) { return g.isLooseYarn() && g.material == number; });
         groups.push_back(std::move(all));
     }
     std::ranges::stable_sort(groups, {}, &FabricGroup::line);
@@ -145,10 +135,7 @@ GeneratedFabric shapeOf(const ListedFabric& fabric)
 
 std::string nameOf(const GeneratedFabric& shape, std::size_t number)
 {
-    const char* word = shape.kind == "woven_yarns"     ? "weave"
-                       : !shape.geometry.faces.empty() ? "cloth"
-                       : shape.kind == "strand"        ? "yarn"
-                                                       : "yarns";
+    const char* word = shape.kind == "woven_yarns" ? "weave" : !shape.geometry.faces.empty() ? "cloth" : shape.kind == "strand" ? "yarn" : "yarns";
     return fmt::format("{}{}", word, number);
 }
 
@@ -165,9 +152,8 @@ ImportedPiece importPiece(const FabricGroup& group, std::size_t number, const Sc
     piece.wetness = wetnessOf(piece, scene, report);
     piece.pins = importPins(piece, scene, report);
     tellLost(piece, scene, report);
-    report.recognised.push_back(
-        fmt::format("{}: {}, {}{}", piece.name, piece.shape.kind, piece.shape.summary,
-                    piece.hasFile() ? "" : fmt::format(", deviation {:.1e} cm", piece.shape.deviation)));
+    report.recognised.push_back(fmt::format("{}: {}, {}{}", piece.name, piece.shape.kind, piece.shape.summary,
+                                            piece.hasFile() ? "" : fmt::format(", deviation {:.1e} cm", piece.shape.deviation)));
     return piece;
 }
 

@@ -15,28 +15,21 @@ using sim::formatPlain;
 
 namespace {
 
-std::string spanText(const Script& s)
-{
-    return fmt::format("t: [{}, {}]", formatPlain(s.start), formatPlain(s.end));
-}
+std::string spanText(const Script& s) { return fmt::format("t: [{}, {}]", formatPlain(s.start), formatPlain(s.end)); }
 
 std::string easedSpanText(const Script& s)
 {
-    return fmt::format("{}, ease: [{}, {}]", spanText(s), formatPlain(shortest(s.easeStart)),
-                       formatPlain(shortest(s.easeEnd)));
+    return fmt::format("{}, ease: [{}, {}]", spanText(s), formatPlain(shortest(s.easeStart)), formatPlain(shortest(s.easeEnd)));
 }
 
 /// What turns about a point of its own takes it along.
 std::string axisText(const Script& s, const sim::Vec3& center)
 {
-    return fmt::format("axis: {}, origin: {}, frame: {}", yamlList(s.direction.normalized()),
-                       yamlList(s.origin.value_or(center)), s.origin ? "world" : "local");
+    return fmt::format("axis: {}, origin: {}, frame: {}", yamlList(s.direction.normalized()), yamlList(s.origin.value_or(center)),
+                       s.origin ? "world" : "local");
 }
 
-std::string degrees(double radians)
-{
-    return sim::formatNumber(radians, sim::Quantity::Angle);
-}
+std::string degrees(double radians) { return sim::formatNumber(radians, sim::Quantity::Angle); }
 
 /// Places along the direction, one every so often, as offsets from the first.
 std::string pathText(const Script& s)
@@ -46,8 +39,8 @@ std::string pathText(const Script& s)
         const double t = s.start + static_cast<double>(i) * s.baseStep;
         if (t > s.end + 0.5 * s.baseStep) break;
         const sim::Vec3 offset = (s.base[i] - s.base[0]) * s.direction.normalized();
-        rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : ", ", formatPlain(t), formatPlain(offset[0]),
-                            formatPlain(offset[1]), formatPlain(offset[2]));
+        rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : ", ", formatPlain(t), formatPlain(offset[0]), formatPlain(offset[1]),
+                            formatPlain(offset[2]));
     }
     return fmt::format("{{interp: cubic, keys: [{}]}}", rows);
 }
@@ -65,22 +58,18 @@ std::string pieceText(const Script& s, const sim::Vec3& center, ImportReport& re
                         "period earlier, from where it stands",
                         s.line));
         const std::string frequency = formatPlain(s.frequency);
-        return s.rotates
-                   ? fmt::format("{{{}, oscillate: {{{}, amplitude: {}, frequency: {}}}}}", spanText(s),
-                                 axisText(s, center), degrees(s.amplitude), frequency)
-                   : fmt::format("{{{}, oscillate: {{direction: {}, amplitude: {}, frequency: {}}}}}", spanText(s),
-                                 yamlList(s.direction.normalized()), formatPlain(s.amplitude), frequency);
+        return s.rotates ? fmt::format("{{{}, oscillate: {{{}, amplitude: {}, frequency: {}}}}}", spanText(s), axisText(s, center),
+                                       degrees(s.amplitude), frequency)
+                         : fmt::format("{{{}, oscillate: {{direction: {}, amplitude: {}, frequency: {}}}}}", spanText(s),
+                                       yamlList(s.direction.normalized()), formatPlain(s.amplitude), frequency);
     }
     if (s.course == "weno") {
         if (!s.rotates) return pathText(s);
-        report.warnings.push_back(fmt::format(
-            "the script of line {} turns through a list of angles (weno); scene files have lists of places only",
-            s.line));
+        report.warnings.push_back(
+            fmt::format("the script of line {} turns through a list of angles (weno); scene files have lists of places only", s.line));
         return "";
     }
-    if (s.rotates)
-        return fmt::format("{{{}, rotate: {{{}, angle: {}}}}}", easedSpanText(s), axisText(s, center),
-                           degrees(s.angle));
+    if (s.rotates) return fmt::format("{{{}, rotate: {{{}, angle: {}}}}}", easedSpanText(s), axisText(s, center), degrees(s.angle));
     return fmt::format("{{{}, translate: {}}}", easedSpanText(s), yamlList(s.direction));
 }
 

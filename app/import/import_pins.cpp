@@ -48,9 +48,7 @@ std::string cornersOf(const sim::FabricGeometry& geometry, const std::vector<int
     std::string list;
     for (const std::string& word : endWords(false)) {
         const std::vector<int> corner = heldBy(fmt::format("corners: [{}]{}", word, patch), geometry);
-        if (corner.empty() || !std::ranges::includes(vertices, corner) ||
-            std::ranges::find(taken, corner) != taken.end())
-            continue;
+        if (corner.empty() || !std::ranges::includes(vertices, corner) || std::ranges::find(taken, corner) != taken.end()) continue;
         taken.push_back(corner);
         std::vector<int> more;
         std::ranges::set_union(together, corner, std::back_inserter(more));
@@ -61,10 +59,7 @@ std::string cornersOf(const sim::FabricGeometry& geometry, const std::vector<int
     return together == vertices ? fmt::format("corners: [{}]{}", list, patch) : "";
 }
 
-std::string numbersOf(const std::vector<int>& vertices)
-{
-    return fmt::format("nodes: [{}]", fmt::join(vertices, ", "));
-}
+std::string numbersOf(const std::vector<int>& vertices) { return fmt::format("nodes: [{}]", fmt::join(vertices, ", ")); }
 
 }  // namespace
 
@@ -73,13 +68,11 @@ std::string pinSelection(const sim::FabricGeometry& geometry, const std::vector<
     if (geometry.lattice.empty()) return numbersOf(vertices);
     for (const bool borderOnly : {false, true}) {
         for (int size = 1; size <= kLargestPatch; ++size) {
-            const std::string patch = fmt::format("{}{}", size > 1 ? fmt::format(", patch: {}", size) : "",
-                                                  borderOnly ? ", border_only: true" : "");
+            const std::string patch = fmt::format("{}{}", size > 1 ? fmt::format(", patch: {}", size) : "", borderOnly ? ", border_only: true" : "");
             const std::string all = "corners: all" + patch;
             if (heldBy(all, geometry) == vertices) return all;
             for (const std::string& word : borderOnly ? std::vector<std::string>{} : endWords(true))
-                if (const std::string edge = fmt::format("edge: {}{}", word, patch); heldBy(edge, geometry) == vertices)
-                    return edge;
+                if (const std::string edge = fmt::format("edge: {}{}", word, patch); heldBy(edge, geometry) == vertices) return edge;
             if (const std::string some = cornersOf(geometry, vertices, patch); !some.empty()) return some;
         }
     }
@@ -118,8 +111,7 @@ void tellTwistsHeldAlone(const ImportedPiece& piece, const reference::Scene& sce
                         piece.name, byNeighbour));
     if (lost > 0)
         report.warnings.push_back(fmt::format(
-            "{}: {} vertices whose twist is held while they are free (fixed=2); pins of scene files hold the place too",
-            piece.name, lost));
+            "{}: {} vertices whose twist is held while they are free (fixed=2); pins of scene files hold the place too", piece.name, lost));
 }
 
 }  // namespace

@@ -70,8 +70,7 @@ constexpr KnownName kKnown[] = {
 
 std::string_view reasonOf(std::string name)
 {
-    if (name.starts_with("StrandParameters"))
-        name.replace(0, std::string_view("StrandParameters").size(), "ElasticParameters");
+    if (name.starts_with("StrandParameters")) name.replace(0, std::string_view("StrandParameters").size(), "ElasticParameters");
     for (const KnownName& known : kKnown)
         if (known.name == name) return known.why;
     return "not in the vocabulary of libWetCloth: perhaps misspelt";
@@ -89,10 +88,8 @@ void countIgnored(const pugi::xml_node& node, const NamesRead& names, std::map<s
     for (const pugi::xml_node& child : node.children()) {
         if (child.type() != pugi::node_element) continue;
         const std::string name = here + "/" + child.name();
-        if (names.contains(name))
-            countIgnored(child, names, counts);
-        else
-            ++counts[name];
+        if (names.contains(name)) countIgnored(child, names, counts);
+        else ++counts[name];
     }
 }
 
@@ -112,12 +109,10 @@ std::vector<std::string> ignoredNames(const XmlFile& file, const NamesRead& name
     std::map<std::string_view, std::vector<std::string>> byReason;
     for (const auto& [name, count] : counts) {
         const std::string shown = sim::inQuotes(name, 100);
-        byReason[reasonOf(name)].push_back(shown.substr(1, shown.size() - 2) +
-                                           (count > 1 ? fmt::format(" ({} times)", count) : ""));
+        byReason[reasonOf(name)].push_back(shown.substr(1, shown.size() - 2) + (count > 1 ? fmt::format(" ({} times)", count) : ""));
     }
     std::vector<std::string> lines;
-    for (const auto& [reason, all] : byReason)
-        lines.push_back(fmt::format("{}: {}", reason, sim::listed(all, kMostNames)));
+    for (const auto& [reason, all] : byReason) lines.push_back(fmt::format("{}: {}", reason, sim::listed(all, kMostNames)));
     return lines;
 }
 

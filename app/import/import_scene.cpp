@@ -51,10 +51,7 @@ fs::path fileOf(const ImportedPiece& piece, const fs::path& yaml)
     return yaml.parent_path() / fmt::format("{}_{}.obj", yaml.stem().string(), piece.name);
 }
 
-fs::path reportFile(fs::path yaml)
-{
-    return yaml.replace_extension(".import.txt");
-}
+fs::path reportFile(fs::path yaml) { return yaml.replace_extension(".import.txt"); }
 
 /// Motions of the groups that hold vertices; what turns about itself turns about the middle of these.
 std::vector<std::pair<int, std::string>> pinMotions(const ImportedScene& scene, ImportReport& report)
@@ -85,14 +82,12 @@ void tellIdleScripts(const ImportedScene& scene, ImportReport& report)
         if (!f.isPart) moved.insert(f.group);
     for (const reference::Script& s : scene.reference.scripts)
         if (!moved.contains(s.group))
-            report.decisions.push_back(fmt::format(
-                "the script of line {} moves group {}, in which nothing is held and no body stands: left out", s.line,
-                s.group));
+            report.decisions.push_back(
+                fmt::format("the script of line {} moves group {}, in which nothing is held and no body stands: left out", s.line, s.group));
 }
 
 /// "scene.yaml.part:14: what" as a complaint about the line of the XML that line 14 comes from.
-[[noreturn]] void failAtXml(const std::string& message, const fs::path& part, const XmlFile& xml,
-                            const SceneLines& lines)
+[[noreturn]] void failAtXml(const std::string& message, const fs::path& part, const XmlFile& xml, const SceneLines& lines)
 {
     const std::string head = part.string() + ":";
     if (!message.starts_with(head)) throw sim::InputError(fmt::format("{}: {}", xml.path().string(), message));
@@ -102,11 +97,9 @@ void tellIdleScripts(const ImportedScene& scene, ImportReport& report)
     xml.fail(problem == std::errc() ? lines.xmlLine(line) : 1, fmt::format("makes no scene{}", std::string(rest, end)));
 }
 
-std::string readBack(const ImportedScene& scene, const fs::path& part, const XmlFile& xml, const SceneLines& lines,
-                     const Parts& parts)
+std::string readBack(const ImportedScene& scene, const fs::path& part, const XmlFile& xml, const SceneLines& lines, const Parts& parts)
 {
-    if (!scene.bodies.missingFiles.empty())
-        return "not done, as a mesh is missing; drench check does it when it is there";
+    if (!scene.bodies.missingFiles.empty()) return "not done, as a mesh is missing; drench check does it when it is there";
     try {
         return compareWithReference(parts.loadScene({part.string(), "", {}}).scene, scene);
     } catch (const sim::InputError& error) {
@@ -139,11 +132,9 @@ ImportedScene importAll(const XmlFile& file, const fs::path& yaml, const ImportO
 std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportOptions& options, const Parts& parts)
 {
     if (!yaml.parent_path().empty() && !fs::is_directory(yaml.parent_path()))
-        throw sim::InputError(
-            fmt::format("-o: there is no folder {}; make it, or write elsewhere", yaml.parent_path().string()));
+        throw sim::InputError(fmt::format("-o: there is no folder {}; make it, or write elsewhere", yaml.parent_path().string()));
     std::error_code ignored;
-    if (fs::equivalent(xml, yaml, ignored))
-        throw sim::InputError(fmt::format("-o: {} is the file to be read; write to another one", yaml.string()));
+    if (fs::equivalent(xml, yaml, ignored)) throw sim::InputError(fmt::format("-o: {} is the file to be read; write to another one", yaml.string()));
     const XmlFile file(xml);
     ImportReport report;
     const ImportedScene scene = importAll(file, yaml, options, report);
@@ -157,9 +148,7 @@ std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportO
 
     const std::string text = reportText(report, xml.string(), yaml.string());
     files.write(reportFile(yaml), text);
-    files.write(yaml, writeScene(scene, [&](const ImportedPiece& piece) {
-                          return fileOf(piece, yaml).filename().string();
-                      }).text());
+    files.write(yaml, writeScene(scene, [&](const ImportedPiece& piece) { return fileOf(piece, yaml).filename().string(); }).text());
     files.keepAll();
     return text;
 }

@@ -31,8 +31,7 @@ struct ImportedBodies {
 
 /// @param xml   the file, for meshes beside or above it
 /// @param yaml  the scene to be written, to which meshes are named relative
-ImportedBodies importBodies(const reference::Scene& scene, const std::filesystem::path& xml,
-                            const std::filesystem::path& yaml, ImportReport& report);
+ImportedBodies importBodies(const reference::Scene& scene, const std::filesystem::path& xml, const std::filesystem::path& yaml, ImportReport& report);
 
 /// The scripts of a group as a motion of scenes, on one line; empty if none moves anything.
 /// @param center  what turns without an origin of its own turns about this [cm]

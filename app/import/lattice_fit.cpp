@@ -40,10 +40,7 @@ double shortest(double x)
     return x;
 }
 
-Vec3 shortest(const Vec3& x)
-{
-    return {shortest(x[0]), shortest(x[1]), shortest(x[2])};
-}
+Vec3 shortest(const Vec3& x) { return {shortest(x[0]), shortest(x[1]), shortest(x[2])}; }
 
 double largestDistance(std::span<const Vec3> a, std::span<const Vec3> b)
 {

@@ -13,8 +13,7 @@ struct LatticeFit {
 };
 
 /// The lattice that is nearest to the points, in squares; heights may be empty.
-LatticeFit fitLattice(std::span<const sim::Vec3> x, std::span<const sim::Vec2i> places,
-                      std::span<const double> heights);
+LatticeFit fitLattice(std::span<const sim::Vec3> x, std::span<const sim::Vec2i> places, std::span<const double> heights);
 
 /// The shortest decimal number that is the same but for rounding.
 double shortest(double x);

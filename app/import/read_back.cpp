@@ -13,8 +13,7 @@ void require(bool agrees, const std::string& piece, const char* what)
 {
     if (!agrees)
         throw std::logic_error(
-            fmt::format("the scene that was written has other {} in {} than the file; this is a mistake of the import",
-                        what, piece));
+            fmt::format("the scene that was written has other {} in {} than the file; this is a mistake of the import", what, piece));
 }
 
 std::vector<std::array<int, 3>> sortedCorners(const std::vector<sim::Vec3i>& faces)

@@ -19,16 +19,13 @@ Run readRun(const XmlElement& scene)
     Run run;
     const XmlElement duration = scene.child("duration"), integrator = scene.child("integrator");
     if (!duration) scene.fail("has no <duration time=\"…\"/>, the length of the run in seconds; add it");
-    if (!integrator)
-        scene.fail(
-            "has no <integrator type=\"linearized-implicit-euler\" dt=\"…\"/>, which gives the time step; add it");
+    if (!integrator) scene.fail("has no <integrator type=\"linearized-implicit-euler\" dt=\"…\"/>, which gives the time step; add it");
     run.duration = positive(duration, "duration@time", duration.number("time"));
     run.line = integrator.line();
     run.dt = positive(integrator, "integrator@dt", integrator.number("dt"));
     if (integrator.has("picMethod")) run.picMethod = integrator.integer("picMethod", 0);
     if (run.picMethod && (*run.picMethod < 0 || *run.picMethod > 2))
-        integrator.fail(
-            fmt::format("integrator@picMethod: {} is unknown; 0 is PIC, 1 APIC, 2 PolyPIC", *run.picMethod));
+        integrator.fail(fmt::format("integrator@picMethod: {} is unknown; 0 is PIC, 1 APIC, 2 PolyPIC", *run.picMethod));
     if (integrator.has("apic")) run.apic = integrator.flag("apic", false);
     run.maxIterations = integrator.integer("maxiters", run.maxIterations);
     run.viscositySubsteps = integrator.integer("viscositysubsteps", run.viscositySubsteps);
@@ -69,8 +66,7 @@ Scene readReferenceScene(const XmlFile& file, const ImportOptions& options, Name
     if (const XmlElement text = root.child("description")) scene.description = text.text("text");
     if (const XmlElement tag = root.child("scenetag")) scene.tag = tag.text("tag");
     if (const XmlElement camera = root.child("camera")) scene.camera = readCamera(camera);
-    if (const XmlElement color = root.child("backgroundcolor"))
-        scene.background = Vec3(color.number("r"), color.number("g"), color.number("b"));
+    if (const XmlElement color = root.child("backgroundcolor")) scene.background = Vec3(color.number("r"), color.number("g"), color.number("b"));
     for (const XmlElement& spring : root.children("springforce")) scene.springLines.push_back(spring.line());
     if (const XmlElement pose = root.child("pose")) scene.poseLine = pose.line();
     scene.liquid = readLiquidInfo(root, options.legacyThreadCount);

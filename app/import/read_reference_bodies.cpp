@@ -17,8 +17,7 @@ namespace {
 void requireFew(const XmlElement& element, std::size_t before)
 {
     constexpr std::size_t kMost = 10'000;
-    if (before >= kMost)
-        element.fail(fmt::format("more than {} elements like this one; no scene has so many, remove some", kMost));
+    if (before >= kMost) element.fail(fmt::format("more than {} elements like this one; no scene has so many, remove some", kMost));
 }
 
 Field::Usage readUsage(const XmlElement& element)
@@ -27,24 +26,20 @@ Field::Usage readUsage(const XmlElement& element)
         {"solid", Field::Usage::Solid}, {"source", Field::Usage::Source}, {"terminator", Field::Usage::Terminator}};
     const std::string word = element.text("usage", "solid");
     const auto found = kAll.find(word);
-    if (found == kAll.end())
-        element.fail(
-            fmt::format("distancefield@usage: {} is unknown; there is solid, source, terminator", sim::inQuotes(word)));
+    if (found == kAll.end()) element.fail(fmt::format("distancefield@usage: {} is unknown; there is solid, source, terminator", sim::inQuotes(word)));
     return found->second;
 }
 
 Field::Type readType(const XmlElement& element)
 {
     using T = Field::Type;
-    static const std::map<std::string, T> kAll = {
-        {"sphere", T::Sphere}, {"box", T::Box},     {"capsule", T::Capsule},    {"cylinder", T::Cylinder},
-        {"file", T::File},     {"union", T::Union}, {"intersect", T::Intersect}};
+    static const std::map<std::string, T> kAll = {{"sphere", T::Sphere}, {"box", T::Box},     {"capsule", T::Capsule},    {"cylinder", T::Cylinder},
+                                                  {"file", T::File},     {"union", T::Union}, {"intersect", T::Intersect}};
     const std::string word = element.text("type");
     const auto found = kAll.find(word);
     if (found == kAll.end())
-        element.fail(fmt::format(
-            "distancefield@type: {} is unknown; there is sphere, box, capsule, cylinder, file, union, intersect",
-            sim::inQuotes(word)));
+        element.fail(
+            fmt::format("distancefield@type: {} is unknown; there is sphere, box, capsule, cylinder, file, union, intersect", sim::inQuotes(word)));
     return found->second;
 }
 
@@ -52,21 +47,18 @@ void readPlace(const XmlElement& element, Field& field)
 {
     for (const char* coordinate : {"cx", "cy", "cz"})
         if (!element.has(coordinate))
-            element.fail(fmt::format("distancefield@{} is missing, and libWetCloth has no default; write the centre",
-                                     coordinate));
+            element.fail(fmt::format("distancefield@{} is missing, and libWetCloth has no default; write the centre", coordinate));
     field.center = Vec3(element.number("cx"), element.number("cy"), element.number("cz"));
     const Vec3 axis(element.number("rx", 0.0), element.number("ry", 1.0), element.number("rz", 0.0));
     field.angle = element.number("rw", 0.0);
-    if (field.angle != 0.0 && !(axis.norm() > 0.0))
-        element.fail("rx, ry, rz must be a direction to turn about by rw, like 0 1 0");
+    if (field.angle != 0.0 && !(axis.norm() > 0.0)) element.fail("rx, ry, rz must be a direction to turn about by rw, like 0 1 0");
     if (axis.norm() > 0.0) field.axis = axis.normalized();
     field.inside = element.flag("inside", false);
 }
 
 void requireSize(const XmlElement& element, const char* attribute, double size)
 {
-    if (!(size > 0.0))
-        element.fail(fmt::format("distancefield@{} must be above 0 here; write a length in cm", attribute));
+    if (!(size > 0.0)) element.fail(fmt::format("distancefield@{} must be above 0 here; write a length in cm", attribute));
 }
 
 void readBody(const XmlElement& element, Field& field)
@@ -101,11 +93,9 @@ std::vector<Emission> readEmissions(const XmlElement& element)
     std::vector<Emission> all;
     const Vec3 velocity(element.number("vx", 0.0), element.number("vy", 0.0), element.number("vz", 0.0));
     for (const XmlElement& span : element.children("duration")) {
-        Emission e{span.number("start", 0.0), span.number("end", 0.0),
-                   span.number("maxvol", std::numeric_limits<double>::infinity()),
+        Emission e{span.number("start", 0.0), span.number("end", 0.0), span.number("maxvol", std::numeric_limits<double>::infinity()),
                    Vec3(span.number("vx", 0.0), span.number("vy", 0.0), span.number("vz", 0.0))};
-        if (e.end < e.start)
-            span.fail(fmt::format("duration ends at {} s, before it starts at {} s; exchange them", e.end, e.start));
+        if (e.end < e.start) span.fail(fmt::format("duration ends at {} s, before it starts at {} s; exchange them", e.end, e.start));
         all.push_back(e);
     }
     if (all.empty()) all.push_back({.velocity = velocity});
@@ -116,16 +106,12 @@ std::vector<Emission> readEmissions(const XmlElement& element)
 void takeParts(const XmlElement& element, Field& field, std::vector<Field>& earlier)
 {
     field.parts = element.integers("i");
-    if (field.parts.empty())
-        element.fail("distancefield@i is missing; it lists the fields that are put together, like i=\"0 1\"");
+    if (field.parts.empty()) element.fail("distancefield@i is missing; it lists the fields that are put together, like i=\"0 1\"");
     for (const int part : field.parts) {
         if (part < 0 || part >= static_cast<int>(earlier.size()))
-            element.fail(fmt::format(
-                "distancefield@i: there is no earlier field {}; they are counted from 0, and {} stand before this one",
-                part, earlier.size()));
-        if (earlier[part].isPart)
-            element.fail(
-                fmt::format("distancefield@i: field {} is part of another one already; write it once more", part));
+            element.fail(fmt::format("distancefield@i: there is no earlier field {}; they are counted from 0, and {} stand before this one", part,
+                                     earlier.size()));
+        if (earlier[part].isPart) element.fail(fmt::format("distancefield@i: field {} is part of another one already; write it once more", part));
         earlier[part].isPart = true;
     }
 }
@@ -140,14 +126,12 @@ Script readScript(const XmlElement& element)
     script.rotates = type == "rotate";
     script.course = element.text("func", "cubic");
     if (script.course != "cubic" && script.course != "cosine" && script.course != "weno")
-        element.fail(
-            fmt::format("script@func: {} is unknown; there is cubic, cosine, weno", sim::inQuotes(script.course)));
+        element.fail(fmt::format("script@func: {} is unknown; there is cubic, cosine, weno", sim::inQuotes(script.course)));
     script.group = element.integer("group", 0);
     script.start = element.number("start");
     script.end = element.number("end");
     if (!(script.end > script.start))
-        element.fail(fmt::format("script ends at {} s, not after it starts at {} s; correct start or end", script.end,
-                                 script.start));
+        element.fail(fmt::format("script ends at {} s, not after it starts at {} s; correct start or end", script.end, script.start));
     const double third = (script.end - script.start) / 3.0;
     script.easeStart = element.number("easestart", third);
     script.easeEnd = element.number("easeend", third);
@@ -180,10 +164,8 @@ std::vector<Field> readReferenceFields(const XmlElement& scene)
         field.type = readType(element);
         field.group = element.integer("group", 0);
         field.sampled = element.flag("sampled", true);
-        if (field.type == Field::Type::Union || field.type == Field::Type::Intersect)
-            takeParts(element, field, all);
-        else
-            readBody(element, field);
+        if (field.type == Field::Type::Union || field.type == Field::Type::Intersect) takeParts(element, field, all);
+        else readBody(element, field);
         if (field.usage == Field::Usage::Source) field.emissions = readEmissions(element);
         all.push_back(std::move(field));
     }

@@ -21,8 +21,7 @@ Particle readParticle(const XmlElement& element)
     p.x = element.vector("x", p.x);
     p.v = element.vector("v", p.v);
     const int held = element.integer("fixed", 0);
-    if (held < 0 || held > 3)
-        element.fail(fmt::format("particle@fixed: {} is unknown; 1 holds the place, 2 the twist, 3 both", held));
+    if (held < 0 || held > 3) element.fail(fmt::format("particle@fixed: {} is unknown; 1 holds the place, 2 the twist, 3 both", held));
     p.isHeld = (held & 1) != 0;
     p.isTwistHeld = (held & 2) != 0;
     p.group = element.integer("group", 0);
@@ -44,13 +43,10 @@ Particle readParticle(const XmlElement& element)
 void requireParticle(const XmlElement& element, const char* what, long number, const Scene& scene)
 {
     if (number >= 0 && number < static_cast<long>(scene.particles.size())) return;
-    element.fail(
-        scene.particles.empty()
-            ? fmt::format("{} names particle {}, but the file has no particles; add them, or remove this element", what,
-                          number)
-            : fmt::format(
-                  "{} names particle {}, but the file has 0 to {} only; correct the number, or add the particles", what,
-                  number, scene.particles.size() - 1));
+    element.fail(scene.particles.empty()
+                     ? fmt::format("{} names particle {}, but the file has no particles; add them, or remove this element", what, number)
+                     : fmt::format("{} names particle {}, but the file has 0 to {} only; correct the number, or add the particles", what, number,
+                                   scene.particles.size() - 1));
 }
 
 int readMaterialNumber(const XmlElement& element, const char* what, const Scene& scene)
@@ -59,9 +55,7 @@ int readMaterialNumber(const XmlElement& element, const char* what, const Scene&
     const int count = static_cast<int>(scene.materials.size());
     if (number == kSkipped) return kSkipped;
     if (number != std::floor(number) || number < 0.0 || number >= count)
-        element.fail(
-            fmt::format("{}@params: there is no material {}; the file has {} <ElasticParameters>, counted from 0", what,
-                        number, count));
+        element.fail(fmt::format("{}@params: there is no material {}; the file has {} <ElasticParameters>, counted from 0", what, number, count));
     return static_cast<int>(number);
 }
 
@@ -73,12 +67,10 @@ Cloth readCloth(const XmlElement& element, const Scene& scene)
     for (const XmlElement& face : element.children("face")) {
         const std::vector<int> corners = face.integers("i");
         if (corners.size() != 3)
-            face.fail(fmt::format("face@i: needs three numbers of particles like \"0 1 2\", not {}",
-                                  sim::inQuotes(face.text("i"))));
+            face.fail(fmt::format("face@i: needs three numbers of particles like \"0 1 2\", not {}", sim::inQuotes(face.text("i"))));
         for (const int corner : corners) requireParticle(face, "face@i", corner, scene);
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-            face.fail(fmt::format("face@i: {} names a particle twice; a face has three different ones",
-                                  sim::inQuotes(face.text("i"))));
+            face.fail(fmt::format("face@i: {} names a particle twice; a face has three different ones", sim::inQuotes(face.text("i"))));
         cloth.faces.emplace_back(corners[0], corners[1], corners[2]);
     }
     return cloth;
@@ -92,8 +84,7 @@ Yarn readYarn(const XmlElement& element, const Scene& scene)
     yarn.material = readMaterialNumber(element, "hair", scene);
     for (const XmlElement& p : element.children("p")) {
         const std::vector<int> number = p.integers("i");
-        if (number.size() != 1)
-            p.fail(fmt::format("p@i: needs the number of a particle, not {}", sim::inQuotes(p.text("i"))));
+        if (number.size() != 1) p.fail(fmt::format("p@i: needs the number of a particle, not {}", sim::inQuotes(p.text("i"))));
         requireParticle(p, "p@i", number[0], scene);
         yarn.particles.push_back(number[0]);
     }
@@ -103,13 +94,10 @@ Yarn readYarn(const XmlElement& element, const Scene& scene)
             element.fail("hair@start and hair@count must be whole numbers like start=\"0\" count=\"8\"");
         constexpr double kLargest = 1.0e15;
         requireParticle(element, "hair@start", static_cast<long>(std::clamp(start, -1.0, kLargest)), scene);
-        if (count > 0.0)
-            requireParticle(element, "hair@count", static_cast<long>(std::min(start + count - 1.0, kLargest)), scene);
+        if (count > 0.0) requireParticle(element, "hair@count", static_cast<long>(std::min(start + count - 1.0, kLargest)), scene);
         for (double i = 0.0; i < count; ++i) yarn.particles.push_back(static_cast<int>(start + i));
     }
-    if (yarn.particles.size() < 2)
-        element.fail(
-            "a hair of fewer than two particles has no edge; give it start and count, or <p i=\"…\"/> for each");
+    if (yarn.particles.size() < 2) element.fail("a hair of fewer than two particles has no edge; give it start and count, or <p i=\"…\"/> for each");
     for (std::size_t i = 1; i < yarn.particles.size(); ++i)
         if (yarn.particles[i] == yarn.particles[i - 1])
             element.fail(fmt::format("a hair goes from particle {} to itself; remove one of them", yarn.particles[i]));
@@ -131,8 +119,7 @@ void readReferenceFabric(const XmlElement& scene, Scene& out)
         points += yarn.particles.size();
         if (points > kMostYarnPoints)
             element.fail(
-                fmt::format("the hairs up to this one have {} points together, at most {} are possible; remove some",
-                            points, kMostYarnPoints));
+                fmt::format("the hairs up to this one have {} points together, at most {} are possible; remove some", points, kMostYarnPoints));
         if (yarn.material != kSkipped) out.yarns.push_back(std::move(yarn));
     }
 }

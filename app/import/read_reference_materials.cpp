@@ -36,8 +36,8 @@ void readPores(const XmlElement& info, LiquidInfo& out)
     } else if (out.volumeFraction < 1.0) {
         out.fibreDiameter = 2.0 * poreRadius * std::sqrt(out.volumeFraction / (1.0 - out.volumeFraction));
     }
-    out.porousNote = fmt::format("poreRadius {} cm gives fibres of {:.4g} cm and the fraction {:.4g}", poreRadius,
-                                 out.fibreDiameter, out.volumeFraction);
+    out.porousNote =
+        fmt::format("poreRadius {} cm gives fibres of {:.4g} cm and the fraction {:.4g}", poreRadius, out.fibreDiameter, out.volumeFraction);
 }
 
 /// Cloth of T threads per cm^2, each through half the thickness t and back, as the scenes of 2018 mean it
@@ -48,8 +48,7 @@ void readThreads(const XmlElement& info, bool counts, LiquidInfo& out)
     if (threads <= 0.0) return;
     const double half = info.value("halfThickness", 0.018);
     if (!counts || !(half > 0.0)) {
-        out.porousNote =
-            fmt::format("fabricThreadCount {} is not used, as the present libWetCloth does not read it", threads);
+        out.porousNote = fmt::format("fabricThreadCount {} is not used, as the present libWetCloth does not read it", threads);
         return;
     }
     const double d = out.fibreDiameter;
@@ -104,8 +103,7 @@ Material readMaterial(const XmlElement& element, const ImportOptions& options)
     m.collisionMultiplier = element.value("collisionMultiplier", m.collisionMultiplier);
     m.attachMultiplier = element.value("attachMultiplier", m.attachMultiplier);
     m.frictionAngle = std::clamp(element.value("frictionAngle", m.frictionAngle), 0.0, 90.0);
-    if (element.hasValue("friction_angle"))
-        m.unreadFrictionAngle = std::clamp(element.value("friction_angle", 0.0), 0.0, 90.0);
+    if (element.hasValue("friction_angle")) m.unreadFrictionAngle = std::clamp(element.value("friction_angle", 0.0), 0.0, 90.0);
     if (m.unreadFrictionAngle && options.trustFrictionAngle) m.frictionAngle = *m.unreadFrictionAngle;
     m.baseRotation = element.value("baseRotation", m.baseRotation);
     return m;

@@ -45,8 +45,7 @@ std::vector<Corners> sorted(std::span<const Vec3i> faces, std::span<const int> n
 {
     std::vector<Corners> all;
     for (const Vec3i& f : faces)
-        all.push_back(numberOf.empty() ? fromLowest(f[0], f[1], f[2])
-                                       : fromLowest(numberOf[f[0]], numberOf[f[1]], numberOf[f[2]]));
+        all.push_back(numberOf.empty() ? fromLowest(f[0], f[1], f[2]) : fromLowest(numberOf[f[0]], numberOf[f[1]], numberOf[f[2]]));
     std::ranges::sort(all);
     return all;
 }
@@ -83,8 +82,7 @@ GeneratedFabric generated(const ClothGrid& grid)
     const bool isSquare = grid.spacing[0] == grid.spacing[1];
     out.fields = {{"nodes", fmt::format("[{}, {}]", grid.nodes[0], grid.nodes[1])},
                   {"spacing", isSquare ? sim::formatPlain(grid.spacing[0])
-                                       : fmt::format("[{}, {}]", sim::formatPlain(grid.spacing[0]),
-                                                     sim::formatPlain(grid.spacing[1]))},
+                                       : fmt::format("[{}, {}]", sim::formatPlain(grid.spacing[0]), sim::formatPlain(grid.spacing[1]))},
                   {"origin", yamlList(grid.origin)},
                   {"u", yamlList(grid.u)},
                   {"v", yamlList(grid.v)}};
@@ -120,10 +118,7 @@ std::optional<GeneratedFabric> recogniseAs(const ListedFabric& fabric, const Vec
 
 }  // namespace
 
-std::string yamlList(const Vec3& x)
-{
-    return fmt::format("[{}, {}, {}]", sim::formatPlain(x[0]), sim::formatPlain(x[1]), sim::formatPlain(x[2]));
-}
+std::string yamlList(const Vec3& x) { return fmt::format("[{}, {}, {}]", sim::formatPlain(x[0]), sim::formatPlain(x[1]), sim::formatPlain(x[2])); }
 
 std::optional<GeneratedFabric> recogniseClothGrid(const ListedFabric& fabric)
 {

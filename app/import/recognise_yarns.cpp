@@ -22,14 +22,12 @@ struct NamedWeave {
     Weave weave;
     const char* name;
 };
-constexpr NamedWeave kWeaves[] = {
-    {Weave::Plain, "plain"}, {Weave::Twill, "twill"}, {Weave::Herringbone, "herringbone"}};
+constexpr NamedWeave kWeaves[] = {{Weave::Plain, "plain"}, {Weave::Twill, "twill"}, {Weave::Herringbone, "herringbone"}};
 
 /// Of each generated vertex the listed one, where both have the same yarns; else nothing.
 std::optional<std::vector<int>> matchYarns(const sim::FabricGeometry& generated, const ListedFabric& listed)
 {
-    if (generated.strands.size() != listed.strands.size() || generated.points.size() != listed.points.size())
-        return std::nullopt;
+    if (generated.strands.size() != listed.strands.size() || generated.points.size() != listed.points.size()) return std::nullopt;
     std::vector<int> pointOf(generated.points.size(), -1);
     for (std::size_t s = 0; s < generated.strands.size(); ++s) {
         if (generated.strands[s].size() != listed.strands[s].size()) return std::nullopt;
@@ -76,8 +74,8 @@ GeneratedFabric generated(const WovenYarns& cloth, const char* weave)
                   {"origin", yamlList(cloth.origin)},
                   {"u", yamlList(cloth.u)},
                   {"v", yamlList(cloth.v)}};
-    out.summary = fmt::format("{} by {} yarns, {} cm apart, {}{}", cloth.yarns[0], cloth.yarns[1], out.fields[1].second,
-                              weave, cloth.borders ? " with borders" : "");
+    out.summary = fmt::format("{} by {} yarns, {} cm apart, {}{}", cloth.yarns[0], cloth.yarns[1], out.fields[1].second, weave,
+                              cloth.borders ? " with borders" : "");
     out.geometry = sim::wovenYarns(cloth);
     return out;
 }
@@ -102,8 +100,7 @@ std::optional<GeneratedFabric> recogniseWeaveOf(const WovenYarns& size, const Li
     return std::nullopt;
 }
 
-GeneratedFabric strandOf(const ListedFabric& fabric, std::vector<std::pair<std::string, std::string>> fields,
-                         sim::FabricGeometry geometry)
+GeneratedFabric strandOf(const ListedFabric& fabric, std::vector<std::pair<std::string, std::string>> fields, sim::FabricGeometry geometry)
 {
     GeneratedFabric out;
     out.kind = "strand";
@@ -135,15 +132,13 @@ std::optional<GeneratedFabric> recogniseWeave(const ListedFabric& fabric)
 
 std::optional<GeneratedFabric> recogniseStrand(const ListedFabric& fabric)
 {
-    if (fabric.strands.size() != 1 || !fabric.faces.empty() || fabric.strands[0].size() != fabric.points.size())
-        return std::nullopt;
+    if (fabric.strands.size() != 1 || !fabric.faces.empty() || fabric.strands[0].size() != fabric.points.size()) return std::nullopt;
     const std::vector<int>& strand = fabric.strands[0];
     const Vec3 &from = fabric.points[strand.front()], &to = fabric.points[strand.back()];
     const int segments = static_cast<int>(strand.size()) - 1;
     if ((to - from).norm() > 0.0) {
-        GeneratedFabric out =
-            strandOf(fabric, {{"from", yamlList(from)}, {"to", yamlList(to)}, {"segments", std::to_string(segments)}},
-                     sim::strand(from, to, segments));
+        GeneratedFabric out = strandOf(fabric, {{"from", yamlList(from)}, {"to", yamlList(to)}, {"segments", std::to_string(segments)}},
+                                       sim::strand(from, to, segments));
         if (out.deviation < kSameShape) return out;
     }
     if (fabric.points.size() > kFewPoints) return std::nullopt;

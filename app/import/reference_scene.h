@@ -30,11 +30,11 @@ struct Run {
 
 /// <liquidinfo>, as far as there is something like it here.
 struct LiquidInfo {
-    double density = 1.0, viscosity = 8.9e-3, surfaceTension = 72.8;  ///< [g/cm^3], [P], [dyn/cm]
-    double contactAngle = 0.71209;                                    ///< [rad]
-    double fibreDiameter = 0.01, volumeFraction = 0.4;                ///< [cm], [-]
-    std::string porousNote;                        ///< how the two came about, where that needs saying
-    double particleCellMultiplier = 0.3535533906;  ///< pitch of the sampling in cells [-]
+    double density = 1.0, viscosity = 8.9e-3, surfaceTension = 72.8;                       ///< [g/cm^3], [P], [dyn/cm]
+    double contactAngle = 0.71209;                                                         ///< [rad]
+    double fibreDiameter = 0.01, volumeFraction = 0.4;                                     ///< [cm], [-]
+    std::string porousNote;                                                                ///< how the two came about, where that needs saying
+    double particleCellMultiplier = 0.3535533906;                                          ///< pitch of the sampling in cells [-]
     double keepAffine = 0.99, keepStretch = 0.95, keepRotation = 1.0, keepVelocity = 1.0;  ///< per step [-]
     int fluidModes = 1, solidModes = 1;
     double yazdchiPower = 1.6, captureRate = 1.0;  ///< [-]
@@ -126,9 +126,9 @@ struct Script {
     std::string course = "cubic";
     int group = 0;
     double start = 0.0, end = 0.0, easeStart = 0.0, easeEnd = 0.0;  ///< [s]
-    Vec3 direction = Vec3::Zero();  ///< of a translation its way, of a rotation its axis [cm] or [-]
-    double angle = 0.0;             ///< [rad]
-    std::optional<Vec3> origin;     ///< of a rotation [cm]
+    Vec3 direction = Vec3::Zero();                                  ///< of a translation its way, of a rotation its axis [cm] or [-]
+    double angle = 0.0;                                             ///< [rad]
+    std::optional<Vec3> origin;                                     ///< of a rotation [cm]
     bool isGlobal = false;
     double amplitude = 1.0, frequency = 1.0;
     std::vector<double> base;  ///< of weno: places along the direction …

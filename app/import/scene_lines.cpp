@@ -62,9 +62,6 @@ std::string SceneLines::text() const
     return all;
 }
 
-int SceneLines::xmlLine(int line) const
-{
-    return line >= 1 && line <= static_cast<int>(xmlLines_.size()) ? xmlLines_[line - 1] : 1;
-}
+int SceneLines::xmlLine(int line) const { return line >= 1 && line <= static_cast<int>(xmlLines_.size()) ? xmlLines_[line - 1] : 1; }
 
 }  // namespace app

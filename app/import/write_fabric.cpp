@@ -19,8 +19,7 @@ constexpr double kSteepestFriction = 89.0;  // of scene files [deg]
 
 std::string radiusText(const std::array<double, 2>& radius)
 {
-    return radius[0] == radius[1] ? formatPlain(radius[0])
-                                  : fmt::format("[{}, {}]", formatPlain(radius[0]), formatPlain(radius[1]));
+    return radius[0] == radius[1] ? formatPlain(radius[0]) : fmt::format("[{}, {}]", formatPlain(radius[0]), formatPlain(radius[1]));
 }
 
 void writeCoupling(const reference::LiquidInfo& l, bool vertexSolver, SceneLines& out)
@@ -31,15 +30,13 @@ void writeCoupling(const reference::LiquidInfo& l, bool vertexSolver, SceneLines
                                      : "";
     out.blank();
     out.from(l.line);
-    out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter),
-                           formatPlain(l.volumeFraction)));
+    out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter), formatPlain(l.volumeFraction)));
     out.add(0, fmt::format("coupling: {{drag: {}, drag_fraction: cell, drag_exponent: {}, pressure_on_fabric: {}, "
                            "capture: {{law: published, compat_factor: {}}}, wicking: {{pressure: {}}}{}}}",
                            !l.drag           ? "off"
                            : l.nonlinearDrag ? "nonlinear"
                                              : "linear",
-                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric),
-                           formatPlain(sim::CaptureSettings().compatFactor * l.captureRate),
+                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric), formatPlain(sim::CaptureSettings().compatFactor * l.captureRate),
                            yesOrNo(l.pressureInFabric), cohesion));
 }
 
@@ -50,18 +47,15 @@ void writeSolver(const ImportedScene& scene, SceneLines& out)
     const char* solver = !l.solveSolid ? "off" : scene.vertexSolver ? "vertex" : "grid";
     const char* measure = l.bendingScheme == "tantheta" ? "tan" : l.bendingScheme == "sintheta" ? "sin" : "angle";
     const std::string published =
-        scene.vertexSolver
-            ? ""
-            : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
+        scene.vertexSolver ? "" : fmt::format(", bending: hinge, hinge: {{constant: 3, measure: {}}}, torsion: polar", measure);
     out.add(0, fmt::format("fabric: {{solver: {}, twist: {}{}}}", solver, yesOrNo(l.twist), published));
 }
 
 void writeMaterial(const reference::Material& m, int number, bool vertexSolver, SceneLines& out)
 {
-    std::string fields =
-        fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}",
-                    formatPlain(m.young), formatPlain(m.poisson), formatPlain(m.density), formatPlain(m.viscosity),
-                    yesOrNo(m.damps), yesOrNo(m.damps && !m.dampsOnlyBending));
+    std::string fields = fmt::format("young: {}, poisson: {}, density: {}, damping_viscosity: {}, damp_bending: {}, damp_stretching: {}",
+                                     formatPlain(m.young), formatPlain(m.poisson), formatPlain(m.density), formatPlain(m.viscosity), yesOrNo(m.damps),
+                                     yesOrNo(m.damps && !m.dampsOnlyBending));
     const auto add = [&](const char* key, const std::string& value) { fields += fmt::format(", {}: {}", key, value); };
     if (m.stretchingMultiplier != 1.0) add("stretch_factor", formatPlain(m.stretchingMultiplier));
     if (!vertexSolver) add("contact_stiffness", formatPlain(m.collisionMultiplier));
@@ -98,8 +92,7 @@ void writePiece(const ImportedPiece& piece, const std::string& file, SceneLines&
 
 }  // namespace
 
-void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf,
-                  SceneLines& out)
+void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf, SceneLines& out)
 {
     if (!scene.hasFabric()) return;
     writeCoupling(scene.reference.liquid, scene.vertexSolver, out);

@@ -12,17 +12,12 @@ using sim::formatPlain;
 
 namespace {
 
-bool isOnce(const reference::Emission& e)
-{
-    return e.start == 0.0 && e.end == 0.0;
-}
+bool isOnce(const reference::Emission& e) { return e.start == 0.0 && e.end == 0.0; }
 
 std::string emissionText(const reference::Emission& e)
 {
-    const std::string volume =
-        std::isfinite(e.maxVolume) ? fmt::format(", max_volume: {}", formatPlain(e.maxVolume)) : "";
-    return fmt::format("{{from: {}, to: {}{}, velocity: {}}}", formatPlain(e.start), formatPlain(e.end), volume,
-                       yamlList(e.velocity));
+    const std::string volume = std::isfinite(e.maxVolume) ? fmt::format(", max_volume: {}", formatPlain(e.maxVolume)) : "";
+    return fmt::format("{{from: {}, to: {}{}, velocity: {}}}", formatPlain(e.start), formatPlain(e.end), volume, yamlList(e.velocity));
 }
 
 void writeSource(const ImportedBodies::Source& source, SceneLines& out)
@@ -32,8 +27,7 @@ void writeSource(const ImportedBodies::Source& source, SceneLines& out)
     out.add(3, "shape: " + source.shape);
     out.add(3, "fill: {pattern: reference, seed: 1}");
     if (source.emissions.size() == 1 && isOnce(source.emissions[0]) && !std::isfinite(source.emissions[0].maxVolume)) {
-        if (source.emissions[0].velocity != sim::Vec3::Zero())
-            out.add(3, "velocity: " + yamlList(source.emissions[0].velocity));
+        if (source.emissions[0].velocity != sim::Vec3::Zero()) out.add(3, "velocity: " + yamlList(source.emissions[0].velocity));
         return;
     }
     out.add(3, "emit:");
@@ -54,8 +48,7 @@ void writeLiquid(const ImportedScene& scene, SceneLines& out)
     out.add(1, fmt::format("contact_angle: {}", sim::formatNumber(l.contactAngle, sim::Quantity::Angle)));
     out.add(1, fmt::format("particle_spacing: {}     # in cells", formatPlain(l.particleCellMultiplier)));
     if (!scene.bodies.obstacles.empty()) out.add(1, fmt::format("wall_friction: {}", formatPlain(l.wallFriction)));
-    out.add(1, fmt::format("relax: {{rate: {}, range: {}}}",
-                           formatPlain(l.correctionStrength / (l.correctionStep * scene.reference.run.dt)),
+    out.add(1, fmt::format("relax: {{rate: {}, range: {}}}", formatPlain(l.correctionStrength / (l.correctionStep * scene.reference.run.dt)),
                            formatPlain(l.correctionMultiplier)));
     if (l.solveViscosity) {
         out.add(1, "solve_viscosity: true");

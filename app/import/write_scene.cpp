@@ -19,16 +19,12 @@ namespace {
 
 constexpr double kFrameTime = 4.0e-3;  // of the published videos: 20 steps of 2e-4 s [s]
 
-std::string quoted(const std::string& text)
-{
-    return sim::Node::scalar(text, {}).flow();
-}
+std::string quoted(const std::string& text) { return sim::Node::scalar(text, {}).flow(); }
 
 void writeHead(const ImportedScene& scene, SceneLines& out)
 {
     const reference::Scene& r = scene.reference;
-    out.add(0, fmt::format("# Imported from {}, a scene of libWetCloth. What was decided on the way stands in {}.",
-                           scene.from, scene.report));
+    out.add(0, fmt::format("# Imported from {}, a scene of libWetCloth. What was decided on the way stands in {}.", scene.from, scene.report));
     out.add(0, "drench: 1");
     out.add(0, "units: cgs");
     out.add(0, "scene:");
@@ -37,8 +33,7 @@ void writeHead(const ImportedScene& scene, SceneLines& out)
     if (!r.tag.empty()) out.add(1, fmt::format("tags: [{}]", quoted(r.tag)));
     out.blank();
     out.from(r.run.line);
-    out.add(0, fmt::format("time: {{dt: {}, duration: {}, integrator: plain}}", formatPlain(r.run.dt),
-                           formatPlain(r.run.duration)));
+    out.add(0, fmt::format("time: {{dt: {}, duration: {}, integrator: plain}}", formatPlain(r.run.dt), formatPlain(r.run.duration)));
     out.add(0, fmt::format("grid: {{cell: {}}}", formatPlain(r.run.cell)));
     out.add(0, fmt::format("gravity: {}", yamlList(r.run.gravity)));
     out.add(0, fmt::format("solver: {{max_iterations: {}}}", std::max(200, r.run.maxIterations)));
@@ -63,11 +58,10 @@ void writeTransfer(const ImportedScene& scene, const char* method, SceneLines& o
     out.from(l.line);
     if (isPolyPic) out.add(1, "modes: " + modesText(scene));
     out.add(1, "xi: translation");
-    const std::string fabric =
-        scene.hasFabric() && !scene.vertexSolver
-            ? fmt::format(", fabric_stretch: {}, fabric_rotation: {}, fabric_velocity: {}", formatPlain(l.keepStretch),
-                          formatPlain(l.keepRotation), formatPlain(l.keepVelocity))
-            : "";
+    const std::string fabric = scene.hasFabric() && !scene.vertexSolver
+                                   ? fmt::format(", fabric_stretch: {}, fabric_rotation: {}, fabric_velocity: {}", formatPlain(l.keepStretch),
+                                                 formatPlain(l.keepRotation), formatPlain(l.keepVelocity))
+                                   : "";
     out.add(1, fmt::format("keep: {{liquid_affine: {}{}}}", formatPlain(l.keepAffine), fabric));
     out.add(1, fmt::format("keep_dt: {}", formatPlain(scene.reference.run.dt)));
     if (isPolyPic) out.add(1, "damp_modes: false          # as published: keep acts on affine velocities only");
@@ -111,9 +105,8 @@ void writeCamera(const reference::Scene& r, SceneLines& out)
     const Eigen::Quaterniond given(w, x, y, z);
     const Eigen::Quaterniond turn = given.norm() > 0.0 ? given.normalized() : Eigen::Quaterniond::Identity();
     const sim::Vec3 eye = r.camera->center + turn * sim::Vec3(0.0, 0.0, r.camera->distance);
-    out.add(1, fmt::format("camera: {{look_at: {}, eye: {}, up: {}, fov: {}}}", yamlList(r.camera->center),
-                           yamlList(shortest(eye)), yamlList(shortest(sim::Vec3(turn * sim::Vec3::UnitY()))),
-                           formatPlain(r.camera->fov)));
+    out.add(1, fmt::format("camera: {{look_at: {}, eye: {}, up: {}, fov: {}}}", yamlList(r.camera->center), yamlList(shortest(eye)),
+                           yamlList(shortest(sim::Vec3(turn * sim::Vec3::UnitY()))), formatPlain(r.camera->fov)));
 }
 
 void writeOutput(const reference::Scene& r, SceneLines& out)
@@ -138,8 +131,7 @@ ChosenMethod chosenMethod(const reference::Run& run, const ImportOptions& option
         return {*run.apic ? "apic" : "pic", fmt::format("no picMethod, but apic={}: {}, as the file means it; the "
                                                         "PolyPIC fork would run it as PIC (--strict-fork)",
                                                         *run.apic ? 1 : 0, *run.apic ? "apic" : "pic")};
-    return {"apic",
-            "neither picMethod nor apic: apic, as in 2018; the PolyPIC fork would run it as PIC (--strict-fork)"};
+    return {"apic", "neither picMethod nor apic: apic, as in 2018; the PolyPIC fork would run it as PIC (--strict-fork)"};
 }
 
 SceneLines writeScene(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf)

@@ -29,8 +29,7 @@ SceneLines writeScene(const ImportedScene& scene, const std::function<std::strin
 
 /// Its parts.
 void writeLiquid(const ImportedScene& scene, SceneLines& out);
-void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf,
-                  SceneLines& out);
+void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf, SceneLines& out);
 
 /// The transfer that a file means, and the words why where that needs saying.
 struct ChosenMethod {

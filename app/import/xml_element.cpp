@@ -9,10 +9,7 @@
 
 namespace app {
 
-void XmlElement::fail(const std::string& message) const
-{
-    file_->fail(node_, message);
-}
+void XmlElement::fail(const std::string& message) const { file_->fail(node_, message); }
 
 XmlElement XmlElement::child(const char* name) const
 {
@@ -36,10 +33,7 @@ std::string_view XmlElement::read(const char* attribute) const
 }
 
 /// "particle@x", for messages and names.
-std::string XmlElement::called(const char* attribute) const
-{
-    return fmt::format("{}@{}", node_.name(), attribute);
-}
+std::string XmlElement::called(const char* attribute) const { return fmt::format("{}@{}", node_.name(), attribute); }
 
 std::string XmlElement::text(const char* attribute, const std::string& fallback) const
 {
@@ -50,15 +44,12 @@ std::string XmlElement::text(const char* attribute, const std::string& fallback)
 double XmlElement::numberFrom(std::string_view text, const char* attribute) const
 {
     std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
-    while (!digits.empty() && (digits.front() == ' ' || digits.front() == '\t' || digits.front() == '\n'))
-        digits.remove_prefix(1);
-    while (!digits.empty() && (digits.back() == ' ' || digits.back() == '\t' || digits.back() == '\n'))
-        digits.remove_suffix(1);
+    while (!digits.empty() && (digits.front() == ' ' || digits.front() == '\t' || digits.front() == '\n')) digits.remove_prefix(1);
+    while (!digits.empty() && (digits.back() == ' ' || digits.back() == '\t' || digits.back() == '\n')) digits.remove_suffix(1);
     double number = 0.0;
     const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (problem != std::errc() || end != digits.data() + digits.size() || !std::isfinite(number))
-        fail(fmt::format("{}: {} is no number that can be computed with; write one like 0.5 or 1.2e-3",
-                         called(attribute), sim::inQuotes(text)));
+        fail(fmt::format("{}: {} is no number that can be computed with; write one like 0.5 or 1.2e-3", called(attribute), sim::inQuotes(text)));
     return number;
 }
 
@@ -67,8 +58,7 @@ int XmlElement::integerFrom(std::string_view text, const char* attribute) const
     constexpr double kLargest = 1.0e9;
     const double number = numberFrom(text, attribute);
     if (number != std::floor(number) || std::abs(number) > kLargest)
-        fail(fmt::format("{}: {} is no whole number up to {:.0e}; write one like 3", called(attribute),
-                         sim::inQuotes(text), kLargest));
+        fail(fmt::format("{}: {} is no whole number up to {:.0e}; write one like 3", called(attribute), sim::inQuotes(text), kLargest));
     return static_cast<int>(number);
 }
 
@@ -81,8 +71,7 @@ double XmlElement::number(const char* attribute, double fallback) const
 double XmlElement::number(const char* attribute) const
 {
     const std::string_view given = read(attribute);
-    if (!has(attribute))
-        fail(fmt::format("{} is missing; it is a number like {}=\"0.5\"", called(attribute), attribute));
+    if (!has(attribute)) fail(fmt::format("{} is missing; it is a number like {}=\"0.5\"", called(attribute), attribute));
     return numberFrom(given, attribute);
 }
 
@@ -106,8 +95,7 @@ std::vector<std::string_view> XmlElement::words(const char* attribute) const
     constexpr const char* kSpace = " \t\r\n,";
     const std::string_view given = read(attribute);
     std::vector<std::string_view> all;
-    for (std::size_t begin = given.find_first_not_of(kSpace); begin < given.size();
-         begin = given.find_first_not_of(kSpace, begin)) {
+    for (std::size_t begin = given.find_first_not_of(kSpace); begin < given.size(); begin = given.find_first_not_of(kSpace, begin)) {
         const std::size_t end = std::min(given.find_first_of(kSpace, begin), given.size());
         all.push_back(given.substr(begin, end - begin));
         begin = end;
@@ -120,8 +108,7 @@ sim::Vec3 XmlElement::vector(const char* attribute, const sim::Vec3& fallback) c
     const std::vector<std::string_view> given = words(attribute);
     if (!has(attribute)) return fallback;
     if (given.size() != 3)
-        fail(fmt::format("{}: needs three numbers like \"0 1 0\", not {}", called(attribute),
-                         sim::inQuotes(node_.attribute(attribute).value())));
+        fail(fmt::format("{}: needs three numbers like \"0 1 0\", not {}", called(attribute), sim::inQuotes(node_.attribute(attribute).value())));
     return {numberFrom(given[0], attribute), numberFrom(given[1], attribute), numberFrom(given[2], attribute)};
 }
 
@@ -142,15 +129,11 @@ std::vector<double> XmlElement::numbers(const char* attribute) const
 XmlElement XmlElement::valueElement(const char* name) const
 {
     const XmlElement element = child(name);
-    if (element && !element.has("value"))
-        element.fail(fmt::format("{}@value is missing; write <{} value=\"…\"/>", name, name));
+    if (element && !element.has("value")) element.fail(fmt::format("{}@value is missing; write <{} value=\"…\"/>", name, name));
     return element;
 }
 
-bool XmlElement::hasValue(const char* child) const
-{
-    return !node_.child(child).empty();
-}
+bool XmlElement::hasValue(const char* child) const { return !node_.child(child).empty(); }
 
 double XmlElement::value(const char* child, double fallback) const
 {

@@ -17,9 +17,7 @@ using NamesRead = std::set<std::string, std::less<>>;
 /// One element of a scene, as its readers ask for it. What is no number, or not finite, is refused with its line.
 class XmlElement {
  public:
-    XmlElement(const XmlFile& file, pugi::xml_node node, NamesRead& names) : file_(&file), node_(node), names_(&names)
-    {
-    }
+    XmlElement(const XmlFile& file, pugi::xml_node node, NamesRead& names) : file_(&file), node_(node), names_(&names) {}
 
     explicit operator bool() const { return !node_.empty(); }
     int line() const { return file_->line(node_); }

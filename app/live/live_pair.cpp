@@ -7,17 +7,11 @@ namespace app {
 
 namespace {
 
-void take(LivePair::Side& side)
-{
-    side.shown = side.live.takeSnapshot(std::move(side.shown));
-}
+void take(LivePair::Side& side) { side.shown = side.live.takeSnapshot(std::move(side.shown)); }
 
 }  // namespace
 
-LivePair::LivePair(const SceneRequest& request, const Parts& parts)
-{
-    sides_.push_back(std::make_unique<Side>(request, parts));
-}
+LivePair::LivePair(const SceneRequest& request, const Parts& parts) { sides_.push_back(std::make_unique<Side>(request, parts)); }
 
 void LivePair::putBeside(const SceneRequest& request, const Parts& parts)
 {
@@ -42,8 +36,7 @@ void LivePair::all(const std::function<void(LiveSimulation&)>& what)
 
 void LivePair::playOrPause()
 {
-    const bool isPlaying =
-        std::ranges::any_of(sides_, [](const auto& side) { return side->live.status().mode == LiveMode::Playing; });
+    const bool isPlaying = std::ranges::any_of(sides_, [](const auto& side) { return side->live.status().mode == LiveMode::Playing; });
     all([&](LiveSimulation& live) { isPlaying ? live.pause() : live.play(); });
 }
 
@@ -72,9 +65,7 @@ bool LivePair::takeNewest()
     const auto stays = [](const Side& side) { return side.live.status().mode >= LiveMode::Ended; };
     const bool staysA = stays(a), staysB = stays(b);  // asked first: what stays hands out nothing after its last picture
     const std::optional<double> timeOfA = a.live.waiting(), timeOfB = b.live.waiting();
-    const auto isAgain = [](const std::optional<double>& time, const Side& other) {
-        return time && other.shown && *time == other.shown->time;
-    };
+    const auto isAgain = [](const std::optional<double>& time, const Side& other) { return time && other.shown && *time == other.shown->time; };
     const bool takesA = timeOfA && (timeOfB ? *timeOfA <= *timeOfB : staysB || isAgain(timeOfA, b));
     const bool takesB = timeOfB && (timeOfA ? *timeOfB <= *timeOfA : staysA || isAgain(timeOfB, a));
     if (takesA) take(a);

@@ -18,8 +18,7 @@ constexpr std::size_t kMostSteps = 100'000;  ///< that wait to be taken: of a wi
 }  // namespace
 
 LiveSimulation::LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory)
-    : parts_(parts), settings_(std::move(request), parts.loadScene), moments_(memory),
-      extras_(extrasOf(settings_.setup().pictures.render))
+    : parts_(parts), settings_(std::move(request), parts.loadScene), moments_(memory), extras_(extrasOf(settings_.setup().pictures.render))
 {
     startAnew();
     publish(true);
@@ -67,10 +66,8 @@ void LiveSimulation::stepOnce()
 void LiveSimulation::restart()
 {
     ask([this] {
-        if (settings_.restart())
-            startAnew();
-        else
-            goTo(moments_.first());
+        if (settings_.restart()) startAnew();
+        else goTo(moments_.first());
     });
 }
 
@@ -284,15 +281,13 @@ void LiveSimulation::publish(bool always)
 {
     const sim::State& state = simulation_->state();
     std::unique_lock lock(mutex_);
-    const bool isBetween =
-        frameByFrame_ && mode_ < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
+    const bool isBetween = frameByFrame_ && mode_ < LiveMode::Ended && state.time != frameTime(settings_.setup(), frame_);
     if (!isBetween && (always || !ready_)) {
         std::unique_ptr<FrameSnapshot> snapshot = std::move(spare_);
         lock.unlock();
         if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
         snapshot->number = frame_;
-        app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(),
-                          settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
+        app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(), settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
         placeObstacles_(state.time, snapshot->obstacles);
         lock.lock();
         std::swap(ready_, snapshot);

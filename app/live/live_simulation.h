@@ -23,7 +23,7 @@ enum class LiveMode { Paused, Playing, Ended, Failed };
 /// Where a live simulation is.
 struct LiveStatus {
     LiveMode mode = LiveMode::Paused;
-    bool isBusy = false;          ///< with what it was asked for: all else may change at once
+    bool isBusy = false;  ///< with what it was asked for: all else may change at once
     std::int64_t step = 0;
     double time = 0.0;            ///< [s]
     std::string failure;          ///< why it went no further: one line
@@ -37,7 +37,7 @@ struct LiveStep {
     double time = 0.0;      ///< at its end [s]
     double seconds = 0.0;   ///< it took, wall
     sim::StepReport report;
-    sim::Ledger ledger;     ///< at its end
+    sim::Ledger ledger;  ///< at its end
 };
 
 /// A scene that is simulated on a thread of its own while somebody looks at it. It takes the steps that a run without a

@@ -35,19 +35,16 @@ std::pair<double, double> span(const std::vector<FrameSequence>& sequences)
 /// Remove the pictures of an earlier comparison that had more of them.
 void removeFrames(const std::filesystem::path& folder)
 {
-    for (std::int64_t n = 0; std::filesystem::remove(folder / frameFileName(n)); ++n) {}
+    for (std::int64_t n = 0; std::filesystem::remove(folder / frameFileName(n)); ++n) {
+    }
 }
 
 }  // namespace
 
-std::int64_t FrameSequence::frameAt(double time) const
-{
-    return std::clamp<std::int64_t>(std::llround((time - start) / every), first, last);
-}
+std::int64_t FrameSequence::frameAt(double time) const { return std::clamp<std::int64_t>(std::llround((time - start) / every), first, last); }
 
 std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequences, double every, const PictureSettings& pictures,
-                                        const Parts& parts, const std::filesystem::path& folder,
-                                        const std::function<bool()>& stopWanted)
+                                        const Parts& parts, const std::filesystem::path& folder, const std::function<bool()>& stopWanted)
 {
     const auto [start, end] = span(sequences);
     const bool asVideo = canMakeVideos();
@@ -67,8 +64,9 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
             continue;
         }
         if (!video)
-            video = std::make_unique<VideoWriter>(target, VideoFormat{.width = picture.width, .height = picture.height,
-                                                                      .fps = pictures.output.videoFps, .codec = pictures.output.videoCodec});
+            video = std::make_unique<VideoWriter>(
+                target,
+                VideoFormat{.width = picture.width, .height = picture.height, .fps = pictures.output.videoFps, .codec = pictures.output.videoCodec});
         video->add(picture.rgb);
     }
     if (video) video->finish();

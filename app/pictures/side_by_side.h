@@ -25,8 +25,7 @@ struct FrameSequence {
 /// folder/compare.mp4, or as PNGs into folder/side_by_side/ where there is no ffmpeg. Returns what it made; nothing if
 /// stopWanted said so on the way.
 std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequences, double every, const PictureSettings& pictures,
-                                        const Parts& parts, const std::filesystem::path& folder,
-                                        const std::function<bool()>& stopWanted);
+                                        const Parts& parts, const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
 
 /// One row of an overview: variants of one scene at a time [s].
 struct OverviewRow {

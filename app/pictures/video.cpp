@@ -17,8 +17,22 @@ std::vector<std::string> outputArguments(const std::string& codec, const std::fi
 {
     // The comma inside min() is ffmpeg's own separator unless it is escaped; pictures that fit are left as they are.
     const std::string fit = fmt::format("scale=w='min(iw\\,{0})':h='if(gt(iw\\,{0})\\,-2\\,ih)'", kMaxVideoWidth);
-    return {"-an", "-c:v", codec, "-crf", "16", "-preset", "medium", "-pix_fmt", "yuv420p",
-            "-vf", fit + ",pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-movflags", "+faststart", "-f", "mp4", part.string()};
+    return {"-an",
+            "-c:v",
+            codec,
+            "-crf",
+            "16",
+            "-preset",
+            "medium",
+            "-pix_fmt",
+            "yuv420p",
+            "-vf",
+            fit + ",pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white",
+            "-movflags",
+            "+faststart",
+            "-f",
+            "mp4",
+            part.string()};
 }
 
 std::vector<std::string> ffmpegArguments(std::vector<std::string> input, const std::vector<std::string>& output)
@@ -56,7 +70,8 @@ std::string videoProgramVersion()
 }
 
 VideoWriter::VideoWriter(std::filesystem::path target, const VideoFormat& format)
-    : target_(std::move(target)), part_(partFile(target_)),
+    : target_(std::move(target)),
+      part_(partFile(target_)),
       pictureBytes_(std::size_t{3} * static_cast<std::size_t>(format.width) * static_cast<std::size_t>(format.height))
 {
     const auto arguments = ffmpegArguments({"-f", "rawvideo", "-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", format.width, format.height),
@@ -94,8 +109,7 @@ void VideoWriter::fail()
     throwNoVideo(target_, end);
 }
 
-void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps,
-                   const std::string& codec)
+void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps, const std::string& codec)
 {
     const std::vector<std::int64_t> frames = numbersIn(folder, "frame_", ".png");
     if (frames.empty()) throw std::runtime_error(fmt::format("cannot write {}: there are no pictures", target.string()));
@@ -111,10 +125,8 @@ void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::p
 
 void makeVideo(const std::filesystem::path& folder, const OutputSettings& output)
 {
-    if (canMakeVideos())
-        videoOfFrames(folder, folder / "video.mp4", output.videoFps, output.videoCodec);
-    else
-        spdlog::warn("no ffmpeg along PATH, so no video: the pictures are in {}", folder.string());
+    if (canMakeVideos()) videoOfFrames(folder, folder / "video.mp4", output.videoFps, output.videoCodec);
+    else spdlog::warn("no ffmpeg along PATH, so no video: the pictures are in {}", folder.string());
 }
 
 }  // namespace app

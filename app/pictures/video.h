@@ -22,7 +22,7 @@ std::string videoProgramVersion();
 inline constexpr int kMaxVideoWidth = 4096;
 
 struct VideoFormat {
-    int width = 0, height = 0;     ///< of the pictures [pixels]; see kMaxVideoWidth. An odd edge gains a white line
+    int width = 0, height = 0;  ///< of the pictures [pixels]; see kMaxVideoWidth. An odd edge gains a white line
     double fps = 50.0;
     std::string codec = "libx264";
 };
@@ -45,8 +45,7 @@ class VideoWriter {
 };
 
 /// An MP4 of the pictures frame_00000.png, frame_00001.png, … in a folder, from the first one there is.
-void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps,
-                   const std::string& codec);
+void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps, const std::string& codec);
 
 /// The same into video.mp4 in the folder; without ffmpeg a warning says where the pictures are.
 void makeVideo(const std::filesystem::path& folder, const OutputSettings& output);

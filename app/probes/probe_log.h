@@ -22,7 +22,8 @@ class ProbeLog {
     /// @param start  of the run, from which readings are counted [s]
     ProbeLog(const std::filesystem::path& file, const Probes& probes, double start);
     /// Goes on behind the first `bytes` of the file, in a run that has come to this time [s].
-    ProbeLog(const std::filesystem::path& file, const Probes& probes, double start, double time, std::uintmax_t bytes, const ForceTotals& sinceReading);
+    ProbeLog(const std::filesystem::path& file, const Probes& probes, double start, double time, std::uintmax_t bytes,
+             const ForceTotals& sinceReading);
 
     /// The state before the first step.
     void initial(const Steppable& simulation);
@@ -40,8 +41,8 @@ class ProbeLog {
     LineFile file_;
     Probes probes_;
     double start_;
-    std::int64_t next_ = 0;           ///< number of the reading that is due next
-    std::set<std::string> valueless_; ///< names of probes that were told to have none
+    std::int64_t next_ = 0;            ///< number of the reading that is due next
+    std::set<std::string> valueless_;  ///< names of probes that were told to have none
 };
 
 /// The table of readings that is in a folder as probes.png, with its script beside it. Throws std::runtime_error with gnuplot's own words.

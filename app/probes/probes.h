@@ -21,7 +21,7 @@ struct Probe {
 
 /// The section `output.probes` of a scene.
 struct Probes {
-    double every = 0.0;                  ///< time between readings [s]; that between frames unless the section says otherwise
+    double every = 0.0;  ///< time between readings [s]; that between frames unless the section says otherwise
     std::vector<Probe> all;
     std::shared_ptr<Measures> measures;  ///< what the formulas look at
 

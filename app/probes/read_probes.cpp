@@ -63,9 +63,9 @@ void readHoops(const Node* node, Measures& measures)
 {
     if (!node) return;
     const std::string path = sim::joinPath(kProbesPath, "hoops");
-    if (!node->isMap()) sim::fail(node->place, path + ": needs names and hoops, like {outlet: {center: [0, 2, 0], normal: [0, -1, 0]}}, not " + node->called());
-    for (std::size_t i = 0; i < node->keys.size(); ++i)
-        measures.addHoop(node->keys[i], hoopIn(node->items[i], sim::joinPath(path, node->keys[i])));
+    if (!node->isMap())
+        sim::fail(node->place, path + ": needs names and hoops, like {outlet: {center: [0, 2, 0], normal: [0, -1, 0]}}, not " + node->called());
+    for (std::size_t i = 0; i < node->keys.size(); ++i) measures.addHoop(node->keys[i], hoopIn(node->items[i], sim::joinPath(path, node->keys[i])));
 }
 
 Probe probeIn(const Node& node, const std::string& path, std::size_t number, const ReadingContext& context)
@@ -79,7 +79,10 @@ Probe probeIn(const Node& node, const std::string& path, std::size_t number, con
         v.other("along", "Read at points along a line, x, y, z in the formula");
     });
     sim::FormulaNames names = context.reading;
-    Probe probe{.name = wordIn(node, "name", path, fmt::format("probe {}", number)), .unit = wordIn(node, "unit", path, "-"), .read = sim::Formula("0"), .points = {}};
+    Probe probe{.name = wordIn(node, "name", path, fmt::format("probe {}", number)),
+                .unit = wordIn(node, "unit", path, "-"),
+                .read = sim::Formula("0"),
+                .points = {}};
     if (const Node* along = node.find("along")) {
         probe.points = pointsAlong(*along, sim::joinPath(path, "along"));
         names.variables.insert(names.variables.end(), {"x", "y", "z"});
@@ -124,7 +127,8 @@ std::optional<Probes> readProbes(const SceneSetup& setup)
     const std::string path = sim::joinPath(kProbesPath, "readings");
     const Node& readings = *sim::listAt(node, "readings", path, "[{name: height, unit: cm, read: liquid_y}]");
     if (readings.items.empty()) sim::fail(readings.place, path + ": needs a list of at least one");
-    for (std::size_t i = 0; i < readings.items.size(); ++i) probes.all.push_back(probeIn(readings.items[i], fmt::format("{}.{}", path, i), i + 1, context));
+    for (std::size_t i = 0; i < readings.items.size(); ++i)
+        probes.all.push_back(probeIn(readings.items[i], fmt::format("{}.{}", path, i), i + 1, context));
     return probes;
 }
 

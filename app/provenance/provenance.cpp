@@ -7,10 +7,10 @@
 #include "app/system/child_process.h"
 #include "app/system/thread_limit.h"
 
-#include <Eigen/Core>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include <chrono>

@@ -36,7 +36,9 @@ RepeatJson reportIn(const fs::path& file)
 std::vector<std::pair<std::string, std::string>> conditionsOf(const RepeatJson& provenance)
 {
     std::vector<std::pair<std::string, std::string>> all;
-    const auto add = [&](const std::string& name, const RepeatJson& value) { all.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump()); };
+    const auto add = [&](const std::string& name, const RepeatJson& value) {
+        all.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    };
     for (const char* name : {"version", "commit", "compiler", "flags", "processor", "vector_bits"}) add(name, provenance.at(name));
     for (const char* name : {"eigen", "glibc", "hdf5", "tbb"}) add(name, provenance.at("libraries").at(name));
     return all;

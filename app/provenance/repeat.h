@@ -11,10 +11,10 @@ namespace app {
 /// A run that came to its end, as its report.json alone tells it: enough to do it again.
 struct RunToRepeat {
     std::filesystem::path report;
-    SceneRequest request;              ///< its scene, resolved
+    SceneRequest request;  ///< its scene, resolved
     std::string variant, label;
-    std::string stateHash;             ///< of its last state
-    std::string provenance;            ///< see provenanceOf()
+    std::string stateHash;   ///< of its last state
+    std::string provenance;  ///< see provenanceOf()
 };
 
 /// @param report  a report.json, or the folder that it is in

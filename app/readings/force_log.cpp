@@ -110,8 +110,9 @@ Json balanceJson(const sim::Forces& forces)
     const sim::MomentumBalance& balance = forces.balance;
     Vec3 toSolids = Vec3::Zero();
     for (const sim::Load& load : forces.obstacles) toSolids += load.sum().linear;
-    return {{"change", vectorJson(balance.change)},   {"weight", vectorJson(balance.weight)}, {"entered", vectorJson(balance.entered)},
-            {"left", vectorJson(balance.left)},       {"to_solids", vectorJson(toSolids)},    {"borne", vectorJson(balance.borne)},
+    return {{"change", vectorJson(balance.change)},        {"weight", vectorJson(balance.weight)},
+            {"entered", vectorJson(balance.entered)},      {"left", vectorJson(balance.left)},
+            {"to_solids", vectorJson(toSolids)},           {"borne", vectorJson(balance.borne)},
             {"unresolved", vectorJson(balance.unresolved)}};
 }
 
@@ -121,7 +122,10 @@ Json forcesJson(const ForceNames& names, const ForceTotals& totals)
     return byNames(names, [&]() -> Json {
         const Impulse mean = totals.mean(load);
         const double* largest = totals.numbers.data() + load++ * kNumbers + kLargest;
-        return {{"mean_force", vectorJson(mean.linear)}, {"largest_force", largest[0]}, {"mean_torque", vectorJson(mean.angular)}, {"largest_torque", largest[1]}};
+        return {{"mean_force", vectorJson(mean.linear)},
+                {"largest_force", largest[0]},
+                {"mean_torque", vectorJson(mean.angular)},
+                {"largest_torque", largest[1]}};
     });
 }
 

@@ -20,10 +20,7 @@ std::optional<std::size_t> numberOf(const std::string& name, const std::vector<s
 
 }  // namespace
 
-void Measures::tookStep()
-{
-    interval_.add(simulation_->forces());
-}
+void Measures::tookStep() { interval_.add(simulation_->forces()); }
 
 std::vector<sim::FormulaNames::OfName> Measures::forces()
 {

@@ -18,10 +18,7 @@ namespace {
 using sim::Vec3, sim::kAxes;
 using Arguments = std::span<const double>;
 
-std::string along(const char* name, int axis)
-{
-    return std::string(name) + "xyz"[axis];
-}
+std::string along(const char* name, int axis) { return std::string(name) + "xyz"[axis]; }
 
 /// Mean of value(p), weighted by mass.
 template <class Value>
@@ -96,10 +93,7 @@ double extent(const std::vector<Vec3>& places, int axis, Takes&& takes)
 
 }  // namespace
 
-const sim::LiquidParticles& Measures::liquid() const
-{
-    return simulation_->state().liquid;
-}
+const sim::LiquidParticles& Measures::liquid() const { return simulation_->state().liquid; }
 
 std::size_t Measures::vertex(double number) const
 {
@@ -131,13 +125,11 @@ void Measures::addLiquid(Names& names)
     names.push_back({"potential", 0, [energies](Arguments) { return energies().potential; }});
     names.push_back({"energy", 0, [energies](Arguments) { return energies().total(); }});
     names.push_back({"rms_speed", 0, [this](Arguments) {
-                         return std::sqrt(
-                             meanOf(liquid(), [this](std::size_t p) { return liquid().velocity(p).squaredNorm(); }));
+                         return std::sqrt(meanOf(liquid(), [this](std::size_t p) { return liquid().velocity(p).squaredNorm(); }));
                      }});
     names.push_back({"speed", 0, [this](Arguments) {
                          double square = 0.0;
-                         for (std::size_t p = 0; p < liquid().count; ++p)
-                             square = std::max(square, liquid().velocity(p).squaredNorm());
+                         for (std::size_t p = 0; p < liquid().count; ++p) square = std::max(square, liquid().velocity(p).squaredNorm());
                          return std::sqrt(square);
                      }});
     names.push_back({"pressure", 3, [this](Arguments x) { return pressureAt({x[0], x[1], x[2]}); }});
@@ -156,20 +148,14 @@ double Measures::momentum(int axis) const
 void Measures::addLiquidAlong(int a, Names& names)
 {
     names.push_back({along("momentum_", a), 0, [this, a](Arguments) { return momentum(a); }});
-    names.push_back({along("liquid_", a), 0, [this, a](Arguments) {
-                         return meanOf(liquid(), [this, a](std::size_t p) { return liquid().x[a][p]; });
-                     }});
-    names.push_back({along("liquid_v", a), 0, [this, a](Arguments) {
-                         return meanOf(liquid(), [this, a](std::size_t p) { return liquid().velocity(p)[a]; });
-                     }});
     names.push_back(
-        {along("spin_", a), 0, [this, a](Arguments) { return spin(liquid(), simulation_->state().grid.dx)[a]; }});
-    names.push_back({along("wave_", a), 1, [this, a](Arguments k) {
-                         return meanOf(liquid(),
-                                       [this, a, k](std::size_t p) { return std::cos(k[0] * liquid().x[a][p]); });
-                     }});
-    names.push_back({along("mass_", a), 2,
-                     [this, a](Arguments between) { return massBetween(liquid(), a, between[0], between[1]); }});
+        {along("liquid_", a), 0, [this, a](Arguments) { return meanOf(liquid(), [this, a](std::size_t p) { return liquid().x[a][p]; }); }});
+    names.push_back(
+        {along("liquid_v", a), 0, [this, a](Arguments) { return meanOf(liquid(), [this, a](std::size_t p) { return liquid().velocity(p)[a]; }); }});
+    names.push_back({along("spin_", a), 0, [this, a](Arguments) { return spin(liquid(), simulation_->state().grid.dx)[a]; }});
+    names.push_back({along("wave_", a), 1,
+                     [this, a](Arguments k) { return meanOf(liquid(), [this, a, k](std::size_t p) { return std::cos(k[0] * liquid().x[a][p]); }); }});
+    names.push_back({along("mass_", a), 2, [this, a](Arguments between) { return massBetween(liquid(), a, between[0], between[1]); }});
     names.push_back({along("front_", a), 1, [this, a](Arguments height) { return front(a, height[0]); }});
 }
 
@@ -186,38 +172,30 @@ void Measures::addFabric(Names& names)
                          const auto& mass = simulation_->fabric().mass;
                          return std::accumulate(mass.begin(), mass.end(), 0.0);
                      }});
-    names.push_back({"absorbed", 0, [state](Arguments) {
-                         return std::accumulate(state().absorbed.begin(), state().absorbed.end(), 0.0);
-                     }});
+    names.push_back({"absorbed", 0, [state](Arguments) { return std::accumulate(state().absorbed.begin(), state().absorbed.end(), 0.0); }});
     names.push_back({"saturation", 1, [this, state](Arguments n) {
                          const std::size_t v = vertex(n[0]);
                          return state().absorbed[v] / (density_ * sim::poreVolume(simulation_->fabric(), v));
                      }});
     names.push_back({"fabric_speed", 0, [state](Arguments) { return largest(state().v); }});
     names.push_back({"fabric_kinetic", 0, [this](Arguments) { return simulation_->energies().fabric.kinetic; }});
-    names.push_back({"elastic", 0, [this](Arguments) {
-                         return simulation_->energies().fabric.elastic();
-                     }});
+    names.push_back({"elastic", 0, [this](Arguments) { return simulation_->energies().fabric.elastic(); }});
 }
 
 void Measures::addFabricAlong(int a, Names& names)
 {
     const auto state = [this]() -> const sim::FabricState& { return simulation_->state().fabric; };
     const auto all = [](std::size_t) { return true; };
-    names.push_back({along("fabric_", a), 0, [this, state, a](Arguments) {
-                         return meanOf(simulation_->fabric(), [&](std::size_t v) { return state().x[v][a]; });
-                     }});
-    names.push_back({along("fabric_v", a), 0, [this, state, a](Arguments) {
-                         return meanOf(simulation_->fabric(), [&](std::size_t v) { return state().v[v][a]; });
-                     }});
+    names.push_back({along("fabric_", a), 0,
+                     [this, state, a](Arguments) { return meanOf(simulation_->fabric(), [&](std::size_t v) { return state().x[v][a]; }); }});
+    names.push_back({along("fabric_v", a), 0,
+                     [this, state, a](Arguments) { return meanOf(simulation_->fabric(), [&](std::size_t v) { return state().v[v][a]; }); }});
     names.push_back({along("vertex_", a), 1, [this, state, a](Arguments n) { return state().x[vertex(n[0])][a]; }});
     names.push_back({along("vertex_v", a), 1, [this, state, a](Arguments n) { return state().v[vertex(n[0])][a]; }});
     names.push_back({along("spread_", a), 0, [state, all, a](Arguments) { return extent(state().x, a, all); }});
     names.push_back({along("wet_", a), 1, [this, state, a](Arguments s) {
                          const sim::Fabric& fabric = simulation_->fabric();
-                         const auto isWet = [&](std::size_t v) {
-                             return state().absorbed[v] >= s[0] * density_ * sim::poreVolume(fabric, v);
-                         };
+                         const auto isWet = [&](std::size_t v) { return state().absorbed[v] >= s[0] * density_ * sim::poreVolume(fabric, v); };
                          return extent(state().x, a, isWet);
                      }});
 }
@@ -241,8 +219,7 @@ double Measures::sumOverFaces(Term&& term) const
                 if (!of.wet.test(b, c, a) || !of.faces.valid.test(b, c, a)) continue;
                 const Vec3 inBlock(c & 7, (c >> 3) & 7, c >> 6);
                 const Vec3 x = grid.lowerCorner(b) + grid.dx * (inBlock + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
-                sum += of.faces.sums.block(b, sim::FaceFields::kMass + a)[c] *
-                       term(of.faces.velocity.block(b, a)[c], flowAt(x)[a]);
+                sum += of.faces.sums.block(b, sim::FaceFields::kMass + a)[c] * term(of.faces.velocity.block(b, a)[c], flowAt(x)[a]);
             }
     return sum;
 }
@@ -257,8 +234,7 @@ double Measures::flowError() const
 double Measures::flowPart() const
 {
     if (simulation_->state().step == 0) return 0.0;
-    return sumOverFaces([](double u, double flow) { return u * flow; }) /
-           sumOverFaces([](double, double flow) { return flow * flow; });
+    return sumOverFaces([](double u, double flow) { return u * flow; }) / sumOverFaces([](double, double flow) { return flow * flow; });
 }
 
 /// Of the cell with x in it, at its centre [dyn/cm^2].
@@ -283,8 +259,7 @@ double Measures::front(int axis, double where) const
     for (int b = 0; b < grid.count(); ++b)
         for (int c = 0; c < sim::kBlockCells; ++c) {
             const Eigen::Vector3i cell = 8 * grid.coords(b) + Eigen::Vector3i(c & 7, (c >> 3) & 7, c >> 6);
-            if (cell[fixed] == layer && simulation_->liquidGrid().inside.test(b, c))
-                rows[cell[other]].insert(cell[axis]);
+            if (cell[fixed] == layer && simulation_->liquidGrid().inside.test(b, c)) rows[cell[other]].insert(cell[axis]);
         }
     int last = std::numeric_limits<int>::min();
     for (const auto& [row, cells] : rows) {

@@ -62,7 +62,9 @@ double Measures::fluxThrough(const Hoop& hoop) const
 void Measures::addPoints(Names& names)
 {
     for (int a = 0; a < sim::kAxes; ++a)
-        names.push_back({fmt::format("velocity_{}", "xyz"[a]), 3, [this, a](std::span<const double> x) { return velocityAt(a, {x[0], x[1], x[2]}); }});
+        names.push_back({fmt::format("velocity_{}", "xyz"[a]), 3, [this, a](std::span<const double> x) {
+                             return velocityAt(a, {x[0], x[1], x[2]});
+                         }});
     names.push_back({"saturation_at", 3, [this](std::span<const double> x) { return saturationAt({x[0], x[1], x[2]}); }});
 }
 

@@ -10,8 +10,7 @@ using sim::Node;
 
 void define(const std::string& name, double value, ReadingContext& context)
 {
-    for (sim::FormulaNames* names : {&context.reading, &context.known, &context.constant})
-        names->constants[name] = value;
+    for (sim::FormulaNames* names : {&context.reading, &context.known, &context.constant}) names->constants[name] = value;
 }
 
 /// What formulas know of the scene.
@@ -34,10 +33,8 @@ void readConstants(const Node* let, ReadingContext& context)
 {
     if (!let) return;
     const std::string path = context.path + ".let";
-    if (!let->isMap())
-        sim::fail(let->place, path + ": needs names and formulas, like {k: pi/10}, not " + let->called());
-    for (std::size_t i = 0; i < let->keys.size(); ++i)
-        define(let->keys[i], readConstant(let->items[i], path + "." + let->keys[i], context), context);
+    if (!let->isMap()) sim::fail(let->place, path + ": needs names and formulas, like {k: pi/10}, not " + let->called());
+    for (std::size_t i = 0; i < let->keys.size(); ++i) define(let->keys[i], readConstant(let->items[i], path + "." + let->keys[i], context), context);
 }
 
 void readFlow(const Node* node, const ReadingContext& context, Measures& measures)

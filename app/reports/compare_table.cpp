@@ -23,8 +23,8 @@ std::string runRow(const RunResult& run, const RunResult* reference)
     std::string row = fmt::format("| {} | {:.4f} |", cell(run.label), run.secondsPerStep);
     if (reference) row += fmt::format(" {:.2f} |", reference->secondsPerStep > 0.0 ? run.secondsPerStep / reference->secondsPerStep : 0.0);
     return row + fmt::format(" {} | {:.4g} | {} | {:.0f} | {} | {:.1f} | {} | `{}` |\n", run.steps, run.simulatedTime,
-                             formatDuration(run.wallSeconds), run.peakMemoryMegabytes, run.particles, run.meanIterations,
-                             run.maxIterations, run.stateHash);
+                             formatDuration(run.wallSeconds), run.peakMemoryMegabytes, run.particles, run.meanIterations, run.maxIterations,
+                             run.stateHash);
 }
 
 std::string runTable(const std::vector<RunResult>& runs, const RunResult* reference)

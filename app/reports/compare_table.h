@@ -14,7 +14,7 @@ std::string compareTable(const std::string& title, const std::vector<RunResult>&
 /// What a run is remembered by.
 struct RunOutcome {
     std::string label;
-    double energyKept = 0.0;   ///< last total energy by the first [-]
+    double energyKept = 0.0;  ///< last total energy by the first [-]
     double wallSeconds = 0.0;
 };
 

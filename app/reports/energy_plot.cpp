@@ -53,14 +53,15 @@ std::string panel(const std::vector<EnergyCurve>& curves, const std::string& nam
 /// What all panels have in common.
 std::string head(int panels, const std::string& title, const std::string& unit, const std::string& picture)
 {
-    return fmt::format("set terminal pngcairo size {},580 font 'DejaVu Sans,12' linewidth 1\n"
-                       "set output {}\n"
-                       "set datafile separator ','\n"
-                       "set multiplot layout 1,{} margins 0.085,0.975,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
-                       "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
-                       "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
-                       "set key at screen 0.5,0.045 center center vertical maxrows 2 samplen 2\n",
-                       550 * panels, gnuplotText(picture), panels, gnuplotText(title), unit);
+    return fmt::format(
+        "set terminal pngcairo size {},580 font 'DejaVu Sans,12' linewidth 1\n"
+        "set output {}\n"
+        "set datafile separator ','\n"
+        "set multiplot layout 1,{} margins 0.085,0.975,0.24,0.86 spacing 0.065 title {} noenhanced font ',14'\n"
+        "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\n"
+        "set xlabel 'time [s]'\nset ylabel 'energy [{}]'\n"
+        "set key at screen 0.5,0.045 center center vertical maxrows 2 samplen 2\n",
+        550 * panels, gnuplotText(picture), panels, gnuplotText(title), unit);
 }
 
 /// Draw folder/name.png by script(curves, picture), whose curves are told relative to the folder.
@@ -87,8 +88,7 @@ void joinEnergies(const std::vector<EnergyCurve>& curves, const std::filesystem:
     writeWhole(target, all);
 }
 
-std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title,
-                             const std::string& picture)
+std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title, const std::string& picture)
 {
     const std::string unit = scale == 0 ? "erg" : fmt::format("10^{{{}}} erg", scale);
     const auto scaled = [&](const std::string& value) { return [=](const EnergyCurve&) { return fmt::format("({})*1e{}", value, -scale); }; };
@@ -108,13 +108,11 @@ std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std:
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)
 {
     const int scale = axisScale(curves);
-    draw(curves, folder, "energy", [&](const auto& relative, const std::string& picture) {
-        return energyPlotScript(relative, scale, title, picture);
-    });
+    draw(curves, folder, "energy",
+         [&](const auto& relative, const std::string& picture) { return energyPlotScript(relative, scale, title, picture); });
 }
 
-void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder,
-                     const std::string& name)
+void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder, const std::string& name)
 {
     draw(curves, folder, name, [&](const auto& relative, const std::string& picture) { return perParticleScript(relative, title, picture); });
 }

@@ -9,10 +9,10 @@ namespace app {
 
 /// One curve of the energy plot.
 struct EnergyCurve {
-    std::string variant;                 ///< first column of the joined CSV
-    std::string label;                   ///< in the legend
-    std::filesystem::path csv;           ///< an energy.csv as a run leaves it
-    std::int64_t vertices = 0;           ///< of fabric, which the paper counts with the particles
+    std::string variant;        ///< first column of the joined CSV
+    std::string label;          ///< in the legend
+    std::filesystem::path csv;  ///< an energy.csv as a run leaves it
+    std::int64_t vertices = 0;  ///< of fabric, which the paper counts with the particles
 };
 
 /// One table of all curves, long form: the columns of energy.csv behind one that names the variant.
@@ -21,8 +21,7 @@ void joinEnergies(const std::vector<EnergyCurve>& curves, const std::filesystem:
 
 /// The gnuplot program that draws kinetic, potential and total energy of all curves against time.
 /// @param scale  the axis is in 10^scale erg
-std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title,
-                             const std::string& picture);
+std::string energyPlotScript(const std::vector<EnergyCurve>& curves, int scale, const std::string& title, const std::string& picture);
 
 /// Mean energy per particle as the paper draws it: all of it, and beside it what the published program takes for it.
 std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std::string& title, const std::string& picture);
@@ -32,7 +31,6 @@ std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std:
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder);
 
 /// The same of energies per particle, as folder/name.png and folder/name.gp.
-void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder,
-                     const std::string& name);
+void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace app

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 9> kRunFiles = {"report.json", "steps.jsonl", "energy.csv", "energy_ledger.csv", "probes.csv",
-                                                      "probes.png",  "probes.gp",   "video.mp4",  "resolved.yaml"};
+                                                       "probes.png",  "probes.gp",   "video.mp4",  "resolved.yaml"};
 
 /// Files with numbers that a run leaves in its folder, and in folders below.
 struct NumberedFiles {
@@ -50,8 +50,8 @@ void requireOwner(const fs::path& folder, const FolderOwner& owner)
     const auto report = folder / "report.json";
     if (!fs::exists(report)) {
         if (fs::exists(folder / "steps.jsonl") || fs::is_empty(folder)) return;
-        throw sim::InputError(fmt::format(
-            "--out {}: the folder holds files that are no results of a run; choose another or empty it", folder.string()));
+        throw sim::InputError(
+            fmt::format("--out {}: the folder holds files that are no results of a run; choose another or empty it", folder.string()));
     }
     const auto json = nlohmann::json::parse(readWhole(report), nullptr, false);
     FolderOwner found;

@@ -20,10 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 4> kStatusNames = {"running", "done", "interrupted", "failed"};
 
-Json energyJson(const sim::Energies& e)
-{
-    return {{"kinetic", e.kinetic}, {"modal", e.modal}, {"potential", e.potential}, {"total", e.total()}};
-}
+Json energyJson(const sim::Energies& e) { return {{"kinetic", e.kinetic}, {"modal", e.modal}, {"potential", e.potential}, {"total", e.total()}}; }
 
 Json fabricJson(const sim::StepReport& step)
 {
@@ -112,21 +109,18 @@ std::string energyRow(double time, const sim::Energies& e, std::size_t particles
 {
     const double perParticle = particles > 0 ? e.total() / static_cast<double>(particles) : 0.0;
     return fmt::format("{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{},{:.15g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}", time, e.kinetic, e.modal,
-                       e.potential, e.total(), particles, liquidMass, perParticle, e.fabric.kinetic, e.fabric.potential,
-                       e.fabric.elastic(), e.fabric.contact, published);
+                       e.potential, e.total(), particles, liquidMass, perParticle, e.fabric.kinetic, e.fabric.potential, e.fabric.elastic(),
+                       e.fabric.contact, published);
 }
 
 Json secondsPerStepJson(const StageTimes& times)
 {
     Json stages = Json::object();
     for (int s = 0; s < sim::kStages; ++s)
-        stages[std::string(sim::kStageNames[s])] =
-            times.stages[s].empty() ? Json(nullptr) : Json(times.medianMilliseconds(s) / 1000.0);
+        stages[std::string(sim::kStageNames[s])] = times.stages[s].empty() ? Json(nullptr) : Json(times.medianMilliseconds(s) / 1000.0);
     double sum = 0.0;
     for (double t : times.total) sum += t;
-    return {{"median", median(times.total)},
-            {"mean", times.total.empty() ? 0.0 : sum / static_cast<double>(times.total.size())},
-            {"stages", stages}};
+    return {{"median", median(times.total)}, {"mean", times.total.empty() ? 0.0 : sum / static_cast<double>(times.total.size())}, {"stages", stages}};
 }
 
 Json ledgerJson(const EnergyLedger::Summary& s)
@@ -141,8 +135,8 @@ Json ledgerJson(const EnergyLedger::Summary& s)
 Json reportJson(const RunSummary& s)
 {
     const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
-    Json json = {{"scene", s.scene}, {"title", s.title}, {"variant", s.variant}, {"label", s.label},
-                 {"status", kStatusNames[static_cast<int>(s.status)]}};
+    Json json = {
+        {"scene", s.scene}, {"title", s.title}, {"variant", s.variant}, {"label", s.label}, {"status", kStatusNames[static_cast<int>(s.status)]}};
     if (!s.reason.empty()) json["reason"] = s.reason;
     json.update({{"steps", s.steps},
                  {"frames", s.frames},
@@ -189,8 +183,8 @@ std::string stageTable(const StageTimes& times)
 {
     std::string table = fmt::format("{:<20}{:>12}\n", "stage", "median ms");
     for (int s = 0; s < sim::kStages; ++s)
-        table += fmt::format("{:<20}{:>12}\n", sim::kStageNames[s],
-                             times.stages[s].empty() ? "-" : fmt::format("{:.3f}", times.medianMilliseconds(s)));
+        table +=
+            fmt::format("{:<20}{:>12}\n", sim::kStageNames[s], times.stages[s].empty() ? "-" : fmt::format("{:.3f}", times.medianMilliseconds(s)));
     return table + fmt::format("{:<20}{:>12.3f}\n", "step", 1000.0 * median(times.total));
 }
 
@@ -242,15 +236,17 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
 
 Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
                  const LogsSoFar& before, double time)
-    : folder_(folder), summary_(before.summary), begin_(setup.scene.settings.time.start), before_(before.summary.wallSeconds),
+    : folder_(folder),
+      summary_(before.summary),
+      begin_(setup.scene.settings.time.start),
+      before_(before.summary.wallSeconds),
       gravity_(setup.scene.settings.gravity)
 {
     const auto& output = setup.pictures.output;
     if (output.stats) steps_.emplace(folder / "steps.jsonl", before.stepsBytes);
     if (output.energy) energy_.emplace(folder / "energy.csv", before.energyBytes);
     if (output.ledger)
-        energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes,
-                              before.summary.energyLedger.value_or(EnergyLedger::Summary()));
+        energyLedger_.emplace(folder / "energy_ledger.csv", before.ledgerBytes, before.summary.energyLedger.value_or(EnergyLedger::Summary()));
     if (const auto probes = readProbes(setup)) probes_.emplace(folder / kProbesFile, *probes, begin_, time, before.probesBytes, before.sinceReading);
     describe(setup, std::move(contentHash), std::move(provenance));
 }
@@ -308,8 +304,8 @@ void Reports::step(const Steppable& simulation, const sim::StepReport& report)
     summary_.forces.add(forces, report.isReflected);
     if (energyLedger_) energyLedger_->step(state.time, report);
     if (energy_ && !report.isReflected)
-        energy_->add(energyRow(state.time, report.energies, report.particles, report.liquidMass,
-                               publishedEnergy(state.fabric, report.energies, gravity_)));
+        energy_->add(
+            energyRow(state.time, report.energies, report.particles, report.liquidMass, publishedEnergy(state.fabric, report.energies, gravity_)));
 
     ++summary_.steps;
     summary_.simulatedTime = state.time - begin_;

@@ -21,11 +21,11 @@ enum class RunStatus { Running, Done, Interrupted, Failed };
 
 /// Seconds of every step by stage, in the order of sim::kStageNames.
 struct StageTimes {
-    std::vector<double> total;                                ///< one per step [s]
-    std::array<std::vector<double>, sim::kStages> stages;     ///< one per step in which the stage ran [s]
+    std::vector<double> total;                             ///< one per step [s]
+    std::array<std::vector<double>, sim::kStages> stages;  ///< one per step in which the stage ran [s]
 
     void add(const sim::StepReport& step);
-    double medianMilliseconds(int stage) const;               ///< of the steps in which it ran
+    double medianMilliseconds(int stage) const;  ///< of the steps in which it ran
 };
 
 /// "stage, median ms" as lines of text; "-" for stages that never ran.
@@ -35,27 +35,27 @@ std::string stageTable(const StageTimes& times);
 struct RunSummary {
     std::string scene, variant, label, title, contentHash;
     RunStatus status = RunStatus::Running;
-    std::string reason;                      ///< why it did not get to its end, one line
+    std::string reason;  ///< why it did not get to its end, one line
     std::int64_t steps = 0, frames = 0;
-    double simulatedTime = 0.0;              ///< [s]
+    double simulatedTime = 0.0;  ///< [s]
     double wallSeconds = 0.0, peakMemoryMegabytes = 0.0;
     StageTimes times;
-    std::size_t particles = 0, cells = 0;    ///< at the end
-    double particleSum = 0.0;                ///< over the steps
+    std::size_t particles = 0, cells = 0;  ///< at the end
+    double particleSum = 0.0;              ///< over the steps
     std::int64_t totalIterations = 0, maxIterations = 0;
-    std::size_t fabricVertices = 0, fabricElements = 0;   ///< elements: edges of yarns and faces of cloth
-    double fabricMass = 0.0;                 ///< dry [g]
-    double cell = 0.0;                       ///< [cm]
+    std::size_t fabricVertices = 0, fabricElements = 0;  ///< elements: edges of yarns and faces of cloth
+    double fabricMass = 0.0;                             ///< dry [g]
+    double cell = 0.0;                                   ///< [cm]
     std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
-    double leastTakenFraction = 1.0;         ///< of the moves that the fabric's Newton asked for, over the steps [-]
-    std::int64_t takenBack = 0;              ///< steps that turned out bad and were made again
+    double leastTakenFraction = 1.0;  ///< of the moves that the fabric's Newton asked for, over the steps [-]
+    std::int64_t takenBack = 0;       ///< steps that turned out bad and were made again
     double largestCfl = 0.0;
-    double massError = 0.0;                  ///< (entered − left − there) / entered, largest over the steps [-]
+    double massError = 0.0;  ///< (entered − left − there) / entered, largest over the steps [-]
     ForceNames forceNames;
     ForceTotals forces;
-    std::optional<EnergyLedger::Summary> energyLedger;    ///< where it was asked for
+    std::optional<EnergyLedger::Summary> energyLedger;  ///< where it was asked for
     std::string stateHash;
-    std::string provenance;                  ///< see provenanceOf()
+    std::string provenance;  ///< see provenanceOf()
 };
 
 /// The numbers of report.json, as a comparison reads them back.
@@ -63,10 +63,10 @@ struct RunResult {
     std::string variant, label, status, reason, contentHash, stateHash;
     std::int64_t steps = 0, frames = 0, particles = 0, maxIterations = 0, fabricVertices = 0, fabricElements = 0;
     double simulatedTime = 0.0, wallSeconds = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
-    double largestCfl = 0.0, massError = 0.0;                       ///< as in RunSummary
-    double secondsPerStep = 0.0, meanSecondsPerStep = 0.0;          ///< the first is the median
-    double meanParticles = 0.0;                                     ///< of liquid, over the steps
-    std::array<std::optional<double>, sim::kStages> stageSeconds;   ///< medians; nothing for a stage that never ran
+    double largestCfl = 0.0, massError = 0.0;                      ///< as in RunSummary
+    double secondsPerStep = 0.0, meanSecondsPerStep = 0.0;         ///< the first is the median
+    double meanParticles = 0.0;                                    ///< of liquid, over the steps
+    std::array<std::optional<double>, sim::kStages> stageSeconds;  ///< medians; nothing for a stage that never ran
 };
 
 /// Nothing where there is no report or none that can be read.
@@ -76,7 +76,7 @@ std::optional<RunResult> readReport(const std::filesystem::path& folder);
 struct LogsSoFar {
     RunSummary summary;
     std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0, probesBytes = 0;  ///< of steps.jsonl, energy.csv, energy_ledger.csv, probes.csv
-    ForceTotals sinceReading = {};  ///< of probes
+    ForceTotals sinceReading = {};                                                     ///< of probes
 };
 
 /// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is
@@ -87,8 +87,7 @@ class Reports {
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance);
 
     /// The same of a run that is gone on with in its folder: what its logs say of steps later than `time` [s] is forgotten.
-    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
-            const LogsSoFar& before,
+    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance, const LogsSoFar& before,
             double time);
 
     /// The state before the first step: the first rows of energy.csv and probes.csv.
@@ -107,13 +106,13 @@ class Reports {
     double wallSeconds() const;
     void writeReport();
     const std::filesystem::path folder_;
-    std::optional<LineFile> steps_, energy_;       ///< those the scene's output.data asks for
-    std::optional<EnergyLedger> energyLedger_;     ///< likewise
-    std::optional<ProbeLog> probes_;               ///< where the scene has some
+    std::optional<LineFile> steps_, energy_;    ///< those the scene's output.data asks for
+    std::optional<EnergyLedger> energyLedger_;  ///< likewise
+    std::optional<ProbeLog> probes_;            ///< where the scene has some
     RunSummary summary_;
-    double begin_ = 0.0;                           ///< [s]
-    double before_ = 0.0;                          ///< wall seconds of the run until it was gone on with
-    sim::Vec3 gravity_;                            ///< [cm/s^2]
+    double begin_ = 0.0;   ///< [s]
+    double before_ = 0.0;  ///< wall seconds of the run until it was gone on with
+    sim::Vec3 gravity_;    ///< [cm/s^2]
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -20,9 +20,10 @@ std::vector<std::string> ShutSources::news(const sim::State& state)
         Source& source = sources_[s];
         if (memory[s].isShut == 0.0 || source.isTold) continue;
         source.isTold = true;
-        lines.push_back(fmt::format("{}: liquid.sources.{}: stops at {:.4g} s after {:.4g} cm^3: what it flows into is closed and full; it goes on "
-                                    "as soon as there is room",
-                                    source.where, source.name, state.time, state.emittedVolume[s]));
+        lines.push_back(
+            fmt::format("{}: liquid.sources.{}: stops at {:.4g} s after {:.4g} cm^3: what it flows into is closed and full; it goes on "
+                        "as soon as there is room",
+                        source.where, source.name, state.time, state.emittedVolume[s]));
     }
     return lines;
 }

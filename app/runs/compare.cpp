@@ -35,8 +35,7 @@ std::string names(const std::vector<Variant>& variants)
 std::vector<Variant> wantedVariants(const Options& options, const CompareSettings& compare)
 {
     if (compare.variants.empty())
-        throw sim::InputError(fmt::format("{}: nothing to compare: the scene has no compare.variants (drench run runs it as it is)",
-                                          options.scene));
+        throw sim::InputError(fmt::format("{}: nothing to compare: the scene has no compare.variants (drench run runs it as it is)", options.scene));
     if (options.variants.empty()) return compare.variants;
     std::vector<Variant> wanted;
     for (const auto& name : options.variants) {
@@ -56,10 +55,8 @@ void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::p
     if (curves.empty()) return;  // pictures alone
     joinEnergies(curves, folder / "energy.csv");
     const auto& scene = runs.front().setup.scene;
-    if (canPlot())
-        plotEnergies(curves, scene.title.empty() ? scene.name : scene.title, folder);
-    else
-        spdlog::warn("no gnuplot along PATH, so no energy plot: the numbers are in {}", (folder / "energy.csv").string());
+    if (canPlot()) plotEnergies(curves, scene.title.empty() ? scene.name : scene.title, folder);
+    else spdlog::warn("no gnuplot along PATH, so no energy plot: the numbers are in {}", (folder / "energy.csv").string());
 }
 
 }  // namespace
@@ -89,9 +86,8 @@ std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& fo
             throw sim::InputError(fmt::format("--from {}: this is no folder of a run", folder.string()));
         if (numbersIn(folder, "frame_", ".png").empty())
             throw sim::InputError(fmt::format("--from {}: there are no pictures in it; drench render makes some of stored states", folder.string()));
-        ComparedRun run = {.setup = parts.loadScene({(folder / "resolved.yaml").string(), "", sets}),
-                           .folder = folder,
-                           .contentHash = report->contentHash};
+        ComparedRun run = {
+            .setup = parts.loadScene({(folder / "resolved.yaml").string(), "", sets}), .folder = folder, .contentHash = report->contentHash};
         run.setup.variant = report->variant;
         run.setup.label = report->label.empty() ? folder.lexically_normal().filename().string() : report->label;
         runs.push_back(std::move(run));

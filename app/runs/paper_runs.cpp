@@ -17,10 +17,7 @@ namespace {
 /// Of each scene's length, where its row of the overview shows it: the liquid is amid the fabric.
 constexpr double kShownAt = 0.8;
 
-const std::string& methodOf(const ComparedRun& run)
-{
-    return std::ranges::find(kPaperVariants, run.setup.variant, &PaperVariant::name)->method;
-}
+const std::string& methodOf(const ComparedRun& run) { return std::ranges::find(kPaperVariants, run.setup.variant, &PaperVariant::name)->method; }
 
 void plot(const std::vector<PaperResult>& results, bool withFabric, const std::string& title, const std::filesystem::path& folder,
           const std::string& name)
@@ -68,9 +65,9 @@ std::string paperTable(const std::vector<PaperResult>& results)
             const auto r = readReport(run.folder);
             if (!r) continue;
             table += fmt::format("| {}, {} | {:.4g} | {:.2g} | {:.4f} | {:.1f} | {:.3f} | {:.0f} | {:.0f} | {} |\n", result.scene.example,
-                                 methodOf(run), r->simulatedTime, run.setup.scene.settings.time.dt, r->meanSecondsPerStep,
-                                 r->wallSeconds / 60.0, r->peakMemoryMegabytes / 1000.0,
-                                 r->meanParticles + static_cast<double>(r->fabricVertices), r->meanParticles, r->fabricElements);
+                                 methodOf(run), r->simulatedTime, run.setup.scene.settings.time.dt, r->meanSecondsPerStep, r->wallSeconds / 60.0,
+                                 r->peakMemoryMegabytes / 1000.0, r->meanParticles + static_cast<double>(r->fabricVertices), r->meanParticles,
+                                 r->fabricElements);
         }
     return table;
 }

@@ -9,10 +9,10 @@ namespace app {
 
 /// One of the scenes that the PolyPIC paper reports on.
 struct PaperScene {
-    std::string name;                 ///< scenes/<name>.yaml
-    std::string example;              ///< as the paper's table names it
-    bool hasFabric = true;            ///< is in the second of its energy plots
-    std::vector<std::string> quick;   ///< overrides that shorten it
+    std::string name;                ///< scenes/<name>.yaml
+    std::string example;             ///< as the paper's table names it
+    bool hasFabric = true;           ///< is in the second of its energy plots
+    std::vector<std::string> quick;  ///< overrides that shorten it
 };
 
 /// In the order of the paper's table.
@@ -28,7 +28,7 @@ inline const std::vector<PaperVariant> kPaperVariants = {{"paper_apic", "APIC"},
 struct PaperResult {
     PaperScene scene;
     PictureSettings pictures;
-    std::vector<ComparedRun> runs;    ///< that got to their end
+    std::vector<ComparedRun> runs;  ///< that got to their end
 };
 
 /// The paper's table (Markdown): duration, time step, mean seconds per step, minutes, peak memory, mean numbers of particles (those of

@@ -43,7 +43,8 @@ void requireNoForces(const Probes& probes)
 {
     for (const Probe& probe : probes.all)
         if (probe.read.text().find("force_") != std::string::npos || probe.read.text().find("torque_") != std::string::npos)
-            throw sim::InputError(fmt::format("output.probes: {}: stored states do not tell of forces: run the scene anew with output.probes", probe.name));
+            throw sim::InputError(
+                fmt::format("output.probes: {}: stored states do not tell of forces: run the scene anew with output.probes", probe.name));
 }
 
 }  // namespace
@@ -51,7 +52,9 @@ void requireNoForces(const Probes& probes)
 bool probeStoredRun(const StoredRun& run, const std::filesystem::path& out, const std::function<bool()>& stopWanted)
 {
     const std::optional<Probes> probes = readProbes(run.setup);
-    if (!probes) throw sim::InputError(fmt::format("{}: its scene has no output.probes; give a file of them: drench probe FOLDER PROBES", run.folder.string()));
+    if (!probes)
+        throw sim::InputError(
+            fmt::format("{}: its scene has no output.probes; give a file of them: drench probe FOLDER PROBES", run.folder.string()));
     requireNoForces(*probes);
     makeFolder(out);
     const auto part = partFile(out / kProbesFile);

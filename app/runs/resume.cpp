@@ -19,12 +19,12 @@ std::int64_t frameToGoOnFrom(const ResumeRequest& request)
 {
     const std::vector<std::int64_t> frames = storedFrames(request.folder, StateKind::ForGoingOn);
     if (frames.empty())
-        throw sim::InputError(fmt::format("--resume {}: there is no checkpoint in it; output.data: [checkpoint] makes a run keep some",
-                                          request.folder.string()));
+        throw sim::InputError(
+            fmt::format("--resume {}: there is no checkpoint in it; output.data: [checkpoint] makes a run keep some", request.folder.string()));
     if (!request.fromFrame) return frames.back();
     if (std::ranges::find(frames, *request.fromFrame) == frames.end())
-        throw sim::InputError(fmt::format("--from-frame {}: there is no checkpoint of this frame; there are those of {}",
-                                          *request.fromFrame, fmt::join(frames, ", ")));
+        throw sim::InputError(
+            fmt::format("--from-frame {}: there is no checkpoint of this frame; there are those of {}", *request.fromFrame, fmt::join(frames, ", ")));
     return *request.fromFrame;
 }
 
@@ -51,9 +51,9 @@ SceneSetup load(const fs::path& scene, const std::vector<std::string>& sets, std
 void requireSameScene(const SceneSetup& setup, const Checkpoint& checkpoint, const fs::path& folder)
 {
     if (trajectoryHash(setup) != checkpoint.origin.trajectory)
-        throw sim::InputError(fmt::format(
-            "--resume {}: its checkpoint is not of the scene in its resolved.yaml, or of another version of it; run the scene anew",
-            folder.string()));
+        throw sim::InputError(
+            fmt::format("--resume {}: its checkpoint is not of the scene in its resolved.yaml, or of another version of it; run the scene anew",
+                        folder.string()));
 }
 
 }  // namespace
@@ -90,8 +90,8 @@ ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetu
     run.isBranch = !request.out.empty() && fs::weakly_canonical(request.out) != fs::weakly_canonical(request.folder);
     run.out = run.isBranch ? request.out : request.folder;
     if (!run.isBranch && trajectoryHash(run.setup) != origin.trajectory)
-        throw sim::InputError(fmt::format("--set: with these settings the run would no longer be the one in {}; go on elsewhere with --out",
-                                          request.folder.string()));
+        throw sim::InputError(
+            fmt::format("--set: with these settings the run would no longer be the one in {}; go on elsewhere with --out", request.folder.string()));
     if (frameCount(run.setup) < origin.frame)
         throw sim::InputError(fmt::format("--set time.duration: the run would end before its checkpoint at {:.6g} s", run.checkpoint.state.time));
     return run;

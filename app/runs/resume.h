@@ -24,7 +24,7 @@ struct ResumedRun {
     SceneSetup setup;
     Checkpoint checkpoint;
     std::filesystem::path out;
-    bool isBranch = false;                  ///< it goes on in another folder than it began
+    bool isBranch = false;  ///< it goes on in another folder than it began
 };
 
 /// Has this very run, by this very program, been stopped or killed with a checkpoint to go on from?

@@ -161,8 +161,7 @@ RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOpti
         }
         const bool ended = runFramesOrKeepState(setup, options, first, *simulation, kept, reports);
         kept.finish();
-        reports.finish(ended ? RunStatus::Done : RunStatus::Interrupted, ended ? "" : "stopped by the user",
-                       hexDigits(simulation->stateHash()));
+        reports.finish(ended ? RunStatus::Done : RunStatus::Interrupted, ended ? "" : "stopped by the user", hexDigits(simulation->stateHash()));
     } catch (const std::exception& error) {
         reportFailure(reports, error.what());
         throw;

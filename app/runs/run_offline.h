@@ -10,13 +10,13 @@
 namespace app {
 
 struct RunOptions {
-    std::filesystem::path out;       ///< its folder
+    std::filesystem::path out;  ///< its folder
     std::string contentHash;
-    int threads = 1;                 ///< as limited by the caller; written into the report
-    bool frames = true;              ///< draw pictures
-    bool asPanel = false;            ///< pictures are to stand beside others
-    const Checkpoint* from = nullptr;  ///< go on from there instead of the start …
-    bool isBranch = false;           ///< … but in another folder, which then begins with that state
+    int threads = 1;                                          ///< as limited by the caller; written into the report
+    bool frames = true;                                       ///< draw pictures
+    bool asPanel = false;                                     ///< pictures are to stand beside others
+    const Checkpoint* from = nullptr;                         ///< go on from there instead of the start …
+    bool isBranch = false;                                    ///< … but in another folder, which then begins with that state
     std::function<bool()> stopWanted = [] { return false; };  ///< looked at after every frame
 };
 

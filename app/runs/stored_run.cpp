@@ -34,8 +34,7 @@ StoredRun openStoredRun(const fs::path& folder, const std::vector<std::string>& 
     return run;
 }
 
-bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted,
-                  const std::function<void(const Checkpoint&)>& f)
+bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted, const std::function<void(const Checkpoint&)>& f)
 {
     const std::int64_t first = run.frames.front(), last = run.frames.back();
     Progress progress(stderr, run.setup.label, frameTime(run.setup, first), frameTime(run.setup, last), last);
@@ -53,9 +52,8 @@ bool drawStoredRun(const StoredRun& run, const fs::path& out, bool asPanel, cons
 {
     const sim::Fabric fabric = sim::assembleFabric(run.setup.scene.fabrics);
     FrameSink sink(run.setup, parts, out, asPanel, run.frames.front() == 0);
-    const bool ended = forEachState(run, stopWanted, [&](const Checkpoint& stored) {
-        sink.take(stored.state, fabric, nullptr, stored.origin.frame, stored.origin.stateHash);
-    });
+    const bool ended = forEachState(
+        run, stopWanted, [&](const Checkpoint& stored) { sink.take(stored.state, fabric, nullptr, stored.origin.frame, stored.origin.stateHash); });
     sink.finish();
     return ended;
 }

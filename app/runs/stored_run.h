@@ -14,7 +14,7 @@ namespace app {
 /// A run that is over, or under way, with the states it has stored.
 struct StoredRun {
     std::filesystem::path folder;
-    SceneSetup setup;                  ///< of the scene in it, with what is set for pictures and files
+    SceneSetup setup;  ///< of the scene in it, with what is set for pictures and files
     StateKind kind = StateKind::ForPictures;
     std::vector<std::int64_t> frames;  ///< of which there is a state, ascending; at least one
 };
@@ -24,11 +24,9 @@ struct StoredRun {
 StoredRun openStoredRun(const std::filesystem::path& folder, const std::vector<std::string>& sets, const Parts& parts);
 
 /// All states of a run in order, one after the other. True unless stopWanted said so on the way.
-bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted,
-                  const std::function<void(const Checkpoint&)>& f);
+bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted, const std::function<void(const Checkpoint&)>& f);
 
 /// Make pictures of all states anew, into a folder of their own, as the run's settings say. True unless it was stopped.
-bool drawStoredRun(const StoredRun& run, const std::filesystem::path& out, bool asPanel, const Parts& parts,
-                   const std::function<bool()>& stopWanted);
+bool drawStoredRun(const StoredRun& run, const std::filesystem::path& out, bool asPanel, const Parts& parts, const std::function<bool()>& stopWanted);
 
 }  // namespace app

@@ -22,33 +22,25 @@ std::vector<sim::Parameter> parametersAt(const sim::Scene& scene, std::int64_t s
     return sim::parametersOf(*settings, *materials);
 }
 
-std::string keyOf(const std::string& set)
-{
-    return set.substr(0, set.find('='));
-}
+std::string keyOf(const std::string& set) { return set.substr(0, set.find('=')); }
 
 /// Adds overrides; plain values replace what was said of their keys before.
 void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 {
     for (const std::string& set : more) {
-        if (set.find('{') == std::string::npos)
-            std::erase_if(all, [&](const std::string& s) { return keyOf(s) == keyOf(set); });
+        if (set.find('{') == std::string::npos) std::erase_if(all, [&](const std::string& s) { return keyOf(s) == keyOf(set); });
         all.push_back(set);
     }
 }
 
 }  // namespace
 
-ChangedScene::ChangedScene(SceneRequest request, Load load) : load_(std::move(load)), start_(std::move(request))
-{
-    begin(load_(start_));
-}
+ChangedScene::ChangedScene(SceneRequest request, Load load) : load_(std::move(load)), start_(std::move(request)) { begin(load_(start_)); }
 
 /// States of one scene are none of another.
 void ChangedScene::requireSameFile() const
 {
-    if (load_(start_).identity != identity_)
-        throw sim::InputError(start_.file + ": was changed since the start; restart to take it as it is now");
+    if (load_(start_).identity != identity_) throw sim::InputError(start_.file + ": was changed since the start; restart to take it as it is now");
 }
 
 /// In the order of their steps, one for each.
@@ -73,10 +65,7 @@ SceneRequest ChangedScene::requestOf(const std::vector<std::string>& sets, const
     return request;
 }
 
-LiveScene ChangedScene::scene(std::int64_t step) const
-{
-    return {requestOf({}, changes_), setup_, parametersAt(setup_.scene, step), waiting_};
-}
+LiveScene ChangedScene::scene(std::int64_t step) const { return {requestOf({}, changes_), setup_, parametersAt(setup_.scene, step), waiting_}; }
 
 std::int64_t ChangedScene::nextChange(std::int64_t step) const
 {

@@ -25,23 +25,21 @@ inline std::span<const Choice<LiquidStyle>> choicesOf(LiquidStyle)
 
 inline std::span<const Choice<ColorBy>> choicesOf(ColorBy)
 {
-    static constexpr Choice<ColorBy> kAll[] = {{"speed", ColorBy::Speed},
-                                               {"pressure", ColorBy::Pressure},
-                                               {"flat", ColorBy::Flat}};
+    static constexpr Choice<ColorBy> kAll[] = {{"speed", ColorBy::Speed}, {"pressure", ColorBy::Pressure}, {"flat", ColorBy::Flat}};
     return kAll;
 }
 
 inline std::span<const Choice<ColorMap>> choicesOf(ColorMap)
 {
-    static constexpr Choice<ColorMap> kAll[] = {
-        {"jet", ColorMap::Jet}, {"turbo", ColorMap::Turbo}, {"viridis", ColorMap::Viridis}};
+    static constexpr Choice<ColorMap> kAll[] = {{"jet", ColorMap::Jet}, {"turbo", ColorMap::Turbo}, {"viridis", ColorMap::Viridis}};
     return kAll;
 }
 
 inline std::span<const Choice<FabricColorBy>> choicesOf(FabricColorBy)
 {
-    static constexpr Choice<FabricColorBy> kAll[] = {
-        {"material", FabricColorBy::Material}, {"speed", FabricColorBy::Speed}, {"strain", FabricColorBy::Strain},
+    static constexpr Choice<FabricColorBy> kAll[] = {{"material", FabricColorBy::Material},
+                                                     {"speed", FabricColorBy::Speed},
+                                                     {"strain", FabricColorBy::Strain},
                                                      {"saturation", FabricColorBy::Saturation}};
     return kAll;
 }
@@ -71,10 +69,8 @@ void describeOrbit(V& v, CameraSettings& c)
     v.needs("distance", "how far the eye is from the target, like distance: 60");
     v.number("distance", c.distance, Quantity::Length, Range::above(0.0), "Distance of the eye from the target");
     v.number("azimuth", c.azimuthDegrees, Quantity::AngleDegrees, Range::any(), "Angle of the eye around the vertical");
-    v.number("elevation", c.elevationDegrees, Quantity::AngleDegrees, Range::between(-89.0, 89.0),
-             "Angle of the eye above the horizon");
-    v.number("turn_per_s", c.turnDegreesPerSecond, Quantity::TurnRateDegrees, Range::any(),
-             "Change of azimuth per simulated second");
+    v.number("elevation", c.elevationDegrees, Quantity::AngleDegrees, Range::between(-89.0, 89.0), "Angle of the eye above the horizon");
+    v.number("turn_per_s", c.turnDegreesPerSecond, Quantity::TurnRateDegrees, Range::any(), "Change of azimuth per simulated second");
 }
 
 template <class V>
@@ -103,10 +99,7 @@ void describe(V& v, CameraSettings& c)
 
 /// Values at the ends of the colours where a scene gives none: fast liquid, or a column of 10 cm of water [cm/s, or
 /// dyn/cm^2].
-inline std::array<double, 2> usualRange(ColorBy colorBy)
-{
-    return colorBy == ColorBy::Pressure ? std::array{0.0, 1.0e4} : std::array{0.0, 200.0};
-}
+inline std::array<double, 2> usualRange(ColorBy colorBy) { return colorBy == ColorBy::Pressure ? std::array{0.0, 1.0e4} : std::array{0.0, 200.0}; }
 
 template <class V>
 void describeLiquidLook(V& v, RenderSettings& r)
@@ -123,19 +116,17 @@ void describeLiquidLook(V& v, RenderSettings& r)
 /// Values at the ends of the colours where a scene gives none [cm/s, or -].
 inline std::array<double, 2> usualRange(FabricColorBy colorBy)
 {
-    return colorBy == FabricColorBy::Speed    ? std::array{0.0, 100.0}
-           : colorBy == FabricColorBy::Strain ? std::array{0.0, 0.1}
-                                              : std::array{0.0, 1.0};
+    return colorBy == FabricColorBy::Speed ? std::array{0.0, 100.0} : colorBy == FabricColorBy::Strain ? std::array{0.0, 0.1} : std::array{0.0, 1.0};
 }
 
 template <class V>
 void describeFabricLook(V& v, FabricLookSettings& f)
 {
     const bool byMaterial = f.colorBy == FabricColorBy::Material;
-    v.choice("color_by", f.colorBy, "What the colour shows; strain is the largest stretch of what meets at a vertex, "
-                                    "saturation how full its pores are");
-    v.when(f.ownColor,
-           [&](auto& w) { w.color("color", f.color, "Red, green, blue, 0 to 1; left out: one for each material"); });
+    v.choice("color_by", f.colorBy,
+             "What the colour shows; strain is the largest stretch of what meets at a vertex, "
+             "saturation how full its pores are");
+    v.when(f.ownColor, [&](auto& w) { w.color("color", f.color, "Red, green, blue, 0 to 1; left out: one for each material"); });
     v.when(!byMaterial, [&](auto& w) {
         w.choice("colormap", f.colorMap, "Colours from low to high");
         w.whenReading([&](auto&) { f.range = usualRange(f.colorBy); });
@@ -148,8 +139,7 @@ void describeFabricLook(V& v, FabricLookSettings& f)
         f.ownColor = r.has("color");
         const bool isMapped = f.colorBy != FabricColorBy::Material;
         r.require(!isMapped || !r.has("color"), "color", "goes with color_by: material");
-        for (const char* key : {"colormap", "range"})
-            r.require(isMapped || !r.has(key), key, "goes with color_by: speed, strain or saturation");
+        for (const char* key : {"colormap", "range"}) r.require(isMapped || !r.has(key), key, "goes with color_by: speed, strain or saturation");
     });
 }
 
@@ -166,8 +156,7 @@ void describe(V& v, RenderSettings& r)
         w.integer("tube_sides", r.yarns.tubeSides, 3, 64, "Sides of yarns near the camera; distant ones have fewer");
     });
     v.group("obstacles", "", [&](auto& w) {
-        w.choice("style", r.obstacleStyle,
-                 "How obstacles are drawn; auto: solid where there is fabric, else translucent");
+        w.choice("style", r.obstacleStyle, "How obstacles are drawn; auto: solid where there is fabric, else translucent");
         w.number("opacity", r.obstacleOpacity, Quantity::None, Range::between(0.0, 1.0), "0 = invisible, 1 = solid");
     });
     v.flag("hud", r.hud, "Label and time stamp in the picture");
@@ -177,9 +166,7 @@ void describe(V& v, RenderSettings& r)
 
 inline bool isCodecName(const std::string& name)
 {
-    const auto isAllowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    };
+    const auto isAllowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
     return !name.empty() && name[0] != '-' && std::all_of(name.begin(), name.end(), isAllowed);
 }
 
@@ -203,8 +190,7 @@ void describe(V& v, OutputSettings& o)
         w.integer("keep", o.checkpointKeep, 0, 1'000'000, "The last so many are kept, 0: all");
     });
     GeometryFormats& formats = o.geometryFormats;
-    v.flags("geometry_format",
-            {{"vtp", &formats.vtp}, {"ply", &formats.ply}, {"obj", &formats.obj}, {"usda", &formats.usda}},
+    v.flags("geometry_format", {{"vtp", &formats.vtp}, {"ply", &formats.ply}, {"obj", &formats.obj}, {"usda", &formats.usda}},
             "Files of data: geometry: vtp (ParaView), ply, obj, usda");
     v.flag("geometry_surface", o.geometrySurface, "A mesh of the liquid's surface in them, too");
     v.require(formats.any(), "geometry_format", "names no format; there is vtp, ply, obj, usda");
@@ -224,7 +210,8 @@ void describe(V& v, Tolerance& t)
     v.number("lowest_ssim", t.pictures.lowestSsim, Quantity::None, Range::between(-1.0, 1.0), "Pictures: lowest similarity of a window, at least");
     v.number("pixels", t.pictures.pixels, Quantity::None, share, "Pictures: share of pixels that differ by more than 4 of 255, at most");
     v.integer("largest", t.pictures.largest, 0, 255, "Pictures: largest difference of a channel, of 255; 0 = the same to the last bit");
-    v.number("series", t.series, Quantity::None, Range::atLeast(0.0), "Numbers in logs and reports: difference relative to the largest of the column, at most");
+    v.number("series", t.series, Quantity::None, Range::atLeast(0.0),
+             "Numbers in logs and reports: difference relative to the largest of the column, at most");
     v.texts("ignore", t.ignore, "Columns that are not judged, each with those below it: [iterations, fabric]");
     v.number("position", t.position, Quantity::Length, Range::atLeast(0.0), "Particles and vertices, by id: difference of positions, at most");
     v.number("velocity", t.velocity, Quantity::Velocity, Range::atLeast(0.0), "Particles and vertices: difference of velocities, at most");
@@ -237,8 +224,7 @@ void describe(V& v, CompareSettings& c)
     v.text("name", c.name, "Name of the comparison; left out: the scene's");
     v.other("variants", "The runs to compare");
     v.choice("layout", c.layout, "How pictures stand side by side");
-    v.flags("products", {{"video", &c.video}, {"sheet", &c.sheet}, {"energy_plot", &c.energyPlot}, {"table", &c.table}},
-            "What is made of the runs");
+    v.flags("products", {{"video", &c.video}, {"sheet", &c.sheet}, {"energy_plot", &c.energyPlot}, {"table", &c.table}}, "What is made of the runs");
     v.onlyRuns("sync", "time", {}, "Pictures of equal simulated time stand side by side");
     v.text("reference", c.reference, "Label of the variant the others are held against");
     v.section("tolerance", c.tolerance, "What drench diff takes for the same");

@@ -10,10 +10,7 @@
 
 namespace app {
 
-std::string hexDigits(std::uint64_t value)
-{
-    return fmt::format("{:016x}", value);
-}
+std::string hexDigits(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 void tellNotes(const SceneSetup& setup)
 {
@@ -22,8 +19,7 @@ void tellNotes(const SceneSetup& setup)
 
 std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash)
 {
-    const std::string all =
-        fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
+    const std::string all = fmt::format("{}\n{}\n{}\n{}", setup.variant, setup.label, asPanel ? "panel" : "picture", setup.identity);
     return hexDigits(XXH64(all.data(), all.size(), programHash));
 }
 
@@ -39,8 +35,7 @@ std::filesystem::path filledIn(const SceneSetup& setup, const std::string& name,
 {
     std::string folder = setup.pictures.output.dir.empty() ? "out/{name}/{variant}" : setup.pictures.output.dir;
     const auto fillIn = [&](const std::string& word, const std::string& value) {
-        for (std::size_t at = 0; (at = folder.find(word, at)) != std::string::npos; at += value.size())
-            folder.replace(at, word.size(), value);
+        for (std::size_t at = 0; (at = folder.find(word, at)) != std::string::npos; at += value.size()) folder.replace(at, word.size(), value);
     };
     fillIn("{name}", name);
     fillIn("{variant}", variant);
@@ -49,10 +44,7 @@ std::filesystem::path filledIn(const SceneSetup& setup, const std::string& name,
 
 }  // namespace
 
-std::filesystem::path defaultFolder(const SceneSetup& setup)
-{
-    return filledIn(setup, setup.scene.name, setup.variant);
-}
+std::filesystem::path defaultFolder(const SceneSetup& setup) { return filledIn(setup, setup.scene.name, setup.variant); }
 
 std::filesystem::path defaultComparisonFolder(const SceneSetup& setup)
 {

@@ -15,8 +15,8 @@ namespace app {
 /// Which scene the user asked for.
 struct SceneRequest {
     std::string file;
-    std::string variant;            ///< one of the scene's; empty: the file as written
-    std::vector<std::string> sets;  ///< "dotted.key=value", applied last
+    std::string variant;                   ///< one of the scene's; empty: the file as written
+    std::vector<std::string> sets;         ///< "dotted.key=value", applied last
     std::optional<std::string> text = {};  ///< what stands in for the content of the file, which is not read then
 };
 

@@ -49,7 +49,8 @@ std::vector<PictureReader> readersOf(const PictureSettings& settings)
     addFabricLook("render.cloth", contents.cloth, r.cloth, readers);
     addFabricLook("render.yarns", contents.yarns, r.yarns, readers);
     readers.push_back({"render.obstacles", contents.obstacles, "obstacles"});
-    readers.push_back({"render.obstacles.opacity", hasGlass(contents, r.obstacleStyle), "render.obstacles.style translucent, and solid with inside: true"});
+    readers.push_back(
+        {"render.obstacles.opacity", hasGlass(contents, r.obstacleStyle), "render.obstacles.style translucent, and solid with inside: true"});
     readers.push_back({"render.colorbar", hasColorBar(contents, r), "a color_by that shows a number"});
     readers.push_back({"output.checkpoint.every", o.checkpoint, "output.data checkpoint"});
     readers.push_back({"output.checkpoint.keep", o.checkpoint, "output.data checkpoint"});

@@ -19,7 +19,8 @@ namespace {
 using sim::DeclaredKey;
 using sim::Node;
 
-const DeclaredKey kLength = {.name = "", .kind = DeclaredKey::Kind::Numbers, .help = "", .quantity = sim::Quantity::Length, .count = 3, .words = {}, .below = {}};
+const DeclaredKey kLength = {
+    .name = "", .kind = DeclaredKey::Kind::Numbers, .help = "", .quantity = sim::Quantity::Length, .count = 3, .words = {}, .below = {}};
 
 SchemaJson pointSchema() { return keySchema(kLength, SchemaOf::Body); }
 
@@ -144,14 +145,10 @@ SchemaJson pieceSchema()
 SchemaJson bodyDefinitions()
 {
     const SchemaJson piece = definitionOf("motion_piece");
-    SchemaJson definitions = {{"shape", shapeSchema()},
-            {"rotate", rotateSchema()},
-            {"source", sourceSchema()},
-            {"obstacle", obstacleSchema()},
-            {"fabric", fabricSchema()},
-            {"pin", pinSchema()},
-            {"motion_piece", pieceSchema()},
-            {"motion", {{"anyOf", {piece, listSchema(piece, 1)}}}}};
+    SchemaJson definitions = {{"shape", shapeSchema()},        {"rotate", rotateSchema()},
+                              {"source", sourceSchema()},      {"obstacle", obstacleSchema()},
+                              {"fabric", fabricSchema()},      {"pin", pinSchema()},
+                              {"motion_piece", pieceSchema()}, {"motion", {{"anyOf", {piece, listSchema(piece, 1)}}}}};
     requireOneOf({"translate", "rotate", "oscillate", "keys"}, definitions["motion_piece"]);
     SchemaJson named = definitions["motion_piece"];
     for (const char* target : {"obstacle", "group", "pin"}) named["properties"][target] = textSchema();

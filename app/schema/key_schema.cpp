@@ -52,7 +52,10 @@ SchemaJson wordSchema(const std::vector<std::string>& words)
     return {{"enum", all}};
 }
 
-SchemaJson listOf(const SchemaJson& items, std::size_t count) { return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}}; }
+SchemaJson listOf(const SchemaJson& items, std::size_t count)
+{
+    return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
+}
 
 SchemaJson anyOf(const SchemaJson& a, const SchemaJson& b) { return {{"anyOf", {a, b}}}; }
 

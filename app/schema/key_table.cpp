@@ -49,10 +49,7 @@ std::string textOf(const SchemaJson& value)
 
 std::string code(const SchemaJson& value) { return fmt::format("`{}`", textOf(value)); }
 
-std::string joined(const std::vector<std::string>& all, const char* between)
-{
-    return fmt::format("{}", fmt::join(all, between));
-}
+std::string joined(const std::vector<std::string>& all, const char* between) { return fmt::format("{}", fmt::join(all, between)); }
 
 /// "integer, 1 to 27".
 std::string integerKind(const SchemaJson& schema)
@@ -126,7 +123,8 @@ void addRows(const SchemaJson& schema, const std::string& path, std::string& out
     if (schema.contains("anyOf"))
         for (const SchemaJson& way : schema["anyOf"]) addRows(way, path, out);
     if (schema.contains("items") && schema["items"].is_object()) addRows(schema["items"], path + "[]", out);
-    if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) addRows(schema["additionalProperties"], before + "NAME", out);
+    if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object())
+        addRows(schema["additionalProperties"], before + "NAME", out);
 }
 
 std::string table(const std::string& name, const SchemaJson& schema, const std::string& path)

@@ -122,10 +122,11 @@ SchemaJson sceneProperties()
     KeyList top;
     describe(top, settings);
     describeFabric(top, settings);
-    SchemaJson properties = {{"drench", {{"const", 1}, {"description", "Schema version"}}},
-                             {"units", {{"enum", {"cgs", "si"}}, {"default", "cgs"}, {"description", "Of bare numbers in this file"}}},
-                             {"include", {{"type", {"string", "array"}}, {"items", {{"type", "string"}}}, {"description", "Scene files that this one is laid over"}}},
-                             {"scene", declaredMap([&](KeyList& v) { describeNames(v, scene); })}};
+    SchemaJson properties = {
+        {"drench", {{"const", 1}, {"description", "Schema version"}}},
+        {"units", {{"enum", {"cgs", "si"}}, {"default", "cgs"}, {"description", "Of bare numbers in this file"}}},
+        {"include", {{"type", {"string", "array"}}, {"items", {{"type", "string"}}}, {"description", "Scene files that this one is laid over"}}},
+        {"scene", declaredMap([&](KeyList& v) { describeNames(v, scene); })}};
     properties.update(mapSchema(top.keys, SchemaOf::Section)["properties"]);
     SchemaJson& transfer = properties["transfer"];
     const SchemaJson method = transfer["properties"]["method"];

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-
 namespace app {
 
 namespace {
@@ -53,7 +52,8 @@ Study readStudy(const std::filesystem::path& file, const std::function<SceneSetu
     Study study = {.name = fields.name, .file = file, .runs = {}, .retries = fields.retries};
     if (study.name.empty() || study.name != sim::asName(study.name)) {
         const Node* name = root.find("study");
-        sim::fail((name ? *name : root).place, fmt::format("a study's name may have a-z, 0-9 and _ only; study: {} would do", sim::asName(study.name)));
+        sim::fail((name ? *name : root).place,
+                  fmt::format("a study's name may have a-z, 0-9 and _ only; study: {} would do", sim::asName(study.name)));
     }
     const std::string sceneFile = (file.parent_path() / fields.scene).string();
     const std::vector<std::string> sets = setsForAll(root);

@@ -57,8 +57,7 @@ std::vector<std::string> runArguments(const StudyRun& run, const StudyPlaces& pl
     return arguments;
 }
 
-void runHere(const Study& study, const std::vector<std::size_t>& runs, const StudyPlaces& places, int width,
-             const std::function<bool()>& stopWanted)
+void runHere(const Study& study, const std::vector<std::size_t>& runs, const StudyPlaces& places, int width, const std::function<bool()>& stopWanted)
 {
     std::vector<std::size_t> left = runs;
     std::size_t done = 0;
@@ -66,18 +65,18 @@ void runHere(const Study& study, const std::vector<std::size_t>& runs, const Stu
         if (attempt > 0) fmt::print("again, those that failed: {}\n", left.size());
         std::vector<std::size_t> failed;
         runProcesses({.count = left.size(),
-                 .width = width,
-                 .limitSeconds = std::numeric_limits<double>::infinity(),
-                 .arguments = [&](std::size_t n) { return runArguments(study.runs[left[n]], places); },
-                 .ended =
-                     [&](std::size_t n, const ProcessEnd& end) {
-                         const StudyRun& run = study.runs[left[n]];
-                         const StudyOutcome outcome = outcomeOf(run, places);
-                         if (outcome.status == StudyStatus::Done) ++done;
-                         else failed.push_back(left[n]);
-                         tell(run, done, runs.size(), end, outcome);
-                     },
-                 .stopWanted = stopWanted});
+                      .width = width,
+                      .limitSeconds = std::numeric_limits<double>::infinity(),
+                      .arguments = [&](std::size_t n) { return runArguments(study.runs[left[n]], places); },
+                      .ended =
+                          [&](std::size_t n, const ProcessEnd& end) {
+                              const StudyRun& run = study.runs[left[n]];
+                              const StudyOutcome outcome = outcomeOf(run, places);
+                              if (outcome.status == StudyStatus::Done) ++done;
+                              else failed.push_back(left[n]);
+                              tell(run, done, runs.size(), end, outcome);
+                          },
+                      .stopWanted = stopWanted});
         left = std::move(failed);
     }
 }

@@ -14,7 +14,7 @@ enum class StudyStatus { Waiting, Done, Failed, Interrupted };
 /// How a run of a study stands.
 struct StudyOutcome {
     StudyStatus status = StudyStatus::Waiting;
-    std::string reason;                ///< why it failed: one line
+    std::string reason;  ///< why it failed: one line
 };
 
 /// What a study's runs are made with.
@@ -34,7 +34,6 @@ std::vector<std::string> runArguments(const StudyRun& run, const StudyPlaces& pl
 
 /// Do these runs (numbers in the study) here, `width` at a time, each in a process of its own, and those that fail again. Tells how
 /// each ends.
-void runHere(const Study& study, const std::vector<std::size_t>& runs, const StudyPlaces& places, int width,
-             const std::function<bool()>& stopWanted);
+void runHere(const Study& study, const std::vector<std::size_t>& runs, const StudyPlaces& places, int width, const std::function<bool()>& stopWanted);
 
 }  // namespace app

@@ -12,10 +12,10 @@ namespace app {
 
 /// One run of a study.
 struct StudyRun {
-    std::string name;                   ///< of its folder
+    std::string name;                                         ///< of its folder
     std::vector<std::pair<std::string, std::string>> values;  ///< dotted key and value of what this run sets
     SceneRequest request;
-    SceneSetup setup;                   ///< read in advance, so that no mistake is found hours later
+    SceneSetup setup;  ///< read in advance, so that no mistake is found hours later
 };
 
 /// Runs of one scene with different settings.
@@ -23,7 +23,7 @@ struct Study {
     std::string name;
     std::filesystem::path file;
     std::vector<StudyRun> runs;
-    int retries = 1;                    ///< times that a failed run is tried again
+    int retries = 1;  ///< times that a failed run is tried again
 
     /// Keys that runs set, in the order of the file.
     std::vector<std::string> parameters() const;

@@ -25,7 +25,6 @@ struct Row {
     std::optional<double> energy;  ///< at the end [erg]
 };
 
-
 /// What came out of a run, as the columns name it.
 struct Figure {
     const char* name;

@@ -98,8 +98,8 @@ LineFile::LineFile(const std::filesystem::path& file, std::uintmax_t bytes) : fi
     std::error_code error;
     const std::uintmax_t there = std::filesystem::file_size(file, error);
     if (error || there < bytes)
-        throw sim::InputError(fmt::format("{}: {} of the {} bytes are there that a run could go on behind; go on elsewhere with --out",
-                                          file.string(), error ? 0 : there, bytes));
+        throw sim::InputError(fmt::format("{}: {} of the {} bytes are there that a run could go on behind; go on elsewhere with --out", file.string(),
+                                          error ? 0 : there, bytes));
     std::filesystem::resize_file(file, bytes);
     errno = 0;
     out_.open(file, std::ios::binary | std::ios::app);

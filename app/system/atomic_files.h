@@ -35,8 +35,8 @@ class LineFile {
     explicit LineFile(const std::filesystem::path& file);  ///< starts empty
     /// Goes on behind the first `bytes` of what is there. Throws InputError if there is less.
     LineFile(const std::filesystem::path& file, std::uintmax_t bytes);
-    void add(std::string_view line);                       ///< throws std::runtime_error when the disk takes no more
-    std::uintmax_t size() const { return size_; }          ///< [bytes]
+    void add(std::string_view line);               ///< throws std::runtime_error when the disk takes no more
+    std::uintmax_t size() const { return size_; }  ///< [bytes]
 
  private:
     std::filesystem::path file_;

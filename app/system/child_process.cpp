@@ -32,8 +32,7 @@ namespace {
 }
 
 /// The child's side of fork(): nothing here may allocate, since other threads of the parent may have held locks.
-[[noreturn]] void becomeProgram(const char* program, char* const* arguments, const char* folder, int input, int output,
-                                int errors)
+[[noreturn]] void becomeProgram(const char* program, char* const* arguments, const char* folder, int input, int output, int errors)
 {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -79,9 +78,7 @@ std::string shellQuoted(const std::string& text)
 
 std::optional<std::filesystem::path> findProgram(const std::string& name)
 {
-    const auto runnable = [](const std::filesystem::path& file) {
-        return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0;
-    };
+    const auto runnable = [](const std::filesystem::path& file) { return std::filesystem::is_regular_file(file) && access(file.c_str(), X_OK) == 0; };
     if (name.find('/') != std::string::npos) return runnable(name) ? std::optional<std::filesystem::path>(name) : std::nullopt;
     const char* path = std::getenv("PATH");
     for (std::string_view rest = path ? path : ""; !rest.empty();) {
@@ -101,8 +98,7 @@ std::string ChildExit::lastWords() const
     return errorText.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
-ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                           const ChildOptions& options)
+ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments, const ChildOptions& options)
 {
     std::string name = program.string();
     std::vector<std::string> copies(arguments);
@@ -118,8 +114,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vect
 
     id_ = fork();
     if (id_ == 0)
-        becomeProgram(name.c_str(), argv.data(), options.folder.c_str(), options.feed ? sockets[1] : nowhere,
-                      options.quiet ? nowhere : -1, errors_);
+        becomeProgram(name.c_str(), argv.data(), options.folder.c_str(), options.feed ? sockets[1] : nowhere, options.quiet ? nowhere : -1, errors_);
     closeOnce(sockets[1]);
     closeOnce(nowhere);
     if (id_ < 0) throwCannotStart(program);
@@ -177,8 +172,7 @@ void ChildProcess::kill()
     if (id_ > 0) ::kill(id_, SIGKILL);
 }
 
-ChildExit runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                   const ChildOptions& options)
+ChildExit runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments, const ChildOptions& options)
 {
     return ChildProcess(program, arguments, options).wait();
 }

@@ -20,17 +20,17 @@ std::string shellQuoted(const std::string& text);
 
 /// How a child ended.
 struct ChildExit {
-    int code = 0;             ///< its exit code; 128 + n if signal n ended it
-    std::string errorText;    ///< what it wrote to its standard error, if that was kept
+    int code = 0;           ///< its exit code; 128 + n if signal n ended it
+    std::string errorText;  ///< what it wrote to its standard error, if that was kept
     bool ok() const { return code == 0; }
     /// The last line of errorText that says something, for one-line messages.
     std::string lastWords() const;
 };
 
 struct ChildOptions {
-    std::filesystem::path folder;   ///< where it runs; empty: here
-    bool quiet = true;              ///< keep standard error in ChildExit and drop standard output; else both are ours
-    bool feed = false;              ///< its standard input comes from write(); else there is none
+    std::filesystem::path folder;  ///< where it runs; empty: here
+    bool quiet = true;             ///< keep standard error in ChildExit and drop standard output; else both are ours
+    bool feed = false;             ///< its standard input comes from write(); else there is none
 };
 
 /// Another program, started with arguments as they are: no shell looks at them. It is ended when this process ends.
@@ -38,8 +38,7 @@ struct ChildOptions {
 class ChildProcess {
  public:
     /// @param program  a file, as findProgram() gives
-    ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                 const ChildOptions& options = {});
+    ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments, const ChildOptions& options = {});
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
@@ -63,7 +62,6 @@ class ChildProcess {
 };
 
 /// Start, wait.
-ChildExit runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                   const ChildOptions& options = {});
+ChildExit runChild(const std::filesystem::path& program, const std::vector<std::string>& arguments, const ChildOptions& options = {});
 
 }  // namespace app

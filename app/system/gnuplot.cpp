@@ -9,10 +9,7 @@
 
 namespace app {
 
-bool canPlot()
-{
-    return findProgram("gnuplot").has_value();
-}
+bool canPlot() { return findProgram("gnuplot").has_value(); }
 
 std::string gnuplotText(std::string text)
 {
@@ -20,8 +17,7 @@ std::string gnuplotText(std::string text)
     return '\'' + text + '\'';
 }
 
-void drawPlot(const std::filesystem::path& folder, const std::string& name,
-              const std::function<std::string(const std::string& picture)>& script)
+void drawPlot(const std::filesystem::path& folder, const std::string& name, const std::function<std::string(const std::string& picture)>& script)
 {
     const auto program = findProgram("gnuplot");
     if (!program) throw std::runtime_error("no gnuplot along PATH: install it to get plots");
@@ -32,9 +28,7 @@ void drawPlot(const std::filesystem::path& folder, const std::string& name,
     writeWhole(folder / (text + ".part"), script(part.string()));
     const ChildExit end = runChild(*program, {text + ".part"}, {.folder = folder});
     std::filesystem::remove(folder / (text + ".part"));
-    if (!end.ok())
-        throw std::runtime_error(
-            fmt::format("gnuplot could not draw {}: {}", (folder / picture).string(), end.lastWords()));
+    if (!end.ok()) throw std::runtime_error(fmt::format("gnuplot could not draw {}: {}", (folder / picture).string(), end.lastWords()));
     putInPlace(folder / part, folder / picture);
 }
 

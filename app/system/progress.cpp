@@ -43,14 +43,18 @@ double secondsLeft(double begin, double now, double end, double wallSeconds)
 
 std::string progressLine(const ProgressState& state)
 {
-    return fmt::format("frame {}/{} · t {:.4g} s · dt {} · {:.3f} s/step · ETA {}", state.frame, state.frames, state.time,
-                       shortNumber(state.dt), state.secondsPerStep,
-                       state.secondsLeft < 0.0 ? "?" : formatDuration(state.secondsLeft));
+    return fmt::format("frame {}/{} · t {:.4g} s · dt {} · {:.3f} s/step · ETA {}", state.frame, state.frames, state.time, shortNumber(state.dt),
+                       state.secondsPerStep, state.secondsLeft < 0.0 ? "?" : formatDuration(state.secondsLeft));
 }
 
 Progress::Progress(std::FILE* out, std::string label, double begin, double end, std::int64_t frames, std::int64_t frame)
-    : out_(out), label_(std::move(label)), begin_(begin), end_(end), terminal_(isatty(fileno(out)) == 1),
-      start_(std::chrono::steady_clock::now()), shown_(start_)
+    : out_(out),
+      label_(std::move(label)),
+      begin_(begin),
+      end_(end),
+      terminal_(isatty(fileno(out)) == 1),
+      start_(std::chrono::steady_clock::now()),
+      shown_(start_)
 {
     state_.frame = frame;
     state_.frames = frames;
@@ -66,8 +70,7 @@ void Progress::stepDone(double time, double dt, double stepSeconds)
 {
     state_.time = time;
     state_.dt = dt;
-    state_.secondsPerStep =
-        state_.secondsPerStep > 0.0 ? std::lerp(state_.secondsPerStep, stepSeconds, kStepSmoothing) : stepSeconds;
+    state_.secondsPerStep = state_.secondsPerStep > 0.0 ? std::lerp(state_.secondsPerStep, stepSeconds, kStepSmoothing) : stepSeconds;
     if (secondsSince(shown_) >= (terminal_ ? kSecondsBetweenRedraws : kSecondsBetweenLines)) show();
 }
 
@@ -77,10 +80,8 @@ void Progress::show()
     state_.secondsLeft = secondsLeft(begin_, state_.time, end_, secondsSince(start_));
     const std::string line = (label_.empty() ? "" : label_ + "  ") + progressLine(state_);
     // \033[K wipes what an earlier, longer line left behind.
-    if (terminal_)
-        fmt::print(out_, "\r{}\033[K", line);
-    else
-        fmt::print(out_, "{}\n", line);
+    if (terminal_) fmt::print(out_, "\r{}\033[K", line);
+    else fmt::print(out_, "{}\n", line);
     std::fflush(out_);
     lineOpen_ = terminal_;
 }

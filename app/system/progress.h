@@ -17,9 +17,9 @@ double secondsLeft(double begin, double now, double end, double wallSeconds);
 /// Where a run stands.
 struct ProgressState {
     std::int64_t frame = 0, frames = 0;
-    double time = 0.0, dt = 0.0;      ///< simulated [s]
-    double secondsPerStep = 0.0;      ///< wall
-    double secondsLeft = -1.0;        ///< wall; negative: not known yet
+    double time = 0.0, dt = 0.0;  ///< simulated [s]
+    double secondsPerStep = 0.0;  ///< wall
+    double secondsLeft = -1.0;    ///< wall; negative: not known yet
 };
 
 /// "frame 37/240 · t 0.62 s · dt 1.9e-4 · 0.031 s/step · ETA 6 m 12 s"

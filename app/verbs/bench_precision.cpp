@@ -34,12 +34,10 @@ fs::path folderOf(const Options& options)
 
 void tell(const PrecisionRow& row)
 {
-    fmt::print("{:<14} {:<11} {:<10} {:<10} {:<10} {:>7} steps {:>9.3f} s  ", row.scene, row.names.method,
-               row.names.integrator, row.names.step, row.names.resolution, row.steps, row.wallSeconds);
-    if (row.isDone())
-        fmt::print("error {:.4g}, energy left {:.4g}\n", row.error, row.energyLeft);
-    else
-        fmt::print("{}\n", row.outcome);
+    fmt::print("{:<14} {:<11} {:<10} {:<10} {:<10} {:>7} steps {:>9.3f} s  ", row.scene, row.names.method, row.names.integrator, row.names.step,
+               row.names.resolution, row.steps, row.wallSeconds);
+    if (row.isDone()) fmt::print("error {:.4g}, energy left {:.4g}\n", row.error, row.energyLeft);
+    else fmt::print("{}\n", row.outcome);
     std::fflush(stdout);
 }
 
@@ -66,16 +64,14 @@ const PrecisionRun* nextToRepeat(const std::vector<PrecisionRun>& runs, const Pr
 }
 
 /// All runs of a case that are not in the table, then its rows.
-PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& runs, const Options& options,
-                      const Parts& parts, const fs::path& folder, PrecisionTable& table)
+PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& runs, const Options& options, const Parts& parts,
+                      const fs::path& folder, PrecisionTable& table)
 {
     const auto isMissing = [&](const PrecisionRun& run) { return !table.find(run, options.threads, 1); };
     PrecisionCase of = caseOf(runs, options, table);
     std::vector<std::vector<Reading>> converged;
-    if (of.precision.needsConverged() &&
-        (std::ranges::any_of(runs, isMissing) || nextToRepeat(runs, of, options.repeats)))
-        converged = convergedReadings(folder / (of.name + "_converged.csv"), convergedSetup(file, parts),
-                                      options.threads, parts, stopWanted);
+    if (of.precision.needsConverged() && (std::ranges::any_of(runs, isMissing) || nextToRepeat(runs, of, options.repeats)))
+        converged = convergedReadings(folder / (of.name + "_converged.csv"), convergedSetup(file, parts), options.threads, parts, stopWanted);
     const auto measure = [&](const PrecisionRun& run, int repeats) {
         const PrecisionRow row = measurePrecision(run, converged, options.threads, repeats, parts, stopWanted);
         table.add(row);
@@ -84,8 +80,7 @@ PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& 
     for (const PrecisionRun& run : runs)
         if (isMissing(run)) measure(run, 1);
     // Other times make another front.
-    for (of = caseOf(runs, options, table); const PrecisionRun* run = nextToRepeat(runs, of, options.repeats);
-         of = caseOf(runs, options, table))
+    for (of = caseOf(runs, options, table); const PrecisionRun* run = nextToRepeat(runs, of, options.repeats); of = caseOf(runs, options, table))
         measure(*run, options.repeats);
     return of;
 }
@@ -106,8 +101,7 @@ int runVerbBenchPrecision(const Options& options, const Parts& parts)
     if (canPlot()) plotPrecision(cases, folder);
     writeWhole(folder / "report.md", precisionReport(cases, machineOf(options), canPlot()));
     for (const PrecisionCase& of : cases)
-        if (const std::string sentence = gainSentence(of); !sentence.empty())
-            fmt::print("{}: {}\n", of.title, sentence);
+        if (const std::string sentence = gainSentence(of); !sentence.empty()) fmt::print("{}: {}\n", of.title, sentence);
     fmt::print("{}\n", (folder / "report.md").string());
     return 0;
 }

@@ -26,8 +26,7 @@ int runVerbCompare(const Options& options, const Parts& parts)
 {
     if (!options.from.empty()) return compareFolders(options, parts);
     const SceneSetup asWritten = parts.loadScene({options.scene, "", options.sets});
-    if (options.orRun && (asWritten.pictures.compare.variants.empty() || options.variants.size() == 1))
-        return runVerbRun(options, parts);
+    if (options.orRun && (asWritten.pictures.compare.variants.empty() || options.variants.size() == 1)) return runVerbRun(options, parts);
     const auto folder = options.out.empty() ? defaultComparisonFolder(asWritten) : options.out;
     const auto runs = comparedRuns(options, parts, folder);
     const bool withFrames = options.frames && asWritten.pictures.output.frames;

@@ -26,8 +26,7 @@ std::vector<std::size_t> notDone(const Study& study, const StudyPlaces& places, 
 /// One run alone: a job of an array.
 int runTask(const Study& study, std::size_t task, const StudyPlaces& places)
 {
-    if (task >= study.runs.size())
-        throw sim::InputError(fmt::format("--task {}: the study has runs 0 to {}", task, study.runs.size() - 1));
+    if (task >= study.runs.size()) throw sim::InputError(fmt::format("--task {}: the study has runs 0 to {}", task, study.runs.size() - 1));
     runHere(study, {task}, places, 1, stopWanted);
     return outcomeOf(study.runs[task], places).status == StudyStatus::Done ? 0 : 1;
 }

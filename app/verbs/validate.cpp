@@ -24,9 +24,7 @@ SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts
     SceneRequest request{file.string(), "", {}};
     SceneSetup setup = parts.loadScene(request);
     const std::optional<Validation> validation = readValidation(setup);
-    if (!validation)
-        throw sim::InputError(
-            fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
+    if (!validation) throw sim::InputError(fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
     tellNotes(setup);
     if (!isQuick || validation->quick.empty()) return setup;
     request.sets = validation->quick;
@@ -35,8 +33,7 @@ SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts
 
 void tell(const CaseResult& result)
 {
-    fmt::print("{:<24} {:>8}  {}\n", result.name, formatDuration(result.wallSeconds),
-               result.passes() ? "passes" : "FAILS");
+    fmt::print("{:<24} {:>8}  {}\n", result.name, formatDuration(result.wallSeconds), result.passes() ? "passes" : "FAILS");
     std::fflush(stdout);
 }
 
@@ -44,13 +41,10 @@ void tell(const CaseResult& result)
 
 int runVerbValidate(const Options& options, const Parts& parts)
 {
-    const auto folder = options.out.empty()
-                            ? std::filesystem::path("out") / (options.quick ? "validation_quick" : "validation")
-                            : options.out;
+    const auto folder = options.out.empty() ? std::filesystem::path("out") / (options.quick ? "validation_quick" : "validation") : options.out;
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::pair<std::string, SceneSetup>> cases;
-    for (const auto& file : caseFiles("validation", options.cases))
-        cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
+    for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
     makeFolder(folder);
     std::vector<CaseResult> results;
     for (const auto& [name, setup] : cases) {

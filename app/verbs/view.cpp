@@ -12,9 +12,7 @@ int runVerbView(const Options& options, const Parts& parts)
         request.variant = options.view.beside;
         parts.loadScene(request);
     }
-    if (!parts.view)
-        throw sim::RunError(
-            "this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
+    if (!parts.view) throw sim::RunError("this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
     withThreads(options.threads, [&] {
         parts.view(options.request(), parts, options.view);
         return 0;

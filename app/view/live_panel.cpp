@@ -11,14 +11,10 @@ namespace {
 const char* wordFor(LiveMode mode)
 {
     switch (mode) {
-        case LiveMode::Playing:
-            return "playing";
-        case LiveMode::Ended:
-            return "at its end";
-        case LiveMode::Failed:
-            return "failed";
-        default:
-            return "paused";
+        case LiveMode::Playing: return "playing";
+        case LiveMode::Ended: return "at its end";
+        case LiveMode::Failed: return "failed";
+        default: return "paused";
     }
 }
 
@@ -52,16 +48,14 @@ void LivePanel::drawStatus(const LivePair& pair) const
 {
     for (const auto& side : pair.sides()) {
         const LiveStatus status = side->live.status();
-        ImGui::Text("t = %.4f s, step %lld, %s", status.time, static_cast<long long>(status.step),
-                    wordFor(status.mode));
+        ImGui::Text("t = %.4f s, step %lld, %s", status.time, static_cast<long long>(status.step), wordFor(status.mode));
         if (!status.failure.empty()) ImGui::TextWrapped("%s", status.failure.c_str());
     }
 }
 
 void LivePanel::drawButtons(LivePair& pair) const
 {
-    const bool isPlaying = std::ranges::any_of(
-        pair.sides(), [](const auto& side) { return side->live.status().mode == LiveMode::Playing; });
+    const bool isPlaying = std::ranges::any_of(pair.sides(), [](const auto& side) { return side->live.status().mode == LiveMode::Playing; });
     if (ImGui::Button(isPlaying ? "Pause###play" : "Play###play")) pair.playOrPause();
     explainKey("space");
     ImGui::SameLine();

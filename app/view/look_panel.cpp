@@ -13,10 +13,7 @@ namespace app {
 
 namespace {
 
-ColorBy liquidColorBy(const SnapshotExtras& extras)
-{
-    return extras.pressure ? ColorBy::Pressure : ColorBy::Speed;
-}
+ColorBy liquidColorBy(const SnapshotExtras& extras) { return extras.pressure ? ColorBy::Pressure : ColorBy::Speed; }
 
 std::array<std::array<float, 2>, 2> liquidRanges(const RenderSettings& settings)
 {
@@ -28,11 +25,9 @@ std::array<std::array<float, 2>, 2> liquidRanges(const RenderSettings& settings)
 std::array<std::array<float, 2>, 4> fabricRanges(const FabricLookSettings& settings)
 {
     std::array<std::array<float, 2>, 4> ranges;
-    for (const FabricColorBy by :
-         {FabricColorBy::Material, FabricColorBy::Speed, FabricColorBy::Strain, FabricColorBy::Saturation})
+    for (const FabricColorBy by : {FabricColorBy::Material, FabricColorBy::Speed, FabricColorBy::Strain, FabricColorBy::Saturation})
         ranges[static_cast<std::size_t>(by)] = toFloat(usualRange(by));
-    if (settings.colorBy != FabricColorBy::Material)
-        ranges[static_cast<std::size_t>(settings.colorBy)] = toFloat(settings.range);
+    if (settings.colorBy != FabricColorBy::Material) ranges[static_cast<std::size_t>(settings.colorBy)] = toFloat(settings.range);
     return ranges;
 }
 
@@ -87,8 +82,7 @@ render::Look LookPanel::lookFor(const FrameSnapshot& snapshot) const
 {
     render::Look look = look_;
     look.liquid.range = liquidRanges_[snapshot.extras.pressure ? 1 : 0];
-    if (look.liquid.style == render::LiquidStyle::Surface && !snapshot.extras.surface)
-        look.liquid.style = render::LiquidStyle::Spheres;
+    if (look.liquid.style == render::LiquidStyle::Surface && !snapshot.extras.surface) look.liquid.style = render::LiquidStyle::Spheres;
     look.overlay.colorBarTitle = titleOf(liquidColorBy(snapshot.extras));
     fillIn(snapshot.extras.yarns, yarnRanges_, look.yarns);
     fillIn(snapshot.extras.cloth, clothRanges_, look.cloth);
@@ -111,8 +105,7 @@ void LookPanel::drawVisibility()
     if (contents_.liquid) ImGui::Checkbox("liquid", &look_.liquid.isShown);
     if (contents_.liquid && contents_.fabric()) ImGui::SameLine();
     bool isFabricShown = look_.yarns.isShown;
-    if (contents_.fabric() && ImGui::Checkbox("fabric", &isFabricShown))
-        look_.yarns.isShown = look_.cloth.isShown = isFabricShown;
+    if (contents_.fabric() && ImGui::Checkbox("fabric", &isFabricShown)) look_.yarns.isShown = look_.cloth.isShown = isFabricShown;
     ImGui::Checkbox("blocks", &wanted_.blocks);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("of 8 x 8 x 8 cells: where the grid is");
     if (contents_.fabric()) {
@@ -146,8 +139,7 @@ void LookPanel::drawLiquid()
         wanted_.pressure = colorBy == ColorBy::Pressure;
     }
     if (!look_.liquid.flat)
-        chooseColors(colorBy == ColorBy::Pressure ? "dyn/cm^2" : "cm/s", liquidRanges_[wanted_.pressure ? 1 : 0],
-                     look_.liquid.colorMap);
+        chooseColors(colorBy == ColorBy::Pressure ? "dyn/cm^2" : "cm/s", liquidRanges_[wanted_.pressure ? 1 : 0], look_.liquid.colorMap);
     ImGui::PopID();
 }
 
@@ -156,8 +148,7 @@ void LookPanel::drawFabric(const char* name, FabricColorBy& colorBy, FabricRange
     ImGui::PushID(name);
     choose(name, "material and wetness\0speed\0strain\0saturation\0", colorBy);
     if (colorBy != FabricColorBy::Material)
-        chooseColors(colorBy == FabricColorBy::Speed ? "cm/s" : "range", ranges[static_cast<std::size_t>(colorBy)],
-                     look.colorMap);
+        chooseColors(colorBy == FabricColorBy::Speed ? "cm/s" : "range", ranges[static_cast<std::size_t>(colorBy)], look.colorMap);
     ImGui::PopID();
 }
 

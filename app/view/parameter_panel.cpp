@@ -15,17 +15,13 @@ namespace {
 
 const ImVec4 kComplaint(1.0f, 0.45f, 0.35f, 1.0f), kWaits(1.0f, 0.8f, 0.3f, 1.0f);
 
-std::string groupOf(const std::string& path)
-{
-    return path.substr(0, path.find('.'));
-}
+std::string groupOf(const std::string& path) { return path.substr(0, path.find('.')); }
 
 /// Has the scene anything that these settings are about?
 bool applies(const sim::Parameter& parameter, const SceneContents& contents)
 {
     const std::string group = groupOf(parameter.path);
-    const bool isOfFabric = group == "fabric" || group == "materials" || group == "porous" ||
-                            parameter.path.find("fabric") != std::string::npos;
+    const bool isOfFabric = group == "fabric" || group == "materials" || group == "porous" || parameter.path.find("fabric") != std::string::npos;
     const bool isOfBoth = group == "coupling";
     const bool isOfLiquid = group == "liquid" || group == "solver" || group == "transfer";
     if (isOfBoth) return contents.liquid && contents.fabric();
@@ -104,8 +100,7 @@ void ParameterPanel::drawPresets(LiveSimulation& live) const
     if (!ImGui::BeginCombo("like", "...")) return;
     for (const sim::LiquidPreset& preset : sim::liquidPresets()) {
         if (!ImGui::Selectable(preset.name)) continue;
-        live.change({fmt::format("liquid.density={} g/cm^3", preset.density),
-                     fmt::format("liquid.viscosity={} P", preset.viscosity),
+        live.change({fmt::format("liquid.density={} g/cm^3", preset.density), fmt::format("liquid.viscosity={} P", preset.viscosity),
                      fmt::format("liquid.surface_tension={} dyn/cm", preset.surfaceTension)});
     }
     ImGui::EndCombo();
@@ -136,10 +131,8 @@ void ParameterPanel::drawParameter(LiveSimulation& live, const sim::Parameter& p
     const std::string name = parameter.path.substr(std::min(parameter.path.size(), groupOf(parameter.path).size() + 1));
     const std::string unit = parameter.unit.empty() ? "" : " [" + parameter.unit + "]";
     const std::string label = (name.empty() ? parameter.path : name) + unit;
-    if (parameter.isFixed)
-        ImGui::TextDisabled("%s", label.c_str());
-    else
-        ImGui::TextUnformatted(label.c_str());
+    if (parameter.isFixed) ImGui::TextDisabled("%s", label.c_str());
+    else ImGui::TextUnformatted(label.c_str());
     explain(parameter);
     ImGui::PopID();
 }
@@ -149,8 +142,7 @@ void ParameterPanel::drawText(LiveSimulation& live, const sim::Parameter& parame
 {
     std::array<char, 128> text{};
     parameter.value.copy(text.data(), text.size() - 1);
-    if (ImGui::InputTextWithHint("##value", "left out", text.data(), text.size(), ImGuiInputTextFlags_AutoSelectAll))
-        entered_ = text.data();
+    if (ImGui::InputTextWithHint("##value", "left out", text.data(), text.size(), ImGuiInputTextFlags_AutoSelectAll)) entered_ = text.data();
     if (!ImGui::IsItemDeactivatedAfterEdit() || entered_ == parameter.value || entered_.empty()) return;
     live.change({sim::overrideText(parameter, entered_)});
 }

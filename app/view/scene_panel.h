@@ -10,10 +10,10 @@ namespace app {
 
 /// What the user wants done with the scene as a whole.
 struct SceneWishes {
-    bool save = false;                  ///< as YAML
-    bool copyCommand = false;           ///< into the clipboard
-    bool picture = false;               ///< into a PNG
-    std::optional<bool> record = {};    ///< every frame into a PNG, from now on or no longer
+    bool save = false;                       ///< as YAML
+    bool copyCommand = false;                ///< into the clipboard
+    bool picture = false;                    ///< into a PNG
+    std::optional<bool> record = {};         ///< every frame into a PNG, from now on or no longer
     std::optional<std::string> open = {};    ///< another scene's file
     std::optional<std::string> beside = {};  ///< a variant to be put beside; "" for none
 };

@@ -24,8 +24,7 @@ void plot(const char* label, const std::vector<float>& values)
     char last[32] = "";
     if (!values.empty()) std::snprintf(last, sizeof last, "%.4g", static_cast<double>(values.back()));
     const float height = 2.6f * ImGui::GetTextLineHeight();
-    ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, last, FLT_MAX, FLT_MAX,
-                     ImVec2(0.0f, height));
+    ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, last, FLT_MAX, FLT_MAX, ImVec2(0.0f, height));
 }
 
 /// Of the liquid that came in, what is in no particle, in no fabric, and has not left [-].
@@ -58,8 +57,7 @@ void StepPlots::draw() const
     ImGui::Text("%zu particles, %zu contacts", report.particles, report.fabric.contacts);
     plot("energy [erg]", energy_);
     plot("water error", waterError_);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("share of the liquid that is in no particle, in no fabric, and has not left");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("share of the liquid that is in no particle, in no fabric, and has not left");
     plot("dt [ms]", milliseconds_);
     plot("CFL", cfl_);
     plot("iterations", iterations_);

@@ -31,8 +31,7 @@ void ViewCamera::pan(double right, double up)
 {
     const Vector3d ahead = camera_.target - camera_.eye;
     const Vector3d side = ahead.cross(camera_.up).normalized(), above = side.cross(ahead).normalized();
-    const double height =
-        2.0 * ahead.norm() * std::tan(camera_.fovDegrees * kPi / 360.0);  // of the picture at the target
+    const double height = 2.0 * ahead.norm() * std::tan(camera_.fovDegrees * kPi / 360.0);  // of the picture at the target
     const Vector3d way = -height * (right * side + up * above);
     camera_.eye += way;
     camera_.target += way;
@@ -44,9 +43,6 @@ void ViewCamera::zoom(double notches)
     camera_.eye = camera_.target + std::pow(kNotch, notches) * (camera_.eye - camera_.target);
 }
 
-void ViewCamera::frame(const Eigen::AlignedBox3d& box, double aspect)
-{
-    camera_ = render::frameBox(box, aspect, camera_);
-}
+void ViewCamera::frame(const Eigen::AlignedBox3d& box, double aspect) { camera_ = render::frameBox(box, aspect, camera_); }
 
 }  // namespace app

@@ -26,18 +26,12 @@ namespace app {
 
 namespace {
 
-constexpr double kLongestWait = 0.1;   ///< for a picture of full quality while something changes [s]
+constexpr double kLongestWait = 0.1;  ///< for a picture of full quality while something changes [s]
 constexpr float kPanelWidth = 24.0f;  ///< of the column with the panels [font sizes]
 
-std::string titleOf(const sim::Scene& scene)
-{
-    return fmt::format("{} - Drench", scene.title.empty() ? scene.name : scene.title);
-}
+std::string titleOf(const sim::Scene& scene) { return fmt::format("{} - Drench", scene.title.empty() ? scene.name : scene.title); }
 
-std::string labelOf(const SceneSetup& setup)
-{
-    return setup.label.empty() ? "as written" : setup.label;
-}
+std::string labelOf(const SceneSetup& setup) { return setup.label.empty() ? "as written" : setup.label; }
 
 SceneRequest withVariant(SceneRequest request, const std::string& variant)
 {
@@ -70,12 +64,12 @@ struct Viewer::Inner {
     std::optional<LookPanel> lookPanel;
     ScenePanel scenePanel;
     RecentFiles recent;
-    std::size_t tuned = 0;             ///< the side whose settings are shown
-    std::optional<ViewCamera> camera;  ///< once there is something to look at
+    std::size_t tuned = 0;                              ///< the side whose settings are shown
+    std::optional<ViewCamera> camera;                   ///< once there is something to look at
     std::filesystem::path screenshotFile, pictureFile;  ///< of the next frame, with and without panels; or empty
-    std::filesystem::path recordFolder;  ///< of recorded frames
-    std::int64_t recorded = -1;          ///< number of the last one
-    double fullSeconds = 0.0;            ///< that the last picture of full quality took
+    std::filesystem::path recordFolder;                 ///< of recorded frames
+    std::int64_t recorded = -1;                         ///< number of the last one
+    double fullSeconds = 0.0;                           ///< that the last picture of full quality took
 
     const sim::Scene& scene() const { return pair->first().scene()->setup.scene; }
     LivePair::Side& tunedSide() { return *pair->sides()[std::min(tuned, pair->sides().size() - 1)]; }
@@ -134,10 +128,8 @@ void Viewer::Inner::open(const std::string& file)
 void Viewer::Inner::putBeside(const std::string& variant)
 {
     try {
-        if (variant.empty())
-            pair->removeBeside();
-        else
-            pair->putBeside(withVariant(request, variant), parts);
+        if (variant.empty()) pair->removeBeside();
+        else pair->putBeside(withVariant(request, variant), parts);
         showWhatIsWanted();
         livePanel = {};
         scenePanel.beside = variant;
@@ -174,8 +166,7 @@ void Viewer::Inner::moveCamera()
     if (io.WantCaptureMouse || !camera || io.DisplaySize.y <= 0.0f) return;
     const double right = io.MouseDelta.x / io.DisplaySize.y, up = -io.MouseDelta.y / io.DisplaySize.y;
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f)) camera->orbit(right, up);
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f) || ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 0.0f))
-        camera->pan(right, up);
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0.0f) || ImGui::IsMouseDragging(ImGuiMouseButton_Middle, 0.0f)) camera->pan(right, up);
     if (io.MouseWheel != 0.0f) camera->zoom(io.MouseWheel);
 }
 
@@ -183,10 +174,8 @@ void Viewer::Inner::followKeys()
 {
     if (ImGui::GetIO().WantCaptureKeyboard) return;
     for (const Window::Key& key : window.keys()) {
-        if (key.isControl)
-            followControl(key.code);
-        else
-            followKey(key.code);
+        if (key.isControl) followControl(key.code);
+        else followKey(key.code);
     }
 }
 
@@ -342,8 +331,7 @@ void Viewer::Inner::writePictures()
     writeTo(recordFolder / fmt::format("frame_{:05}.png", recorded));
 }
 
-Viewer::Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
-    : inner_(std::make_unique<Inner>(request, parts, options))
+Viewer::Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options) : inner_(std::make_unique<Inner>(request, parts, options))
 {
 }
 
@@ -366,40 +354,19 @@ bool Viewer::frame()
     return goesOn;
 }
 
-LivePair& Viewer::pair()
-{
-    return *inner_->pair;
-}
+LivePair& Viewer::pair() { return *inner_->pair; }
 
-void Viewer::open(const std::string& file)
-{
-    inner_->open(file);
-}
+void Viewer::open(const std::string& file) { inner_->open(file); }
 
-void Viewer::record(bool isOn)
-{
-    inner_->record(isOn);
-}
+void Viewer::record(bool isOn) { inner_->record(isOn); }
 
-void Viewer::screenshot(const std::filesystem::path& file)
-{
-    inner_->screenshotFile = file;
-}
+void Viewer::screenshot(const std::filesystem::path& file) { inner_->screenshotFile = file; }
 
-std::optional<std::array<float, 2>> Viewer::placeOf(const std::string& setting) const
-{
-    return inner_->parameterPanel.placeOf(setting);
-}
+std::optional<std::array<float, 2>> Viewer::placeOf(const std::string& setting) const { return inner_->parameterPanel.placeOf(setting); }
 
-std::string Viewer::message() const
-{
-    return inner_->scenePanel.message;
-}
+std::string Viewer::message() const { return inner_->scenePanel.message; }
 
-std::vector<std::string> Viewer::takeComplaints()
-{
-    return inner_->window.context().takeComplaints();
-}
+std::vector<std::string> Viewer::takeComplaints() { return inner_->window.context().takeComplaints(); }
 
 void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
 {

@@ -25,8 +25,7 @@ std::string lastGlfwError()
 
 [[noreturn]] void failWithoutWindow()
 {
-    throw sim::RunError(
-        fmt::format("no window can be opened ({}); without a display, use drench run", lastGlfwError()));
+    throw sim::RunError(fmt::format("no window can be opened ({}); without a display, use drench run", lastGlfwError()));
 }
 
 }  // namespace
@@ -51,8 +50,7 @@ Window::Window(const std::string& title, int width, int height)
     glfwSetWindowUserPointer(window_, &events_);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action != GLFW_PRESS) return;
-        static_cast<Events*>(glfwGetWindowUserPointer(window))
-            ->keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
+        static_cast<Events*>(glfwGetWindowUserPointer(window))->keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0});
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
         std::vector<std::string>& all = static_cast<Events*>(glfwGetWindowUserPointer(window))->files;
@@ -85,15 +83,9 @@ void Window::scalePanels()
     ImGui::GetStyle().ScaleAllSizes(scale);
 }
 
-void Window::setTitle(const std::string& title)
-{
-    glfwSetWindowTitle(window_, title.c_str());
-}
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
-void Window::close()
-{
-    glfwSetWindowShouldClose(window_, GLFW_TRUE);
-}
+void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 Window::~Window()
 {
@@ -123,9 +115,6 @@ void Window::drawPanels()
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Window::present()
-{
-    glfwSwapBuffers(window_);
-}
+void Window::present() { glfwSwapBuffers(window_); }
 
 }  // namespace app

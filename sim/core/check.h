@@ -21,12 +21,12 @@ struct RunError : std::runtime_error {
 
 /// Our own invariant. Checked in every build but release (DRENCH_CHECKS); prints and aborts.
 #ifdef DRENCH_CHECKS
-#define SIM_CHECK(condition)                                                                     \
-    do {                                                                                         \
-        if (!(condition)) {                                                                      \
+#define SIM_CHECK(condition)                                                                       \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
             std::fprintf(stderr, "%s:%d: broken invariant: %s\n", __FILE__, __LINE__, #condition); \
-            std::abort();                                                                        \
-        }                                                                                        \
+            std::abort();                                                                          \
+        }                                                                                          \
     } while (false)
 #else
 #define SIM_CHECK(condition) static_cast<void>(0)

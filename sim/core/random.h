@@ -9,10 +9,7 @@ namespace sim {
 /// of the key.
 class CounterRandom {
  public:
-    CounterRandom(std::uint64_t seed, std::uint64_t stream, std::uint64_t step = 0)
-        : key_(mix(mix(mix(seed) ^ stream) ^ step))
-    {
-    }
+    CounterRandom(std::uint64_t seed, std::uint64_t stream, std::uint64_t step = 0) : key_(mix(mix(mix(seed) ^ stream) ^ step)) {}
 
     std::uint64_t bits(std::uint64_t index, std::uint64_t draw = 0) const { return mix(mix(key_ ^ index) ^ draw); }
 

@@ -17,7 +17,7 @@ namespace sim {
 inline constexpr int kLanes = 8;
 
 using Pack = double __attribute__((vector_size(64)));
-using PackMask = long long __attribute__((vector_size(64)));          ///< all bits of a lane set, or none
+using PackMask = long long __attribute__((vector_size(64)));                      ///< all bits of a lane set, or none
 using HalfPack = double __attribute__((vector_size(32), aligned(8), may_alias));  ///< 4 doubles anywhere in memory
 
 inline constexpr int kFloatLanes = 16;
@@ -29,9 +29,11 @@ using FloatMask = int __attribute__((vector_size(64)));
 template <int N, class F>
 [[gnu::always_inline]] inline void unroll(F&& f)
 {
+    // clang-format off
     [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
         (f(std::integral_constant<int, I>{}), ...);
     }(std::make_integer_sequence<int, N>{});
+    // clang-format on
 }
 
 [[gnu::always_inline]] inline Pack broadcast(double v) { return Pack{v, v, v, v, v, v, v, v}; }
@@ -196,35 +198,25 @@ inline void streamFence()
 /// v[i][j] becomes v[j][i].
 [[gnu::always_inline]] inline void transposeLanes(Pack (&v)[kLanes])
 {
+    // clang-format off
     const auto exchange = [](Pack& a, Pack& b, PackMask first, PackMask second) __attribute__((always_inline)) {
         const Pack left = pickLanes(a, b, first);
         b = pickLanes(a, b, second);
         a = left;
     };
-    for (int i = 0; i < kLanes; i += 2)
-        exchange(v[i], v[i + 1], PackMask{0, 8, 2, 10, 4, 12, 6, 14}, PackMask{1, 9, 3, 11, 5, 13, 7, 15});
-    for (int i : {0, 1, 4, 5})
-        exchange(v[i], v[i + 2], PackMask{0, 1, 8, 9, 4, 5, 12, 13}, PackMask{2, 3, 10, 11, 6, 7, 14, 15});
-    for (int i = 0; i < 4; ++i)
-        exchange(v[i], v[i + 4], PackMask{0, 1, 2, 3, 8, 9, 10, 11}, PackMask{4, 5, 6, 7, 12, 13, 14, 15});
+    // clang-format on
+    for (int i = 0; i < kLanes; i += 2) exchange(v[i], v[i + 1], PackMask{0, 8, 2, 10, 4, 12, 6, 14}, PackMask{1, 9, 3, 11, 5, 13, 7, 15});
+    for (int i : {0, 1, 4, 5}) exchange(v[i], v[i + 2], PackMask{0, 1, 8, 9, 4, 5, 12, 13}, PackMask{2, 3, 10, 11, 6, 7, 14, 15});
+    for (int i = 0; i < 4; ++i) exchange(v[i], v[i + 4], PackMask{0, 1, 2, 3, 8, 9, 10, 11}, PackMask{4, 5, 6, 7, 12, 13, 14, 15});
 }
 
 /// {before[7], row[0] … row[6]}: a row of cells seen from one cell further right, before being the row to its left.
-[[gnu::always_inline]] inline Pack shiftRight(Pack before, Pack row)
-{
-    return pickLanes(before, row, PackMask{7, 8, 9, 10, 11, 12, 13, 14});
-}
+[[gnu::always_inline]] inline Pack shiftRight(Pack before, Pack row) { return pickLanes(before, row, PackMask{7, 8, 9, 10, 11, 12, 13, 14}); }
 
 /// {row[1] … row[7], after[0]}.
-[[gnu::always_inline]] inline Pack shiftLeft(Pack row, Pack after)
-{
-    return pickLanes(row, after, PackMask{1, 2, 3, 4, 5, 6, 7, 8});
-}
+[[gnu::always_inline]] inline Pack shiftLeft(Pack row, Pack after) { return pickLanes(row, after, PackMask{1, 2, 3, 4, 5, 6, 7, 8}); }
 
 /// Lanes added in a fixed order.
-[[gnu::always_inline]] inline double sumLanes(Pack v)
-{
-    return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-}
+[[gnu::always_inline]] inline double sumLanes(Pack v) { return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7])); }
 
 }  // namespace sim

@@ -26,8 +26,7 @@ Capture::Capture(const Fabric& fabric, LiquidAround& around, const Settings& set
 {
     const bool isWetting = std::cos(settings.liquid.contactAngle) > 0.0 && settings.coupling.capture.rate > 0.0;
     std::vector<double> rates;  // of each material [1/s]
-    for (const FabricMaterial& m : fabric.materials)
-        rates.push_back(isWetting && m.volumeFraction < 1.0 ? rateOf(m, settings) : 0.0);
+    for (const FabricMaterial& m : fabric.materials) rates.push_back(isWetting && m.volumeFraction < 1.0 ? rateOf(m, settings) : 0.0);
     for (int m : fabric.vertexMaterial) ratePerVertex_.push_back(rates[m]);
     wanted_.resize(fabric.vertexCount());
     got_.resize(fabric.vertexCount());

@@ -49,17 +49,17 @@ class Capture {
     void forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, const LiquidAround::Part& part, Body&& body) const;
 
     const Fabric& fabric_;
-    std::vector<double> capacity_;              ///< of each vertex [g]
-    std::vector<double> ratePerVertex_;         ///< law fabric: part of its pores that it fills per time; published: of the liquid around [1/s]
+    std::vector<double> capacity_;       ///< of each vertex [g]
+    std::vector<double> ratePerVertex_;  ///< law fabric: part of its pores that it fills per time; published: of the liquid around [1/s]
     CaptureLaw law_;
     LiquidAround& around_;
-    double leastMass_;                          ///< of a particle that stays [g]
+    double leastMass_;  ///< of a particle that stays [g]
 
     // Of the step.
-    std::vector<double> wanted_, got_;          ///< of each vertex [g]
-    std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
-    std::vector<std::uint8_t> thirsty_;         ///< of each block of the vertices: has vertices with room
-    std::vector<std::size_t> emptied_;          ///< particles, ascending
+    std::vector<double> wanted_, got_;   ///< of each vertex [g]
+    std::vector<Vec3> toPins_;           ///< of each vertex [g cm/s]
+    std::vector<std::uint8_t> thirsty_;  ///< of each block of the vertices: has vertices with room
+    std::vector<std::size_t> emptied_;   ///< particles, ascending
 };
 
 }  // namespace sim

@@ -9,8 +9,8 @@ namespace sim {
 
 /// The 27 cells around a point, with the weights of the quadratic B-spline at their middles.
 struct CellStencil {
-    int cell[kAxes];           ///< the point's own, in its block
-    double weight[kAxes][3];   ///< of the cells at −1, 0, 1
+    int cell[kAxes];          ///< the point's own, in its block
+    double weight[kAxes][3];  ///< of the cells at −1, 0, 1
 
     /// @param lowerCorner  of the block that the point was sorted into [cm]
     CellStencil(const Vec3& x, const Vec3& lowerCorner, double dx)

@@ -89,7 +89,8 @@ double Drip::drip(State& state, const Obstacles& obstacles)
     findPools(state.fabric);
     double sum = 0.0;
     for (std::size_t begin = 0, end; begin < wet_.size(); begin = end) {
-        for (end = begin + 1; end < wet_.size() && wet_[end].cell == wet_[begin].cell; ++end) {}
+        for (end = begin + 1; end < wet_.size() && wet_[end].cell == wet_[begin].cell; ++end) {
+        }
         sum += drain(std::span(wet_).subspan(begin, end - begin), obstacles, state);
     }
     return sum;

@@ -35,11 +35,11 @@ class Drip {
     Vec3 jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const;
 
     const WetElements& elements_;
-    std::vector<double> capacity_;   ///< of each vertex [g]
-    std::vector<double> excess_;     ///< of each vertex, as the step began to drip [g]
-    std::vector<Wet> wet_;           ///< vertices with too much, by cells
-    double nominalMass_;             ///< [g]
-    double cell_;                    ///< edge of a cell [cm]
+    std::vector<double> capacity_;  ///< of each vertex [g]
+    std::vector<double> excess_;    ///< of each vertex, as the step began to drip [g]
+    std::vector<Wet> wet_;          ///< vertices with too much, by cells
+    double nominalMass_;            ///< [g]
+    double cell_;                   ///< edge of a cell [cm]
 };
 
 }  // namespace sim

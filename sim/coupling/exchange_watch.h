@@ -33,9 +33,9 @@ class ExchangeWatch {
 
  private:
     struct Sums {
-        double water = 0.0;             ///< [g]
-        Vec3 momentum = Vec3::Zero();   ///< [g cm/s]
-        double momentumSize = 0.0;      ///< Σ m |v|
+        double water = 0.0;            ///< [g]
+        Vec3 momentum = Vec3::Zero();  ///< [g cm/s]
+        double momentumSize = 0.0;     ///< Σ m |v|
     };
     Sums measure() const
     {

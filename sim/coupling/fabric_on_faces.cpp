@@ -183,8 +183,7 @@ void FabricOnFaces::takeMean(const std::vector<double>& ofVertex, bool isUniform
         divideByMass(mean);
         return;
     }
-    parallelFor(grid().count(), 8,
-                [&](std::size_t b) { std::fill_n(mean.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, ofVertex[0]); });
+    parallelFor(grid().count(), 8, [&](std::size_t b) { std::fill_n(mean.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, ofVertex[0]); });
 }
 
 /// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.

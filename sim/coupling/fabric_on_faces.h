@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/coupling/liquid_around.h"
-#include "sim/fabric/liquid_loads.h"
 #include "sim/fabric/grid/block_points.h"
+#include "sim/fabric/liquid_loads.h"
 #include "sim/transfer/scatter.h"
 
 #include <optional>
@@ -29,17 +29,17 @@ class FabricOnFaces {
     double solidOf(int vertex) const { return solidOf_[vertex]; }  ///< volume of its fibres and of that [cm^3]
 
     // Of each face; of its own component where there are several.
-    BlockArray<double, 3> mass;           ///< with what has been absorbed [g]
-    BlockArray<double, 3> velocity;       ///< [cm/s]
-    BlockArray<double, 3> fibres;         ///< volume of the fibres [cm^3]
-    BlockArray<double, 3> envelope;       ///< volume of fibres and pores, as the fabric is stretched now [cm^3]; where it is asked for
-    BlockArray<double, 3> touched;        ///< that of the fabric that liquid touches [cm^3]; likewise
-    BlockArray<double, 3> solid;          ///< volume of them and of what has been absorbed [cm^3]
-    BlockArray<double, 3> shape;          ///< 1 = yarns, 0 = cloth, or between
-    BlockArray<double, 3> diameter;       ///< of yarns [cm]; with envelopes, where there are yarns
-    BlockArray<double, 3> narrowing;      ///< of the flow between them (narrowings) [-]; likewise
-    BlockArray<double, 3> held;           ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
-    BlockArray<double, 3> squares;        ///< o_a² of the direction o: tangent of yarns, normal of cloth
+    BlockArray<double, 3> mass;       ///< with what has been absorbed [g]
+    BlockArray<double, 3> velocity;   ///< [cm/s]
+    BlockArray<double, 3> fibres;     ///< volume of the fibres [cm^3]
+    BlockArray<double, 3> envelope;   ///< volume of fibres and pores, as the fabric is stretched now [cm^3]; where it is asked for
+    BlockArray<double, 3> touched;    ///< that of the fabric that liquid touches [cm^3]; likewise
+    BlockArray<double, 3> solid;      ///< volume of them and of what has been absorbed [cm^3]
+    BlockArray<double, 3> shape;      ///< 1 = yarns, 0 = cloth, or between
+    BlockArray<double, 3> diameter;   ///< of yarns [cm]; with envelopes, where there are yarns
+    BlockArray<double, 3> narrowing;  ///< of the flow between them (narrowings) [-]; likewise
+    BlockArray<double, 3> held;       ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
+    BlockArray<double, 3> squares;    ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
     /// Wᵀ: of(v) is what vertex v gives to the faces normal to each axis. Faces without mass stay as they are.
     template <class Of>
@@ -56,20 +56,20 @@ class FabricOnFaces {
     void divideByMass(BlockArray<double, 3>& u) const;
 
     const Fabric& fabric_;
-    double liquidDensity_;                          ///< [g/cm^3]
+    double liquidDensity_;  ///< [g/cm^3]
     const LiquidAround* around_;
     bool hasYarns_ = false;
     std::vector<double> diameterOf_, narrowingOf_;  ///< of each vertex [cm, -]
     SortedVertices& vertices_;
-    std::vector<double> fibresOf_, shapeOf_;        ///< of each vertex [cm^3, -]
-    std::vector<double> restLength_, restArea_;     ///< of the edges and faces at each vertex, summed [cm, cm^2]
-    std::vector<double> envelopeOf_;                ///< of each vertex, of the step [cm^3]
-    std::optional<double> fibresPerMass_;           ///< of the dry fabric, where all vertices have the same [cm^3/g]
-    bool isOneShape_ = false;                       ///< all yarns, or all cloth
+    std::vector<double> fibresOf_, shapeOf_;     ///< of each vertex [cm^3, -]
+    std::vector<double> restLength_, restArea_;  ///< of the edges and faces at each vertex, summed [cm, cm^2]
+    std::vector<double> envelopeOf_;             ///< of each vertex, of the step [cm^3]
+    std::optional<double> fibresPerMass_;        ///< of the dry fabric, where all vertices have the same [cm^3/g]
+    bool isOneShape_ = false;                    ///< all yarns, or all cloth
     bool isOneDiameter_ = false, isOneNarrowing_ = false;
-    std::vector<double> massOf_, solidOf_;          ///< of each vertex, of the step [g, cm^3]
-    std::vector<Vec3> squaresOf_;                   ///< of each vertex
-    std::vector<int> edgesBegin_, edgesAt_;         ///< of each vertex: yarn edges that end there
+    std::vector<double> massOf_, solidOf_;   ///< of each vertex, of the step [g, cm^3]
+    std::vector<Vec3> squaresOf_;            ///< of each vertex
+    std::vector<int> edgesBegin_, edgesAt_;  ///< of each vertex: yarn edges that end there
     std::vector<int> facesBegin_, facesAt_;
 
     FaceFields sums_;
@@ -96,8 +96,7 @@ void FabricOnFaces::gather(const BlockArray<double, 3>& u, To&& to)
 {
     forEachBlock(vertices_.order, vertices_.grid, u, [&](std::size_t n, const FaceTile& tile) {
         gatherValues(tile, points_, n, onPoints_);
-        for (int s = points_.begin(n); s < points_.end(n); ++s)
-            to(points_.id[s], Vec3(onPoints_.of[0][s], onPoints_.of[1][s], onPoints_.of[2][s]));
+        for (int s = points_.begin(n); s < points_.end(n); ++s) to(points_.id[s], Vec3(onPoints_.of[0][s], onPoints_.of[1][s], onPoints_.of[2][s]));
     });
 }
 

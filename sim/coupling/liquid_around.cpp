@@ -25,8 +25,9 @@ void LiquidAround::findReached(const SortedVertices& vertices)
     forEachColored(vertices.order, [&](int block) {
         const Vec3 corner = vertices.grid.lowerCorner(block);
         for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s)
-            CellStencil(vertices.particles.position(s), corner, vertices.grid.dx)
-                .forEach(vertices.grid.neighbours(block), [&](int b, int c, double) { reached_.block(b)[c] = 1; });
+            CellStencil(vertices.particles.position(s), corner, vertices.grid.dx).forEach(vertices.grid.neighbours(block), [&](int b, int c, double) {
+                reached_.block(b)[c] = 1;
+            });
     });
     blockReached_.assign(blocks + 1, 0);
     parallelFor(blocks, [&](std::size_t b) {

@@ -51,15 +51,15 @@ class LiquidAround {
     Vec3 middleOfRoom(const ObstacleField& obstacles, const SortedVertices& vertices, int block, const CellStencil& stencil, const Vec3& x) const;
 
     // Of the vertices' blocks.
-    AlignedArray<double> cells_;                ///< a pack (Lane) for each cell, and for those of an empty block behind the last
-    BlockArray<std::uint8_t> reached_;          ///< by a vertex
+    AlignedArray<double> cells_;        ///< a pack (Lane) for each cell, and for those of an empty block behind the last
+    BlockArray<std::uint8_t> reached_;  ///< by a vertex
     std::vector<std::uint8_t> blockReached_;
-    std::vector<int> solidBlock_;               ///< block of the liquid's grid where there are solids near, or BlockGrid::kNone
-    std::vector<double> mass_, distance_;       ///< of each vertex of the fabric, known of sorted ones [g, cells]
+    std::vector<int> solidBlock_;                  ///< block of the liquid's grid where there are solids near, or BlockGrid::kNone
+    std::vector<double> mass_, distance_;          ///< of each vertex of the fabric, known of sorted ones [g, cells]
     std::vector<std::array<int, 27>> nearBlocks_;  ///< of each block of the liquid
-    std::vector<Part> near_;                    ///< in the order of the blocks
-    std::vector<int> nearBegin_;                ///< of each block of the liquid: its first part; it has none if the next block's is the same
-    AlignedArray<double> tiles_;                ///< of each part: what its particles bring to the cells of a tile
+    std::vector<Part> near_;                       ///< in the order of the blocks
+    std::vector<int> nearBegin_;                   ///< of each block of the liquid: its first part; it has none if the next block's is the same
+    AlignedArray<double> tiles_;                   ///< of each part: what its particles bring to the cells of a tile
 };
 
 /// 1 of liquid that is at most `touching` away, 0 of what is `apart`, even between.

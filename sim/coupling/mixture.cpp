@@ -44,8 +44,8 @@ bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const 
     dt_ = dt;
     onFaces_.spread(state);
     if (faces) onFaces_.takeVelocity(*faces);
-    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_,
-                     &push_})
+    for (Faces* u :
+         {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_, &push_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, obstacles, liquid);
     if (settings_.capillary) suck(grid, obstacles, state, liquid);
@@ -137,9 +137,8 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
 void Mixture::addDisplaced(LiquidGrid& liquid) const
 {
     const double perVolume = liquid.fullMass / std::pow(onFaces_.grid().dx, 3);
-    forEachShared([&](int b, int m, int a, int c) {
-        liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.solid.block(b, a)[c];
-    });
+    forEachShared(
+        [&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.solid.block(b, a)[c]; });
 }
 
 void Mixture::takeDisplaced(LiquidGrid& liquid) const

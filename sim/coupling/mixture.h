@@ -101,27 +101,27 @@ class Mixture {
 
     PorousLaw law_;
     LiquidSettings liquid_;
-    double liquidDensity_;                           ///< [g/cm^3]
+    double liquidDensity_;  ///< [g/cm^3]
     CouplingSettings settings_;
     Suction suction_;
-    double dt_ = 0.0;                                ///< of the step under way [s]
+    double dt_ = 0.0;  ///< of the step under way [s]
     SortedVertices& vertices_;
     FabricOnFaces onFaces_;
-    std::vector<int> liquidBlock_;                   ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
+    std::vector<int> liquidBlock_;  ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
 
     // Of each face of the fabric's grid; liquidMass_ is 0 where it is not shared.
-    Faces liquidMass_;                               ///< [g]
-    Faces relative_;                                 ///< velocity of the liquid past the fabric [cm/s]
-    Faces liquidVolume_;                             ///< on which pressure pushes the liquid [cm^3]
-    Faces drag_;                                     ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
-    Faces predicted_;                                ///< u_f*, later ũ_f: after the pressure [cm/s]
-    Faces mixed_, mobility_;                         ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
-    Faces sucked_;                                   ///< impulse of suction on the liquid [g cm/s] …
-    Faces reaction_;                                 ///< … and on the fabric, of all its faces
-    std::vector<Vec3> reactionOf_;                   ///< the same of each vertex
-    Faces onFabric_;                                 ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
-    Faces pull_;                                     ///< D' ũ_f [g cm/s]
-    Faces push_;                                     ///< dt ∇p [g/(cm^2 s)]
+    Faces liquidMass_;              ///< [g]
+    Faces relative_;                ///< velocity of the liquid past the fabric [cm/s]
+    Faces liquidVolume_;            ///< on which pressure pushes the liquid [cm^3]
+    Faces drag_;                    ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
+    Faces predicted_;               ///< u_f*, later ũ_f: after the pressure [cm/s]
+    Faces mixed_, mobility_;        ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
+    Faces sucked_;                  ///< impulse of suction on the liquid [g cm/s] …
+    Faces reaction_;                ///< … and on the fabric, of all its faces
+    std::vector<Vec3> reactionOf_;  ///< the same of each vertex
+    Faces onFabric_;                ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
+    Faces pull_;                    ///< D' ũ_f [g cm/s]
+    Faces push_;                    ///< dt ∇p [g/(cm^2 s)]
     LiquidLoads loads_;
 };
 

@@ -14,10 +14,10 @@ struct MixtureFace {
 ///   u_f = (m_f u_f* + Q m_s u_s* − dt (V_f + Q V_s) ∇p) / C,  u_s = (m_s u_s* + P m_f u_f* − dt (V_s + P V_f) ∇p) / C_s,
 ///   (1 − ψ) u_f + ψ u_s = F u_f* + S u_s* − dt β ∇p.
 struct MixtureSplit {
-    double liquidPart = 0.0, fabricPart = 0.0;              ///< P, Q: part of the liquid's, the fabric's impulse that the other takes [-]
-    double perLiquidMass = 0.0, perFabricMass = 0.0;        ///< 1/C, 1/C_s [1/g]
-    double ofLiquid = 0.0, ofFabric = 0.0;                  ///< F, S [-]
-    double mobility = 0.0;                                  ///< β [cm^3/g]
+    double liquidPart = 0.0, fabricPart = 0.0;        ///< P, Q: part of the liquid's, the fabric's impulse that the other takes [-]
+    double perLiquidMass = 0.0, perFabricMass = 0.0;  ///< 1/C, 1/C_s [1/g]
+    double ofLiquid = 0.0, ofFabric = 0.0;            ///< F, S [-]
+    double mobility = 0.0;                            ///< β [cm^3/g]
 };
 
 inline MixtureSplit splitMixture(const MixtureFace& f)

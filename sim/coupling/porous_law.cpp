@@ -7,17 +7,14 @@ namespace sim {
 
 namespace {
 
-constexpr double kSeriesEnd = 0.4;           ///< fraction up to which the series for flow across holds [-]
+constexpr double kSeriesEnd = 0.4;              ///< fraction up to which the series for flow across holds [-]
 constexpr double kLeastPermeability = 1.0e-20;  ///< [cm^2]
 constexpr double kErgun = 0.14288690166235205;  ///< 1.75 / √150 (coupling/README.md, Drag) [-]
-constexpr double kMostDrag = 1.0e63;         ///< where permeability all but vanishes [g/(cm^3 s)]
+constexpr double kMostDrag = 1.0e63;            ///< where permeability all but vanishes [g/(cm^3 s)]
 
 /// In squares of the fibre diameter.
 double permeabilityAlong(double f) { return (-std::log(f) - 1.476 + 2.0 * f - 0.5 * f * f) / (16.0 * f); }
-double seriesAcross(double f)
-{
-    return (-std::log(f) - 1.476 + 2.0 * f - 1.774 * f * f + 4.078 * f * f * f) / (32.0 * f);
-}
+double seriesAcross(double f) { return (-std::log(f) - 1.476 + 2.0 * f - 1.774 * f * f + 4.078 * f * f * f) / (32.0 * f); }
 
 }  // namespace
 
@@ -40,10 +37,7 @@ PorousLaw::PorousLaw(const PorousSettings& porous, const LiquidSettings& liquid,
 {
 }
 
-double PorousLaw::suction(double fraction) const
-{
-    return fraction < 1.0 ? fraction / (1.0 - fraction) * suctionScale_ : 0.0;
-}
+double PorousLaw::suction(double fraction) const { return fraction < 1.0 ? fraction / (1.0 - fraction) * suctionScale_ : 0.0; }
 
 double PorousLaw::captureRate(double fraction, double cell) const
 {
@@ -99,9 +93,6 @@ double dragAlongAxis(const PorousLaw::Drag& drag, double shape, double square)
     return across * (1.0 - square) + along * square;
 }
 
-double suctionAlongAxis(double shape, double square)
-{
-    return 1.0 + (1.0 - shape) * (1.0 - square) + shape * square;
-}
+double suctionAlongAxis(double shape, double square) { return 1.0 + (1.0 - shape) * (1.0 - square) + shape * square; }
 
 }  // namespace sim

@@ -29,10 +29,7 @@ class PorousLaw {
     /// c: drag per volume and relative speed [g/(cm^3 s)]: Darcy's, and where it is not linear the one of Yazdchi and Luding 2012.
     /// @param permeability  in the direction of the flow [cm^2]
     /// @param speed         of the liquid past the fabric [cm/s]
-    double drag(double permeability, double fraction, double speed) const 
-    {
-        return dragOf(permeability, fraction, inertialDrag(fraction, speed));
-    }
+    double drag(double permeability, double fraction, double speed) const { return dragOf(permeability, fraction, inertialDrag(fraction, speed)); }
     /// Speed at which drag holds a force per volume [dyn/cm^3]; 0 without drag.
     double speedUnder(double force, double permeability, double fraction) const;
     /// Drag by directions; at speeds of all directions together.
@@ -42,11 +39,11 @@ class PorousLaw {
     Drag drag(double fraction, double speed) const;
 
  private:
-    double fibreDiameter_, suctionScale_;            ///< [cm], σ cos θ / r_p, at least 0 [dyn/cm^2]
-    double density_, viscosity_;                     ///< of the liquid [g/cm^3, P]
+    double fibreDiameter_, suctionScale_;  ///< [cm], σ cos θ / r_p, at least 0 [dyn/cm^2]
+    double density_, viscosity_;           ///< of the liquid [g/cm^3, P]
     DragLaw law_;
-    double exponent_;                                ///< b, of the speed where drag is not linear [-]
-    double speedOfOne_;                              ///< μ/(ρ d): at which the Reynolds number of a fibre is 1 [cm/s]
+    double exponent_;    ///< b, of the speed where drag is not linear [-]
+    double speedOfOne_;  ///< μ/(ρ d): at which the Reynolds number of a fibre is 1 [cm/s]
 
     double inertialDrag(double fraction, double speed) const;
     double dragOf(double permeability, double fraction, double inertial) const;

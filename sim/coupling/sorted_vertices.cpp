@@ -11,7 +11,6 @@ namespace sim {
 
 namespace {
 
-
 bool isAtLiquid(const BlockGrid& liquid, const Vec3i& block)
 {
     for (int z = -1; z <= 1; ++z)

@@ -19,7 +19,7 @@ struct SortedVertices {
 
  private:
     std::vector<std::uint8_t> isNear_;  ///< of each vertex
-    Ledger ledger_;             ///< of what is outside the domain; nothing is
+    Ledger ledger_;                     ///< of what is outside the domain; nothing is
 };
 
 /// Does a vertex reach the box around the liquid's blocks? Elsewhere the two have nothing to do with each other.

@@ -29,8 +29,7 @@ double massIn(const BlockGrid& grid, const LiquidGrid& liquid, int block, int ce
 
 }  // namespace
 
-Suction::Suction(const Fabric& fabric, const Settings& settings)
-    : fabric_(fabric), density_(settings.liquid.density)
+Suction::Suction(const Fabric& fabric, const Settings& settings) : fabric_(fabric), density_(settings.liquid.density)
 {
     for (const FabricMaterial& m : fabric.materials)
         strength_.push_back(PorousLaw({settings.porous.fibreDiameter, m.volumeFraction}, settings.liquid, settings.coupling).suctionOfPores());

@@ -31,11 +31,11 @@ class Suction {
     enum Kind { kFibres, kPull, kPores, kHeld, kKinds };  ///< fibres [cm^3], they times P_c (1 - φ)/φ [dyn cm], pores, what they hold [cm^3]
 
     const Fabric& fabric_;
-    std::vector<double> strength_;               ///< of each material: P_c (1 - φ)/φ of its pores [dyn/cm^2]
-    double density_;                             ///< of the liquid [g/cm^3]
+    std::vector<double> strength_;  ///< of each material: P_c (1 - φ)/φ of its pores [dyn/cm^2]
+    double density_;                ///< of the liquid [g/cm^3]
     BlockArray<double, kKinds> volumes_;
-    BlockArray<double> suction_;                 ///< of each cell [dyn/cm^2]
-    BlockArray<double, 3> back_;                 ///< of each cell: impulse for a pull of 1 [g cm/s per dyn cm]
+    BlockArray<double> suction_;  ///< of each cell [dyn/cm^2]
+    BlockArray<double, 3> back_;  ///< of each cell: impulse for a pull of 1 [g cm/s per dyn cm]
 };
 
 }  // namespace sim

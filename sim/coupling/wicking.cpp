@@ -26,9 +26,9 @@ double leastExtent(const Fabric& fabric, const std::array<int, 3>& v)
 
 /// An element as it stands.
 struct Slopes {
-    std::array<Vec3, 3> of;      ///< gradients of the corners' hat functions [1/cm]
-    double size = 0.0;           ///< length or area [cm, cm^2]
-    Vec3 direction;              ///< of an edge, or normal to a face
+    std::array<Vec3, 3> of;  ///< gradients of the corners' hat functions [1/cm]
+    double size = 0.0;       ///< length or area [cm, cm^2]
+    Vec3 direction;          ///< of an edge, or normal to a face
     bool isEdge = false;
     /// The part of a vector that lies in the element.
     Vec3 within(const Vec3& u) const { return isEdge ? Vec3(direction * direction.dot(u)) : Vec3(u - direction * direction.dot(u)); }
@@ -222,8 +222,7 @@ void Wicking::transport(double h, FabricState& state)
         absorbed_[v] = std::max(mass, 0.0) + gained;
         if (!(gained > 0.0)) return;
         if (fabric_.pinned[v]) toPins_[v] += momentum - gained * state.v[v];
-        else
-            velocity_[v] = ((fabric_.mass[v] + std::max(mass, 0.0)) * state.v[v] + momentum) / (fabric_.mass[v] + absorbed_[v]);
+        else velocity_[v] = ((fabric_.mass[v] + std::max(mass, 0.0)) * state.v[v] + momentum) / (fabric_.mass[v] + absorbed_[v]);
     });
     state.absorbed.swap(absorbed_);
     state.v.swap(velocity_);

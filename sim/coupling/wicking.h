@@ -41,25 +41,25 @@ class Wicking {
     const Fabric& fabric_;
     const WetElements& elements_;
     WickingSettings settings_;
-    double density_;                              ///< [g/cm^3]
-    double longest_ = 0.0;                        ///< stable substep [s]
-    std::vector<PorousLaw> laws_;                 ///< of each material …
-    std::vector<double> suction_, along_;         ///< … its suction when dry [dyn/cm^2], permeability along fibres [cm^2]
-    std::vector<double> capacity_;                ///< of each vertex [g]
-    int leastSubsteps_;                           ///< of a step [-]
+    double density_;                       ///< [g/cm^3]
+    double longest_ = 0.0;                 ///< stable substep [s]
+    std::vector<PorousLaw> laws_;          ///< of each material …
+    std::vector<double> suction_, along_;  ///< … its suction when dry [dyn/cm^2], permeability along fibres [cm^2]
+    std::vector<double> capacity_;         ///< of each vertex [g]
+    int leastSubsteps_;                    ///< of a step [-]
 
     // Of the step.
-    std::vector<Vec3> acceleration_;              ///< of each vertex [cm/s^2]
+    std::vector<Vec3> acceleration_;                     ///< of each vertex [cm/s^2]
     std::vector<std::uint8_t> isWetElement_, isActive_;  ///< of each element: holds liquid; of each vertex: ends one that does
-    std::vector<double> head_;                    ///< of each vertex: suction less the pressure of the liquid around it [dyn/cm^2]
-    std::vector<std::array<double, 3>> rate_;     ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
-    std::vector<double> filling_;                 ///< of each element: mean of its corners [g/cm^3]
-    std::vector<double> part_;                    ///< of what would flow out of each vertex, that it has [-]
-    std::vector<double> flow_;                    ///< through an element, over its inflow's rate [g s/cm^3]
-    std::vector<Vec3> carried_;                   ///< momentum of that [g/cm^2]
-    std::vector<double> absorbed_;                ///< of each vertex after the substep [g]
-    std::vector<Vec3> velocity_;                  ///< likewise [cm/s]
-    std::vector<Vec3> toPins_;                    ///< of each vertex [g cm/s]
+    std::vector<double> head_;                           ///< of each vertex: suction less the pressure of the liquid around it [dyn/cm^2]
+    std::vector<std::array<double, 3>> rate_;  ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
+    std::vector<double> filling_;              ///< of each element: mean of its corners [g/cm^3]
+    std::vector<double> part_;                 ///< of what would flow out of each vertex, that it has [-]
+    std::vector<double> flow_;                 ///< through an element, over its inflow's rate [g s/cm^3]
+    std::vector<Vec3> carried_;                ///< momentum of that [g/cm^2]
+    std::vector<double> absorbed_;             ///< of each vertex after the substep [g]
+    std::vector<Vec3> velocity_;               ///< likewise [cm/s]
+    std::vector<Vec3> toPins_;                 ///< of each vertex [g cm/s]
 };
 
 }  // namespace sim

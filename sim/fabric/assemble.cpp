@@ -18,10 +18,7 @@ namespace {
 class PieceAssembly {
  public:
     PieceAssembly(const FabricPiece& piece, Fabric& fabric)
-        : piece_(piece),
-          fabric_(fabric),
-          first_(static_cast<int>(fabric.vertexCount())),
-          material_(static_cast<int>(fabric.materials.size()))
+        : piece_(piece), fabric_(fabric), first_(static_cast<int>(fabric.vertexCount())), material_(static_cast<int>(fabric.materials.size()))
     {
     }
 
@@ -167,8 +164,7 @@ void findWetTwist(Fabric& fabric)
         const auto [a, b] = fabric.strands.radius[fabric.edges.strand[e]];
         const double half = 0.5 * kPi * a * b * fabric.edges.restLength[e];
         std::array<double, 2>& perMass = fabric.edges.wetTwist.emplace_back();
-        for (int end = 0; end < 2; ++end)
-            perMass[end] = 0.25 * (a * a + b * b) * half / fabric.volume[fabric.edges.vertices[e][end]];
+        for (int end = 0; end < 2; ++end) perMass[end] = 0.25 * (a * a + b * b) * half / fabric.volume[fabric.edges.vertices[e][end]];
     }
 }
 
@@ -218,8 +214,7 @@ FabricState restState(const Fabric& fabric)
         const Vec2i& edge = fabric.edges.vertices[e];
         state.tangent[e] = (fabric.rest[edge[1]] - fabric.rest[edge[0]]).normalized();
         const bool isFirst = e == 0 || fabric.edges.strand[e] != fabric.edges.strand[e - 1];
-        state.reference[e] = isFirst ? anyAcross(state.tangent[e])
-                                     : carriedAcross(state.reference[e - 1], state.tangent[e - 1], state.tangent[e]);
+        state.reference[e] = isFirst ? anyAcross(state.tangent[e]) : carriedAcross(state.reference[e - 1], state.tangent[e - 1], state.tangent[e]);
     }
     return state;
 }

@@ -13,8 +13,7 @@ BlockMatrix::BlockMatrix(const std::vector<std::vector<int>>& columns)
         SIM_CHECK(own != columns[row].end() && *own == static_cast<int>(row));
         column_.insert(column_.end(), own, columns[row].end());
         begin_.push_back(static_cast<int>(column_.size()));
-        for (auto column = columns[row].begin(); column != own; ++column)
-            mirrors_.push_back({*column, find(*column, static_cast<int>(row))});
+        for (auto column = columns[row].begin(); column != own; ++column) mirrors_.push_back({*column, find(*column, static_cast<int>(row))});
         mirrorBegin_.push_back(static_cast<int>(mirrors_.size()));
     }
     values_.resize(9 * column_.size() + 1);

@@ -26,10 +26,7 @@ class BlockMatrix {
     /// The diagonal block of a row, then those right of it up to begin(row + 1).
     int begin(int row) const { return begin_[row]; }
     int column(int entry) const { return column_[entry]; }
-    std::span<const Mirror> left(int row) const
-    {
-        return {mirrors_.data() + mirrorBegin_[row], mirrors_.data() + mirrorBegin_[row + 1]};
-    }
+    std::span<const Mirror> left(int row) const { return {mirrors_.data() + mirrorBegin_[row], mirrors_.data() + mirrorBegin_[row + 1]}; }
     /// Where the block of a row and a column ≥ row stands; it must be in the pattern.
     int find(int row, int column) const;
     double* block(int entry) { return values_.data() + std::size_t{9} * entry; }

@@ -20,8 +20,7 @@ constexpr double kLeastPivot = 0.05;  ///< of a row's own diagonal block [-]
 
 }  // namespace
 
-ClothPreconditioner::ClothPreconditioner(const BlockMatrix& matrix, const std::vector<std::vector<int>>& pattern,
-                                         const std::vector<char>& isSkipped)
+ClothPreconditioner::ClothPreconditioner(const BlockMatrix& matrix, const std::vector<std::vector<int>>& pattern, const std::vector<char>& isSkipped)
     : skipped_(isSkipped)
 {
     const int rows = matrix.rows(), parts = std::min(kParts, std::max(1, rows / 64));

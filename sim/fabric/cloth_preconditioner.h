@@ -28,10 +28,10 @@ class ClothPreconditioner {
  private:
     std::vector<int> partBegin_;
     std::vector<char> skipped_;
-    std::vector<int> begin_, column_, source_;   ///< strictly lower blocks by row: column, and where the transpose stands in the matrix
-    std::vector<int> droppedBegin_, dropped_;    ///< blocks that are not in the pattern, or their transposes, by row
-    AlignedArray<double> lower_;                 ///< L, 9 per block
-    AlignedArray<double> inverse_;               ///< D⁻¹, 9 per row
+    std::vector<int> begin_, column_, source_;  ///< strictly lower blocks by row: column, and where the transpose stands in the matrix
+    std::vector<int> droppedBegin_, dropped_;   ///< blocks that are not in the pattern, or their transposes, by row
+    AlignedArray<double> lower_;                ///< L, 9 per block
+    AlignedArray<double> inverse_;              ///< D⁻¹, 9 per row
 };
 
 }  // namespace sim

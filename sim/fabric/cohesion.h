@@ -47,10 +47,10 @@ class Cohesion {
     const Fabric& fabric_;
     LiquidSettings liquid_;
     CohesionSettings settings_;
-    std::vector<double> capacity_;      ///< of each vertex [g]
-    std::vector<double> length_;        ///< of threads that each vertex stands for [cm]
-    std::vector<char> isOnCloth_;       ///< of each vertex
-    std::vector<double> perLength_;     ///< force at each vertex [dyn/cm]
+    std::vector<double> capacity_;   ///< of each vertex [g]
+    std::vector<double> length_;     ///< of threads that each vertex stands for [cm]
+    std::vector<char> isOnCloth_;    ///< of each vertex
+    std::vector<double> perLength_;  ///< force at each vertex [dyn/cm]
     bool isWet_ = false;
 };
 

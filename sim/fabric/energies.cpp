@@ -28,9 +28,8 @@ FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, co
     FabricEnergies e = elastic;
     const auto mass = [&](std::size_t v) { return fabric.mass[v] + state.absorbed[v]; };
     e.kinetic = parallelSum(fabric.vertexCount(), [&](std::size_t v) { return 0.5 * mass(v) * state.v[v].squaredNorm(); });
-    e.kinetic += parallelSum(fabric.edges.size(), [&](std::size_t n) {
-        return 0.5 * twistInertia(fabric, state.absorbed, n) * state.omega[n] * state.omega[n];
-    });
+    e.kinetic += parallelSum(fabric.edges.size(),
+                             [&](std::size_t n) { return 0.5 * twistInertia(fabric, state.absorbed, n) * state.omega[n] * state.omega[n]; });
     e.potential = -parallelSum(fabric.vertexCount(), [&](std::size_t v) { return mass(v) * gravity.dot(state.x[v]); });
     e.contact = state.stored.sum();
     return e;

@@ -17,13 +17,13 @@ namespace sim {
 struct Fabric {
     /// Yarn edges of strand s are edgeBegin(s) … edgeBegin(s + 1) − 1, in order; each strand has one vertex more than edges.
     struct Strands {
-        std::vector<int> begin = {0};          ///< of each strand in `vertices`, and the end of the last
-        std::vector<int> vertices;             ///< of all strands, in order
-        std::vector<int> material;             ///< of each strand
+        std::vector<int> begin = {0};               ///< of each strand in `vertices`, and the end of the last
+        std::vector<int> vertices;                  ///< of all strands, in order
+        std::vector<int> material;                  ///< of each strand
         std::vector<std::array<double, 2>> radius;  ///< half axes a, b of the section of each strand [cm]
 
         int count() const { return static_cast<int>(begin.size()) - 1; }
-        int size(int s) const { return begin[s + 1] - begin[s]; }                     ///< vertices of a strand
+        int size(int s) const { return begin[s + 1] - begin[s]; }  ///< vertices of a strand
         int vertex(int s, int j) const { return vertices[begin[s] + j]; }
         int edgeBegin(int s) const { return begin[s] - s; }
     };
@@ -31,32 +31,32 @@ struct Fabric {
     struct YarnEdges {
         std::vector<Vec2i> vertices;
         std::vector<int> strand;
-        std::vector<double> restLength;        ///< [cm]
-        std::vector<double> twistInertia;      ///< of dry yarn, J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<double> restLength;               ///< [cm]
+        std::vector<double> twistInertia;             ///< of dry yarn, J = ¼ ρφ π a b l (a² + b²) [g cm^2]
         std::vector<std::array<double, 2>> wetTwist;  ///< what J grows by per mass of water that either end has absorbed [cm^2]
-        std::vector<char> twistHeld;           ///< its angle follows a pin
+        std::vector<char> twistHeld;                  ///< its angle follows a pin
         std::size_t size() const { return vertices.size(); }
     };
     struct Faces {
         std::vector<Vec3i> vertices;
         std::vector<int> material;
-        std::vector<double> thickness;         ///< [cm]
+        std::vector<double> thickness;  ///< [cm]
         std::size_t size() const { return vertices.size(); }
     };
     /// Held vertices (Dirichlet).
     struct Pins {
-        std::vector<int> vertex;               ///< ascending
-        std::vector<int> motion;               ///< of each, in `motions`
+        std::vector<int> vertex;  ///< ascending
+        std::vector<int> motion;  ///< of each, in `motions`
         std::vector<Motion> motions;
     };
 
-    std::vector<FabricMaterial> materials;     ///< of each piece of the scene, in its order
-    std::vector<Vec3> rest;                    ///< of each vertex: position at the start, free of stress [cm]
-    std::vector<double> mass;                  ///< of each vertex, dry [g]
-    std::vector<double> volume;                ///< of each vertex, envelope with pores [cm^3]
-    std::vector<double> radius;                ///< of each vertex in contact: √(ab) of a yarn, half the thickness of cloth, the larger of both [cm]
-    std::vector<int> vertexMaterial;           ///< of each vertex: the number of its piece
-    std::vector<char> pinned;                  ///< of each vertex
+    std::vector<FabricMaterial> materials;  ///< of each piece of the scene, in its order
+    std::vector<Vec3> rest;                 ///< of each vertex: position at the start, free of stress [cm]
+    std::vector<double> mass;               ///< of each vertex, dry [g]
+    std::vector<double> volume;             ///< of each vertex, envelope with pores [cm^3]
+    std::vector<double> radius;             ///< of each vertex in contact: √(ab) of a yarn, half the thickness of cloth, the larger of both [cm]
+    std::vector<int> vertexMaterial;        ///< of each vertex: the number of its piece
+    std::vector<char> pinned;               ///< of each vertex
     Strands strands;
     YarnEdges edges;
     Faces faces;
@@ -81,34 +81,34 @@ struct ContactEnergy {
 
 /// What evolves of the fabric.
 struct FabricState {
-    std::vector<Vec3> x;                  ///< of each vertex [cm]
-    std::vector<Vec3> v;                  ///< [cm/s]
-    std::vector<double> absorbed;         ///< of each vertex: liquid in its pores [g]
-    std::vector<double> theta;            ///< of each yarn edge: angle of the material frame against the reference frame [rad]
-    std::vector<double> omega;            ///< its rate [1/s]
-    std::vector<Vec3> tangent;            ///< of each yarn edge, when its reference frame was last transported [-]
-    std::vector<Vec3> reference;          ///< first axis u of the reference frame, across the tangent [-]
-    std::vector<double> referenceTwist;   ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
+    std::vector<Vec3> x;                 ///< of each vertex [cm]
+    std::vector<Vec3> v;                 ///< [cm/s]
+    std::vector<double> absorbed;        ///< of each vertex: liquid in its pores [g]
+    std::vector<double> theta;           ///< of each yarn edge: angle of the material frame against the reference frame [rad]
+    std::vector<double> omega;           ///< its rate [1/s]
+    std::vector<Vec3> tangent;           ///< of each yarn edge, when its reference frame was last transported [-]
+    std::vector<Vec3> reference;         ///< first axis u of the reference frame, across the tangent [-]
+    std::vector<double> referenceTwist;  ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 
-    std::vector<Vec3> acceleration;       ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
-    std::vector<Vec3> held;               ///< of each vertex and axis: how far the fabric's own forces held it in the last step …
-                                          ///< (heldShare), and pins do; solver grid: 0 [0..1]
-    Grips onObstacles;                    ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
-    ContactEnergy stored;                 ///< at the end of the last step, with the stiffnesses that contact had in it …
-    double springStep = 0.0;              ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
-    double owed = 0.0;                    ///< solver vertex: energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
-    double mostKinetic = 0.0;             ///< largest kinetic energy of all steps' starts [erg]
+    std::vector<Vec3> acceleration;  ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
+    std::vector<Vec3> held;          ///< of each vertex and axis: how far the fabric's own forces held it in the last step …
+                                     ///< (heldShare), and pins do; solver grid: 0 [0..1]
+    Grips onObstacles;               ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
+    ContactEnergy stored;            ///< at the end of the last step, with the stiffnesses that contact had in it …
+    double springStep = 0.0;         ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
+    double owed = 0.0;         ///< solver vertex: energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
+    double mostKinetic = 0.0;  ///< largest kinetic energy of all steps' starts [erg]
 
     // Of solver vertex only.
-    double lastFraction = 1.0;            ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
-    Grips onFabric;                       ///< friction between primitives, as contact/primitives.h counts them
+    double lastFraction = 1.0;  ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
+    Grips onFabric;             ///< friction between primitives, as contact/primitives.h counts them
 
     // Of solver grid only; empty until its first step.
-    std::vector<Vec3> across;             ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
-    std::vector<double> modes;            ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
-    double sinceGather = 0.0;             ///< for how long the vertices have moved since their modes were gathered [s]
-    BlockGrid faceBlocks;                 ///< of the grid in the last step, and …
-    BlockArray<double, 3> faceChange;     ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
+    std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
+    std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
+    double sinceGather = 0.0;          ///< for how long the vertices have moved since their modes were gathered [s]
+    BlockGrid faceBlocks;              ///< of the grid in the last step, and …
+    BlockArray<double, 3> faceChange;  ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
 };
 
 /// Inertia of the twist of a yarn edge, with the water in it [g cm^2].

@@ -15,11 +15,11 @@ namespace sim {
 
 /// Friction of two that touch, and how it answers to their slip. All of it is across the normal.
 struct Friction {
-    Vec3 force;                  ///< gradient by the position of the first against the second [dyn]
-    double stiffness = 0.0;      ///< [dyn/cm] …
-    double along = 0.0;          ///< … but for slip along `direction` [dyn/cm]
+    Vec3 force;                     ///< gradient by the position of the first against the second [dyn]
+    double stiffness = 0.0;         ///< [dyn/cm] …
+    double along = 0.0;             ///< … but for slip along `direction` [dyn/cm]
     Vec3 direction = Vec3::Zero();  ///< unit; 0 where both are the same
-    bool slides = false;         ///< it is at its bound
+    bool slides = false;            ///< it is at its bound
 
     Mat3 matrix(const Vec3& normal) const
     {
@@ -36,9 +36,9 @@ inline Vec3 atMost(double bound, const Vec3& force)
 
 /// A spring that friction holds, and by what it can be held.
 struct GripSpring {
-    Vec3 held;          ///< its force at the start of the step [dyn]
-    double stiffness;   ///< [dyn/cm]
-    double bound;       ///< Coulomb's coefficient times the normal force [dyn]
+    Vec3 held;         ///< its force at the start of the step [dyn]
+    double stiffness;  ///< [dyn/cm]
+    double bound;      ///< Coulomb's coefficient times the normal force [dyn]
 
     Vec3 trial(const Vec3& slip) const { return held + stiffness * slip; }
     /// Friction at a slip. Its stiffness is that of the chord, by which iterations come to rest from any side.
@@ -66,8 +66,7 @@ inline Friction GripSpring::expected(const Vec3& slip, const Vec3& expectedSlip,
     const double share = bound / last, along = stiffness * bound / (last + perMass * bound);
     const Vec3 further = slip - (last * direction - held) / stiffness;
     const double ahead = direction.dot(further);
-    return {(bound + (along - share * stiffness) * ahead) * direction + share * stiffness * further, share * stiffness, along, direction,
-            true};
+    return {(bound + (along - share * stiffness) * ahead) * direction + share * stiffness * further, share * stiffness, along, direction, true};
 }
 
 }  // namespace sim

@@ -47,8 +47,7 @@ FabricGeometry clothGrid(const ClothGrid& grid)
     const int n = grid.nodes[0], m = grid.nodes[1];
     out.latticeSize = grid.nodes;
     for (int j = 0; j < m; ++j) {
-        for (int i = 0; i < n; ++i)
-            addPoint(out, grid.origin + grid.spacing[0] * i * grid.u + grid.spacing[1] * j * grid.v, i, j);
+        for (int i = 0; i < n; ++i) addPoint(out, grid.origin + grid.spacing[0] * i * grid.u + grid.spacing[1] * j * grid.v, i, j);
     }
     for (int j = 0; j + 1 < m; ++j) {
         for (int i = 0; i + 1 < n; ++i) {
@@ -74,12 +73,8 @@ FabricGeometry wovenYarns(const WovenYarns& cloth)
     const int lines = cloth.yarns[0], columns = cloth.yarns[1];  // a yarn along u crosses every column
     out.latticeSize = Vec2i(columns, lines);
     const Vec3 up = cloth.v.cross(cloth.u).normalized();
-    const auto place = [&](int column, int row) -> Vec3 {
-        return cloth.origin + cloth.spacing * column * cloth.u + cloth.spacing * row * cloth.v;
-    };
-    const auto height = [&](int column, int row) {
-        return isAbove(cloth.weave, column, row) ? cloth.amplitude : -cloth.amplitude;
-    };
+    const auto place = [&](int column, int row) -> Vec3 { return cloth.origin + cloth.spacing * column * cloth.u + cloth.spacing * row * cloth.v; };
+    const auto height = [&](int column, int row) { return isAbove(cloth.weave, column, row) ? cloth.amplitude : -cloth.amplitude; };
     for (int k = 1; k + 1 < lines; ++k) {
         out.strands.push_back(numbers(static_cast<int>(out.points.size()), columns));
         for (int j = 0; j < columns; ++j) addPoint(out, place(j, k) + height(j, k) * up, j, k);
@@ -121,10 +116,7 @@ FabricGeometry strand(const Vec3& from, const Vec3& to, int segments)
     return strand(points);
 }
 
-double pointCount(const ClothGrid& grid)
-{
-    return static_cast<double>(grid.nodes[0]) * grid.nodes[1];
-}
+double pointCount(const ClothGrid& grid) { return static_cast<double>(grid.nodes[0]) * grid.nodes[1]; }
 
 double pointCount(const WovenYarns& cloth)
 {

@@ -21,9 +21,9 @@ class LedFabric final : public FabricIntegrator {
     EnergyChanges changes(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
 
     const Fabric& fabric_;
-    Rods rods_;                          ///< for the frames of yarns that are moved
-    std::vector<Vec3> restReference_;    ///< of each yarn edge
-    std::vector<Vec3> before_;           ///< of each vertex: velocity when the step began [cm/s]
+    Rods rods_;                        ///< for the frames of yarns that are moved
+    std::vector<Vec3> restReference_;  ///< of each yarn edge
+    std::vector<Vec3> before_;         ///< of each vertex: velocity when the step began [cm/s]
 };
 
 }  // namespace sim

@@ -10,13 +10,12 @@ namespace sim {
 
 namespace {
 
-constexpr double kStiffness = 50.0;       ///< of the penalty relative to m/h² (fabric/README.md, Solids) [-]
-constexpr double kActivation = 0.25;      ///< distance at which it begins to act, in radii of the fabric [-]
+constexpr double kStiffness = 50.0;   ///< of the penalty relative to m/h² (fabric/README.md, Solids) [-]
+constexpr double kActivation = 0.25;  ///< distance at which it begins to act, in radii of the fabric [-]
 
 }  // namespace
 
-FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion)
-    : cohesion_(cohesion)
+FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion) : cohesion_(cohesion)
 {
     for (std::size_t n = 0; n < obstacles.size(); ++n) {
         const ObstacleSettings& obstacle = obstacles[n];
@@ -83,8 +82,13 @@ FabricObstacles::Point FabricObstacles::edgePoint(const Fabric& fabric, int edge
     const int a = edges_[edge][0], b = edges_[edge][1];
     const auto middle = [&](std::span<const Vec3> of) -> Vec3 { return 0.5 * (of[a] + of[b]); };
     const Vec3 move = start.moves.empty() ? Vec3::Zero().eval() : middle(start.moves);
-    return {static_cast<int>(share_.size()) + edge, middle(x), middle(start.x), 0.5 * (fabric.radius[a] + fabric.radius[b]),
-            share_[a] * start.mass[a] + share_[b] * start.mass[b], fabric.vertexMaterial[a], move};
+    return {static_cast<int>(share_.size()) + edge,
+            middle(x),
+            middle(start.x),
+            0.5 * (fabric.radius[a] + fabric.radius[b]),
+            share_[a] * start.mass[a] + share_[b] * start.mass[b],
+            fabric.vertexMaterial[a],
+            move};
 }
 
 /// As heavy as its corners make it.
@@ -132,7 +136,8 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
     if (start.moves.empty()) return Touch{n, overlap, pull, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
     const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
     const GripSpring spring{held, stiffness, coefficient * pressed};
-    return Touch{n, overlap, pull, push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
+    return Touch{n,    overlap,   pull,
+                 push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
 }
 
 FabricObstacles::Point FabricObstacles::pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x,
@@ -177,7 +182,7 @@ bool FabricObstacles::touches(const Vec3& x, double reach) const
 }
 
 const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
-                                                         std::span<const NearestPoint> nearest)
+                                                        std::span<const NearestPoint> nearest)
 {
     contacts_.clear();
     const auto collectFrom = [&](std::size_t n, auto&& body) {
@@ -236,12 +241,15 @@ void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x
 
 double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const Grips& held) const
 {
-    return parallelSum(contacts_.size(), [&](std::size_t i) {
-        const ObstacleContact& c = contacts_[i];
-        const Point point = pointOf(fabric, c, x, start);
-        const double overlap = std::max(0.0, point.reach - bodies_[c.between[1]].pose.distance(point.x)), stiffness = stiffnessOf(point, start);
-        return 0.5 * stiffness * overlap * overlap + 0.5 * held.at(c.between).squaredNorm() / stiffness;
-    }) + bridgeEnergy(fabric, x);
+    return parallelSum(contacts_.size(),
+                       [&](std::size_t i) {
+                           const ObstacleContact& c = contacts_[i];
+                           const Point point = pointOf(fabric, c, x, start);
+                           const double overlap = std::max(0.0, point.reach - bodies_[c.between[1]].pose.distance(point.x)),
+                                        stiffness = stiffnessOf(point, start);
+                           return 0.5 * stiffness * overlap * overlap + 0.5 * held.at(c.between).squaredNorm() / stiffness;
+                       }) +
+           bridgeEnergy(fabric, x);
 }
 
 double FabricObstacles::bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const

@@ -35,13 +35,6 @@ struct ObstacleContact {
         if (!weights.isZero()) return {weights[0], weights[1], weights[2]};
         return {isEdge() ? 0.5 : 1.0, isEdge() ? 0.5 : 0.0, 0.0};
     }
-    /// Of what the vertices have, at the point.
-    Vec3 atPoint(std::span<const Vec3> ofVertices) const
-    {
-        const std::array<int, 3> v = vertices();
-        const std::array<double, 3> share = shares();
-        return share[0] * ofVertices[v[0]] + share[1] * ofVertices[v[1]] + share[2] * ofVertices[v[2]];
-    }
 };
 
 /// Fabric on obstacles: a penalty on the signed distance of vertices, of the middles of edges and of the points at which edges and faces are
@@ -64,10 +57,10 @@ class FabricObstacles {
     void moveTo(double t0, double t1);
     /// How the points of the fabric come into a step of h [s].
     struct Start {
-        std::span<const Vec3> x;             ///< [cm]
-        std::span<const double> mass;        ///< [g]
-        const Grips& held;            ///< FabricState::onObstacles
-        double h, springStep;         ///< (springStepFor) [s]
+        std::span<const Vec3> x;       ///< [cm]
+        std::span<const double> mass;  ///< [g]
+        const Grips& held;             ///< FabricState::onObstacles
+        double h, springStep;          ///< (springStepFor) [s]
         /// Given where contacts are looked for at a prediction, a step of free fall ahead, which presses far too hard and slides too fast:
         /// force and slip of friction then follow from what presses at the start, and from where these moves [cm] and the friction that
         /// is held take the vertices.
@@ -88,21 +81,21 @@ class FabricObstacles {
 
  private:
     struct Body {
-        int inScene;                        ///< its number there
-        Obstacles pose;                     ///< the obstacle alone
+        int inScene;     ///< its number there
+        Obstacles pose;  ///< the obstacle alone
         Motion motion;
-        Eigen::Isometry3d carry;            ///< from where the obstacle is at the start of the step to where it is at the end
-        std::vector<double> friction;       ///< Coulomb's coefficient against each material of the fabric [-]
+        Eigen::Isometry3d carry;       ///< from where the obstacle is at the start of the step to where it is at the end
+        std::vector<double> friction;  ///< Coulomb's coefficient against each material of the fabric [-]
         bool isCohesive;
     };
     /// A point of the fabric that may touch.
     struct Point {
-        int number;       ///< ObstacleContact::between
-        Vec3 x, start;    ///< [cm]
-        double reach;     ///< distance at which it touches [cm]
-        double mass;      ///< [g]
+        int number;     ///< ObstacleContact::between
+        Vec3 x, start;  ///< [cm]
+        double reach;   ///< distance at which it touches [cm]
+        double mass;    ///< [g]
         int material;
-        Vec3 move;        ///< Start::moves, where they are given [cm]
+        Vec3 move;                        ///< Start::moves, where they are given [cm]
         double pull = 0.0, bridge = 0.0;  ///< of a liquid bridge [dyn], and its length beyond the reach [cm]
     };
     /// What a body does to a point.
@@ -125,10 +118,10 @@ class FabricObstacles {
 
     const Cohesion* cohesion_ = nullptr;
     std::vector<Body> bodies_;
-    std::vector<Vec2i> edges_;              ///< of yarns and of cloth
-    std::vector<double> share_;             ///< of each vertex: part of its mass that each of its edges stands for [-]
-    std::vector<double> nearest_;           ///< of each vertex: distance of the nearest obstacle [cm]
-    std::vector<Vec3> pushedOut_;           ///< of each vertex: how far it is pushed out of obstacles [cm]
+    std::vector<Vec2i> edges_;     ///< of yarns and of cloth
+    std::vector<double> share_;    ///< of each vertex: part of its mass that each of its edges stands for [-]
+    std::vector<double> nearest_;  ///< of each vertex: distance of the nearest obstacle [cm]
+    std::vector<Vec3> pushedOut_;  ///< of each vertex: how far it is pushed out of obstacles [cm]
     std::vector<std::vector<ObstacleContact>> ofChunk_;
     std::vector<ObstacleContact> contacts_;
     std::vector<std::optional<Vec3>> keptForce_;  ///< of friction at them, at the end of the step [dyn]

@@ -49,8 +49,7 @@ std::string orientAlike(std::vector<Vec3i>& faces, const std::vector<int>& names
         const Side &a = sides[i], &b = sides[i + 1];
         if (!a.isBeside(b)) continue;
         if (i + 2 < sides.size() && a.isBeside(sides[i + 2]))
-            return fmt::format("the edge between vertices {} and {} has more than two faces; split the mesh there",
-                               nameOf(a.low), nameOf(a.high));
+            return fmt::format("the edge between vertices {} and {} has more than two faces; split the mesh there", nameOf(a.low), nameOf(a.high));
         const bool isAgainst = a.isDown == b.isDown;
         neighbours[a.face][known[a.face]++] = {b.face, isAgainst};
         neighbours[b.face][known[b.face]++] = {a.face, isAgainst};
@@ -68,8 +67,7 @@ std::string orientAlike(std::vector<Vec3i>& faces, const std::vector<int>& names
             for (const Neighbour& n : neighbours[f]) {
                 if (n.face < 0) continue;
                 const char wanted = (state[f] == Turned) != n.isAgainst ? Turned : Kept;
-                if (state[n.face] != Unseen && state[n.face] != wanted)
-                    return "the mesh has one side only, like a Möbius strip; cut it";
+                if (state[n.face] != Unseen && state[n.face] != wanted) return "the mesh has one side only, like a Möbius strip; cut it";
                 if (state[n.face] == Unseen) open.push_back(n.face);
                 state[n.face] = wanted;
             }

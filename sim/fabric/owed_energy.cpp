@@ -63,8 +63,10 @@ void refuseJam(const Fabric& fabric, const FabricState& state, double kinetic)
     const std::string stretched = longest < kStretched ? ""
                                                        : fmt::format("; near ({:.4g}, {:.4g}, {:.4g}) cm it is stretched to {:.3g} times its length",
                                                                      place.x(), place.y(), place.z(), longest);
-    throw RunError(fmt::format("fabric is jammed: pins or solids lead it where it cannot follow in steps of this length, and it has come to hold {:.3g} erg that "
-                               "nothing gave to it{}; other or slower motions, more room or shorter steps would do", state.owed, stretched));
+    throw RunError(fmt::format(
+        "fabric is jammed: pins or solids lead it where it cannot follow in steps of this length, and it has come to hold {:.3g} erg that "
+        "nothing gave to it{}; other or slower motions, more room or shorter steps would do",
+        state.owed, stretched));
 }
 
 }  // namespace sim

@@ -14,13 +14,11 @@ std::vector<Vec3> pinTargets(const Fabric& fabric, double t)
     std::vector<Eigen::Isometry3d> pose;
     for (const Motion& motion : fabric.pins.motions) pose.push_back(motion.transform(t));
     std::vector<Vec3> targets;
-    for (std::size_t i = 0; i < fabric.pins.vertex.size(); ++i)
-        targets.push_back(pose[fabric.pins.motion[i]] * fabric.rest[fabric.pins.vertex[i]]);
+    for (std::size_t i = 0; i < fabric.pins.vertex.size(); ++i) targets.push_back(pose[fabric.pins.motion[i]] * fabric.rest[fabric.pins.vertex[i]]);
     return targets;
 }
 
-double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state,
-                 int edge)
+double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state, int edge)
 {
     const std::optional<std::size_t> pin = pinOfEdge(fabric, edge);
     if (!pin) return state.theta[edge];

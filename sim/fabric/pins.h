@@ -14,8 +14,7 @@ std::vector<Vec3> pinTargets(const Fabric& fabric, double t);
 /// The twist angle that a held edge has at time t, when its material frame follows the rotation of its pin; of the
 /// angles that differ by full turns the one nearest to the present [rad].
 /// @param restReference  first axes of the reference frames at rest, of each yarn edge
-double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state,
-                 int edge);
+double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, double t, const FabricState& state, int edge);
 
 /// By how much the pin of a held edge turns about it from t0 to t1 [rad], as the edge is in this state. The angle itself changes also as the edge
 /// tilts, where the pin gives nothing.

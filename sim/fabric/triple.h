@@ -23,10 +23,7 @@ struct Triple {
     friend Triple operator-(const Triple& a) { return {-a.x, -a.y, -a.z}; }
     friend Triple operator*(const T& s, const Triple& a) { return {s * a.x, s * a.y, s * a.z}; }
     friend T dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-    friend Triple cross(const Triple& a, const Triple& b)
-    {
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    }
+    friend Triple cross(const Triple& a, const Triple& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 };
 
 using PackTriple = Triple<Pack>;

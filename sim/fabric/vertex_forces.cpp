@@ -10,10 +10,7 @@
 namespace sim {
 
 /// Newton's last move, as far as contact has been looked at before it [cm].
-Vec3 VertexSolver::solvedMove(int vertex) const
-{
-    return hasMovedSinceLook_ ? system_.move(vertex) : Vec3::Zero().eval();
-}
+Vec3 VertexSolver::solvedMove(int vertex) const { return hasMovedSinceLook_ ? system_.move(vertex) : Vec3::Zero().eval(); }
 
 /// Gradient of a pair of fabric by its separation [dyn]: contact is so stiff that where a move did not come quite as far as Newton's
 /// the force at the state is another than the one it reckoned with.

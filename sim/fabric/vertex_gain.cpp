@@ -27,8 +27,8 @@ double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricSt
     if (isDriven_) return startEnergies_.total() + workFromOutside(energyChanges(h, gravity, state));
     if (!loads_) return startEnergies_.total();
     return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
-        return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
-    });
+                                        return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
+                                    });
 }
 
 /// Kinetic energy of a motion, or of one that is not felt [erg].

@@ -29,8 +29,7 @@ SolidGuard::Limited VertexSolver::keepFromSolids(const FabricState& state)
     if (guard_.empty() || !forces_) return guard_.limit(state.x, mass_, move_, guarded_);
     unguarded_ = move_;
     const SolidGuard::Limited limited = guard_.limit(state.x, mass_, move_, guarded_);
-    if (limited == SolidGuard::Limited::Changed)
-        parallelFor(move_.size(), 4096, [&](std::size_t v) { guardMove_[v] += move_[v] - unguarded_[v]; });
+    if (limited == SolidGuard::Limited::Changed) parallelFor(move_.size(), 4096, [&](std::size_t v) { guardMove_[v] += move_[v] - unguarded_[v]; });
     return limited;
 }
 

@@ -53,14 +53,18 @@ void VertexSystem::copyPairs(const ActiveContacts* contacts)
         const ActiveContacts& c = *contacts;
         const Vec3& normal = c.normal[n];
         PairBlock& pair = pairs_[n];
-        pair = {{normal.x(), normal.y(), normal.z(), 0.0}, c.weights[n], c.vertices[n], c.stiffness[n] - c.frictionStiffness[n],
-                c.frictionStiffness[n], c.firstSide[n], {}};
+        pair = {{normal.x(), normal.y(), normal.z(), 0.0},
+                c.weights[n],
+                c.vertices[n],
+                c.stiffness[n] - c.frictionStiffness[n],
+                c.frictionStiffness[n],
+                c.firstSide[n],
+                {}};
         for (int which = 0; which < 2; ++which) {
             const Side side = sideOf(pair.firstSide, which);
             const int first = pair.vertices[side.begin], last = pair.vertices[side.end - 1];
             const int apart = std::abs(unknowns_.slot[first] - unknowns_.slot[last]), size = side.end - side.begin;
-            pair.inStrands[which] =
-                unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) && (size == 1 || (size == 2 && apart == kNextVertex));
+            pair.inStrands[which] = unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) && (size == 1 || (size == 2 && apart == kNextVertex));
         }
     });
 }

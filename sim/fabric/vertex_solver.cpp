@@ -17,25 +17,25 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-2;         ///< of the linear solves, relative: looser ones act as damping (fabric/README.md, Linear solve) [-]
-constexpr double kMoveTolerance = 0.05;       ///< rms error of moves beyond which none is [radii] …
-constexpr double kBearable = 0.05;            ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
-constexpr double kRoundings = 4.0;            ///< of places in a step: slower motion is none [-]
-constexpr double kLeftAtContact = 0.3;        ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
-constexpr double kQuietAcceleration = 0.25;   ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
-constexpr double kExpectedMove = 0.3;         ///< farthest that forces are expected to move a vertex against its free flight [radii]
-constexpr double kExpectedTurn = 0.1;         ///< farthest that twist angles are expected to go on as they did [rad]
-constexpr double kLastMove = 0.1;             ///< rms move of a Newton iteration that may be the last [radii]
-constexpr double kSettledMove = 0.25;         ///< rms move of one after which a step needs no halves [radii] …
-constexpr double kSmallMove = 0.03;           ///< … or this small, where moves do not become smaller [radii]
-constexpr double kContraction = 0.5;          ///< from one iteration's move to the next [-]
-constexpr int kMostNewton = 6;                ///< iterations to get there; more ask for halves
-constexpr double kFrictionError = 0.05;       ///< with which a step may end: more sticks where it should slide [-] …
-constexpr double kFeltFriction = 0.2;         ///< … and below which friction is too little to matter [feltAcceleration]
-constexpr double kFractionTwice = 0.95;       ///< less than this of the moves taken twice running …
-constexpr double kFractionOnce = 0.7;         ///< … or than this once asks for halves [-]
-constexpr int kDrivenHalvings = 2;            ///< of steps in which something drives the fabric, at least as many as these may be made
-constexpr int kMaxListBuilds = 25;            ///< per attempt; more ask for halves
+constexpr double kTolerance = 1.0e-2;        ///< of the linear solves, relative: looser ones act as damping (fabric/README.md, Linear solve) [-]
+constexpr double kMoveTolerance = 0.05;      ///< rms error of moves beyond which none is [radii] …
+constexpr double kBearable = 0.05;           ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
+constexpr double kRoundings = 4.0;           ///< of places in a step: slower motion is none [-]
+constexpr double kLeftAtContact = 0.3;       ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
+constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
+constexpr double kExpectedMove = 0.3;        ///< farthest that forces are expected to move a vertex against its free flight [radii]
+constexpr double kExpectedTurn = 0.1;        ///< farthest that twist angles are expected to go on as they did [rad]
+constexpr double kLastMove = 0.1;            ///< rms move of a Newton iteration that may be the last [radii]
+constexpr double kSettledMove = 0.25;        ///< rms move of one after which a step needs no halves [radii] …
+constexpr double kSmallMove = 0.03;          ///< … or this small, where moves do not become smaller [radii]
+constexpr double kContraction = 0.5;         ///< from one iteration's move to the next [-]
+constexpr int kMostNewton = 6;               ///< iterations to get there; more ask for halves
+constexpr double kFrictionError = 0.05;      ///< with which a step may end: more sticks where it should slide [-] …
+constexpr double kFeltFriction = 0.2;        ///< … and below which friction is too little to matter [feltAcceleration]
+constexpr double kFractionTwice = 0.95;      ///< less than this of the moves taken twice running …
+constexpr double kFractionOnce = 0.7;        ///< … or than this once asks for halves [-]
+constexpr int kDrivenHalvings = 2;           ///< of steps in which something drives the fabric, at least as many as these may be made
+constexpr int kMaxListBuilds = 25;           ///< per attempt; more ask for halves
 constexpr int kMaxLinearIterations = 1000;
 constexpr double kMuchGain = 0.1;  ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
 
@@ -73,7 +73,8 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
     loads_ = loads.onVertices;
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
-    feltAcceleration_ = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
+    feltAcceleration_ = feltAcceleration(
+        gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
     placeRounding_ = std::numeric_limits<double>::epsilon() * farthest;
     if (cohesion_) cohesion_->takeUp(state.absorbed);
@@ -132,9 +133,8 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
 /// Weighted by mass.
 double VertexSolver::rmsInRadii(std::span<const Vec3> move) const
 {
-    const double sum = parallelSum(move.size(), [&](std::size_t v) {
-        return fabric_.mass[v] * move[v].squaredNorm() / (fabric_.radius[v] * fabric_.radius[v]);
-    });
+    const double sum =
+        parallelSum(move.size(), [&](std::size_t v) { return fabric_.mass[v] * move[v].squaredNorm() / (fabric_.radius[v] * fabric_.radius[v]); });
     return std::sqrt(sum / totalMass_);
 }
 
@@ -182,9 +182,8 @@ bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, F
     if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
 
     if (!followSolids(t, h, isLast, state, report, clock)) return false;
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
-        state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn);
-    });
+    parallelFor(freeAngle_.size(), 4096,
+                [&](std::size_t e) { state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn); });
     turnHeldEdges(t + h, state);
     return true;
 }

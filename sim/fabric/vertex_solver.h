@@ -41,10 +41,10 @@ class VertexSolver final : public FabricIntegrator {
     /// The Newton iterations of one attempt so far.
     struct Newton {
         int count = 0;
-        double firstEnergy = 0.0;                ///< LinearReport::firstEnergy of the first [erg]
-        double lastMove = 0.0;                   ///< rms [radii]
-        double wanted = 0.0, taken = 0.0;        ///< moves squared, and what the limiter left of them, by mass [g cm^2]
-        double gain = 0.0;                       ///< where it ended [-]
+        double firstEnergy = 0.0;          ///< LinearReport::firstEnergy of the first [erg]
+        double lastMove = 0.0;             ///< rms [radii]
+        double wanted = 0.0, taken = 0.0;  ///< moves squared, and what the limiter left of them, by mass [g cm^2]
+        double gain = 0.0;                 ///< where it ended [-]
         bool isSettled = false, isNear = false, isQuiet = false;
     };
 
@@ -97,11 +97,11 @@ class VertexSolver final : public FabricIntegrator {
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
     SolidGuard guard_;
-    FabricGroups groups_;                        ///< of the step under way …
-    std::vector<Vec3> momentum_;                 ///< … and of each piece, at its start [g cm/s]
-    std::vector<Vec3> missing_, groupInertia_;   ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
-    std::vector<Vec3> restReference_;            ///< of each yarn edge
-    std::vector<int> nearestPin_;                ///< of each vertex (nearestPins)
+    FabricGroups groups_;                       ///< of the step under way …
+    std::vector<Vec3> momentum_;                ///< … and of each piece, at its start [g cm/s]
+    std::vector<Vec3> missing_, groupInertia_;  ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
+    std::vector<Vec3> restReference_;           ///< of each yarn edge
+    std::vector<int> nearestPin_;               ///< of each vertex (nearestPins)
 
     mutable ElasticEnergies elastic_;
     const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …
@@ -110,7 +110,7 @@ class VertexSolver final : public FabricIntegrator {
     GuardReport guarded_;                        ///< … likewise
     bool guardActed_ = false;                    ///< in the last move: solids took a hand in it …
     std::vector<Vec3> guardMove_, unguarded_;    ///< … of each vertex, where forces are wanted: what they made of it, and the move before [cm]
-    std::vector<Vec3> wholeMove_;  ///< move_ of the whole step, while it is made in halves [cm]
+    std::vector<Vec3> wholeMove_;                ///< move_ of the whole step, while it is made in halves [cm]
     const LiquidLoads* loads_ = nullptr;         ///< of the step under way
     double wholeStep_ = 0.0;                     ///< its length [s]
     double placeRounding_ = 0.0;                 ///< by which places of the step under way are rounded [cm]

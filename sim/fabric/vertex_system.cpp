@@ -8,7 +8,10 @@
 namespace sim {
 
 VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
-    : fabric_(fabric), rods_(fabric, restState(fabric), settings), shells_(fabric, settings), unknowns_(fabric, rods_.layout(), shells_),
+    : fabric_(fabric),
+      rods_(fabric, restState(fabric), settings),
+      shells_(fabric, settings),
+      unknowns_(fabric, rods_.layout(), shells_),
       cloth_(shells_.matrix())
 {
     strands_.resize(rods_.layout());

@@ -15,7 +15,7 @@ struct VertexUnknowns {
     VertexUnknowns(const Fabric& fabric, const StrandLayout& layout, const Shells& shells);
 
     bool isOnStrand(int vertex) const { return slot[vertex] < strandSize; }
-    int row(int vertex) const { return slot[vertex] / kLanes; }    ///< of a vertex on a strand, in its StrandMatrix
+    int row(int vertex) const { return slot[vertex] / kLanes; }  ///< of a vertex on a strand, in its StrandMatrix
     int lane(int vertex) const { return slot[vertex] % kLanes; }
 
     std::vector<int> slot;       ///< of each vertex: its x; y and z stand kLanes and 2 kLanes further

@@ -10,8 +10,8 @@
 
 namespace sim {
 
-inline constexpr int kBlockEdge = 8;                                        ///< cells per block edge
-inline constexpr int kBlockCells = kBlockEdge * kBlockEdge * kBlockEdge;    ///< 512
+inline constexpr int kBlockEdge = 8;                                      ///< cells per block edge
+inline constexpr int kBlockCells = kBlockEdge * kBlockEdge * kBlockEdge;  ///< 512
 
 /// Index of cell (i, j, k), each 0..7, in the arrays of a block: x fastest. Nodes and lower faces share it.
 constexpr int cellInBlock(int i, int j, int k) { return (k * kBlockEdge + j) * kBlockEdge + i; }
@@ -27,8 +27,8 @@ class BlockGrid {
     static constexpr int kNone = -1;
     static constexpr int kMaxCoordinate = 1 << 20;  ///< block coordinates lie in [−2^20, 2^20)
 
-    double dx = 1.0;                      ///< cell size [cm]
-    Vec3 origin = Vec3::Zero();           ///< lower corner of cell (0, 0, 0) [cm]
+    double dx = 1.0;             ///< cell size [cm]
+    Vec3 origin = Vec3::Zero();  ///< lower corner of cell (0, 0, 0) [cm]
 
     int count() const { return static_cast<int>(coords_.size()); }
     const Vec3i& coords(int block) const { return coords_[block]; }
@@ -50,8 +50,8 @@ class BlockGrid {
  private:
     std::vector<Vec3i> coords_;
     std::vector<std::array<int, 27>> neighbours_;
-    std::vector<std::uint64_t> keys_;     ///< open-addressing hash table of the coordinates …
-    std::vector<int> values_;             ///< … to block numbers; size a power of two
+    std::vector<std::uint64_t> keys_;  ///< open-addressing hash table of the coordinates …
+    std::vector<int> values_;          ///< … to block numbers; size a power of two
 };
 
 /// kKinds numbers for each cell of each block: block-major, so that one block is one contiguous piece. There is one

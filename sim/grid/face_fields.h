@@ -31,9 +31,9 @@ class BlockBits {
 struct FaceFields {
     static constexpr int kMass = 0, kMomentum = 3;  ///< kinds of `sums`
 
-    BlockArray<double, 6> sums;         ///< mass [g] and momentum [g cm/s] of each face
-    BlockArray<double, 3> velocity;     ///< [cm/s]
-    BlockBits<3> valid;                 ///< faces whose velocity means something
+    BlockArray<double, 6> sums;      ///< mass [g] and momentum [g cm/s] of each face
+    BlockArray<double, 3> velocity;  ///< [cm/s]
+    BlockBits<3> valid;              ///< faces whose velocity means something
 };
 
 }  // namespace sim

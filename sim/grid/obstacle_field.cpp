@@ -146,8 +146,7 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
                 const Vec3 center = corner + grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
                 const double distance = distanceAcrossSeams(obstacles, center, kExactDistance * grid.dx);
                 centerDistance_.block(slot)[cell] = std::min(distance, kExactDistance * grid.dx);
-                owner_.block(slot)[cell] =
-                    static_cast<std::uint16_t>(distance < kExactDistance * grid.dx ? obstacles.nearest(center) : 0);
+                owner_.block(slot)[cell] = static_cast<std::uint16_t>(distance < kExactDistance * grid.dx ? obstacles.nearest(center) : 0);
                 for (int a = 0; a < kAxes; ++a) {
                     double open = faces.open(a, i, j, k);
                     if (open > 0.0 && isWallBetween(grid, obstacles, center, distance, a)) open = 0.0;

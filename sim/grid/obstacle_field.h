@@ -60,13 +60,13 @@ class ObstacleField {
     void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
     void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
 
-    std::vector<int> slot_, oldSlot_;       ///< per block, the empty block included
+    std::vector<int> slot_, oldSlot_;  ///< per block, the empty block included
     std::vector<int> nearSolid_;
-    bool anyMoved_ = false;                 ///< until then wallVelocity_ holds the open slot only
+    bool anyMoved_ = false;  ///< until then wallVelocity_ holds the open slot only
     std::vector<int> freeSlots_;
     std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
-    std::vector<int> toCompute_;            ///< blocks
-    std::vector<RoomScratch> roomScratch_;  ///< of each worker
+    std::vector<int> toCompute_;                 ///< blocks
+    std::vector<RoomScratch> roomScratch_;       ///< of each worker
     int slotCount_ = 0;
     bool isFolded_ = false, mirrors_ = false;
     BlockArray<double, 3> open_, room_, folded_, wallVelocity_;

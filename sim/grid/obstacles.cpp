@@ -87,10 +87,7 @@ bool Obstacles::reach(const Vec3& x, double halfEdge, double within, Which which
     });
 }
 
-int Obstacles::nearest(const Vec3& x) const
-{
-    return count() == 1 ? 0 : static_cast<int>(nearestBody(x) - bodies_.data());
-}
+int Obstacles::nearest(const Vec3& x) const { return count() == 1 ? 0 : static_cast<int>(nearestBody(x) - bodies_.data()); }
 
 const Obstacles::Body* Obstacles::nearestBody(const Vec3& x) const
 {
@@ -112,8 +109,8 @@ Vec3 Obstacles::normal(const Vec3& x) const
     return body == nullptr ? Vec3::Zero() : Vec3(body->now.linear() * body->shape.normal(body->toShape * x));
 }
 
-constexpr double kLeastStride = 1.0e-4;  ///< of a search along a path, whose length stays finite in steps that fail [lengths of the path]
-constexpr double kBarelyInside = 1.0e-3;    ///< as little in a solid is on its surface [resolutions]
+constexpr double kLeastStride = 1.0e-4;   ///< of a search along a path, whose length stays finite in steps that fail [lengths of the path]
+constexpr double kBarelyInside = 1.0e-3;  ///< as little in a solid is on its surface [resolutions]
 
 /// start(body): where the path starts, in the space of the body's shape.
 template <class Start>

@@ -26,14 +26,14 @@ class Obstacles {
     bool anyMoving() const { return anyMoving_; }        ///< in the step of the last call of those
     bool anyDisplaced() const { return anyDisplaced_; }  ///< … or in the step before it
 
-    double distance(const Vec3& x) const;          ///< to the nearest solid [cm], negative inside; infinite without any
+    double distance(const Vec3& x) const;  ///< to the nearest solid [cm], negative inside; infinite without any
     enum class Which { All, Displaced };
     /// Does a solid come nearer than `within` to some place of the cube around x [cm]? Rather yes than no: as if it were a ball, and for meshes
     /// a little more.
     bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
-    int nearest(const Vec3& x) const;              ///< number of the nearest solid, in the order of add; there must be one
-    Vec3 normal(const Vec3& x) const;              ///< out of the nearest solid
-    Vec3 velocity(const Vec3& x) const;            ///< of the nearest solid's material point at x [cm/s]
+    int nearest(const Vec3& x) const;    ///< number of the nearest solid, in the order of add; there must be one
+    Vec3 normal(const Vec3& x) const;    ///< out of the nearest solid
+    Vec3 velocity(const Vec3& x) const;  ///< of the nearest solid's material point at x [cm/s]
 
     /// Where a path first meets a solid, and on which side.
     struct Contact {
@@ -73,8 +73,8 @@ class Obstacles {
     /// Plane walls of resting boxes that hold everything: the solid fills all beyond coordinate `at` along `axis`.
     struct Wall {
         int axis;
-        double at;    ///< [cm]
-        bool above;   ///< the solid is on the upper side
+        double at;   ///< [cm]
+        bool above;  ///< the solid is on the upper side
     };
     const std::vector<Wall>& planeWalls() const { return walls_; }
 
@@ -84,8 +84,8 @@ class Obstacles {
         Motion motion;
         Eigen::Isometry3d now, toShape;
         Eigen::Isometry3d other;  ///< at the other end of the step
-        bool moving = false;     ///< in this step
-        bool displaced = false;  ///< in this step or the one before
+        bool moving = false;      ///< in this step
+        bool displaced = false;   ///< in this step or the one before
     };
     const Body* nearestBody(const Vec3& x) const;
     template <class Start>

@@ -102,16 +102,14 @@ void findSurface(const BlockGrid& grid, const ObstacleField& obstacles, LiquidGr
     parallelFor(grid.count(), 16, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         const BitAccess access(grid, b);
-        for (int k = 0; k < kBlockEdge; ++k)
-            liquid.surface.block(b)[k] = liquid.inside.block(b)[k] & besideAny(access, dry, k);
+        for (int k = 0; k < kBlockEdge; ++k) liquid.surface.block(b)[k] = liquid.inside.block(b)[k] & besideAny(access, dry, k);
     });
     std::fill_n(dry.block(grid.count()), BlockBits<>::kWords, 0);
     parallelFor(grid.count(), 16, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         const BitAccess access(grid, b);
         for (int k = 0; k < kBlockEdge; ++k)
-            liquid.deep.block(b)[k] =
-                liquid.inside.block(b)[k] & ~(liquid.surface.block(b)[k] | besideAny(access, liquid.surface, k));
+            liquid.deep.block(b)[k] = liquid.inside.block(b)[k] & ~(liquid.surface.block(b)[k] | besideAny(access, liquid.surface, k));
     });
 }
 
@@ -121,8 +119,7 @@ std::size_t countLiquidCells(const BlockGrid& grid, const LiquidGrid& liquid)
         grid.count(), std::size_t{0},
         [&](std::size_t b) {
             std::size_t count = 0;
-            for (int k = 0; k < kBlockEdge; ++k)
-                count += static_cast<std::size_t>(std::popcount(liquid.inside.block(static_cast<int>(b))[k]));
+            for (int k = 0; k < kBlockEdge; ++k) count += static_cast<std::size_t>(std::popcount(liquid.inside.block(static_cast<int>(b))[k]));
             return count;
         },
         std::plus<>());

@@ -33,25 +33,20 @@ Pack rowAt(const BlockArray<double, kKinds>& field, int kind, const int* neighbo
 
 /// The same one cell to the left (side −1) or right (+1).
 template <int kKinds>
-Pack rowBeside(const BlockArray<double, kKinds>& field, int kind, const int* neighbours, int side, int j, int k,
-               Pack row)
+Pack rowBeside(const BlockArray<double, kKinds>& field, int kind, const int* neighbours, int side, int j, int k, Pack row)
 {
-    const Pack next =
-        loadPack(field.block(neighbours[neighbourIndex(side, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
+    const Pack next = loadPack(field.block(neighbours[neighbourIndex(side, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
     return side < 0 ? shiftRight(next, row) : shiftLeft(row, next);
 }
 
-PackMask rowBits(std::uint64_t word, int j)
-{
-    return maskOfBits(word >> (j * kBlockEdge));
-}
+PackMask rowBits(std::uint64_t word, int j) { return maskOfBits(word >> (j * kBlockEdge)); }
 
 /// Values below and above the cells of a row; a wall in the way mirrors.
 struct Sides {
     Pack below, above;
 };
-Sides sidesOf(const BlockArray<double>& field, const BlockBits<>* wall, const RowAccess& rows, const BitAccess& bits,
-              int axis, int j, int k, Pack own)
+Sides sidesOf(const BlockArray<double>& field, const BlockBits<>* wall, const RowAccess& rows, const BitAccess& bits, int axis, int j, int k,
+              Pack own)
 {
     Sides sides{rows.below(field, 0, axis, j, k), rows.above(field, 0, axis, j, k)};
     if (!wall) return sides;
@@ -110,9 +105,7 @@ void Curvature::fitTo(const BlockGrid& grid)
     coords_.clear();
     for (const Vec3i& c : liquidCoords_)
         for (int n = 0; n < 27; ++n) coords_.push_back(c + Vec3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
-    const auto before = [](const Vec3i& a, const Vec3i& b) {
-        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-    };
+    const auto before = [](const Vec3i& a, const Vec3i& b) { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end()); };
     std::sort(coords_.begin(), coords_.end(), before);
     coords_.erase(std::unique(coords_.begin(), coords_.end()), coords_.end());
     band_.setBlocks(coords_);
@@ -136,8 +129,7 @@ void Curvature::fitTo(const BlockGrid& grid)
 void Curvature::takeFill(const ObstacleField& obstacles, const LiquidGrid& liquid)
 {
     const auto forEachBlock = [&](auto&& body) {
-        parallelFor(static_cast<std::size_t>(band_.count()), 4,
-                    [&](std::size_t b) { body(static_cast<int>(b), liquidBlock_[b]); });
+        parallelFor(static_cast<std::size_t>(band_.count()), 4, [&](std::size_t b) { body(static_cast<int>(b), liquidBlock_[b]); });
     };
     const auto isThere = [](int from) { return from != BlockGrid::kNone; };
     forEachBlock([&](int b, int from) {
@@ -161,16 +153,13 @@ void Curvature::takeFill(const ObstacleField& obstacles, const LiquidGrid& liqui
         }
     });
     forEachBlock([&](int b, int) {
-        for (BlockBits<>* bits : {&known_, &fresh_, &beside_, &around_})
-            std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
+        for (BlockBits<>* bits : {&known_, &fresh_, &beside_, &around_}) std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
     });
 }
 
 void Curvature::findActive()
 {
-    const auto any = [](const std::uint64_t* words) {
-        return std::any_of(words, words + kBlockEdge, [](std::uint64_t w) { return w != 0; });
-    };
+    const auto any = [](const std::uint64_t* words) { return std::any_of(words, words + kBlockEdge, [](std::uint64_t w) { return w != 0; }); };
     std::fill(isActive_.begin(), isActive_.end(), std::uint8_t{0});
     active_.clear();
     hasWalls_ = false;
@@ -195,8 +184,7 @@ void Curvature::smoothOnce()
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const Pack own = rows.row(colour_, 0, j, k);
                     const Sides sides = sidesOf(colour_, wall, rows, bits, a, j, k, own);
-                    storePack(other_.block(b) + cellInBlock(0, j, k),
-                              kSide * (sides.below + sides.above) + kMiddle * own);
+                    storePack(other_.block(b) + cellInBlock(0, j, k), kSide * (sides.below + sides.above) + kMiddle * own);
                 }
         });
         colour_.swap(other_);
@@ -225,8 +213,7 @@ void Curvature::mirrorAtWalls(Take&& take)
 {
     if (!hasWalls_) return;
     parallelFor(static_cast<std::size_t>(band_.count()), 8, [&](std::size_t b) {
-        for (int k = 0; k < kBlockEdge; ++k)
-            known_.block(static_cast<int>(b))[k] = ~wall_.block(static_cast<int>(b))[k];
+        for (int k = 0; k < kBlockEdge; ++k) known_.block(static_cast<int>(b))[k] = ~wall_.block(static_cast<int>(b))[k];
     });
     for (int sweep = 0; sweep < kAxes; ++sweep) {
         forEachActive([&](int b) {
@@ -281,15 +268,13 @@ void Curvature::findNormals()
                 storePack(normal_.block(b, 2) + row, scale * slope.z);
             }
     });
-    mirrorAtWalls(
-        [&](const CellRef& cell, const std::array<CellRef, 6>& front, int count, const std::array<int, 6>& axes) {
-            for (int a = 0; a < kAxes; ++a) {
-                double sum = 0.0;
-                for (int i = 0; i < count; ++i)
-                    sum += (axes[i] == a ? -1.0 : 1.0) * normal_.block(front[i].block, a)[front[i].cell];
-                normal_.block(cell.block, a)[cell.cell] = sum / count;
-            }
-        });
+    mirrorAtWalls([&](const CellRef& cell, const std::array<CellRef, 6>& front, int count, const std::array<int, 6>& axes) {
+        for (int a = 0; a < kAxes; ++a) {
+            double sum = 0.0;
+            for (int i = 0; i < count; ++i) sum += (axes[i] == a ? -1.0 : 1.0) * normal_.block(front[i].block, a)[front[i].cell];
+            normal_.block(cell.block, a)[cell.cell] = sum / count;
+        }
+    });
 }
 
 void Curvature::findDivergence()
@@ -326,8 +311,7 @@ double Curvature::between(int block, const Vec3i& liquidCell, const Vec3i& airCe
     // A liquid cell's middle may be half a cell above the surface.
     CellRef outer = at(airCell), inner = at(liquidCell);
     const CellRef next = at(liquidCell + inwards);
-    if (colour(inner) < 0.5 && colour(next) > colour(inner) && !wall_.test(next.block, next.cell))
-        outer = std::exchange(inner, next);
+    if (colour(inner) < 0.5 && colour(next) > colour(inner) && !wall_.test(next.block, next.cell)) outer = std::exchange(inner, next);
     const double step = colour(inner) - colour(outer);
     const double way = step > 0.0 ? std::clamp((0.5 - colour(outer)) / step, 0.0, 1.0) : 0.5;
     constexpr double kLargest = 2.0;

@@ -43,7 +43,7 @@ class Curvature {
     BlockGrid band_;  ///< the liquid's blocks and all around them
     std::vector<Vec3i> liquidCoords_, coords_;
     std::vector<int> liquidBlock_, bandBlock_;  ///< of each block of the one grid its number in the other
-    std::vector<int> active_;  ///< blocks at most one away from the surface; the others are not smoothed
+    std::vector<int> active_;                   ///< blocks at most one away from the surface; the others are not smoothed
     std::vector<std::uint8_t> isActive_;
     bool hasWalls_ = false;
     BlockBits<> wall_;                            ///< cells amid obstacles

@@ -12,8 +12,9 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity)
         const double mass = particles.mass[p];
         return WeightSums{-mass * (gravity.x() * particles.x[0][p] + gravity.y() * particles.x[1][p] + gravity.z() * particles.x[2][p]), mass};
     };
-    return parallelReduce(particles.count, WeightSums{0.0, 0.0}, weight,
-                          [](WeightSums a, WeightSums b) { return WeightSums{a.potential + b.potential, a.mass + b.mass}; });
+    return parallelReduce(particles.count, WeightSums{0.0, 0.0}, weight, [](WeightSums a, WeightSums b) {
+        return WeightSums{a.potential + b.potential, a.mass + b.mass};
+    });
 }
 
 double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration)

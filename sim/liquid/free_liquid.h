@@ -14,20 +14,20 @@ struct FreeLiquid {
         Vec3 sum = Vec3::Zero();   ///< of mass and value of the faces [g times the value's unit]
         bool isHeld = false;       ///< a solid is on one of its faces, or what else was told
     };
-    BlockBits<3> unheld;            ///< faces on which there is nothing that holds liquid
-    BlockBits<3> bare;              ///< faces without fabric, of steps with fabric in liquid
-    std::vector<Body> bodies;       ///< by their number among all components
-    std::vector<Body> ofBlock;      ///< sums over blocks that belong to one body
+    BlockBits<3> unheld;        ///< faces on which there is nothing that holds liquid
+    BlockBits<3> bare;          ///< faces without fabric, of steps with fabric in liquid
+    std::vector<Body> bodies;   ///< by their number among all components
+    std::vector<Body> ofBlock;  ///< sums over blocks that belong to one body
     /// What holds a body.
     struct Holder {
         Vec3 velocity = Vec3::Zero();  ///< its mean over the faces of the body that solids are on [cm/s]; until all are known, their sum
         int faces = 0;
     };
-    std::vector<Holder> holders;    ///< of the bodies
-    std::vector<Vec3> frames;       ///< velocities of what holds the liquid of each block, and of the next blocks where it has none [cm/s]
-    BlockBits<> inHeld, inFree;     ///< cells of bodies that something holds, and of others
-    BlockBits<> held;               ///< cells in and beside those that something holds, but not in others
-    BlockArray<double, 3> change;   ///< of velocities, by what acts within the liquid [cm/s]
+    std::vector<Holder> holders;   ///< of the bodies
+    std::vector<Vec3> frames;      ///< velocities of what holds the liquid of each block, and of the next blocks where it has none [cm/s]
+    BlockBits<> inHeld, inFree;    ///< cells of bodies that something holds, and of others
+    BlockBits<> held;              ///< cells in and beside those that something holds, but not in others
+    BlockArray<double, 3> change;  ///< of velocities, by what acts within the liquid [cm/s]
 };
 
 /// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.

@@ -11,9 +11,8 @@ void GainAtWalls::begin(const ObstacleField& field, const BlockArray<double, 3>&
 {
     const std::vector<int>& blocks = field.blocksNearSolid();
     before_.resize(static_cast<int>(blocks.size()));
-    parallelFor(blocks.size(), 4, [&](std::size_t n) {
-        std::copy_n(velocity.block(blocks[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n)));
-    });
+    parallelFor(blocks.size(), 4,
+                [&](std::size_t n) { std::copy_n(velocity.block(blocks[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n))); });
 }
 
 void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& velocity) const
@@ -24,8 +23,8 @@ void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& veloc
         const int b = blocks[n];
         double sum = 0.0;
         for (int a = 0; a < kAxes; ++a) {
-            const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a), *wall = field.wallVelocity(b, a),
-                         *u = velocity.block(b, a);
+            const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a),
+                         *wall = field.wallVelocity(b, a), *u = velocity.block(b, a);
             for (int c = 0; c < kBlockCells; ++c) {
                 if (!(open[c] > 0.0) || open[c] == room[c] || u[c] == before[c]) continue;
                 if (wall[c] != 0.0) return std::numeric_limits<double>::infinity();
@@ -38,7 +37,8 @@ void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& veloc
     parallelFor(blocks.size(), 4, [&](std::size_t n) {
         const int b = blocks[n];
         for (int a = 0; a < kAxes; ++a) {
-            const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a), *wall = field.wallVelocity(b, a);
+            const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a),
+                         *wall = field.wallVelocity(b, a);
             double* u = velocity.block(b, a);
             for (int row = 0; row < kBlockCells; row += kLanes) {
                 const Pack opened = loadPack(open + row), roomed = loadPack(room + row), w = loadPack(wall + row), after = loadPack(u + row);

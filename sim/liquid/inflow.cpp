@@ -44,8 +44,7 @@ void appendShares(const BlockGrid& grid, const LiquidGrid& liquid, const Inflow&
         const Vec3 place(c.cell % kBlockEdge, c.cell / kBlockEdge % kBlockEdge, c.cell / (kBlockEdge * kBlockEdge));
         c.rate = shareOf(inflow.mouth, grid.lowerCorner(c.block) + grid.dx * (place + Vec3::Constant(0.5)), grid.dx);
     });
-    cells.erase(std::remove_if(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(),
-                               [](const InflowCell& c) { return !(c.rate > 0.0); }),
+    cells.erase(std::remove_if(cells.begin() + static_cast<std::ptrdiff_t>(begin), cells.end(), [](const InflowCell& c) { return !(c.rate > 0.0); }),
                 cells.end());
 }
 

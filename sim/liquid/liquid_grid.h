@@ -8,17 +8,17 @@ namespace sim {
 /// The liquid's fields on the grid during a step. All of it is computed anew from the particles.
 struct LiquidGrid {
     FaceFields faces;
-    BlockBits<3> wet;                    ///< faces that carry liquid mass
-    BlockArray<double, 3> advected;      ///< velocities straight after P2G, of FLIP and of steps that reflect [cm/s] …
-    BlockBits<3> advectedValid;          ///< … and where they mean something
-    BlockArray<double, 3> unpressed;     ///< velocities when weight and viscosity have acted, but not yet pressure and surface tension [cm/s]
-    BlockArray<double, 3> weightless;    ///< mass of each face near plane walls that images behind them hold against weight [g]
-    double fullMass = 1.0;               ///< of a face with all its room, amid liquid [g]
-    double pitch = 0.5;                  ///< of the particles' lattice [cells]
-    BlockArray<double> fill;             ///< liquid in and around each cell relative to a cell amid liquid [-]
-    BlockBits<> inside;                  ///< cells with a pressure
-    BlockBits<> surface;                 ///< those of them beside air
-    BlockBits<> deep;                    ///< those that are neither at the surface nor beside it
+    BlockBits<3> wet;                  ///< faces that carry liquid mass
+    BlockArray<double, 3> advected;    ///< velocities straight after P2G, of FLIP and of steps that reflect [cm/s] …
+    BlockBits<3> advectedValid;        ///< … and where they mean something
+    BlockArray<double, 3> unpressed;   ///< velocities when weight and viscosity have acted, but not yet pressure and surface tension [cm/s]
+    BlockArray<double, 3> weightless;  ///< mass of each face near plane walls that images behind them hold against weight [g]
+    double fullMass = 1.0;             ///< of a face with all its room, amid liquid [g]
+    double pitch = 0.5;                ///< of the particles' lattice [cells]
+    BlockArray<double> fill;           ///< liquid in and around each cell relative to a cell amid liquid [-]
+    BlockBits<> inside;                ///< cells with a pressure
+    BlockBits<> surface;               ///< those of them beside air
+    BlockBits<> deep;                  ///< those that are neither at the surface nor beside it
 
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.
     double* scratch(int block, int kind = 0) { return faces.sums.block(block, FaceFields::kMomentum + kind); }

@@ -72,9 +72,8 @@ void LiquidOnSolids::beforeViscosity(const BlockArray<double, 3>& velocity)
 {
     clearOthers();
     before_.resize(static_cast<int>(blocks_.size()));
-    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
-        std::copy_n(velocity.block(blocks_[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n)));
-    });
+    parallelFor(blocks_.size(), 4,
+                [&](std::size_t n) { std::copy_n(velocity.block(blocks_[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n))); });
 }
 
 double LiquidOnSolids::afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid)
@@ -178,8 +177,7 @@ void LiquidOnSolids::addRow(const BlockGrid& grid, const ObstacleField& field, s
         const CellRef below = cellBeside(grid, b, c, axis, -1);
         const bool isOwn = field.centerDistance(b)[c] <= field.centerDistance(below.block)[below.cell];
         const Vec3 at = x + grid.dx * i * Vec3::UnitX();
-        add(isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at,
-            work[i]);
+        add(isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at, work[i]);
     }
 }
 

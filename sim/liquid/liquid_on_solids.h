@@ -40,24 +40,24 @@ class LiquidOnSolids {
 
     /// What acted on the faces of which particles then read their momentum.
     struct Outcome {
-        const BlockArray<double, 3>& velocity;             ///< that they read [cm/s]
+        const BlockArray<double, 3>& velocity;  ///< that they read [cm/s]
         const LiquidGrid& liquid;
         const PressureWorkspace& system;
-        const BlockArray<double>& pressure;                ///< [dyn/cm^2]
-        const BlockArray<double>* again;                   ///< that of a reflection [dyn/cm^2], or null
-        const BlockArray<double, 3>* flipVelocity;         ///< straight after P2G [cm/s]; null but for FLIP …
-        double flipRatio;                                  ///< … whose particles keep so much of what they had [-]
-        double perPressure;                                ///< K: of a face amid liquid by the step of the pressure [cm^2 s]
-        Vec3 fall;                                         ///< what weight made of velocities [cm/s]
+        const BlockArray<double>& pressure;         ///< [dyn/cm^2]
+        const BlockArray<double>* again;            ///< that of a reflection [dyn/cm^2], or null
+        const BlockArray<double, 3>* flipVelocity;  ///< straight after P2G [cm/s]; null but for FLIP …
+        double flipRatio;                           ///< … whose particles keep so much of what they had [-]
+        double perPressure;                         ///< K: of a face amid liquid by the step of the pressure [cm^2 s]
+        Vec3 fall;                                  ///< what weight made of velocities [cm/s]
     };
     void finish(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome);
 
     /// What a solid got, and of that what pressed on the closed part of its faces, regardless of direction, and where that is.
     struct OnSolid {
         Impulse impulse;
-        double pressed = 0.0;           ///< [g cm/s]
-        Vec3 moment = Vec3::Zero();     ///< of it [g cm^2/s]
-        double work = 0.0;              ///< of the solid, if it moves, on the liquid [erg]
+        double pressed = 0.0;        ///< [g cm/s]
+        Vec3 moment = Vec3::Zero();  ///< of it [g cm^2/s]
+        double work = 0.0;           ///< of the solid, if it moves, on the liquid [erg]
         OnSolid& operator+=(const OnSolid& other)
         {
             impulse += other.impulse;
@@ -85,14 +85,14 @@ class LiquidOnSolids {
     void finishBlock(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;
 
     int solids_ = 0;
-    std::vector<int> blocks_, place_;               ///< those near solids; of each block its place among them, or BlockGrid::kNone
-    BlockBits<> near_;                              ///< cells whose middles are near a solid
+    std::vector<int> blocks_, place_;  ///< those near solids; of each block its place among them, or BlockGrid::kNone
+    BlockBits<> near_;                 ///< cells whose middles are near a solid
     // By place, of rows with faces near one:
-    BlockArray<double, 6> brought_;                 ///< by particles: mass [g] and momentum [g cm/s] of each face
-    BlockArray<double, 3> others_;                  ///< momentum that a face got of viscous stresses and of levelled weight, less what it gave to fabric [g cm/s] …
-    BlockBits<3> shared_;                           ///< … if fabric is on it …
-    bool hasOthers_ = false;                        ///< … where there are any of both
-    BlockArray<double, 3> before_;                  ///< velocities before viscosity [cm/s]
+    BlockArray<double, 6> brought_;  ///< by particles: mass [g] and momentum [g cm/s] of each face
+    BlockArray<double, 3> others_;  ///< momentum that a face got of viscous stresses and of levelled weight, less what it gave to fabric [g cm/s] …
+    BlockBits<3> shared_;           ///< … if fabric is on it …
+    bool hasOthers_ = false;        ///< … where there are any of both
+    BlockArray<double, 3> before_;  ///< velocities before viscosity [cm/s]
     ChunkSums<OnSolid> sums_;
 };
 

@@ -72,8 +72,8 @@ struct RowFlux {
 };
 
 /// Net outflow of the cells of row (j, k), per cell face area [cm/s].
-[[gnu::always_inline]] inline Pack rowOutflow(const ObstacleField& obstacles, const BlockArray<double, 3>& velocity, const RowAccess& rows,
-                                              int j, int k)
+[[gnu::always_inline]] inline Pack rowOutflow(const ObstacleField& obstacles, const BlockArray<double, 3>& velocity, const RowAccess& rows, int j,
+                                              int k)
 {
     Pack out = broadcast(0.0);
     for (int a = 0; a < kAxes; ++a) {

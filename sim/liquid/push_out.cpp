@@ -12,9 +12,9 @@ namespace sim {
 
 namespace {
 
-constexpr int kRepeats = 2;         ///< the second for edges, and for distances that are only bounds
-constexpr double kAcrossSeams = 2.0;  ///< as far a way out of solids that touch is looked for [cells]
-constexpr int kContacts = 5;         ///< of a particle in one step: a corner has three surfaces, round ones are met again
+constexpr int kRepeats = 2;             ///< the second for edges, and for distances that are only bounds
+constexpr double kAcrossSeams = 2.0;    ///< as far a way out of solids that touch is looked for [cells]
+constexpr int kContacts = 5;            ///< of a particle in one step: a corner has three surfaces, round ones are met again
 constexpr double kResolution = 5.0e-3;  ///< of paths: thinner walls may be missed [cells]
 
 /// The nearest place outside of all solids, a little in front.
@@ -138,8 +138,8 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
 }  // namespace
 
 PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
-                          ChunkSums<Impulse>& onSolids)
+                             double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
+                             ChunkSums<Impulse>& onSolids)
 {
     const auto ofBlock = [&](std::size_t n, std::span<Impulse> impulses) {
         const int b = order.occupied[n];

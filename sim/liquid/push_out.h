@@ -14,9 +14,9 @@ inline constexpr double kPushedInFront = 0.01;
 
 /// What keeping particles outside of solids did to them.
 struct PushedOut {
-    double lost = 0.0;              ///< kinetic energy to the contacts [erg], negative where moving solids gave some
-    double work = 0.0;              ///< of the impulses of moving solids [erg]
-    Vec3 carried = Vec3::Zero();    ///< mass times displacement by moving solids [g cm]
+    double lost = 0.0;            ///< kinetic energy to the contacts [erg], negative where moving solids gave some
+    double work = 0.0;            ///< of the impulses of moving solids [erg]
+    Vec3 carried = Vec3::Zero();  ///< mass times displacement by moving solids [g cm]
 
     PushedOut operator+(const PushedOut& other) const { return {lost + other.lost, work + other.work, carried + other.carried}; }
 };
@@ -30,7 +30,7 @@ struct PushedOut {
 /// @param farthest   how far a particle can have moved since the sort [cm]
 /// @param onSolids   what each solid gets of the particles' momentum; begun anew
 PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                          double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
-                          ChunkSums<Impulse>& onSolids);
+                             double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
+                             ChunkSums<Impulse>& onSolids);
 
 }  // namespace sim

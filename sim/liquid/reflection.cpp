@@ -13,13 +13,12 @@ double reflectionTolerance(const SolverSettings& solver) { return std::min(1.0e-
 
 }  // namespace
 
-SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver,
-                    std::span<const InflowCell> inflow, PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work)
+SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
+                    PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work)
 {
     findRightHandSide(grid, obstacles, liquid, liquid.advected, inflow, work.rhs);
     work.potential.resize(grid.count());
-    parallelFor(grid.count(), 8,
-                [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
+    parallelFor(grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     const SolveReport report =
         pressure.solver.solveAgain(grid, pressure.matrix, work.rhs, reflectionTolerance(solver), solver.maxIterations, work.potential);
 

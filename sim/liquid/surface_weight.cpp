@@ -99,7 +99,8 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
 {
     std::array<double, kSurfaceColumn> mass;
     double above = 0.0;
-    for (int n = 0; n < column.size; ++n) above += mass[n] = liquid.faces.sums.block(column.face[n].block, FaceFields::kMass + axis)[column.face[n].cell];
+    for (int n = 0; n < column.size; ++n)
+        above += mass[n] = liquid.faces.sums.block(column.face[n].block, FaceFields::kMass + axis)[column.face[n].cell];
     double rest = above;
     for (int n = 0; n < column.size; ++n) {
         const auto [block, cell] = column.face[n];

@@ -32,8 +32,7 @@ double largestLane(Pack v)
 
 class ConjugateGradients {
  public:
-    ConjugateGradients(const BlockGrid& grid, ViscosityWorkspace& work, LiquidGrid& liquid)
-        : grid_(grid), work_(work), liquid_(liquid)
+    ConjugateGradients(const BlockGrid& grid, ViscosityWorkspace& work, LiquidGrid& liquid) : grid_(grid), work_(work), liquid_(liquid)
     {
         for (BlockArray<double, 3>* v : {&work.residual, &work.direction, &work.applied}) v->resize(grid.count());
         for (std::vector<double>* v : {&work.sums, &work.largest, &work.largestRhs}) v->resize(grid.count());
@@ -70,8 +69,7 @@ class ConjugateGradients {
                     const PackMask is = maskOfBits(system.unknown.block(b, a)[row >> 6] >> (row & 63));
                     const PackMask given = maskOfBits(obstacles.closed(b, a)[row >> 6] >> (row & 63));
                     const Pack other = select(given, loadPack(obstacles.wallVelocity(b, a) + row), broadcast(0.0));
-                    storePack(work_.direction.block(b, a) + row,
-                              select(is, loadPack(liquid_.faces.velocity.block(b, a) + row), other));
+                    storePack(work_.direction.block(b, a) + row, select(is, loadPack(liquid_.faces.velocity.block(b, a) + row), other));
                     storePack(work_.residual.block(b, a) + row, broadcast(0.0));
                 }
         });
@@ -80,10 +78,8 @@ class ConjugateGradients {
             Pack largest = broadcast(0.0), largestRhs = broadcast(0.0);
             system.forEachUnknownRow(b, [&](int a, int row) {
                 const PackMask is = loadPack(system.diagonal.block(b, a) + row) > 0.0;
-                Pack rhs = loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + a) + row) *
-                           loadPack(liquid_.faces.velocity.block(b, a) + row);
-                if (system.wall.size() > 0)
-                    rhs += loadPack(system.wall.block(b, a) + row) * loadPack(obstacles.wallVelocity(b, a) + row);
+                Pack rhs = loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + a) + row) * loadPack(liquid_.faces.velocity.block(b, a) + row);
+                if (system.wall.size() > 0) rhs += loadPack(system.wall.block(b, a) + row) * loadPack(obstacles.wallVelocity(b, a) + row);
                 rhs = select(is, rhs, broadcast(0.0));
                 const Pack r = rhs - loadPack(work_.applied.block(b, a) + row);
                 storePack(work_.residual.block(b, a) + row, r);
@@ -93,8 +89,7 @@ class ConjugateGradients {
             work_.largest[b] = largestLane(largest);
             work_.largestRhs[b] = largestLane(largestRhs);
         });
-        forEachBlock(grid_.count(),
-                     [&](int b) { std::fill_n(work_.direction.block(b), BlockArray<double, 3>::kStride, 0.0); });
+        forEachBlock(grid_.count(), [&](int b) { std::fill_n(work_.direction.block(b), BlockArray<double, 3>::kStride, 0.0); });
     }
 
     /// direction = multigrid applied to the residual + beta direction; returns the product of the first with the
@@ -106,9 +101,7 @@ class ConjugateGradients {
         const ViscousSystem& system = work_.system;
         forEachBlock(grid_.count(), [&](int b) {
             Pack sum = broadcast(0.0);
-            system.forEachUnknownRow(b, [&](int a, int row) {
-                sum += loadPack(work_.residual.block(b, a) + row) * loadPack(z.block(b, a) + row);
-            });
+            system.forEachUnknownRow(b, [&](int a, int row) { sum += loadPack(work_.residual.block(b, a) + row) * loadPack(z.block(b, a) + row); });
             work_.sums[b] = sumLanes(sum);
         });
         const double next = sumOf(work_.sums), beta = rho > 0.0 ? next / rho : 0.0;
@@ -128,9 +121,8 @@ class ConjugateGradients {
         forEachBlock(grid_.count(), [&](int b) {
             system.multiply(grid_, work_.direction, b, work_.applied);
             Pack sum = broadcast(0.0);
-            system.forEachUnknownRow(b, [&](int a, int row) {
-                sum += loadPack(work_.direction.block(b, a) + row) * loadPack(work_.applied.block(b, a) + row);
-            });
+            system.forEachUnknownRow(
+                b, [&](int a, int row) { sum += loadPack(work_.direction.block(b, a) + row) * loadPack(work_.applied.block(b, a) + row); });
             work_.sums[b] = sumLanes(sum);
         });
         return sumOf(work_.sums);
@@ -161,8 +153,8 @@ class ConjugateGradients {
 
 }  // namespace
 
-SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings,
-                           const SolverSettings& solver, double dt, ViscosityWorkspace& work, LiquidGrid& liquid)
+SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
+                           double dt, ViscosityWorkspace& work, LiquidGrid& liquid)
 {
     const double part = dt / settings.viscositySubsteps;
     work.system.assemble(grid, obstacles, liquid, part * settings.viscosity, settings.wallFriction);

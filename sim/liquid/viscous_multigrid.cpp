@@ -46,8 +46,7 @@ void ViscousMultigrid::buildShape(const BlockGrid& grid)
     }
     levels_.resize(l + 1);
     point(grid);
-    for (std::size_t n = 1; n < levels_.size(); ++n)
-        levels_[n - 1].toCoarser.connect(*levels_[n - 1].grid, *levels_[n].grid);
+    for (std::size_t n = 1; n < levels_.size(); ++n) levels_[n - 1].toCoarser.connect(*levels_[n - 1].grid, *levels_[n].grid);
 }
 
 void ViscousMultigrid::build(const BlockGrid& grid, const ViscousSystem& system, double stiffness)
@@ -61,8 +60,7 @@ void ViscousMultigrid::build(const BlockGrid& grid, const ViscousSystem& system,
     for (int l = 0; l < count_; ++l) {
         Level& level = levels_[l];
         const int blocks = level.grid->count();
-        for (BlockArray<double, 3>* v : {&level.solution, &level.residual, &level.direction, &level.applied})
-            v->resize(blocks);
+        for (BlockArray<double, 3>* v : {&level.solution, &level.residual, &level.direction, &level.applied}) v->resize(blocks);
         if (l + 1 == count_) break;
         Level& coarse = levels_[l + 1];
         coarse.rhs.resize(coarse.grid->count());
@@ -71,8 +69,7 @@ void ViscousMultigrid::build(const BlockGrid& grid, const ViscousSystem& system,
     }
     for (int l = 0; l < count_; ++l)
         for (BlockArray<double, 3>* v : {&levels_[l].solution, &levels_[l].residual, &levels_[l].direction})
-            forEachBlock(levels_[l].grid->count(),
-                         [&](int b) { std::fill_n(v->block(b), BlockArray<double, 3>::kStride, 0.0); });
+            forEachBlock(levels_[l].grid->count(), [&](int b) { std::fill_n(v->block(b), BlockArray<double, 3>::kStride, 0.0); });
 }
 
 /// Chebyshev's iteration for eigenvalues from `lowest` to kLargest (Saad 2003, algorithm 12.1). Leaves the residual

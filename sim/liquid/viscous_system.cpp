@@ -14,10 +14,7 @@ namespace {
 /// Faces with less of a full one's mass carry nothing that would matter, but their reciprocals might overflow.
 constexpr double kLeastMass = 1.0e-12;
 
-[[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k)
-{
-    return maskOfBits(words[k] >> (j * kBlockEdge));
-}
+[[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
 
 /// Mass and room of the unknown faces that a strain is made of.
 struct Liquid {
@@ -35,8 +32,7 @@ struct Liquid {
 /// One block with what it takes from its neighbours, faces of one axis at a time.
 class Faces {
  public:
-    Faces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockBits<3>& unknown,
-          int block)
+    Faces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockBits<3>& unknown, int block)
         : bits(grid, block), rows_(grid, block), obstacles_(obstacles), liquid_(liquid), unknown_(unknown)
     {
     }
@@ -62,9 +58,7 @@ class Faces {
         Pack m, r;
         PackMask u;
         read(rows_.neighbours[neighbourIndex(step, 0, 0)], axis, j, k, m, r, u);
-        const auto shift = [&](auto own, auto other) {
-            return step < 0 ? shiftRight(other, own) : shiftLeft(own, other);
-        };
+        const auto shift = [&](auto own, auto other) { return step < 0 ? shiftRight(other, own) : shiftLeft(own, other); };
         mass = shift(mass, m);
         room = shift(room, r);
         const Pack one = broadcast(1.0), zero = broadcast(0.0);
@@ -98,8 +92,7 @@ void findUnknowns(const ObstacleField& obstacles, const LiquidGrid& liquid, int 
             }
             unknown[k] = heavy & ~obstacles.closed(b, a)[k];
             for (int j = 0; j < kBlockEdge; ++j)
-                rows |= static_cast<std::uint64_t>((unknown[k] >> (j * kBlockEdge) & 0xff) != 0)
-                        << (k * kBlockEdge + j);
+                rows |= static_cast<std::uint64_t>((unknown[k] >> (j * kBlockEdge) & 0xff) != 0) << (k * kBlockEdge + j);
         }
         system.rows[static_cast<std::size_t>(b) * kAxes + a] = rows;
     }
@@ -114,28 +107,24 @@ void findBehind(const BlockGrid& grid, const ObstacleField& obstacles, bool stic
         for (int k = 0; k < kBlockEdge; ++k)
             for (std::uint64_t bits = system.unknown.block(b, a)[k]; bits != 0; bits &= bits - 1) {
                 const int face = k * 64 + std::countr_zero(bits);
-                if (faceDistance(grid, obstacles, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0)
-                    system.behind.set(b, face, a);
+                if (faceDistance(grid, obstacles, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0) system.behind.set(b, face, a);
             }
     }
 }
 
-void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b,
-                 ViscousSystem& system)
+void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b, ViscousSystem& system)
 {
     const Faces faces(grid, obstacles, liquid, system.unknown, b);
     const BlockBits<3>& unknown = system.unknown;
     for (int k = 0; k < kBlockEdge; ++k)
         for (int a = 0; a < kAxes; ++a) {
             const std::uint64_t own = unknown.block(b, a)[k], above = faces.bits.above(unknown, a, a, k);
-            const std::uint64_t given = system.behind.block(b, a)[k],
-                                givenAbove = faces.bits.above(system.behind, a, a, k);
+            const std::uint64_t given = system.behind.block(b, a)[k], givenAbove = faces.bits.above(system.behind, a, a, k);
             const std::uint64_t strained = (own | given) & (above | givenAbove) & (own | above);
             const int c = (a + 1) % 3, d = (a + 2) % 3;
             const auto pair = [&](int axis, int along) {
                 const std::uint64_t free = unknown.block(b, axis)[k] & ~system.behind.block(b, axis)[k];
-                return free & faces.bits.below(unknown, axis, along, k) &
-                       ~faces.bits.below(system.behind, axis, along, k);
+                return free & faces.bits.below(unknown, axis, along, k) & ~faces.bits.below(system.behind, axis, along, k);
             };
             const std::uint64_t sheared = pair(c, d) & pair(d, c);
             for (int j = 0; j < kBlockEdge; ++j) {
@@ -162,8 +151,7 @@ void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const Li
 }
 
 /// dt μ times area over distance for each wall beside a face.
-void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b,
-               ViscousSystem& system)
+void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b, ViscousSystem& system)
 {
     for (int a = 0; a < kAxes; ++a) {
         double* wall = system.wall.block(b, a);
@@ -201,8 +189,7 @@ void findDiagonal(const BlockGrid& grid, const LiquidGrid& liquid, int b, Viscou
                 sum += rows.row(system.shear, edge, j, k) + rows.above(system.shear, edge, along, j, k);
             }
             if (hasWalls) sum += loadPack(system.wall.block(b, a) + row);
-            storePack(system.diagonal.block(b, a) + row,
-                      select(rowOf(system.unknown.block(b, a), j, k), sum, broadcast(0.0)));
+            storePack(system.diagonal.block(b, a) + row, select(rowOf(system.unknown.block(b, a), j, k), sum, broadcast(0.0)));
         });
     }
 }
@@ -232,8 +219,7 @@ struct Tile {
 
 }  // namespace
 
-void ViscousSystem::assemble(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid,
-                             double impulse, double friction)
+void ViscousSystem::assemble(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double impulse, double friction)
 {
     const int blocks = grid.count();
     const double weight = impulse * grid.dx / liquid.fullMass;  // dt μ V / dx² of a volume is this times its mass
@@ -245,14 +231,11 @@ void ViscousSystem::assemble(const BlockGrid& grid, const ObstacleField& obstacl
     forEachBlock(blocks, [&](int b) { findUnknowns(obstacles, liquid, b, *this); });
     forEachBlock(blocks, [&](int b) { findBehind(grid, obstacles, friction > 0.0, b, *this); });
     forEachBlock(blocks, [&](int b) { findStrains(grid, obstacles, liquid, weight, b, *this); });
-    if (friction > 0.0)
-        forEachBlock(blocks,
-                     [&](int b) { findWalls(grid, obstacles, liquid, friction * impulse * grid.dx, b, *this); });
+    if (friction > 0.0) forEachBlock(blocks, [&](int b) { findWalls(grid, obstacles, liquid, friction * impulse * grid.dx, b, *this); });
     forEachBlock(blocks, [&](int b) { findDiagonal(grid, liquid, b, *this); });
 }
 
-void ViscousSystem::multiply(const BlockGrid& grid, const BlockArray<double, 3>& v, int block,
-                             BlockArray<double, 3>& out) const
+void ViscousSystem::multiply(const BlockGrid& grid, const BlockArray<double, 3>& v, int block, BlockArray<double, 3>& out) const
 {
     if (!hasUnknowns(block)) return;
     const Tile tile(grid, v, block);
@@ -262,8 +245,7 @@ void ViscousSystem::multiply(const BlockGrid& grid, const BlockArray<double, 3>&
         forEachRow(rowsOf(block, a), [&](int r) {
             const int j = r % kBlockEdge, k = r / kBlockEdge;
             const double* own = tile.v[a] + Tile::index(0, j, k);
-            Pack sum = access.row(diagonal, a, j, k) * loadPack(own) -
-                       access.row(normal, a, j, k) * loadPack(own + kUp) -
+            Pack sum = access.row(diagonal, a, j, k) * loadPack(own) - access.row(normal, a, j, k) * loadPack(own + kUp) -
                        access.below(normal, a, a, j, k) * loadPack(own - kUp);
             unroll<2>([&](auto side) {
                 constexpr int kAlong = (a + 1 + side) % 3, kEdge = (a + 2 - side) % 3, kStep = Tile::kUp[kAlong];

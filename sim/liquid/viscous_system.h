@@ -25,14 +25,13 @@ struct ViscousSystem {
     BlockBits<3> behind;              ///< closed faces, and those with their middles inside a wall that sticks
     std::vector<std::uint64_t> rows;  ///< of unknowns along x, a bit for each row of 8; by block and axis
     BlockArray<double, 3> diagonal;   ///< of the matrix [g]; 0 where a face is not unknown
-    BlockArray<double, 3> normal;  ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]
-    BlockArray<double, 3> shear;   ///< dt μ V / dx² of the shear on each cell's lower edge along each axis [g]
-    BlockArray<double, 3> wall;    ///< by which walls that stick hold each face [g]; empty if they slip
+    BlockArray<double, 3> normal;     ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]
+    BlockArray<double, 3> shear;      ///< dt μ V / dx² of the shear on each cell's lower edge along each axis [g]
+    BlockArray<double, 3> wall;       ///< by which walls that stick hold each face [g]; empty if they slip
 
     /// @param impulse   dt μ [g/cm]
     /// @param friction  0: walls slip … 1: they stick [-]
-    void assemble(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double impulse,
-                  double friction);
+    void assemble(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double impulse, double friction);
 
     /// out = A v on the unknowns of one block, out untouched elsewhere. v must be finite everywhere and 0 where it is
     /// neither unknown nor a given velocity.

@@ -34,15 +34,11 @@ struct Gathering {
     int first, count;
     std::array<double, 4> weight;
 
-    Gathering(int coarse, Kind kind)
-        : first(2 * coarse - (kind == kHalves ? 0 : 1)), count(kCount[kind]), weight(kWeight[kind])
-    {
-    }
+    Gathering(int coarse, Kind kind) : first(2 * coarse - (kind == kHalves ? 0 : 1)), count(kCount[kind]), weight(kWeight[kind]) {}
 
  private:
     static constexpr int kCount[3] = {3, 4, 2};
-    static constexpr std::array<double, 4> kWeight[3] = {
-        {0.5, 1.0, 0.5, 0.0}, {0.25, 0.75, 0.75, 0.25}, {1.0, 1.0, 0.0, 0.0}};
+    static constexpr std::array<double, 4> kWeight[3] = {{0.5, 1.0, 0.5, 0.0}, {0.25, 0.75, 0.75, 0.25}, {1.0, 1.0, 0.0, 0.0}};
 };
 
 /// Where cell (i, j, k) of the finer level is, counted from the first cell of a coarse block, each −8 … 23.
@@ -52,8 +48,8 @@ CellRef fineCell(const std::array<int, 64>& below, int i, int j, int k)
 }
 
 /// Σ weight × value over the fine places around a coarse one: `own` along the axis, `others` along the other two.
-double gather(const std::array<int, 64>& below, const BlockArray<double, 3>& fine, int axis, const Vec3i& coarse,
-              Gathering::Kind own, Gathering::Kind others)
+double gather(const std::array<int, 64>& below, const BlockArray<double, 3>& fine, int axis, const Vec3i& coarse, Gathering::Kind own,
+              Gathering::Kind others)
 {
     const auto along = [&](int a) { return Gathering(coarse[a], a == axis ? own : others); };
     const Gathering x = along(0), y = along(1), z = along(2);
@@ -99,17 +95,14 @@ void findAnchor(const BlockGrid& grid, const ViscousSystem& system, int b, Block
         forEachRow(system.rowsOf(b, a), [&](int r) {
             const int j = r % kBlockEdge, k = r / kBlockEdge;
             const auto known = [&](std::uint64_t word) { return maskOfBits(word >> (j * kBlockEdge)); };
-            const Pack zero = broadcast(0.0), own = rows.row(system.normal, a, j, k),
-                       lower = rows.below(system.normal, a, a, j, k);
+            const Pack zero = broadcast(0.0), own = rows.row(system.normal, a, j, k), lower = rows.below(system.normal, a, a, j, k);
             Pack sum = rows.row(system.diagonal, a, j, k);
-            sum -= select(known(bits.above(system.unknown, a, a, k)), own, zero) +
-                   select(known(bits.below(system.unknown, a, a, k)), lower, zero);
+            sum -= select(known(bits.above(system.unknown, a, a, k)), own, zero) + select(known(bits.below(system.unknown, a, a, k)), lower, zero);
             for (int side = 1; side < kAxes; ++side) {
                 const int along = (a + side) % 3, edge = (a + 3 - side) % 3;
                 sum -= rows.row(system.shear, edge, j, k) + rows.above(system.shear, edge, along, j, k);
             }
-            storePack(anchor.block(b, a) + r * kBlockEdge,
-                      select(known(system.unknown.block(b, a)[k]), maxPack(sum, zero), zero));
+            storePack(anchor.block(b, a) + r * kBlockEdge, select(known(system.unknown.block(b, a)[k]), maxPack(sum, zero), zero));
         });
     }
 }
@@ -119,8 +112,7 @@ void findAnchor(const BlockGrid& grid, const ViscousSystem& system, int b, Block
 void coarsenStrains(const ViscousSystem& fine, const std::array<int, 64>& below, int b, ViscousSystem& coarse)
 {
     forEachFace([&](int a, const Vec3i& cell, int c) {
-        coarse.normal.block(b, a)[c] =
-            0.25 * gather(below, fine.normal, a, cell, Gathering::kHalves, Gathering::kMiddle);
+        coarse.normal.block(b, a)[c] = 0.25 * gather(below, fine.normal, a, cell, Gathering::kHalves, Gathering::kMiddle);
         coarse.shear.block(b, a)[c] = 0.25 * gather(below, fine.shear, a, cell, Gathering::kMiddle, Gathering::kAcross);
     });
 }
@@ -166,8 +158,8 @@ void ViscousTransfer::connect(const BlockGrid& fine, const BlockGrid& coarse)
         }
 }
 
-void ViscousTransfer::coarsen(const BlockGrid& fineGrid, const ViscousSystem& fine, BlockArray<double, 3>& scratch,
-                              const BlockGrid& coarseGrid, ViscousSystem& coarse) const
+void ViscousTransfer::coarsen(const BlockGrid& fineGrid, const ViscousSystem& fine, BlockArray<double, 3>& scratch, const BlockGrid& coarseGrid,
+                              ViscousSystem& coarse) const
 {
     const int blocks = coarseGrid.count();
     coarse.unknown.resize(blocks);
@@ -177,15 +169,12 @@ void ViscousTransfer::coarsen(const BlockGrid& fineGrid, const ViscousSystem& fi
     parallelFor(blocks, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         coarsenStrains(fine, below_[b], b, coarse);
-        forEachFace([&](int a, const Vec3i& cell, int c) {
-            coarse.diagonal.block(b, a)[c] = gatherFaces(below_[b], scratch, a, cell);
-        });
+        forEachFace([&](int a, const Vec3i& cell, int c) { coarse.diagonal.block(b, a)[c] = gatherFaces(below_[b], scratch, a, cell); });
     });
     parallelFor(blocks, [&](std::size_t b) { finishDiagonal(coarseGrid, static_cast<int>(b), coarse); });
 }
 
-void ViscousTransfer::restrict(const BlockArray<double, 3>& residual, const ViscousSystem& coarse,
-                               BlockArray<double, 3>& rhs) const
+void ViscousTransfer::restrict(const BlockArray<double, 3>& residual, const ViscousSystem& coarse, BlockArray<double, 3>& rhs) const
 {
     parallelFor(below_.size(), [&](std::size_t n) {
         const int b = static_cast<int>(n);
@@ -202,8 +191,7 @@ void ViscousTransfer::restrict(const BlockArray<double, 3>& residual, const Visc
     });
 }
 
-void ViscousTransfer::prolong(const BlockGrid& coarseGrid, const BlockArray<double, 3>& coarse,
-                              const BlockGrid& fineGrid, const ViscousSystem& fine,
+void ViscousTransfer::prolong(const BlockGrid& coarseGrid, const BlockArray<double, 3>& coarse, const BlockGrid& fineGrid, const ViscousSystem& fine,
                               BlockArray<double, 3>& velocity) const
 {
     forEachBlock(fineGrid.count(), [&](int b) {
@@ -213,8 +201,8 @@ void ViscousTransfer::prolong(const BlockGrid& coarseGrid, const BlockArray<doub
             double sum = 0.0;
             for (int n = 0; n < 8; ++n) {
                 const double weight = x.weight[n & 1] * y.weight[n >> 1 & 1] * z.weight[n >> 2];
-                const CellRef from = cellNear(coarseGrid, parent_[b], first.x() + x.at[n & 1],
-                                              first.y() + y.at[n >> 1 & 1], first.z() + z.at[n >> 2]);
+                const CellRef from =
+                    cellNear(coarseGrid, parent_[b], first.x() + x.at[n & 1], first.y() + y.at[n >> 1 & 1], first.z() + z.at[n >> 2]);
                 sum += weight * coarse.block(from.block, a)[from.cell];
             }
             return sum;

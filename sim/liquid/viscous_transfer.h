@@ -22,13 +22,13 @@ class ViscousTransfer {
 
     /// The coarse system, by the energies of interpolated velocities.
     /// @param scratch  of the fine grid
-    void coarsen(const BlockGrid& fineGrid, const ViscousSystem& fine, BlockArray<double, 3>& scratch,
-                 const BlockGrid& coarseGrid, ViscousSystem& coarse) const;
+    void coarsen(const BlockGrid& fineGrid, const ViscousSystem& fine, BlockArray<double, 3>& scratch, const BlockGrid& coarseGrid,
+                 ViscousSystem& coarse) const;
     /// rhs of the coarse unknowns, 0 elsewhere.
     void restrict(const BlockArray<double, 3>& residual, const ViscousSystem& coarse, BlockArray<double, 3>& rhs) const;
     /// Add the interpolated velocities to those of the fine unknowns.
-    void prolong(const BlockGrid& coarseGrid, const BlockArray<double, 3>& coarse, const BlockGrid& fineGrid,
-                 const ViscousSystem& fine, BlockArray<double, 3>& velocity) const;
+    void prolong(const BlockGrid& coarseGrid, const BlockArray<double, 3>& coarse, const BlockGrid& fineGrid, const ViscousSystem& fine,
+                 BlockArray<double, 3>& velocity) const;
 
  private:
     std::vector<int> parent_;                 ///< coarse block of each fine one

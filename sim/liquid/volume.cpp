@@ -11,10 +11,8 @@ namespace {
 
 /// Of the solve: what is left is corrected next time; less where pressures are asked for to less than 1e-6.
 double volumeTolerance(const SolverSettings& solver) { return std::min(1.0e-2, 1.0e4 * solver.pressureTolerance); }
-constexpr double kFillBelowSurface =
-    0.8;  ///< of cells beside surface cells, at least, while the liquid is in one piece
-constexpr double kLargestError =
-    1.0;  ///< a cell that holds more than twice its volume expands like one that holds twice
+constexpr double kFillBelowSurface = 0.8;  ///< of cells beside surface cells, at least, while the liquid is in one piece
+constexpr double kLargestError = 1.0;      ///< a cell that holds more than twice its volume expands like one that holds twice
 
 /// Does a solid close a face of the cell, if only in part, on a side that is up?
 bool isUnderSolid(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, int b, int c)
@@ -70,8 +68,7 @@ void findSources(const BlockGrid& grid, const ObstacleField& obstacles, const Ve
     });
 }
 
-void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure,
-                   VolumeWorkspace& work)
+void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, VolumeWorkspace& work)
 {
     const Pack largest = broadcast(kLargestCorrection * grid.dx);
     parallelFor(grid.count(), 2, [&](std::size_t n) {
@@ -94,8 +91,7 @@ SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles,
 {
     work.potential.resize(grid.count());
     work.displacement.resize(grid.count());
-    parallelFor(grid.count(), 8,
-                [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
+    parallelFor(grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
     findSources(grid, obstacles, gravity, liquid, strength, pressure.rhs);
     const SolveReport report =
         pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, volumeTolerance(solver), solver.maxIterations, work.potential);

@@ -48,8 +48,7 @@ std::array<std::uint64_t, kBlockEdge> freshBits(const BlockBits<3>& known, const
 template <class F>
 void WallFaces::inColors(F&& f) const
 {
-    for (const std::vector<int>& color : colors_)
-        parallelFor(color.size(), [&](std::size_t n) { f(color[n], blocks_[color[n]]); });
+    for (const std::vector<int>& color : colors_) parallelFor(color.size(), [&](std::size_t n) { f(color[n], blocks_[color[n]]); });
 }
 
 void WallFaces::findLayers(const BlockGrid& grid, const ObstacleField& field, const FaceFields& faces)
@@ -133,8 +132,8 @@ WallFaces::Led WallFaces::ledByWalls(const ObstacleField& field, const FaceField
         for (const Follower& f : followers_[n]) {
             if (f.share == 0.0) continue;
             const double mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face],
-                         momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face],
-                         weighs = mass - weightless.block(b, f.axis)[f.face], wall = field.wallVelocity(b, f.axis)[f.face];
+                         momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face], weighs = mass - weightless.block(b, f.axis)[f.face],
+                         wall = field.wallVelocity(b, f.axis)[f.face];
             sum.work += (1.0 - f.share) * (mass * wall - momentum) * wall;
             sum.heavy[f.axis] += (1.0 - f.share) * weighs * wall;
         }

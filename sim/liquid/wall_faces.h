@@ -28,12 +28,12 @@ class WallFaces {
     /// From masses and momenta after find, before fold takes this part off the faces. Faces that keep all of theirs are not in it.
     /// @param weightless  mass of each face whose weight nothing feels [g]
     Led ledByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const;
-    Led led;   ///< in this step; nothing where all walls rest
+    Led led;  ///< in this step; nothing where all walls rest
 
     /// Move mass, momentum and room of the closed faces to those that they follow. What follows no open face keeps its own.
     void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces);
 
-    BlockBits<3> mirrored;   ///< faces that plane walls give a velocity to, one wall after another
+    BlockBits<3> mirrored;  ///< faces that plane walls give a velocity to, one wall after another
 
     /// Give the closed faces their velocities [cm/s]; `valid` gets those that follow an open face.
     void extend(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
@@ -45,7 +45,7 @@ class WallFaces {
     struct Follower {
         std::uint16_t face;
         std::uint8_t axis;
-        double share;    ///< [-], 0 … 1
+        double share;  ///< [-], 0 … 1
     };
     /// Mass [g], momentum [g cm/s] and room [-] of the faces of one block that come from behind walls.
     static constexpr int kMass = 0, kMomentum = 3, kRoom = 6;
@@ -55,13 +55,13 @@ class WallFaces {
     template <class F>
     void inColors(F&& f) const;
 
-    std::size_t count_ = 0;                           ///< of followers
-    std::array<BlockBits<3>, kLayers + 1> known_;     ///< faces with a velocity after so many sweeps; 0: open faces with mass
-    std::vector<std::vector<Follower>> followers_;    ///< of each block near a solid
-    std::vector<int> place_;                          ///< of each block among those near a solid
-    std::array<std::vector<int>, 8> colors_;          ///< places of blocks of which no two touch
-    std::vector<int> blocks_;                         ///< near a solid
-    BlockArray<double, 9> folded_;                    ///< by place
+    std::size_t count_ = 0;                         ///< of followers
+    std::array<BlockBits<3>, kLayers + 1> known_;   ///< faces with a velocity after so many sweeps; 0: open faces with mass
+    std::vector<std::vector<Follower>> followers_;  ///< of each block near a solid
+    std::vector<int> place_;                        ///< of each block among those near a solid
+    std::array<std::vector<int>, 8> colors_;        ///< places of blocks of which no two touch
+    std::vector<int> blocks_;                       ///< near a solid
+    BlockArray<double, 9> folded_;                  ///< by place
 };
 
 }  // namespace sim

@@ -10,8 +10,8 @@ namespace sim {
 
 namespace {
 
-constexpr double kNearestWall = 0.1;   ///< to a face [cells]
-constexpr int kMirrorDepth = 2;        ///< layers behind a wall that stencils in front of it touch
+constexpr double kNearestWall = 0.1;  ///< to a face [cells]
+constexpr int kMirrorDepth = 2;       ///< layers behind a wall that stencils in front of it touch
 
 /// Call f(cell) for each closed face of a block normal to `axis`.
 template <class F>
@@ -180,9 +180,8 @@ void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double frict
     const bool moves = obstacles.anyMoving();
     if (moves) {
         liquid.weightless.resize(grid.count());
-        parallelFor(field.blocksNearSolid().size(), 8, [&](std::size_t n) {
-            std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0);
-        });
+        parallelFor(field.blocksNearSolid().size(), 8,
+                    [&](std::size_t n) { std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0); });
     }
     foldAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
     followers.find(grid, field, obstacles, friction, liquid.faces);

@@ -15,10 +15,7 @@ namespace sim {
 
 namespace {
 
-bool isInstant(const Emission& e)
-{
-    return e.to <= e.from;
-}
+bool isInstant(const Emission& e) { return e.to <= e.from; }
 
 bool isActive(const Emission& e, double timeFrom, double timeTo)
 {
@@ -31,8 +28,7 @@ bool isActive(const Emission& e, double timeFrom, double timeTo)
 std::vector<Shape> solidsAt(const Scene& scene, double time)
 {
     std::vector<Shape> solids;
-    for (const ObstacleSettings& o : scene.obstacles)
-        solids.push_back(o.motion.isStatic() ? o.shape : o.shape.moved(o.motion.transform(time)));
+    for (const ObstacleSettings& o : scene.obstacles) solids.push_back(o.motion.isStatic() ? o.shape : o.shape.moved(o.motion.transform(time)));
     return solids;
 }
 
@@ -88,10 +84,7 @@ void addField(const VelocityField& field, std::size_t first, State& state)
     }
 }
 
-std::span<const Vec3> firstOf(std::span<const Vec3> positions, std::size_t count)
-{
-    return positions.first(std::min(count, positions.size()));
-}
+std::span<const Vec3> firstOf(std::span<const Vec3> positions, std::size_t count) { return positions.first(std::min(count, positions.size())); }
 
 /// How many particles of a volume there are until a volume is reached: the last one may pass it.
 std::size_t countUpTo(double volume, double perParticle)
@@ -143,8 +136,8 @@ void lay(const Scene& scene, std::size_t source, const Emission& emission, std::
     try {
         if (settings.velocityField) addField(*settings.velocityField, before, state);
     } catch (const VelocityField::Mistake& mistake) {
-        throw InputError(fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source),
-                                     settings.velocityField->formula(mistake.component), mistake.what));
+        throw InputError(
+            fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formula(mistake.component), mistake.what));
     }
     const double sum = static_cast<double>(positions.size()) * volume;
     state.emittedVolume[source] += sum;
@@ -159,8 +152,7 @@ void fillUp(const Scene& scene, std::size_t source, const Emission& emission, do
     if (seeds.positions.empty()) {
         if (!isInstant(emission)) return;
         throw InputError(nameOf(scene, source) + "has no room for a particle: it is empty, smaller than " +
-                         std::to_string(particleSpacing(plan.fill, plan.dx)) +
-                         " cm, inside an obstacle, or full already");
+                         std::to_string(particleSpacing(plan.fill, plan.dx)) + " cm, inside an obstacle, or full already");
     }
     const double most = emission.maxVolume - state.emittedVolume[source];
     lay(scene, source, emission, firstOf(seeds.positions, countUpTo(most, seeds.volume)), seeds.volume, state);
@@ -240,10 +232,12 @@ class Flow {
         Eigen::AlignedBox3d box = region_.bounds();
         box.extend(Eigen::AlignedBox3d(box.min() + way, box.max() + way));
         const LiquidParticles& liquid = state_.liquid;
-        return parallelSum(liquid.count, [&](std::size_t p) {
-            const Vec3 x = liquid.position(p);
-            return box.contains(x) && (inlet.hasEntered(x) || inlet.hasPassed(x)) ? liquid.mass[p] : 0.0;
-        }) / scene_.settings.liquid.density;
+        return parallelSum(liquid.count,
+                           [&](std::size_t p) {
+                               const Vec3 x = liquid.position(p);
+                               return box.contains(x) && (inlet.hasEntered(x) || inlet.hasPassed(x)) ? liquid.mass[p] : 0.0;
+                           }) /
+               scene_.settings.liquid.density;
     }
 
     /// The same, free of the noise of single particles.
@@ -336,13 +330,13 @@ class Flow {
     SourceMemory& memory_;
     SeedPlan plan_;
     Shape region_;
-    double pitch_;      ///< of the pattern [cm]
-    double speed_;      ///< [cm/s]
-    double timeFrom_;   ///< the beginning of the step [s]
-    double time_;       ///< of it, in which it is asked for anything [s]
+    double pitch_;     ///< of the pattern [cm]
+    double speed_;     ///< [cm/s]
+    double timeFrom_;  ///< the beginning of the step [s]
+    double time_;      ///< of it, in which it is asked for anything [s]
     MouthSize size_;
     bool isFirst_ = false;
-    bool isLast_;       ///< it ends within the step
+    bool isLast_;  ///< it ends within the step
 };
 
 /// Measures anew what may have changed.

@@ -36,8 +36,7 @@ void LiquidParticles::resize(std::size_t n)
         for (auto& m : modes) {
             AlignedArray<double> grown(stride * modeCount);
             const std::size_t rows = modeStride == 0 ? 0 : std::min<std::size_t>(modeCount, m.size() / modeStride);
-            for (std::size_t r = 0; r < rows; ++r)
-                std::memcpy(grown.data() + r * stride, m.data() + r * modeStride, count * sizeof(double));
+            for (std::size_t r = 0; r < rows; ++r) std::memcpy(grown.data() + r * stride, m.data() + r * modeStride, count * sizeof(double));
             m.swap(grown);
         }
         modeStride = stride;

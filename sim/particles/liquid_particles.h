@@ -15,7 +15,7 @@ namespace sim {
 /// [cm/s] whatever its degree. There is no other record of the velocity.
 struct LiquidParticles {
     std::size_t count = 0;
-    int modeCount = 1;                              ///< modes stored per component: 1, 4, 8, 11 or 27 (storedModes in modes.h)
+    int modeCount = 1;  ///< modes stored per component: 1, 4, 8, 11 or 27 (storedModes in modes.h)
 
     std::array<AlignedArray<double>, kAxes> x;      ///< position [cm]
     AlignedArray<double> mass;                      ///< [g]; the volume is mass / liquid density

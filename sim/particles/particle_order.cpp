@@ -98,9 +98,8 @@ void computeKeys(const LiquidParticles& particles, const BlockGrid& grid, const 
 
 void sortUnique(std::vector<Vec3i>& coords)
 {
-    std::sort(coords.begin(), coords.end(), [](const Vec3i& a, const Vec3i& b) {
-        return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-    });
+    std::sort(coords.begin(), coords.end(),
+              [](const Vec3i& a, const Vec3i& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); });
     coords.erase(std::unique(coords.begin(), coords.end()), coords.end());
 }
 

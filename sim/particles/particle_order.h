@@ -25,10 +25,10 @@ struct ParticleOrder {
     /// of moving everything (sim/README.md, Memory).
     AlignedArray<int> source;
 
-    std::vector<int> occupied;                          ///< blocks with particles, ascending
-    std::array<std::vector<int>, kColors> byColor;      ///< the same by parity of their coordinates, fullest first
-    std::vector<int> previous;                          ///< number a block had before this sort, or BlockGrid::kNone
-    bool blocksChanged = true;                          ///< previous is not simply 0, 1, 2 …
+    std::vector<int> occupied;                      ///< blocks with particles, ascending
+    std::array<std::vector<int>, kColors> byColor;  ///< the same by parity of their coordinates, fullest first
+    std::vector<int> previous;                      ///< number a block had before this sort, or BlockGrid::kNone
+    bool blocksChanged = true;                      ///< previous is not simply 0, 1, 2 …
     std::size_t maxParticlesPerBlock = 0;
 
     int begin(int block) const { return cellStart[static_cast<std::size_t>(block) * kBlockCells]; }
@@ -43,12 +43,12 @@ struct ParticleOrder {
     std::array<AlignedArray<double>, kAxes> x;
     AlignedArray<double> mass;
     AlignedArray<std::uint32_t> id;
-    AlignedArray<std::uint32_t> touched;                ///< per block: planes of cells with particles, 8 bits per axis
-    std::vector<std::vector<Vec3i>> strays;             ///< per chunk: blocks that do not exist yet
-    std::vector<std::vector<int>> dead;                 ///< per chunk: particles outside the domain
-    std::vector<std::uint8_t> needed;                   ///< per block: must it exist?
-    std::vector<Vec3i> before, missing;                 ///< blocks before the sort; blocks to be added
-    std::vector<int> renumbered;                        ///< per block before fitBlocks: its number now; empty if unchanged
+    AlignedArray<std::uint32_t> touched;     ///< per block: planes of cells with particles, 8 bits per axis
+    std::vector<std::vector<Vec3i>> strays;  ///< per chunk: blocks that do not exist yet
+    std::vector<std::vector<int>> dead;      ///< per chunk: particles outside the domain
+    std::vector<std::uint8_t> needed;        ///< per block: must it exist?
+    std::vector<Vec3i> before, missing;      ///< blocks before the sort; blocks to be added
+    std::vector<int> renumbered;             ///< per block before fitBlocks: its number now; empty if unchanged
 };
 
 /// Half sizes of the neighbourhood of a particle's cell in which blocks must exist [cells]: what its stencils, the cells that can be

@@ -14,10 +14,7 @@ namespace {
 using Pattern = FillSettings::Pattern;
 
 /// The pattern's own pitch [cells] (particles/README.md, Filling).
-double ownSpacing(Pattern pattern)
-{
-    return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4;
-}
+double ownSpacing(Pattern pattern) { return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4; }
 
 /// Some of the positions, chosen at random, in their old order.
 std::vector<Vec3> chooseSome(const std::vector<Vec3>& positions, std::size_t count, const CounterRandom& random)
@@ -52,10 +49,7 @@ double packingOf(FillSettings::Pattern pattern)
     return pattern == Pattern::Reference ? kReference : 1.0;
 }
 
-double particleSpacing(const FillSettings& fill, double dx)
-{
-    return dx * (fill.spacing > 0.0 ? fill.spacing : ownSpacing(fill.pattern));
-}
+double particleSpacing(const FillSettings& fill, double dx) { return dx * (fill.spacing > 0.0 ? fill.spacing : ownSpacing(fill.pattern)); }
 
 double nominalRadius(const FillSettings& fill, double dx)
 {
@@ -69,14 +63,10 @@ double minimumDistance(const FillSettings& fill, double dx)
 {
     const double pitch = particleSpacing(fill, dx);
     switch (fill.pattern) {
-        case Pattern::Lattice:
-            return pitch;
-        case Pattern::Reference:
-            return 0.57735 * pitch;
-        case Pattern::Poisson:
-            return kPoissonDistance * pitch;
-        default:
-            return 0.0;
+        case Pattern::Lattice: return pitch;
+        case Pattern::Reference: return 0.57735 * pitch;
+        case Pattern::Poisson: return kPoissonDistance * pitch;
+        default: return 0.0;
     }
 }
 
@@ -92,10 +82,7 @@ Inlet::Inlet(const Shape& region, const std::vector<Shape>& solids, const Vec3& 
 {
 }
 
-bool Inlet::isInside(const Vec3& x) const
-{
-    return region_.distance(x) < -kOnSurface * pitch_;
-}
+bool Inlet::isInside(const Vec3& x) const { return region_.distance(x) < -kOnSurface * pitch_; }
 
 /// Looks back along the way, never further at once than it is to the region or to a solid.
 bool Inlet::hasPassed(const Vec3& x) const
@@ -120,7 +107,7 @@ namespace {
 struct RayLattice {
     Vec3 first, alongU, alongW, direction;  ///< first ray's beginning, before the box; from one to the next [cm]
     std::size_t countU = 0, countW = 0;
-    double length = 0.0;                    ///< that they have to go [cm]
+    double length = 0.0;  ///< that they have to go [cm]
 
     RayLattice(const Eigen::AlignedBox3d& box, const Vec3& unit, double pitch) : direction(unit)
     {
@@ -165,12 +152,12 @@ double areaAcross(const Shape& region, const Vec3& direction, double pitch)
     const RayLattice rays(box, direction.normalized(), pitch);
     constexpr double kLeastStep = 1.0e-3;  // [pitches]: thinner regions may be missed
     return rays.area() * parallelSum(rays.countW, [&](std::size_t w) {
-        int sum = 0;
-        for (std::size_t u = 0; u < rays.countU; ++u)
-            sum += entries(region, rays.first + static_cast<double>(u) * rays.alongU + static_cast<double>(w) * rays.alongW, rays.direction,
-                           rays.length, kLeastStep * pitch);
-        return static_cast<double>(sum);
-    });
+               int sum = 0;
+               for (std::size_t u = 0; u < rays.countU; ++u)
+                   sum += entries(region, rays.first + static_cast<double>(u) * rays.alongU + static_cast<double>(w) * rays.alongW, rays.direction,
+                                  rays.length, kLeastStep * pitch);
+               return static_cast<double>(sum);
+           });
 }
 
 Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
@@ -179,8 +166,7 @@ Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
     const bool moves = !plan.velocity.isZero(0.0), darts = plan.fill.pattern == Pattern::Poisson;
     const Shape region = regionOf(plan);
 
-    PatternPlaces places =
-        darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
+    PatternPlaces places = darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
     const double count = moves && !darts ? meanLatticePlaces(plan, region) : static_cast<double>(places.count);
     if (!(count > 0.0)) return {{}, std::pow(particleSpacing(plan.fill, plan.dx), 3)};
     const double volume = (plan.regionVolume > 0.0 ? plan.regionVolume : boundedVolume(region, plan.dx)) / count;
@@ -188,8 +174,7 @@ Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
     // Liquid that is packed more tightly than the pattern leaves gaps, too; filling all of them would make too much.
     const double room = std::max(0.0, static_cast<double>(places.count) - nearby.volumeInside / volume);
     const auto most = static_cast<std::size_t>(std::lround(room));
-    if (places.free.size() > most)
-        places.free = chooseSome(places.free, most, CounterRandom(plan.fill.seed, plan.stream, 1));
+    if (places.free.size() > most) places.free = chooseSome(places.free, most, CounterRandom(plan.fill.seed, plan.stream, 1));
     return {std::move(places.free), volume};
 }
 

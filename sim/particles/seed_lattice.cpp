@@ -42,7 +42,7 @@ double entry(const Shape& region, const Vec3& begin, const Vec3& direction, doub
 /// half of the region that is seen from there ends at a plane.
 double planeFrom(const Eigen::AlignedBox3d& box, const Shape& region, int axis, bool isUpper, double pitch)
 {
-    constexpr double kFlat = 0.02;          // [pitches]
+    constexpr double kFlat = 0.02;         // [pitches]
     constexpr std::size_t kMostRays = 32;  // along each side
     const int u = (axis + 1) % kAxes, v = (axis + 2) % kAxes;
     const Vec3 size = box.sizes();
@@ -67,7 +67,8 @@ void fitBetweenPlanes(const Eigen::AlignedBox3d& box, const Shape& region, doubl
     constexpr double kFits = 1.0e-6;  // [pitches]
     if (box.isEmpty() || !(box.sizes().maxCoeff() < kMostAlong * spacing)) return;
     for (int a = 0; a < kAxes; ++a) {
-        const double low = planeFrom(box, region, a, false, spacing), high = planeFrom(box, region, a, true, spacing), thickness = box.sizes()[a] - low - high;
+        const double low = planeFrom(box, region, a, false, spacing), high = planeFrom(box, region, a, true, spacing),
+                     thickness = box.sizes()[a] - low - high;
         if (!(thickness > 0.0)) continue;
         const double layers = std::max(1.0, std::round(thickness / spacing));
         if (std::abs(thickness / spacing - layers) < kFits && low < kFits * spacing) continue;
@@ -94,8 +95,7 @@ struct Sites {
     {
         Vec3 x = lattice.position(i, j, k);
         if (jittered)
-            for (int a = 0; a < kAxes; ++a)
-                x[a] += (random.uniform(lattice.randomIndex(i, j, k), a) - 0.5) * lattice.pitch[a];
+            for (int a = 0; a < kAxes; ++a) x[a] += (random.uniform(lattice.randomIndex(i, j, k), a) - 0.5) * lattice.pitch[a];
         return x;
     }
 };
@@ -108,8 +108,7 @@ PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& ori
     constexpr double kMostPlaces = 4.0e8;
     const Vec3 low = (box.min() - origin).cwiseQuotient(pitch).array() - margin, high = (box.max() - origin).cwiseQuotient(pitch).array() + margin;
     if (!(low.cwiseAbs().maxCoeff() < kMostAlong && high.cwiseAbs().maxCoeff() < kMostAlong))
-        throw InputError("is unbounded, or too large to be filled with particles " + std::to_string(pitch.minCoeff()) +
-                         " cm apart");
+        throw InputError("is unbounded, or too large to be filled with particles " + std::to_string(pitch.minCoeff()) + " cm apart");
     PlaceLattice lattice;
     lattice.pitch = pitch;
     lattice.low = low.array().ceil().cast<int>();
@@ -139,8 +138,7 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
         const Vec3 x = sites.position(i, j, k);
         if (!(region.distance(x) < -kOnSurface * spacing) && !inlet.hasPassed(x)) return;
         const Vec3 middle = sites.lattice.position(i, j, k);
-        const bool taken =
-            bins.anyNear(middle, [&](std::size_t p) { return ((existing[p] - middle).cwiseAbs().array() < half.array()).all(); });
+        const bool taken = bins.anyNear(middle, [&](std::size_t p) { return ((existing[p] - middle).cwiseAbs().array() < half.array()).all(); });
         list.push_back({x, taken});
     });
     PatternPlaces places;
@@ -162,11 +160,9 @@ double meanLatticePlaces(const SeedPlan& plan, const Shape& region)
         const Sites sites(plan, firstPlace(plan, pitch) + (pitch * kPitches * (phase + 0.5) / kPhases) * direction, Vec3::Constant(pitch));
         const std::size_t rows = static_cast<std::size_t>(sites.lattice.size[1]) * sites.lattice.size[2];
         sum += parallelSum(rows, [&](std::size_t row) {
-            const int j = static_cast<int>(row % sites.lattice.size[1]),
-                      k = static_cast<int>(row / sites.lattice.size[1]);
+            const int j = static_cast<int>(row % sites.lattice.size[1]), k = static_cast<int>(row / sites.lattice.size[1]);
             int inside = 0;
-            for (int i = 0; i < sites.lattice.size[0]; ++i)
-                inside += region.distance(sites.position(i, j, k)) < -kOnSurface * pitch;
+            for (int i = 0; i < sites.lattice.size[0]; ++i) inside += region.distance(sites.position(i, j, k)) < -kOnSurface * pitch;
             return static_cast<double>(inside);
         });
     }

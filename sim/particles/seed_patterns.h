@@ -35,10 +35,7 @@ struct PlaceLattice {
     static PlaceLattice inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& pitch, double margin);
 
     Vec3 position(int i, int j, int k) const { return first + pitch.cwiseProduct(Vec3(i, j, k)); }
-    std::uint64_t randomIndex(int i, int j, int k) const
-    {
-        return CounterRandom::placeIndex(i + low[0], j + low[1], k + low[2]);
-    }
+    std::uint64_t randomIndex(int i, int j, int k) const { return CounterRandom::placeIndex(i + low[0], j + low[1], k + low[2]); }
 
     /// All that `body(i, j, k, list)` appends to its list of T, in the order of the places, x fastest.
     template <class T, class Body>

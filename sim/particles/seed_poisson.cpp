@@ -19,10 +19,7 @@ struct Cube {
 class DartBoard {
  public:
     DartBoard(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing)
-        : region_(region),
-          random_(plan.fill.seed, plan.stream),
-          distance_(minimumDistance(plan.fill, plan.dx)),
-          taken_(existing, distance_)
+        : region_(region), random_(plan.fill.seed, plan.stream), distance_(minimumDistance(plan.fill, plan.dx)), taken_(existing, distance_)
     {
         const double pitch = particleSpacing(plan.fill, plan.dx);
         const Vec3 first = plan.source.bounds().min() + plan.age * plan.velocity;
@@ -38,8 +35,7 @@ class DartBoard {
             const Vec3i begin(color & 1, color >> 1 & 1, color >> 2);
             const Vec3i count = (lattice_.size - begin + Vec3i::Ones()).cwiseMax(0) / 2;
             parallelFor(static_cast<std::size_t>(count[1]) * count[2], [&](std::size_t row) {
-                const int j = begin[1] + 2 * static_cast<int>(row % count[1]),
-                          k = begin[2] + 2 * static_cast<int>(row / count[1]);
+                const int j = begin[1] + 2 * static_cast<int>(row % count[1]), k = begin[2] + 2 * static_cast<int>(row / count[1]);
                 for (int i = begin[0]; i < lattice_.size[0]; i += 2) throwAt(i, j, k, round);
             });
         }
@@ -54,18 +50,14 @@ class DartBoard {
     }
 
  private:
-    std::size_t indexOf(int i, int j, int k) const
-    {
-        return (static_cast<std::size_t>(k) * lattice_.size[1] + j) * lattice_.size[0] + i;
-    }
+    std::size_t indexOf(int i, int j, int k) const { return (static_cast<std::size_t>(k) * lattice_.size[1] + j) * lattice_.size[0] + i; }
 
     void throwAt(int i, int j, int k, int round)
     {
         Cube& cube = cubes_[indexOf(i, j, k)];
         if (cube.count == static_cast<int>(cube.x.size())) return;
         Vec3 x = lattice_.position(i, j, k);
-        for (int a = 0; a < kAxes; ++a)
-            x[a] += lattice_.pitch[a] * random_.uniform(lattice_.randomIndex(i, j, k), kAxes * round + a);
+        for (int a = 0; a < kAxes; ++a) x[a] += lattice_.pitch[a] * random_.uniform(lattice_.randomIndex(i, j, k), kAxes * round + a);
         if (!hasRoom(i, j, k, x) || !(region_.distance(x) < 0.0) || taken_.anyNearer(x, distance_)) return;
         cube.x[cube.count++] = x;
     }

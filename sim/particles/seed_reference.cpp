@@ -30,8 +30,7 @@ std::vector<Candidate> candidates(const SeedPlan& plan, const Shape& solids, dou
         double d = plan.source.distance(x);
         if (d > std::sqrt(3.0) * pitch || solids.distance(x) < 0.0) return;
         if (d > 0.0) {
-            for (int step = 0; step < kPullSteps && d > 0.0; ++step, d = plan.source.distance(x))
-                x -= d * plan.source.normal(x);
+            for (int step = 0; step < kPullSteps && d > 0.0; ++step, d = plan.source.distance(x)) x -= d * plan.source.normal(x);
             if (solids.distance(x) < -1.0e-9 * pitch) return;
         }
         list.push_back({x, random.bits(index, kRankDraw)});

@@ -19,40 +19,34 @@ namespace sim {
 
 inline std::span<const Choice<TimeMode>> choicesOf(TimeMode)
 {
-    static constexpr Choice<TimeMode> kAll[] = {
-        {"fixed", TimeMode::Fixed}, {"cfl", TimeMode::Cfl}, {"adaptive", TimeMode::Adaptive}};
+    static constexpr Choice<TimeMode> kAll[] = {{"fixed", TimeMode::Fixed}, {"cfl", TimeMode::Cfl}, {"adaptive", TimeMode::Adaptive}};
     return kAll;
 }
 
 inline std::span<const Choice<TimeIntegrator>> choicesOf(TimeIntegrator)
 {
-    static constexpr Choice<TimeIntegrator> kAll[] = {{"plain", TimeIntegrator::Plain},
-                                                      {"reflected", TimeIntegrator::Reflected}};
+    static constexpr Choice<TimeIntegrator> kAll[] = {{"plain", TimeIntegrator::Plain}, {"reflected", TimeIntegrator::Reflected}};
     return kAll;
 }
 
 inline std::span<const Choice<TransferMethod>> choicesOf(TransferMethod)
 {
-    static constexpr Choice<TransferMethod> kAll[] = {{"pic", TransferMethod::Pic},
-                                                      {"flip", TransferMethod::Flip},
-                                                      {"apic", TransferMethod::Apic},
-                                                      {"polypic", TransferMethod::PolyPic}};
+    static constexpr Choice<TransferMethod> kAll[] = {
+        {"pic", TransferMethod::Pic}, {"flip", TransferMethod::Flip}, {"apic", TransferMethod::Apic}, {"polypic", TransferMethod::PolyPic}};
     return kAll;
 }
 
 inline std::span<const Choice<XiMap>> choicesOf(XiMap)
 {
-    static constexpr Choice<XiMap> kAll[] = {{"translation", XiMap::Translation},
-                                             {"affine", XiMap::Affine},
-                                             {"affine_conservative", XiMap::AffineConservative}};
+    static constexpr Choice<XiMap> kAll[] = {
+        {"translation", XiMap::Translation}, {"affine", XiMap::Affine}, {"affine_conservative", XiMap::AffineConservative}};
     return kAll;
 }
 
 inline std::span<const Choice<FillSettings::Pattern>> choicesOf(FillSettings::Pattern)
 {
     using P = FillSettings::Pattern;
-    static constexpr Choice<P> kAll[] = {
-        {"lattice", P::Lattice}, {"reference", P::Reference}, {"jittered", P::Jittered}, {"poisson", P::Poisson}};
+    static constexpr Choice<P> kAll[] = {{"lattice", P::Lattice}, {"reference", P::Reference}, {"jittered", P::Jittered}, {"poisson", P::Poisson}};
     return kAll;
 }
 
@@ -70,8 +64,7 @@ void describe(V& v, TimeSettings& t)
         w.number("liquid", t.maxCflLiquid, Quantity::None, Range::above(0.0), "Bound of the liquid");
         w.number("fabric", t.maxCflFabric, Quantity::None, Range::above(0.0), "Bound of the fabric, solver grid only");
     });
-    v.number("dt_min", t.dtMin, Quantity::Time, Range::above(0.0),
-             "A run that needs smaller steps stops with a message");
+    v.number("dt_min", t.dtMin, Quantity::Time, Range::above(0.0), "A run that needs smaller steps stops with a message");
     v.require(t.dtMin <= t.dt, "dt_min", "must not be above time.dt");
     v.choice("integrator", t.integrator, "How advection and pressure take turns");
 }
@@ -80,18 +73,16 @@ template <class V>
 void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fabric)
 {
     const Range share = Range::between(0.0, 1.0);
-    v.perPhase("method", liquid.method, fabric.method, [](auto& w, const char* key, TransferMethod& m) {
-        w.choice(key, m, "How velocities go to the grid and back");
-    });
+    v.perPhase("method", liquid.method, fabric.method,
+               [](auto& w, const char* key, TransferMethod& m) { w.choice(key, m, "How velocities go to the grid and back"); });
     v.perPhase("modes", liquid.modes, fabric.modes, [](auto& w, const char* key, int& m) {
         const bool isFabrics = std::string_view(key) == "fabric";
         w.integer(key, m, 1, isFabrics ? FabricTransferSettings::kMostModes : 27,
                   isFabrics ? "Velocity modes per component, polypic only"
                             : "Velocity modes per component, polypic only; more than 8 amid the liquid only");
     });
-    v.perPhase("xi", liquid.xi, fabric.xi, [](auto& w, const char* key, XiMap& xi) {
-        w.choice(key, xi, "How modes move with the particle, polypic only");
-    });
+    v.perPhase("xi", liquid.xi, fabric.xi,
+               [](auto& w, const char* key, XiMap& xi) { w.choice(key, xi, "How modes move with the particle, polypic only"); });
     v.number("flip_ratio", liquid.flipRatio, Quantity::None, share, "FLIP share kept per keep_dt, flip only");
     v.group("keep", "Factors kept per keep_dt; 1 = no damping", [&](auto& w) {
         w.number("liquid_affine", liquid.keepAffine, Quantity::None, share, "On all modes of the liquid but the mean");
@@ -111,10 +102,8 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
 template <class V>
 void describe(V& v, RelaxSettings& r)
 {
-    v.number("rate", r.rate, Quantity::Frequency, Range::atLeast(0.0),
-             "Rate at which crowded particles are pushed apart; 0 = off");
-    v.number("range", r.range, Quantity::None, Range::aboveTo(0.0, 10.0),
-             "Reach of the push in nominal particle radii");
+    v.number("rate", r.rate, Quantity::Frequency, Range::atLeast(0.0), "Rate at which crowded particles are pushed apart; 0 = off");
+    v.number("range", r.range, Quantity::None, Range::aboveTo(0.0, 10.0), "Reach of the push in nominal particle radii");
 }
 
 template <class V>
@@ -143,17 +132,14 @@ void describe(V& v, LiquidSettings& l)
     v.whenReading([&](auto& reader) { readLiquidPreset(reader, l); });
     v.fixed([&](auto& w) { w.number("density", l.density, Quantity::Density, Range::above(0.0), "Mass per volume"); });
     v.number("viscosity", l.viscosity, Quantity::Viscosity, Range::atLeast(0.0), "Dynamic viscosity");
-    v.number("surface_tension", l.surfaceTension, Quantity::SurfaceTension, Range::atLeast(0.0),
-             "Surface tension against air");
-    v.number("contact_angle", l.contactAngle, Quantity::Angle, Range::between(0.0, 180.0),
-             "Angle of the surface at fibres");
+    v.number("surface_tension", l.surfaceTension, Quantity::SurfaceTension, Range::atLeast(0.0), "Surface tension against air");
+    v.number("contact_angle", l.contactAngle, Quantity::Angle, Range::between(0.0, 180.0), "Angle of the surface at fibres");
     v.fixed([&](auto& w) {
         w.numberOr("particle_spacing", l.particleSpacing, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0),
                    "Pitch of the particles in cells; left out: 0.4, or 0.35355 for the reference pattern");
         w.flag("full", l.full, "The liquid fills a closed box: there is no air");
     });
-    v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0),
-             "0 = free slip, 1 = the liquid sticks to walls");
+    v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0), "0 = free slip, 1 = the liquid sticks to walls");
     v.section("volume", l.volume, "Keeping the liquid's volume");
     v.section("relax", l.relax, "Pushing crowded particles apart");
     v.flag("solve_viscosity", l.solveViscosity, "Viscosity inside the liquid");

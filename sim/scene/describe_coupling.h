@@ -39,8 +39,7 @@ void describe(V& v, CaptureSettings& c)
     const bool isPublished = c.law == CaptureLaw::Published;
     v.require(!isPublished || c.rate == 0.0 || c.rate == CaptureSettings().rate, "rate",
               "law published has a rate of its own, times compat_factor; leave rate out, or 0 for fabric that stays dry");
-    v.require(isPublished || c.compatFactor == CaptureSettings().compatFactor, "compat_factor",
-              "is of law published only; law fabric goes by rate");
+    v.require(isPublished || c.compatFactor == CaptureSettings().compatFactor, "compat_factor", "is of law published only; law fabric goes by rate");
 }
 
 template <class V>

@@ -13,29 +13,25 @@ namespace sim {
 
 inline std::span<const Choice<FabricSolver>> choicesOf(FabricSolver)
 {
-    static constexpr Choice<FabricSolver> kAll[] = {
-        {"vertex", FabricSolver::Vertex}, {"grid", FabricSolver::Grid}, {"off", FabricSolver::Off}};
+    static constexpr Choice<FabricSolver> kAll[] = {{"vertex", FabricSolver::Vertex}, {"grid", FabricSolver::Grid}, {"off", FabricSolver::Off}};
     return kAll;
 }
 
 inline std::span<const Choice<MembraneModel>> choicesOf(MembraneModel)
 {
-    static constexpr Choice<MembraneModel> kAll[] = {{"stvk", MembraneModel::StVk},
-                                                     {"neo_hookean", MembraneModel::NeoHookean}};
+    static constexpr Choice<MembraneModel> kAll[] = {{"stvk", MembraneModel::StVk}, {"neo_hookean", MembraneModel::NeoHookean}};
     return kAll;
 }
 
 inline std::span<const Choice<BendingModel>> choicesOf(BendingModel)
 {
-    static constexpr Choice<BendingModel> kAll[] = {{"shape_operator", BendingModel::ShapeOperator},
-                                                    {"hinge", BendingModel::Hinge}};
+    static constexpr Choice<BendingModel> kAll[] = {{"shape_operator", BendingModel::ShapeOperator}, {"hinge", BendingModel::Hinge}};
     return kAll;
 }
 
 inline std::span<const Choice<HingeMeasure>> choicesOf(HingeMeasure)
 {
-    static constexpr Choice<HingeMeasure> kAll[] = {
-        {"angle", HingeMeasure::Angle}, {"sin", HingeMeasure::Sin}, {"tan", HingeMeasure::Tan}};
+    static constexpr Choice<HingeMeasure> kAll[] = {{"angle", HingeMeasure::Angle}, {"sin", HingeMeasure::Sin}, {"tan", HingeMeasure::Tan}};
     return kAll;
 }
 
@@ -52,8 +48,7 @@ void describe(V& v, FabricSettings& f)
     v.choice("membrane", f.membrane, "How cloth resists stretching");
     v.choice("bending", f.bending, "How cloth resists bending");
     v.group("hinge", "Read by bending: hinge only", [&](auto& w) {
-        w.number("constant", f.hingeConstant, Quantity::None, Range::above(0.0),
-                 "Factor on the stiffness; the published code has 3");
+        w.number("constant", f.hingeConstant, Quantity::None, Range::above(0.0), "Factor on the stiffness; the published code has 3");
         w.choice("measure", f.hingeMeasure, "What is measured of the angle between two triangles");
     });
     v.choice("torsion", f.torsion, "Stiffness of a yarn's section against twist; polar as published");
@@ -62,14 +57,14 @@ void describe(V& v, FabricSettings& f)
     v.numberOr("tolerance", f.tolerance, 0.0, Quantity::None, Range::aboveTo(0.0, 1.0e3),
                "Left out: 1e-2 of the residual with solver vertex, 5e-3 of gravity times the step with grid");
     v.fixed([&](auto& w) { w.flag("contact", f.contact, "Fabric touches itself and obstacles"); });
-    v.integer("max_halvings", f.maxHalvings, 0, 30, "Of a step that could not be taken, solver vertex only; where pins or solids drive the fabric, two at least");
+    v.integer("max_halvings", f.maxHalvings, 0, 30,
+              "Of a step that could not be taken, solver vertex only; where pins or solids drive the fabric, two at least");
 }
 
 class SectionReader;
 
 /// Whatever two are given, fibre diameter and volume fraction follow. Throws InputError where not two are given.
-void resolvePorous(const SectionReader& section, double poreRadius, double threads, double thickness,
-                   PorousSettings& porous);
+void resolvePorous(const SectionReader& section, double poreRadius, double threads, double thickness, PorousSettings& porous);
 
 /// The two of `porous` that everything follows from, and the other ways to say them.
 template <class V>
@@ -83,8 +78,7 @@ void describe(V& v, PorousSettings& p)
     v.when(false, [&](auto& w) {
         double poreRadius = 0.0, threads = 0.0, thickness = 0.0;
         w.number("pore_radius", poreRadius, Quantity::Length, Range::above(0.0), "");
-        w.number("thread_count", threads, Quantity::None, Range::above(0.0),
-                 "Threads per cm^2 in every system of units");
+        w.number("thread_count", threads, Quantity::None, Range::above(0.0), "Threads per cm^2 in every system of units");
         w.number("thickness", thickness, Quantity::Length, Range::above(0.0), "Of the cloth, with thread_count");
         w.whenReading([&](auto& reader) { resolvePorous(reader, poreRadius, threads, thickness, p); });
     });
@@ -97,23 +91,18 @@ void describe(V& v, FabricMaterial& m)
     v.number("young", m.young, Quantity::Pressure, Range::above(0.0), "Young's modulus of the fibres");
     v.number("poisson", m.poisson, Quantity::None, Range::inside(-1.0, 0.5), "Poisson's ratio");
     v.fixed([&](auto& w) { w.number("density", m.density, Quantity::Density, Range::above(0.0), "Of the fibres"); });
-    v.number("damping_viscosity", m.dampingViscosity, Quantity::Viscosity, Range::atLeast(0.0),
-             "Viscosity of the fibres, which damps; 0 = none");
+    v.number("damping_viscosity", m.dampingViscosity, Quantity::Viscosity, Range::atLeast(0.0), "Viscosity of the fibres, which damps; 0 = none");
     v.flag("damp_bending", m.dampBending, "It acts on bending and twisting");
     v.flag("damp_stretching", m.dampStretching, "It acts on stretching");
-    v.number("stretch_factor", m.stretchFactor, Quantity::None, Range::above(0.0),
-             "On the stretching stiffness of yarns");
-    v.number("contact_stiffness", m.contactStiffness, Quantity::None, Range::above(0.0),
-             "Of contact relative to young, fabric.solver grid only");
-    v.number("pin_stiffness", m.pinStiffness, Quantity::None, Range::above(0.0),
-             "Of pins relative to young, fabric.solver grid only");
+    v.number("stretch_factor", m.stretchFactor, Quantity::None, Range::above(0.0), "On the stretching stiffness of yarns");
+    v.number("contact_stiffness", m.contactStiffness, Quantity::None, Range::above(0.0), "Of contact relative to young, fabric.solver grid only");
+    v.number("pin_stiffness", m.pinStiffness, Quantity::None, Range::above(0.0), "Of pins relative to young, fabric.solver grid only");
     v.number("friction_angle", m.frictionAngle, Quantity::Angle, Range::between(0.0, 89.0),
              "Slope on which it starts to slide; its tangent is Coulomb's coefficient");
     v.fixed([&](auto& w) {
         w.number("volume_fraction", m.volumeFraction, Quantity::None, Range::aboveTo(0.0, 1.0),
                  "Fibres per volume of fabric; left out: that of porous, 1 without it");
-        w.number("section_rotation", m.sectionRotation, Quantity::Angle, Range::between(-360.0, 360.0),
-                 "Of an elliptic section about the yarn");
+        w.number("section_rotation", m.sectionRotation, Quantity::Angle, Range::between(-360.0, 360.0), "Of an elliptic section about the yarn");
     });
 }
 
@@ -123,8 +112,9 @@ void describeFabric(V& v, Settings& s)
 {
     v.section("porous", s.porous, "");
     v.section("fabric", s.fabric, "");
-    v.later("contact", "how hard solids push fabric follows from its mass and the step, with every solver; remove the section "
-                       "(fabric.contact: false takes contact away, obstacles[].collide: false that with one solid)");
+    v.later("contact",
+            "how hard solids push fabric follows from its mass and the step, with every solver; remove the section "
+            "(fabric.contact: false takes contact away, obstacles[].collide: false that with one solid)");
 }
 
 }  // namespace sim

@@ -44,27 +44,21 @@ struct Formula::Parser {
     {
         constexpr bool kMayBeFolded = false;
         switch (bound.function.arguments) {
-            case 1:
-                return parser.DefineFunUserData(bound.function.name, Bound::call1, &bound, kMayBeFolded);
-            case 2:
-                return parser.DefineFunUserData(bound.function.name, Bound::call2, &bound, kMayBeFolded);
-            default:
-                return parser.DefineFunUserData(bound.function.name, Bound::call3, &bound, kMayBeFolded);
+            case 1: return parser.DefineFunUserData(bound.function.name, Bound::call1, &bound, kMayBeFolded);
+            case 2: return parser.DefineFunUserData(bound.function.name, Bound::call2, &bound, kMayBeFolded);
+            default: return parser.DefineFunUserData(bound.function.name, Bound::call3, &bound, kMayBeFolded);
         }
     }
 };
 
-Formula::Formula(std::string text, const FormulaNames& names)
-    : text_(std::move(text)), parser_(std::make_shared<Parser>())
+Formula::Formula(std::string text, const FormulaNames& names) : text_(std::move(text)), parser_(std::make_shared<Parser>())
 {
     Parser& p = *parser_;
     p.values.resize(names.variables.size());
     p.ofNames = names.ofNames;
     for (const FormulaNames::Function& function : names.functions)
-        if (function.arguments > 0)
-            p.functions.push_back({function, &p});
-        else
-            p.measured.push_back({function});
+        if (function.arguments > 0) p.functions.push_back({function, &p});
+        else p.measured.push_back({function});
     try {
         p.parser.DefineConst("pi", kPi);
         for (std::size_t i = 0; i < names.variables.size(); ++i) p.parser.DefineVar(names.variables[i], &p.values[i]);

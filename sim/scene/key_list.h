@@ -19,19 +19,19 @@ namespace sim {
 /// A key that a map of a scene may have, as its declaration has it.
 struct DeclaredKey {
     enum class Kind {
-        Number,        ///< and NumberOrWord, where there are words
-        Numbers,       ///< a list of `count`
+        Number,   ///< and NumberOrWord, where there are words
+        Numbers,  ///< a list of `count`
         NumberOrPair,
         Integer,
-        Integers,      ///< a list of two
+        Integers,  ///< a list of two
         Flag,
         Text,
         Texts,
-        Word,          ///< one of `words`
-        Words,         ///< a list of some of them
-        Map,           ///< with the keys `below`
-        PerPhase,      ///< as below.front(), or a map with both of `below`
-        Other,         ///< read by other code
+        Word,      ///< one of `words`
+        Words,     ///< a list of some of them
+        Map,       ///< with the keys `below`
+        PerPhase,  ///< as below.front(), or a map with both of `below`
+        Other,     ///< read by other code
     };
 
     std::string name;
@@ -42,8 +42,8 @@ struct DeclaredKey {
     std::size_t count = 1;
     std::vector<std::string> words;
     std::vector<DeclaredKey> below;
-    std::array<double, 3> values{};   ///< of numbers where the map does not say them; NaN: none
-    std::string word = {};            ///< likewise of words and texts
+    std::array<double, 3> values{};  ///< of numbers where the map does not say them; NaN: none
+    std::string word = {};           ///< likewise of words and texts
     bool isNeeded = false;
 };
 

@@ -12,8 +12,8 @@
 #include "sim/scene/unread_settings.h"
 #include "sim/shapes/thickness.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +46,8 @@ void readNames(const Node& root, const std::string& file, Scene& scene)
     SectionReader::read(section, "scene", [&](auto& v) { describeNames(v, scene); });
     if (scene.name.empty() || scene.name != asName(scene.name)) {
         const Node* name = section ? section->find("name") : nullptr;
-        fail(name ? name->place : root.place,
-             fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
-                         scene.name.empty() ? "drop" : asName(scene.name)));
+        fail(name ? name->place : root.place, fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
+                                                          scene.name.empty() ? "drop" : asName(scene.name)));
     }
 }
 
@@ -64,14 +63,12 @@ void checkSource(const Scene& scene, std::size_t mostBoxes, SourceSettings& sour
     const std::string path = joinPath("liquid.sources", source.name);
     const RegionMeasure region = measureRegion(source, scene, mostBoxes);
     source.volume = region.volume;
-    if (region.isUnbounded)
-        fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
+    if (region.isUnbounded) fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
     if (region.isEmpty) {
         const bool isBodiless = measureRegion(source, Scene{}, mostBoxes).isEmpty;
-        fail(source.where,
-             fmt::format("{}: is empty: {}", path,
-                         isBodiless ? "its shape has no volume; make its parts overlap"
-                                    : "its shape lies outside of the domain or inside obstacles; move it"));
+        fail(source.where, fmt::format("{}: is empty: {}", path,
+                                       isBodiless ? "its shape has no volume; make its parts overlap"
+                                                  : "its shape lies outside of the domain or inside obstacles; move it"));
     }
     const double pitch = pitchInCells(source.fill) * scene.settings.cell;
     const double count = region.volume / (pitch * pitch * pitch);
@@ -103,8 +100,7 @@ void checkCohesion(const Node& root, const Settings& settings)
     const CohesionSettings& cohesion = settings.coupling.cohesion;
     if (!node || !(cohesion.strength > 0.0) || !root.find("fabrics")) return;
     const auto refuse = [&](const char* why) { fail(node->place, fmt::format("coupling.cohesion: {}", why)); };
-    if (settings.fabric.solver == FabricSolver::Grid)
-        refuse("fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0");
+    if (settings.fabric.solver == FabricSolver::Grid) refuse("fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0");
     if (!settings.fabric.contact) refuse("acts where fabric touches, and fabric.contact is false; set that true, or strength: 0");
     if (!cohesion.fabric && !cohesion.obstacle) refuse("holds neither fabric nor obstacle; set one of them true, or strength: 0");
 }
@@ -113,10 +109,8 @@ void checkCohesion(const Node& root, const Settings& settings)
 
 std::span<const LiquidPreset> liquidPresets()
 {
-    static constexpr LiquidPreset kAll[] = {{"water", 1.0, 8.9e-3, 72.0},
-                                            {"oil", 0.92, 0.81, 32.0},
-                                            {"honey", 1.45, 80.0, 50.0},
-                                            {"acetal", 0.7802, 2.208e-3, 20.59375}};
+    static constexpr LiquidPreset kAll[] = {
+        {"water", 1.0, 8.9e-3, 72.0}, {"oil", 0.92, 0.81, 32.0}, {"honey", 1.45, 80.0, 50.0}, {"acetal", 0.7802, 2.208e-3, 20.59375}};
     return kAll;
 }
 
@@ -155,9 +149,10 @@ void noteWideMeshes(Scene& scene)
         if (piece.faces.empty()) continue;
         const double spacing = std::sqrt(area / static_cast<double>(piece.faces.size()));  // of a square grid: two faces to a square
         if (spacing < kCells * cell) continue;
-        scene.notes.push_back(fmt::format("{}: vertices of fabric {} are {:.2g} cm apart, {:.2g} cells: with solver grid liquid slips between them; "
-                                          "a finer mesh, a grid.cell of {:.2g} cm or solver vertex would hold it",
-                                          piece.where, piece.name, spacing, spacing / cell, spacing));
+        scene.notes.push_back(
+            fmt::format("{}: vertices of fabric {} are {:.2g} cm apart, {:.2g} cells: with solver grid liquid slips between them; "
+                        "a finer mesh, a grid.cell of {:.2g} cm or solver vertex would hold it",
+                        piece.where, piece.name, spacing, spacing / cell, spacing));
     }
 }
 
@@ -205,9 +200,6 @@ Scene readScene(const SceneFile& file)
     return scene;
 }
 
-Scene loadScene(const std::filesystem::path& path, const LoadOptions& options)
-{
-    return readScene(loadSceneFile(path, options));
-}
+Scene loadScene(const std::filesystem::path& path, const LoadOptions& options) { return readScene(loadSceneFile(path, options)); }
 
 }  // namespace sim

@@ -50,8 +50,7 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds, const Vec3i& cou
     std::vector<Vec3> centers;
     for (int i = 0; i < counts[0]; ++i) {
         for (int j = 0; j < counts[1]; ++j) {
-            for (int k = 0; k < counts[2]; ++k)
-                centers.push_back(bounds.min() + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
+            for (int k = 0; k < counts[2]; ++k) centers.push_back(bounds.min() + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5)));
         }
     }
     return centers;

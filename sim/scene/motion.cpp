@@ -45,10 +45,7 @@ Course<double> sineCourse(const Piece& p, double t)
     return {p.amount * std::sin(omega * since), moving ? p.amount * omega * std::cos(omega * since) : 0.0};
 }
 
-Course<double> course(const Piece& p, double t)
-{
-    return p.course == Piece::Course::Eased ? easedCourse(p, t) : sineCourse(p, t);
-}
+Course<double> course(const Piece& p, double t) { return p.course == Piece::Course::Eased ? easedCourse(p, t) : sineCourse(p, t); }
 
 Course<Vec3> pathCourse(const Piece& p, double t)
 {
@@ -72,8 +69,7 @@ std::vector<Vec3> monotoneSlopes(const std::vector<double>& times, const std::ve
     for (std::size_t i = 1; i + 1 < offsets.size(); ++i) {
         const double before = times[i] - times[i - 1], after = times[i + 1] - times[i];
         for (int a = 0; a < kAxes; ++a) {
-            const double p = (offsets[i][a] - offsets[i - 1][a]) / before,
-                         q = (offsets[i + 1][a] - offsets[i][a]) / after;
+            const double p = (offsets[i][a] - offsets[i - 1][a]) / before, q = (offsets[i + 1][a] - offsets[i][a]) / after;
             const double share = (before + 2.0 * after) / (3.0 * (before + after));
             if (p * q > 0.0) slopes[i][a] = p * q / (share * q + (1.0 - share) * p);
         }
@@ -85,13 +81,9 @@ std::vector<Vec3> monotoneSlopes(const std::vector<double>& times, const std::ve
 Eigen::Isometry3d pieceTransform(const Piece& p, double t)
 {
     Eigen::Isometry3d m = Eigen::Isometry3d::Identity();
-    if (p.course == Piece::Course::Path)
-        m.translation() = pathCourse(p, t).place;
-    else if (!p.turns)
-        m.translation() = course(p, t).place * p.axis;
-    else
-        m = Eigen::Translation3d(p.origin) * Eigen::AngleAxisd(course(p, t).place, p.axis) *
-            Eigen::Translation3d(-p.origin);
+    if (p.course == Piece::Course::Path) m.translation() = pathCourse(p, t).place;
+    else if (!p.turns) m.translation() = course(p, t).place * p.axis;
+    else m = Eigen::Translation3d(p.origin) * Eigen::AngleAxisd(course(p, t).place, p.axis) * Eigen::Translation3d(-p.origin);
     return m;
 }
 
@@ -120,10 +112,7 @@ void require(bool condition, const char* what)
     if (!condition) throw InputError(std::string("a motion's ") + what);
 }
 
-bool isUnit(const Vec3& v)
-{
-    return std::abs(v.norm() - 1.0) < 1.0e-6;
-}
+bool isUnit(const Vec3& v) { return std::abs(v.norm() - 1.0) < 1.0e-6; }
 
 }  // namespace
 
@@ -136,8 +125,7 @@ void Motion::add(Piece piece)
     require(piece.easeIn >= 0.0 && piece.easeOut >= 0.0, "eases must not be negative");
     const double span = piece.end - piece.begin;
     require(piece.easeIn + piece.easeOut <= span * (1.0 + 1.0e-9), "eases must not be longer than its span together");
-    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), piece.begin,
-                                        [](double begin, const Piece& p) { return begin < p.begin; });
+    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), piece.begin, [](double begin, const Piece& p) { return begin < p.begin; });
     pieces_.insert(after, std::move(piece));
 }
 
@@ -153,8 +141,7 @@ void Motion::addTranslation(double t0, double t1, const Vec3& by, double easeIn,
     add(p);
 }
 
-void Motion::addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame,
-                         double easeIn, double easeOut)
+void Motion::addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame, double easeIn, double easeOut)
 {
     require(isUnit(axis), "axis must be a unit vector");
     Piece p;
@@ -183,8 +170,7 @@ void Motion::addOscillation(double t0, double t1, const Vec3& direction, double 
     add(p);
 }
 
-void Motion::addSwing(double t0, double t1, const Vec3& axis, double amplitude, double frequency, const Vec3& origin,
-                      Frame frame)
+void Motion::addSwing(double t0, double t1, const Vec3& axis, double amplitude, double frequency, const Vec3& origin, Frame frame)
 {
     require(isUnit(axis), "axis must be a unit vector");
     Piece p;
@@ -221,8 +207,7 @@ void Motion::addPath(const std::vector<double>& times, const std::vector<Vec3>& 
 Eigen::Isometry3d Motion::transform(double t) const
 {
     Eigen::Isometry3d all = Eigen::Isometry3d::Identity();
-    for (const Piece& p : pieces_)
-        all = p.frame == Frame::World ? pieceTransform(p, t) * all : all * pieceTransform(p, t);
+    for (const Piece& p : pieces_) all = p.frame == Frame::World ? pieceTransform(p, t) * all : all * pieceTransform(p, t);
     return all;
 }
 
@@ -243,9 +228,7 @@ Vec3 Motion::velocity(double t, const Vec3& x) const
 
 bool Motion::moves(double t0, double t1) const
 {
-    const auto overlaps = [&](double begin, double end) {
-        return t0 < t1 ? begin < t1 && end > t0 : begin <= t0 && t0 < end;
-    };
+    const auto overlaps = [&](double begin, double end) { return t0 < t1 ? begin < t1 && end > t0 : begin <= t0 && t0 < end; };
     for (const Piece& p : pieces_) {
         if (!overlaps(p.begin, p.end)) continue;
         if (p.course == Piece::Course::Eased && p.amount != 0.0) return true;

@@ -30,10 +30,7 @@ const Node* Node::find(std::string_view key) const
     return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
 }
 
-Node* Node::find(std::string_view key)
-{
-    return const_cast<Node*>(std::as_const(*this).find(key));
-}
+Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
 
 Node& Node::at(const std::string& key, const Place& keyPlace)
 {
@@ -57,8 +54,7 @@ bool isPlainWord(const std::string& text)
 {
     if (text.empty() || text == "~" || text == "null") return false;
     const auto isSafe = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
-               c == '/' || c == '+';
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '/' || c == '+';
     };
     const bool startsNegative = text.size() > 1 && text[0] == '-' && text[1] >= '0' && text[1] <= '9';
     if (!isSafe(text[0]) && !startsNegative) return false;
@@ -71,21 +67,11 @@ std::string flowText(const std::string& text)
     std::string out = "\"";
     for (const char c : text) {
         switch (c) {
-            case '"':
-                out += "\\\"";
-                break;
-            case '\\':
-                out += "\\\\";
-                break;
-            case '\n':
-                out += "\\n";
-                break;
-            case '\t':
-                out += "\\t";
-                break;
-            case '\r':
-                out += "\\r";
-                break;
+            case '"': out += "\\\""; break;
+            case '\\': out += "\\\\"; break;
+            case '\n': out += "\\n"; break;
+            case '\t': out += "\\t"; break;
+            case '\r': out += "\\r"; break;
             default:
                 const auto byte = static_cast<unsigned char>(c);
                 out += byte < 0x20 || byte == 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
@@ -112,14 +98,10 @@ std::string Node::flow() const
 std::string Node::called() const
 {
     switch (kind) {
-        case Kind::Null:
-            return "nothing";
-        case Kind::Scalar:
-            return inQuotes(text);
-        case Kind::List:
-            return items.empty() ? "an empty list" : fmt::format("a list of {}", items.size());
-        default:
-            return "a map";
+        case Kind::Null: return "nothing";
+        case Kind::Scalar: return inQuotes(text);
+        case Kind::List: return items.empty() ? "an empty list" : fmt::format("a list of {}", items.size());
+        default: return "a map";
     }
 }
 

@@ -44,8 +44,7 @@ Node& elementOf(Node& list, const std::string& part, const std::string& before, 
         if (!nameOf(element).empty()) names.push_back(nameOf(element));
     }
     if (isNumber || names.empty()) {
-        fail(change.value.place,
-             fmt::format("{} has no element {}; it has {}, counted from 0", before, inQuotes(part), list.items.size()));
+        fail(change.value.place, fmt::format("{} has no element {}; it has {}, counted from 0", before, inQuotes(part), list.items.size()));
     }
     fail(change.value.place, fmt::format("{} has no element {}{}", before, inQuotes(part), suggestion(part, names)));
 }
@@ -80,10 +79,7 @@ Node perPhase(const Node& value)
 }
 
 /// transfer: {liquid: polypic, fabric: apic} speaks of the method too.
-bool isPerPhase(const Node& value)
-{
-    return value.isMap() && !value.keys.empty() && std::all_of(value.keys.begin(), value.keys.end(), isPhase);
-}
+bool isPerPhase(const Node& value) { return value.isMap() && !value.keys.empty() && std::all_of(value.keys.begin(), value.keys.end(), isPhase); }
 
 Node longForm(const Node& value, const std::vector<std::string>& path)
 {
@@ -110,8 +106,7 @@ Override parseOverride(const std::string& text, bool isSi)
     source->isSi = isSi;
     const Place place{source, 1};
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-        fail(place, "an override reads key.key=value, like transfer.method=apic");
+    if (equals == std::string::npos || equals == 0) fail(place, "an override reads key.key=value, like transfer.method=apic");
     Node value = parseYaml(text.substr(equals + 1), source);
     if (value.isNull()) fail(place, "no value after the = sign");
     return {text.substr(0, equals), std::move(value)};

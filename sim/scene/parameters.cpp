@@ -29,8 +29,7 @@ class ParameterList {
         number(key, x, q, range, help);
         if (x == unset) all_.back().value.clear();
     }
-    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity q, Range range,
-                      const char* help)
+    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity q, Range range, const char* help)
     {
         number(key, x, q, range, help);
         if (isWord) all_.back().value = word;
@@ -39,10 +38,7 @@ class ParameterList {
     {
         add(key, Parameter::Kind::Integer, std::to_string(x), help).range = Range::between(low, high);
     }
-    void flag(const char* key, bool& x, const char* help)
-    {
-        add(key, Parameter::Kind::Flag, x ? "true" : "false", help);
-    }
+    void flag(const char* key, bool& x, const char* help) { add(key, Parameter::Kind::Flag, x ? "true" : "false", help); }
     template <class E>
     void choice(const char* key, E& x, const char* help)
     {
@@ -54,8 +50,7 @@ class ParameterList {
     }
     void vector(const char* key, Vec3& x, Quantity q, const char* help)
     {
-        const std::string list =
-            fmt::format("[{}, {}, {}]", formatNumber(x[0], q), formatNumber(x[1], q), formatNumber(x[2], q));
+        const std::string list = fmt::format("[{}, {}, {}]", formatNumber(x[0], q), formatNumber(x[1], q), formatNumber(x[2], q));
         add(key, Parameter::Kind::Numbers, list, help).unit = unitOf(q);
     }
     template <class T>
@@ -137,8 +132,7 @@ std::string overrideText(const Parameter& parameter, const std::string& value)
     std::string said;
     const bool takesUnit = !parameter.unit.empty() && isBare(value);
     for (const char c : value) {
-        if (takesUnit && parameter.kind == Parameter::Kind::Numbers && (c == ',' || c == ']'))
-            said += " " + parameter.unit;
+        if (takesUnit && parameter.kind == Parameter::Kind::Numbers && (c == ',' || c == ']')) said += " " + parameter.unit;
         said += c;
     }
     if (takesUnit && parameter.kind == Parameter::Kind::Number) said += " " + parameter.unit;

@@ -13,8 +13,8 @@ namespace sim {
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 48;       // maps and lists inside each other; a scene needs about ten
-constexpr const char* kMergeKey = "<<";     // of YAML 1.1: the map has the keys of others, too
+constexpr std::size_t kMaxDepth = 48;    // maps and lists inside each other; a scene needs about ten
+constexpr const char* kMergeKey = "<<";  // of YAML 1.1: the map has the keys of others, too
 
 /// Builds the tree; bounded in depth and size, so that no file can ask for more memory than its own order of magnitude.
 class TreeBuilder : public YAML::EventHandler {
@@ -27,10 +27,7 @@ class TreeBuilder : public YAML::EventHandler {
     void OnDocumentStart(const YAML::Mark&) override {}
     void OnDocumentEnd() override {}
 
-    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override
-    {
-        add(leaf(Node::Kind::Null, mark, ""), anchor);
-    }
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(leaf(Node::Kind::Null, mark, ""), anchor); }
 
     void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string& value) override
     {
@@ -40,8 +37,7 @@ class TreeBuilder : public YAML::EventHandler {
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override
     {
         const auto found = anchors_.find(anchor);
-        if (found == anchors_.end())
-            fail(placeOf(mark), "this alias stands inside its own anchor; write the value out");
+        if (found == anchors_.end()) fail(placeOf(mark), "this alias stands inside its own anchor; write the value out");
         count_ += found->second.size;
         checkCount(mark);
         Node copy = found->second.node;
@@ -49,13 +45,11 @@ class TreeBuilder : public YAML::EventHandler {
         attach(std::move(copy));
     }
 
-    void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                         YAML::EmitterStyle::value) override
+    void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override
     {
         open(Node::Kind::List, mark, anchor);
     }
-    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
-                    YAML::EmitterStyle::value) override
+    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override
     {
         open(Node::Kind::Map, mark, anchor);
     }
@@ -71,7 +65,7 @@ class TreeBuilder : public YAML::EventHandler {
         std::string key;
         Place keyPlace;
         bool hasKey = false;
-        std::vector<Node> merged = {};    ///< maps behind the key <<
+        std::vector<Node> merged = {};  ///< maps behind the key <<
     };
     struct Anchored {
         Node node;
@@ -151,7 +145,8 @@ class TreeBuilder : public YAML::EventHandler {
         if (node.isList()) maps = std::move(node.items);
         else maps.push_back(std::move(node));
         for (const Node& map : maps)
-            if (!map.isMap()) fail(map.place, fmt::format("<< merges maps, like <<: *sheet with a map that has the anchor &sheet, not {}", map.called()));
+            if (!map.isMap())
+                fail(map.place, fmt::format("<< merges maps, like <<: *sheet with a map that has the anchor &sheet, not {}", map.called()));
         return maps;
     }
 
@@ -165,12 +160,9 @@ class TreeBuilder : public YAML::EventHandler {
 
     void takeKey(Open& parent, Node node)
     {
-        if (!node.isScalar() || node.text.empty())
-            fail(node.place, fmt::format("a key must be a word, not {}", node.called()));
+        if (!node.isScalar() || node.text.empty()) fail(node.place, fmt::format("a key must be a word, not {}", node.called()));
         const auto [first, isNew] = parent.seen.emplace(node.text, node.place.line);
-        if (!isNew)
-            fail(node.place,
-                 fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
+        if (!isNew) fail(node.place, fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
         parent.key = std::move(node.text);
         parent.keyPlace = std::move(node.place);
         parent.hasKey = true;
@@ -187,10 +179,7 @@ std::size_t characterLength(std::string_view text, std::size_t i)
 {
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
     const unsigned first = byte(i);
-    const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
-                               : (first & 0xF0) == 0xE0        ? 3
-                               : first >= 0xF0 && first < 0xF5 ? 4
-                                                               : 0;
+    const std::size_t length = first >= 0xC2 && first < 0xE0 ? 2 : (first & 0xF0) == 0xE0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
     for (std::size_t k = 1; k < length; ++k) {
         if ((byte(i + k) & 0xC0) != 0x80) return 0;
     }
@@ -230,8 +219,7 @@ Node parseYaml(const std::string& text, const std::shared_ptr<const TextSource>&
         parser.HandleNextDocument(tree);
         if (tree.isEmpty) return Node{Node::Kind::Null, {source, 1}, {}, {}, {}};
         TreeBuilder second(source);
-        if (parser.HandleNextDocument(second))
-            fail(second.root.place, "a second document (after ---); one file holds one scene");
+        if (parser.HandleNextDocument(second)) fail(second.root.place, "a second document (after ---); one file holds one scene");
     } catch (const YAML::Exception& e) {
         fail(Place{source, std::max(1, e.mark.line + 1)}, fmt::format("not valid YAML: {}", e.msg));
     }

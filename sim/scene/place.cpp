@@ -50,10 +50,7 @@ std::string Place::text() const
     return source->numbered ? fmt::format("{}:{}", source->name, line) : source->name;
 }
 
-void fail(const std::string& where, const std::string& message)
-{
-    throw InputError(withoutControls(where + ": " + message));
-}
+void fail(const std::string& where, const std::string& message) { throw InputError(withoutControls(where + ": " + message)); }
 
 void requireAllowed(const std::filesystem::path& file, const Place& place)
 {
@@ -65,10 +62,7 @@ void requireAllowed(const std::filesystem::path& file, const Place& place)
         fail(place, fmt::format("{} does not lie below the scene's folder", fileInQuotes(file.string())));
 }
 
-void fail(const Place& place, const std::string& message)
-{
-    fail(place.text(), message);
-}
+void fail(const Place& place, const std::string& message) { fail(place.text(), message); }
 
 std::string fileInQuotes(const std::string& path)
 {
@@ -84,10 +78,7 @@ std::string inQuotes(std::string_view text, std::size_t shown)
     return withoutControls(fmt::format("\"{}…\"", text.substr(0, end)));
 }
 
-std::string joinPath(const std::string& path, const std::string& key)
-{
-    return path.empty() ? key : fmt::format("{}.{}", path, key);
-}
+std::string joinPath(const std::string& path, const std::string& key) { return path.empty() ? key : fmt::format("{}.{}", path, key); }
 
 std::string listed(const std::vector<std::string>& names, std::size_t limit)
 {

@@ -14,10 +14,10 @@ namespace sim {
 
 /// What a text may ask of this machine. Scenes of one's own may ask for much; readers of texts from anywhere allow less.
 struct ReadingBounds {
-    std::filesystem::path folder = {};     ///< the files it names must lie below; empty: anywhere
-    std::size_t values = 500'000;          ///< words, lists and maps, aliases copied out
-    int vertices = 5'000'000;              ///< of all fabrics
-    std::size_t regionBoxes = 100'000;     ///< into which a source is cut to measure its volume
+    std::filesystem::path folder = {};  ///< the files it names must lie below; empty: anywhere
+    std::size_t values = 500'000;       ///< words, lists and maps, aliases copied out
+    int vertices = 5'000'000;           ///< of all fabrics
+    std::size_t regionBoxes = 100'000;  ///< into which a source is cut to measure its volume
 };
 
 class KeyList;

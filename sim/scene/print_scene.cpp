@@ -13,10 +13,7 @@ namespace sim {
 
 namespace {
 
-std::string vectorText(const Vec3& x)
-{
-    return fmt::format("({:.4g}, {:.4g}, {:.4g})", x[0], x[1], x[2]);
-}
+std::string vectorText(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", x[0], x[1], x[2]); }
 
 std::string boundsText(const Shape& shape)
 {
@@ -27,8 +24,7 @@ std::string boundsText(const Shape& shape)
 
 void writeSource(SectionWriter& w, SourceSettings source)
 {
-    w.line("- name", Node::scalar(source.name, {}).flow(),
-           fmt::format("about {:.4g} cm^3 of liquid, {}", source.volume, boundsText(source.shape)));
+    w.line("- name", Node::scalar(source.name, {}).flow(), fmt::format("about {:.4g} cm^3 of liquid, {}", source.volume, boundsText(source.shape)));
     w.line("  shape", source.shapeText, "[cm]");
     if (source.velocityField) {
         Node formulas;
@@ -62,29 +58,25 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
 void writeObstacle(SectionWriter& w, const ObstacleSettings& obstacle)
 {
     const Shape body = obstacle.inside ? obstacle.shape.inverted() : obstacle.shape;
-    w.line("- name", Node::scalar(obstacle.name, {}).flow(),
-           fmt::format("{}{}", obstacle.inside ? "around " : "", boundsText(body)));
+    w.line("- name", Node::scalar(obstacle.name, {}).flow(), fmt::format("{}{}", obstacle.inside ? "around " : "", boundsText(body)));
     w.line("  shape", obstacle.shapeText, "[cm]");
     w.line("  inside", obstacle.inside ? "true" : "false", "The solid is everything outside of the shape");
     w.line("  collide", obstacle.collide ? "true" : "false", "Fabric touches it");
     w.line("  cohesive", obstacle.cohesive ? "true" : "false", "Wet fabric sticks to it, where there is cohesion");
-    if (obstacle.frictionAngle)
-        w.line("  friction_angle", formatNumber(*obstacle.frictionAngle, Quantity::Angle), "[deg] Of fabric on it");
+    if (obstacle.frictionAngle) w.line("  friction_angle", formatNumber(*obstacle.frictionAngle, Quantity::Angle), "[deg] Of fabric on it");
     if (!obstacle.motionText.empty()) w.line("  motion", obstacle.motionText, "[s], [cm], [deg]");
 }
 
 void writeMaterials(SectionWriter& top, std::vector<NamedMaterial> materials)
 {
     top.below("materials", "", [&](SectionWriter& w) {
-        for (NamedMaterial& m : materials)
-            w.below(Node::scalar(m.name, {}).flow(), "", [&](SectionWriter& inner) { describe(inner, m.material); });
+        for (NamedMaterial& m : materials) w.below(Node::scalar(m.name, {}).flow(), "", [&](SectionWriter& inner) { describe(inner, m.material); });
     });
 }
 
 std::string pinText(const PinGroup& pin)
 {
-    return fmt::format("{{{}{}{}{}}}",
-                       pin.name.empty() ? "" : fmt::format("name: {}, ", Node::scalar(pin.name, {}).flow()), pin.text,
+    return fmt::format("{{{}{}{}{}}}", pin.name.empty() ? "" : fmt::format("name: {}, ", Node::scalar(pin.name, {}).flow()), pin.text,
                        pin.twist ? ", twist: true" : "", pin.motionText.empty() ? "" : ", motion: " + pin.motionText);
 }
 
@@ -94,9 +86,8 @@ std::string sizeText(const FabricPiece& piece)
     const double mass = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     Eigen::AlignedBox3d bounds;
     for (const Vec3& x : piece.points) bounds.extend(x);
-    return fmt::format("{} vertices, {} yarns, {} faces, {:.4g} g, {} to {} cm", piece.points.size(),
-                       piece.strands.size(), piece.faces.size(), mass, vectorText(bounds.min()),
-                       vectorText(bounds.max()));
+    return fmt::format("{} vertices, {} yarns, {} faces, {:.4g} g, {} to {} cm", piece.points.size(), piece.strands.size(), piece.faces.size(), mass,
+                       vectorText(bounds.min()), vectorText(bounds.max()));
 }
 
 void writePiece(SectionWriter& w, const FabricPiece& piece)
@@ -106,8 +97,7 @@ void writePiece(SectionWriter& w, const FabricPiece& piece)
     w.line(fmt::format("  {}", piece.kind), piece.text, "[cm]");
     if (!piece.transformText.empty()) w.line("  transform", piece.transformText, "[cm], [deg]");
     const Vec3& v = piece.velocity;
-    w.line("  velocity", fmt::format("[{}, {}, {}]", formatPlain(v[0]), formatPlain(v[1]), formatPlain(v[2])),
-           "[cm/s]");
+    w.line("  velocity", fmt::format("[{}, {}, {}]", formatPlain(v[0]), formatPlain(v[1]), formatPlain(v[2])), "[cm/s]");
     if (piece.wetness > 0.0) w.line("  wetness", formatPlain(piece.wetness), "Share of the pores that liquid fills at the start");
     if (piece.pins.empty()) return;
     w.below("  pin", "[cm], [s], [deg]", [&](SectionWriter& inner) {

@@ -15,8 +15,7 @@ namespace {
 
 void checkEmission(const Emission& e, const Node& node, const std::string& path, double start)
 {
-    if (e.to < start)
-        fail(node.place, fmt::format("{}: ends at {} s, before the run starts at {} s", path, e.to, start));
+    if (e.to < start) fail(node.place, fmt::format("{}: ends at {} s, before the run starts at {} s", path, e.to, start));
     const bool isInitial = e.from == start && e.to == start;
     if (!isInitial && !(e.to > e.from)) fail(node.place, fmt::format("{}: to must be after from", path));
 }
@@ -36,8 +35,7 @@ std::vector<Emission> readEmissions(const Node& source, const std::string& path,
 {
     const Node* list = listAt(&source, "emit", joinPath(path, "emit"), "[{from: 0, to: 0.5}]");
     if (!list) return {initial};
-    if (list->items.empty())
-        fail(list->place, fmt::format("{}.emit: is empty; remove it, or give a span like {{from: 0, to: 0.5}}", path));
+    if (list->items.empty()) fail(list->place, fmt::format("{}.emit: is empty; remove it, or give a span like {{from: 0, to: 0.5}}", path));
     std::vector<Emission> all;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
         const std::string itemPath = fmt::format("{}.emit.{}", path, i);
@@ -94,8 +92,7 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     return source;
 }
 
-ObstacleSettings readObstacle(const Node& node, const std::string& name, const std::string& path,
-                              const Settings& settings)
+ObstacleSettings readObstacle(const Node& node, const std::string& name, const std::string& path, const Settings& settings)
 {
     ObstacleSettings obstacle;
     obstacle.name = name;

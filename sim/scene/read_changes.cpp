@@ -25,18 +25,15 @@ bool isBelow(const std::string& path, const std::string& section)
 void requireSettings(const std::string& path, const Node& value, const std::vector<Parameter>& parameters)
 {
     if (value.isMap()) {
-        for (std::size_t i = 0; i < value.keys.size(); ++i)
-            requireSettings(joinPath(path, value.keys[i]), value.items[i], parameters);
+        for (std::size_t i = 0; i < value.keys.size(); ++i) requireSettings(joinPath(path, value.keys[i]), value.items[i], parameters);
         return;
     }
-    const bool isSetting = path == "liquid.preset" || std::ranges::any_of(parameters, [&](const Parameter& p) {
-                               return isBelow(p.path, path) || isBelow(path, p.path);
-                           });
+    const bool isSetting = path == "liquid.preset" ||
+                           std::ranges::any_of(parameters, [&](const Parameter& p) { return isBelow(p.path, path) || isBelow(path, p.path); });
     if (!isSetting)
-        fail(value.place,
-             fmt::format("changes: {} cannot change during a run; only settings of time, transfer, liquid, "
-                         "coupling, fabric, materials, solver and gravity can",
-                         path));
+        fail(value.place, fmt::format("changes: {} cannot change during a run; only settings of time, transfer, liquid, "
+                                      "coupling, fabric, materials, solver and gravity can",
+                                      path));
 }
 
 /// Refuses settings that hold for a whole run.
@@ -44,8 +41,7 @@ void requireUnchanged(const Place& place, const std::vector<Parameter>& before, 
 {
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
         if (before[i].isFixed && before[i].path == after[i].path && before[i].value != after[i].value)
-            fail(place,
-                 fmt::format("changes: {} holds for a whole run; give it its value at the start", before[i].path));
+            fail(place, fmt::format("changes: {} holds for a whole run; give it its value at the start", before[i].path));
 }
 
 const std::vector<NamedMaterial>& materialsBefore(const Scene& scene, std::size_t i)
@@ -53,10 +49,7 @@ const std::vector<NamedMaterial>& materialsBefore(const Scene& scene, std::size_
     return i == 0 ? scene.materials : scene.changes[i - 1].materials;
 }
 
-const Settings& settingsBefore(const Scene& scene, std::size_t i)
-{
-    return i == 0 ? scene.settings : scene.changes[i - 1].settings;
-}
+const Settings& settingsBefore(const Scene& scene, std::size_t i) { return i == 0 ? scene.settings : scene.changes[i - 1].settings; }
 
 }  // namespace
 
@@ -80,11 +73,9 @@ std::vector<SettingsChange> readChanges(const Node& root, const Scene& scene)
             v.other("set", "");
         });
         if (i > 0 && step < changes.back().step)
-            fail(item.place, fmt::format("{}.step: {} comes after step {}; write changes in their order", path, step,
-                                         changes.back().step));
+            fail(item.place, fmt::format("{}.step: {} comes after step {}; write changes in their order", path, step, changes.back().step));
         const Node& set = *item.find("set");
-        if (!set.isMap())
-            fail(set.place, fmt::format("{}.set: needs a map like {{time.dt: 1.0e-3}}, not {}", path, set.called()));
+        if (!set.isMap()) fail(set.place, fmt::format("{}.set: needs a map like {{time.dt: 1.0e-3}}, not {}", path, set.called()));
         for (const Override& change : overridesOf(set, {})) {
             requireSettings(change.path, change.value, atStart);
             apply(change, changed);

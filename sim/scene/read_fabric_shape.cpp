@@ -17,8 +17,7 @@ namespace sim {
 
 static std::span<const Choice<Weave>> choicesOf(Weave)
 {
-    static constexpr Choice<Weave> kAll[] = {
-        {"plain", Weave::Plain}, {"twill", Weave::Twill}, {"herringbone", Weave::Herringbone}};
+    static constexpr Choice<Weave> kAll[] = {{"plain", Weave::Plain}, {"twill", Weave::Twill}, {"herringbone", Weave::Herringbone}};
     return kAll;
 }
 
@@ -77,8 +76,7 @@ void place(const Placement& p, double alongU, double alongV, const Context& cont
 void requireFew(double count, const Context& context)
 {
     const double most = context.mostVertices();
-    if (count > most)
-        context.fail(fmt::format("would have {:.3g} vertices (at most {:.0e} are possible); ask for fewer", count, most));
+    if (count > most) context.fail(fmt::format("would have {:.3g} vertices (at most {:.0e} are possible); ask for fewer", count, most));
 }
 
 ReadFabricShape readClothGrid(const Context& context)
@@ -136,12 +134,10 @@ ReadFabricShape readWovenYarns(const Context& context)
 std::vector<Vec3> readPoints(const Node& node, const std::string& path)
 {
     if (!node.isList() || node.items.size() < 2)
-        fail(node.place,
-             fmt::format("{}: needs two or more points, like [[0, 0, 0], [1, 0, 0]], not {}", path, node.called()));
+        fail(node.place, fmt::format("{}: needs two or more points, like [[0, 0, 0], [1, 0, 0]], not {}", path, node.called()));
     std::vector<Vec3> points(node.items.size());
     for (std::size_t i = 0; i < points.size(); ++i)
-        readNumbers(node.items[i], path, {points[i].data(), 3}, Quantity::Length,
-                    Range::between(-kFarthest, kFarthest));
+        readNumbers(node.items[i], path, {points[i].data(), 3}, Quantity::Length, Range::between(-kFarthest, kFarthest));
     return points;
 }
 
@@ -175,8 +171,7 @@ ReadFabricShape readStrand(const Context& context)
     text.pop_back();
     text += ", points: [";
     for (std::size_t i = 0; i < all.size(); ++i)
-        text += fmt::format("{}[{}, {}, {}]", i > 0 ? ", " : "", formatPlain(all[i][0]), formatPlain(all[i][1]),
-                            formatPlain(all[i][2]));
+        text += fmt::format("{}[{}, {}, {}]", i > 0 ? ", " : "", formatPlain(all[i][0]), formatPlain(all[i][1]), formatPlain(all[i][2]));
     return {strand(all), radius, text + "]}"};
 }
 
@@ -279,9 +274,8 @@ std::vector<std::string> tidy(FabricGeometry& mesh, double distance)
         notes.push_back(fmt::format("{} of its vertices are welded to others within {:.3g} cm{}; weld: 0 would leave them apart", welded, distance,
                                     gone > 0 ? fmt::format(", and {} faces that are nothing or doubled then are left out", gone) : ""));
     if (lone > 0)
-        notes.push_back(
-            fmt::format("{} of its {} triangles share no vertex with another and will fall apart; a larger weld would join them", lone,
-                        mesh.faces.size()));
+        notes.push_back(fmt::format("{} of its {} triangles share no vertex with another and will fall apart; a larger weld would join them", lone,
+                                    mesh.faces.size()));
     return notes;
 }
 
@@ -326,8 +320,7 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     }
     std::vector<std::string> notes = tidy(out, isCloth ? weldDistance : 0.0);
     if (isCloth && out.faces.empty())
-        fail(context.node.find("weld") ? context.node.find("weld")->place : name.place,
-             context.path + ".weld: leaves no triangle; ask for less");
+        fail(context.node.find("weld") ? context.node.find("weld")->place : name.place, context.path + ".weld: leaves no triangle; ask for less");
     for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.place.text(), context.path, note);
     requireFew(static_cast<double>(out.points.size()), context);
     if (const std::string problem = orientAlike(out.faces, firstInFile(out)); !problem.empty())

@@ -16,18 +16,15 @@ std::string kindOf(const Node& node, const std::string& path)
     std::string kind;
     for (const std::string& candidate : fabricShapeKinds()) {
         if (!node.find(candidate)) continue;
-        if (!kind.empty())
-            fail(node.place, fmt::format("{}: has both {} and {}; make them two pieces", path, kind, candidate));
+        if (!kind.empty()) fail(node.place, fmt::format("{}: has both {} and {}; make them two pieces", path, kind, candidate));
         kind = candidate;
     }
-    if (kind.empty())
-        fail(node.place, fmt::format("{}: says no fabric; it takes one of {}", path, listed(fabricShapeKinds())));
+    if (kind.empty()) fail(node.place, fmt::format("{}: says no fabric; it takes one of {}", path, listed(fabricShapeKinds())));
     return kind;
 }
 
 /// The material of a piece stands beside its shape or in it.
-const NamedMaterial& materialOf(const Node& piece, const Node& shape, const std::string& path,
-                                const std::vector<NamedMaterial>& materials)
+const NamedMaterial& materialOf(const Node& piece, const Node& shape, const std::string& path, const std::vector<NamedMaterial>& materials)
 {
     const Node* outside = piece.find("material");
     const Node* name = shape.find("material");
@@ -60,8 +57,7 @@ std::string place(const Node& node, const std::string& path, std::vector<Vec3>& 
     });
     Eigen::AlignedBox3d bounds;
     for (const Vec3& x : points) bounds.extend(x);
-    if (const Node* turn = node.find("rotate"))
-        apply(readRotation(*turn, joinPath(path, "rotate"), bounds.center()), "rotate");
+    if (const Node* turn = node.find("rotate")) apply(readRotation(*turn, joinPath(path, "rotate"), bounds.center()), "rotate");
     if (const Node* by = node.find("translate")) apply(readTranslation(*by, joinPath(path, "translate")), "translate");
     return "{" + text + "}";
 }
@@ -96,10 +92,8 @@ FabricPiece readPiece(const Node& node, const std::string& name, const std::stri
     piece.notes = std::move(shape.notes);
     piece.text = fmt::format("{{material: {}, {}", Node::scalar(material.name, {}).flow(), shape.text.substr(1));
     piece.points = shape.geometry.points;
-    if (const Node* transform = node.find("transform"))
-        piece.transformText = place(*transform, joinPath(path, "transform"), piece.points);
-    if (const Node* pin = node.find("pin"))
-        piece.pins = readPins(*pin, joinPath(path, "pin"), shape.geometry, piece.points, scene.settings.cell);
+    if (const Node* transform = node.find("transform")) piece.transformText = place(*transform, joinPath(path, "transform"), piece.points);
+    if (const Node* pin = node.find("pin")) piece.pins = readPins(*pin, joinPath(path, "pin"), shape.geometry, piece.points, scene.settings.cell);
     piece.inFile = firstInFile(shape.geometry);
     piece.strands = std::move(shape.geometry.strands);
     piece.faces = std::move(shape.geometry.faces);
@@ -115,8 +109,7 @@ std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene)
     std::size_t vertices = 0;
     for (std::size_t i = 0; list && i < list->items.size(); ++i) {
         const std::string name = nameIn(list->items[i], i, "fabrics");
-        const FabricPiece& piece =
-            pieces.emplace_back(readPiece(list->items[i], name, joinPath("fabrics", name), scene));
+        const FabricPiece& piece = pieces.emplace_back(readPiece(list->items[i], name, joinPath("fabrics", name), scene));
         assembleFabric({&piece, 1});  // complains about what is no fabric
         vertices += piece.points.size();
         if (const int most = root.place.source->bounds.vertices; vertices > static_cast<std::size_t>(most))

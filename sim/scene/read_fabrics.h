@@ -15,8 +15,8 @@ std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene);
 /// One generator of a piece of fabric.
 struct ReadFabricShape {
     FabricGeometry geometry;
-    std::array<double, 2> radius{};  ///< [cm]
-    std::string text;  ///< its fields as a scene says them, in cgs, without material: "nodes: [9, 9], radius: 0.02"
+    std::array<double, 2> radius{};       ///< [cm]
+    std::string text;                     ///< its fields as a scene says them, in cgs, without material: "nodes: [9, 9], radius: 0.02"
     std::vector<std::string> notes = {};  ///< "drop.yaml:14: …": what was mended in its file
 };
 
@@ -26,8 +26,7 @@ const std::vector<std::string>& fabricShapeKinds();
 
 /// Reads the pins of a piece, one map or a list of them. Corners and sides are those of the generator's own geometry;
 /// shapes are where the `placed` points are.
-std::vector<PinGroup> readPins(const Node& node, const std::string& path, const FabricGeometry& geometry,
-                               std::span<const Vec3> placed, double cell);
+std::vector<PinGroup> readPins(const Node& node, const std::string& path, const FabricGeometry& geometry, std::span<const Vec3> placed, double cell);
 
 /// The section `motion`: gives obstacles, pins and the pins of fabrics the motions that name them.
 void readMotions(const Node& root, Scene& scene);

@@ -9,8 +9,7 @@ namespace sim {
 const Node* listAt(const Node* map, const char* key, const std::string& path, const char* example)
 {
     const Node* node = map ? map->find(key) : nullptr;
-    if (node && !node->isList())
-        fail(node->place, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
+    if (node && !node->isList()) fail(node->place, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
     return node;
 }
 
@@ -25,9 +24,7 @@ std::string nameIn(const Node& element, std::size_t index, const std::string& pa
 
 void requireName(const std::string& text, const Place& place, const std::string& path)
 {
-    const auto isAllowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    };
+    const auto isAllowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
     if (text.empty() || !std::all_of(text.begin(), text.end(), isAllowed))
         fail(place, fmt::format("{}: {} may have letters, digits, _ and - only", path, inQuotes(text)));
 }

@@ -25,8 +25,7 @@ void requireUnique(const std::vector<Settings>& all, const std::string& path)
 {
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            if (all[i].name == all[k].name)
-                fail(all[i].where, fmt::format("{}: two are named {}; rename one", path, inQuotes(all[i].name)));
+            if (all[i].name == all[k].name) fail(all[i].where, fmt::format("{}: two are named {}; rename one", path, inQuotes(all[i].name)));
         }
     }
 }

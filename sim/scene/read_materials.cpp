@@ -7,18 +7,14 @@
 
 namespace sim {
 
-void resolvePorous(const SectionReader& section, double poreRadius, double threads, double thickness,
-                   PorousSettings& porous)
+void resolvePorous(const SectionReader& section, double poreRadius, double threads, double thickness, PorousSettings& porous)
 {
     const bool byDiameter = section.has("fibre_diameter"), byFraction = section.has("volume_fraction");
     const bool byPores = section.has("pore_radius"), byThreads = section.has("thread_count");
-    const auto refuse = [&](const std::string& what) {
-        fail(section.place(), fmt::format("{}: {}", section.path(), what));
-    };
+    const auto refuse = [&](const std::string& what) { fail(section.place(), fmt::format("{}: {}", section.path(), what)); };
     if (byThreads != section.has("thickness")) refuse("thread_count and thickness need each other");
     if (byThreads) {
-        if (!byDiameter || byFraction || byPores)
-            refuse("thread_count needs fibre_diameter, and neither of the others");
+        if (!byDiameter || byFraction || byPores) refuse("thread_count needs fibre_diameter, and neither of the others");
         const double share = kPi * porous.fibreDiameter * porous.fibreDiameter * threads / (4.0 * thickness);
         porous.volumeFraction = std::min(share, 1.0);
         return;
@@ -39,9 +35,7 @@ std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings&
     std::vector<NamedMaterial> materials;
     const Node* section = root.find("materials");
     if (!section) return materials;
-    if (!section->isMap())
-        fail(section->place,
-             fmt::format("materials: needs a map like {{wool: {{young: 6.6e+7}}}}, not {}", section->called()));
+    if (!section->isMap()) fail(section->place, fmt::format("materials: needs a map like {{wool: {{young: 6.6e+7}}}}, not {}", section->called()));
     for (std::size_t i = 0; i < section->keys.size(); ++i) {
         const Node& node = section->items[i];
         NamedMaterial& m = materials.emplace_back();

@@ -17,15 +17,14 @@ static std::span<const Choice<Motion::Frame>> choicesOf(Motion::Frame)
 
 namespace {
 
-constexpr double kFastest = 1.0e6;   // [1/s]
+constexpr double kFastest = 1.0e6;  // [1/s]
 const Range kTime = Range::between(-1.0e9, 1.0e9);
 
 enum class PathInterpolation { Cubic, Linear };
 
 std::span<const Choice<PathInterpolation>> choicesOf(PathInterpolation)
 {
-    static constexpr Choice<PathInterpolation> kAll[] = {{"cubic", PathInterpolation::Cubic},
-                                                         {"linear", PathInterpolation::Linear}};
+    static constexpr Choice<PathInterpolation> kAll[] = {{"cubic", PathInterpolation::Cubic}, {"linear", PathInterpolation::Linear}};
     return kAll;
 }
 
@@ -74,14 +73,11 @@ std::vector<std::array<double, 4>> readPath(const Node& node, const std::string&
         fail(node.place, fmt::format("{}: needs two or more rows [t, x, y, z], not {}", path, node.called()));
     std::vector<std::array<double, 4>> rows;
     for (const Node& row : node.items) {
-        if (!row.isList() || row.items.size() != 4)
-            fail(row.place, fmt::format("{}: a row is [t, x, y, z], not {}", path, row.called()));
+        if (!row.isList() || row.items.size() != 4) fail(row.place, fmt::format("{}: a row is [t, x, y, z], not {}", path, row.called()));
         std::array<double, 4>& out = rows.emplace_back();
         out[0] = readNumber(row.items[0], path, Quantity::Time, kTime);
-        for (std::size_t i = 1; i < 4; ++i)
-            out[i] = readNumber(row.items[i], path, Quantity::Length, Range::between(-kFarthest, kFarthest));
-        if (rows.size() > 1 && !(out[0] > rows[rows.size() - 2][0]))
-            fail(row.place, fmt::format("{}: times must ascend", path));
+        for (std::size_t i = 1; i < 4; ++i) out[i] = readNumber(row.items[i], path, Quantity::Length, Range::between(-kFarthest, kFarthest));
+        if (rows.size() > 1 && !(out[0] > rows[rows.size() - 2][0])) fail(row.place, fmt::format("{}: times must ascend", path));
     }
     return rows;
 }
@@ -101,8 +97,7 @@ class PieceReader {
         if (kind_.rotates) tail = addRotation(motion);
         if (kind_.oscillates) tail = addOscillation(motion);
         if (kind_.followsPath) tail = addPath(motion);
-        if (kind_.translates)
-            motion.addTranslation(piece_.t[0], piece_.t[1], piece_.translate, piece_.ease[0], piece_.ease[1]);
+        if (kind_.translates) motion.addTranslation(piece_.t[0], piece_.t[1], piece_.translate, piece_.ease[0], piece_.ease[1]);
         SectionWriter writer;
         fields(writer);
         std::string text = writer.flow();
@@ -113,11 +108,9 @@ class PieceReader {
  private:
     Kind kindOf() const
     {
-        if (!node_.isMap())
-            fail(node_.place, fmt::format("{}: needs a map like {{t: [0, 1], translate: [0, 5, 0]}}, not {}", path_,
-                                          node_.called()));
-        const Kind kind{node_.find("translate") != nullptr, node_.find("rotate") != nullptr,
-                        node_.find("oscillate") != nullptr, node_.find("keys") != nullptr, false};
+        if (!node_.isMap()) fail(node_.place, fmt::format("{}: needs a map like {{t: [0, 1], translate: [0, 5, 0]}}, not {}", path_, node_.called()));
+        const Kind kind{node_.find("translate") != nullptr, node_.find("rotate") != nullptr, node_.find("oscillate") != nullptr,
+                        node_.find("keys") != nullptr, false};
         if (kind.translates + kind.rotates + kind.oscillates + kind.followsPath != 1) {
             fail(node_.place, fmt::format("{}: needs one of translate, rotate, oscillate, keys", path_));
         }
@@ -126,14 +119,12 @@ class PieceReader {
 
     void checkSpan()
     {
-        if (!node_.find("t"))
-            fail(node_.place, fmt::format("{}: t is missing; it is the span of time, like t: [0, 0.2]", path_));
+        if (!node_.find("t")) fail(node_.place, fmt::format("{}: t is missing; it is the span of time, like t: [0, 0.2]", path_));
         const double span = piece_.t[1] - piece_.t[0];
         if (!(span > 0.0)) fail(node_.find("t")->place, fmt::format("{}.t: must end after it begins", path_));
         const Node* ease = node_.find("ease");
         if (!ease) piece_.ease = {span / 3.0, span / 3.0};
-        if (ease && piece_.ease[0] + piece_.ease[1] > span)
-            fail(ease->place, fmt::format("{}.ease: both together must fit into t", path_));
+        if (ease && piece_.ease[0] + piece_.ease[1] > span) fail(ease->place, fmt::format("{}.ease: both together must fit into t", path_));
     }
 
     std::string addRotation(Motion& motion)
@@ -146,8 +137,8 @@ class PieceReader {
             v.number("angle", piece_.angle, Quantity::Angle, Range::between(-1.0e6, 1.0e6), "");
         };
         SectionReader::read(&node, path, fields);
-        motion.addRotation(piece_.t[0], piece_.t[1], unit(piece_.axis, node, path + ".axis"), piece_.angle,
-                           piece_.origin, piece_.frame, piece_.ease[0], piece_.ease[1]);
+        motion.addRotation(piece_.t[0], piece_.t[1], unit(piece_.axis, node, path + ".axis"), piece_.angle, piece_.origin, piece_.frame,
+                           piece_.ease[0], piece_.ease[1]);
         SectionWriter writer;
         fields(writer);
         return ", rotate: " + writer.flow();
@@ -163,18 +154,16 @@ class PieceReader {
             if (!kind_.swings) v.vector("direction", piece_.direction, Quantity::None, "");
             v.needs("amplitude", "how far it swings to each side, a length (with axis: an angle)");
             if (kind_.swings) v.number("amplitude", piece_.swing, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
-            if (!kind_.swings)
-                v.number("amplitude", piece_.amplitude, Quantity::Length, Range::between(-kFarthest, kFarthest), "");
+            if (!kind_.swings) v.number("amplitude", piece_.amplitude, Quantity::Length, Range::between(-kFarthest, kFarthest), "");
             v.needs("frequency", "swings per second, like frequency: 2");
             v.number("frequency", piece_.frequency, Quantity::Frequency, Range::aboveTo(0.0, kFastest), "");
         };
         SectionReader::read(&node, path, fields);
         if (kind_.swings) {
-            motion.addSwing(piece_.t[0], piece_.t[1], unit(piece_.axis, node, path + ".axis"), piece_.swing,
-                            piece_.frequency, piece_.origin, piece_.frame);
+            motion.addSwing(piece_.t[0], piece_.t[1], unit(piece_.axis, node, path + ".axis"), piece_.swing, piece_.frequency, piece_.origin,
+                            piece_.frame);
         } else {
-            motion.addOscillation(piece_.t[0], piece_.t[1], unit(piece_.direction, node, path + ".direction"),
-                                  piece_.amplitude, piece_.frequency);
+            motion.addOscillation(piece_.t[0], piece_.t[1], unit(piece_.direction, node, path + ".direction"), piece_.amplitude, piece_.frequency);
         }
         SectionWriter writer;
         fields(writer);
@@ -189,8 +178,7 @@ class PieceReader {
         for (const auto& [t, x, y, z] : readPath(*node_.find("keys"), joinPath(path_, "keys"))) {
             times.push_back(t);
             offsets.emplace_back(x, y, z);
-            rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : ", ", formatPlain(t), formatPlain(x),
-                                formatPlain(y), formatPlain(z));
+            rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : ", ", formatPlain(t), formatPlain(x), formatPlain(y), formatPlain(z));
         }
         motion.addPath(times, offsets, piece_.interpolation == PathInterpolation::Cubic);
         return ", keys: [" + rows + "]";
@@ -213,8 +201,7 @@ ReadMotion readMotion(const Node& node, const std::string& path)
     }
     if (node.items.empty()) fail(node.place, fmt::format("{}: is an empty list; remove it", path));
     for (std::size_t i = 0; i < node.items.size(); ++i) {
-        out.text +=
-            (i > 0 ? ", " : "") + PieceReader(node.items[i], joinPath(path, std::to_string(i))).addTo(out.motion);
+        out.text += (i > 0 ? ", " : "") + PieceReader(node.items[i], joinPath(path, std::to_string(i))).addTo(out.motion);
     }
     out.text = "[" + out.text + "]";
     return out;

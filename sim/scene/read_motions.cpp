@@ -36,11 +36,9 @@ std::vector<Movable> everythingNamed(const std::string& name, const Node& node, 
         }
         isPinless = isPinless || ((isNamedItself || isInGroup) && piece.pins.empty());
     }
-    if (found.empty() && isPinless)
-        fail(node.place, fmt::format("motion: fabric {} has no pin; a motion moves pins, give it one", inQuotes(name)));
+    if (found.empty() && isPinless) fail(node.place, fmt::format("motion: fabric {} has no pin; a motion moves pins, give it one", inQuotes(name)));
     if (found.empty()) {
-        fail(node.place,
-             fmt::format("motion: no obstacle, pin or fabric is named {}{}", inQuotes(name), suggestion(name, names)));
+        fail(node.place, fmt::format("motion: no obstacle, pin or fabric is named {}{}", inQuotes(name), suggestion(name, names)));
     }
     return found;
 }
@@ -50,9 +48,7 @@ void giveMotion(const Node& pieces, const std::string& name, const std::string& 
 {
     const ReadMotion read = readMotion(pieces, path);
     for (const Movable& movable : everythingNamed(name, pieces, scene)) {
-        if (!movable.text->empty())
-            fail(pieces.place,
-                 fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
+        if (!movable.text->empty()) fail(pieces.place, fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
         *movable.motion = read.motion;
         *movable.text = read.text;
     }
@@ -86,10 +82,9 @@ void requireOneMotionPerVertex(const FabricPiece& piece)
     for (const PinGroup& pin : piece.pins) {
         for (const int v : pin.vertices) {
             if (holder[v] && holder[v]->motionText != pin.motionText)
-                fail(pin.where,
-                     fmt::format("fabrics.{}.pin: vertex {} is held by two pins that move differently; let them "
-                                 "not overlap",
-                                 piece.name, piece.called(v)));
+                fail(pin.where, fmt::format("fabrics.{}.pin: vertex {} is held by two pins that move differently; let them "
+                                            "not overlap",
+                                            piece.name, piece.called(v)));
             holder[v] = &pin;
         }
     }
@@ -101,13 +96,10 @@ void readMotions(const Node& root, Scene& scene)
 {
     if (const Node* section = root.find("motion")) {
         if (!section->isMap() && !section->isList())
-            fail(
-                section->place,
-                fmt::format("motion: needs a list like [{{obstacle: paddle, t: [0, 1], translate: [0, 5, 0]}}], not {}",
-                            section->called()));
+            fail(section->place,
+                 fmt::format("motion: needs a list like [{{obstacle: paddle, t: [0, 1], translate: [0, 5, 0]}}], not {}", section->called()));
         const Node names = section->isMap() ? *section : byName(*section);
-        for (std::size_t i = 0; i < names.keys.size(); ++i)
-            giveMotion(names.items[i], names.keys[i], joinPath("motion", names.keys[i]), scene);
+        for (std::size_t i = 0; i < names.keys.size(); ++i) giveMotion(names.items[i], names.keys[i], joinPath("motion", names.keys[i]), scene);
     }
     for (const FabricPiece& piece : scene.fabrics) requireOneMotionPerVertex(piece);
 }

@@ -20,20 +20,17 @@ struct EndOfAxis {
 
 EndOfAxis parseEnd(const std::string& word, const Node& node, const std::string& path)
 {
-    if (word.size() == 2 && word[0] >= 'x' && word[0] <= 'z' && (word[1] == '-' || word[1] == '+'))
-        return {word[0] - 'x', word[1] == '+'};
+    if (word.size() == 2 && word[0] >= 'x' && word[0] <= 'z' && (word[1] == '-' || word[1] == '+')) return {word[0] - 'x', word[1] == '+'};
     fail(node.place, fmt::format("{}: {} is no side; write x-, x+, y-, y+, z- or z+", path, inQuotes(word)));
 }
 
 /// The corners of a generator's lattice, and where they are.
 class Corners {
  public:
-    Corners(const FabricGeometry& geometry, const Node& node, const std::string& path)
-        : geometry_(geometry), node_(node), path_(path)
+    Corners(const FabricGeometry& geometry, const Node& node, const std::string& path) : geometry_(geometry), node_(node), path_(path)
     {
         if (geometry.lattice.empty())
-            fail(node.place,
-                 path + ": has corners and sides only with cloth_grid, woven_yarns and strand; use nodes, box or ball");
+            fail(node.place, path + ": has corners and sides only with cloth_grid, woven_yarns and strand; use nodes, box or ball");
         const Vec2i last = geometry.latticeSize - Vec2i::Ones();
         const std::vector<int> rows = last[1] > 0 ? std::vector<int>{0, last[1]} : std::vector<int>{0};
         for (const int row : rows) {
@@ -74,8 +71,7 @@ class Corners {
             if (last == 0) continue;
             for (const int line : {0, last}) {
                 bool isThere = true;
-                for (std::size_t c = 0; c < corners.size(); ++c)
-                    isThere = isThere && (corners[c][axis] != line || isAt(c, end));
+                for (std::size_t c = 0; c < corners.size(); ++c) isThere = isThere && (corners[c][axis] != line || isAt(c, end));
                 if (isThere) sides.emplace_back(axis, line);
             }
         }
@@ -102,14 +98,8 @@ class Corners {
 /// One pin: which vertices, and the words for them.
 class PinReader {
  public:
-    PinReader(const Node& node, std::string path, const FabricGeometry& geometry, std::span<const Vec3> placed,
-              double cell)
-        : node_(node),
-          path_(std::move(path)),
-          geometry_(geometry),
-          placed_(placed),
-          cell_(cell),
-          held_(placed.size(), 0)
+    PinReader(const Node& node, std::string path, const FabricGeometry& geometry, std::span<const Vec3> placed, double cell)
+        : node_(node), path_(std::move(path)), geometry_(geometry), placed_(placed), cell_(cell), held_(placed.size(), 0)
     {
     }
 
@@ -130,8 +120,7 @@ class PinReader {
         for (std::size_t i = 0; i < held_.size(); ++i) {
             if (held_[i]) pin.vertices.push_back(static_cast<int>(i));
         }
-        if (pin.vertices.empty())
-            fail(node_.place, fmt::format("{}: holds no vertex; move or enlarge what it selects", calledPath(pin)));
+        if (pin.vertices.empty()) fail(node_.place, fmt::format("{}: holds no vertex; move or enlarge what it selects", calledPath(pin)));
         if (const Node* motion = node_.find("motion")) {
             ReadMotion read = readMotion(*motion, joinPath(path_, "motion"));
             pin.motion = std::move(read.motion);
@@ -142,10 +131,7 @@ class PinReader {
 
  private:
     /// "fabrics.cloth.pin, "left"", for messages.
-    std::string calledPath(const PinGroup& pin) const
-    {
-        return pin.name.empty() ? path_ : fmt::format("{}, {}", path_, inQuotes(pin.name));
-    }
+    std::string calledPath(const PinGroup& pin) const { return pin.name.empty() ? path_ : fmt::format("{}, {}", path_, inQuotes(pin.name)); }
 
     static constexpr const char* kSelections[] = {"corners", "edge", "nodes", "shape", "box", "ball"};
 
@@ -154,19 +140,15 @@ class PinReader {
         std::string kind;
         for (const char* key : kSelections) {
             if (!node_.find(key)) continue;
-            if (!kind.empty())
-                fail(node_.place,
-                     fmt::format("{}: has both {} and {}; make them two pins in a list", path_, kind, key));
+            if (!kind.empty()) fail(node_.place, fmt::format("{}: has both {} and {}; make them two pins in a list", path_, kind, key));
             kind = key;
         }
         if (kind.empty())
-            fail(node_.place, fmt::format("{}: selects nothing; it takes one of {}", path_,
-                                          listed({std::begin(kSelections), std::end(kSelections)})));
+            fail(node_.place,
+                 fmt::format("{}: selects nothing; it takes one of {}", path_, listed({std::begin(kSelections), std::end(kSelections)})));
         const bool hasPatches = kind == "corners" || kind == "edge";
-        if (!hasPatches && node_.find("patch"))
-            fail(node_.find("patch")->place, path_ + ".patch: needs corners or edge");
-        if (kind != "corners" && node_.find("border_only"))
-            fail(node_.find("border_only")->place, path_ + ".border_only: needs corners");
+        if (!hasPatches && node_.find("patch")) fail(node_.find("patch")->place, path_ + ".patch: needs corners or edge");
+        if (kind != "corners" && node_.find("border_only")) fail(node_.find("border_only")->place, path_ + ".border_only: needs corners");
         const Node& value = *node_.find(kind);
         const std::string path = joinPath(path_, kind);
         if (kind == "corners") return "corners: " + selectCorners(value, path) + patchText();
@@ -175,10 +157,7 @@ class PinReader {
         return selectInside(value, kind);
     }
 
-    std::string patchText() const
-    {
-        return fmt::format(", patch: {}{}", patch_, borderOnly_ ? ", border_only: true" : "");
-    }
+    std::string patchText() const { return fmt::format(", patch: {}{}", patch_, borderOnly_ ? ", border_only: true" : ""); }
 
     std::string selectCorners(const Node& value, const std::string& path)
     {
@@ -187,9 +166,7 @@ class PinReader {
             for (const Vec2i& corner : corners.corners) holdPatch(corners, corner);
             return "all";
         }
-        if (!value.isList())
-            fail(value.place,
-                 fmt::format("{}: needs all, or a list like [\"x- z-\", \"x- z+\"], not {}", path, value.called()));
+        if (!value.isList()) fail(value.place, fmt::format("{}: needs all, or a list like [\"x- z-\", \"x- z+\"], not {}", path, value.called()));
         for (const Node& item : value.items) {
             const std::string& text = readText(item, path);
             std::istringstream words(text);
@@ -197,9 +174,8 @@ class PinReader {
             for (std::string word; words >> word;) ends.push_back(parseEnd(word, item, path));
             bool isAny = false;
             for (std::size_t c = 0; c < corners.corners.size(); ++c) {
-                const bool isMeant = !ends.empty() && std::all_of(ends.begin(), ends.end(), [&](const EndOfAxis& end) {
-                    return corners.isAt(c, end);
-                });
+                const bool isMeant =
+                    !ends.empty() && std::all_of(ends.begin(), ends.end(), [&](const EndOfAxis& end) { return corners.isAt(c, end); });
                 if (isMeant) holdPatch(corners, corners.corners[c]);
                 isAny = isAny || isMeant;
             }
@@ -231,16 +207,13 @@ class PinReader {
 
     std::string selectNodes(const Node& value, const std::string& path)
     {
-        if (!value.isList())
-            fail(value.place,
-                 fmt::format("{}: needs a list of numbers of vertices, like [0, 1], not {}", path, value.called()));
+        if (!value.isList()) fail(value.place, fmt::format("{}: needs a list of numbers of vertices, like [0, 1], not {}", path, value.called()));
         const std::vector<int>& points = geometry_.ofFile;
         const auto last = static_cast<std::int64_t>(points.empty() ? held_.size() : points.size()) - 1;
         for (const Node& item : value.items) {
             const std::int64_t number = readInteger(item, path, 0, last), point = points.empty() ? number : points[number];
             if (point < 0)
-                fail(item.place,
-                     fmt::format("{}: nothing of the file is at its vertex {}; choose one that a face or a line has", path, number));
+                fail(item.place, fmt::format("{}: nothing of the file is at its vertex {}; choose one that a face or a line has", path, number));
             held_[point] = 1;
         }
         return value.flow();
@@ -271,8 +244,7 @@ class PinReader {
 
 }  // namespace
 
-std::vector<PinGroup> readPins(const Node& node, const std::string& path, const FabricGeometry& geometry,
-                               std::span<const Vec3> placed, double cell)
+std::vector<PinGroup> readPins(const Node& node, const std::string& path, const FabricGeometry& geometry, std::span<const Vec3> placed, double cell)
 {
     if (!node.isList()) return {PinReader(node, path, geometry, placed, cell).read()};
     std::vector<PinGroup> pins;

@@ -16,8 +16,7 @@ void requireNear(const Node& node, const std::string& path, const Vec3& x)
 Vec3 unitAxis(const Node& node, const std::string& path, const Vec3& axis)
 {
     const double length = axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length))
-        fail(node.place, fmt::format("{}: must be a direction, like [0, 1, 0]", path));
+    if (!(length > 0.0) || !std::isfinite(length)) fail(node.place, fmt::format("{}: must be a direction, like [0, 1, 0]", path));
     return axis / length;
 }
 
@@ -28,8 +27,7 @@ std::filesystem::path existingFile(const Node& name, const std::string& path)
     const fs::path file = directory / fs::path(readText(name, path));
     requireAllowed(file, name.place);
     std::error_code error;
-    if (!fs::is_regular_file(file, error))
-        fail(name.place, fmt::format("{}: there is no file {}", path, fileInQuotes(file.string())));
+    if (!fs::is_regular_file(file, error)) fail(name.place, fmt::format("{}: there is no file {}", path, fileInQuotes(file.string())));
     return fs::absolute(file, error).lexically_normal();
 }
 
@@ -54,8 +52,7 @@ ReadTransform readTranslation(const Node& node, const std::string& path)
 {
     Vec3 by = Vec3::Zero();
     readNumbers(node, path, {by.data(), 3}, Quantity::Length, Range::between(-kFarthest, kFarthest));
-    return {Eigen::Isometry3d(Eigen::Translation3d(by)),
-            fmt::format("[{}, {}, {}]", formatPlain(by[0]), formatPlain(by[1]), formatPlain(by[2]))};
+    return {Eigen::Isometry3d(Eigen::Translation3d(by)), fmt::format("[{}, {}, {}]", formatPlain(by[0]), formatPlain(by[1]), formatPlain(by[2]))};
 }
 
 }  // namespace sim

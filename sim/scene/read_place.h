@@ -13,8 +13,7 @@
 
 namespace sim {
 
-inline constexpr double kFarthest =
-    1.0e7;  ///< 100 km: sizes beyond it are slips, and their squares lose all digits [cm]
+inline constexpr double kFarthest = 1.0e7;  ///< 100 km: sizes beyond it are slips, and their squares lose all digits [cm]
 
 /// The fields as one line of YAML, as a declaration writes them.
 template <class Fields>

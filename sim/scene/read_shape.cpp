@@ -36,8 +36,7 @@ ReadShape readBox(const Node& node, const Context& context, bool isRound)
         v.whenReading([&](auto& r) {
             const bool byCenter = r.has("center") && r.has("half"), byCorners = r.has("min") && r.has("max");
             const int given = r.has("center") + r.has("half") + r.has("min") + r.has("max");
-            if (given != 2 || byCenter == byCorners)
-                fail(node.place, fmt::format("{}: needs either center and half, or min and max", context.path));
+            if (given != 2 || byCenter == byCorners) fail(node.place, fmt::format("{}: needs either center and half, or min and max", context.path));
             if (byCorners) {
                 center = 0.5 * (low + high);
                 half = 0.5 * (high - low);
@@ -116,9 +115,7 @@ ReadShape readMesh(const Node& node, const Context& context)
         v.later("cache", "this version finds the distances of a mesh anew in every run; remove the key (a larger mesh.cell is faster)");
     };
     SectionReader::read(&node, context.path, fields);
-    if (!(cell > 0.0))
-        fail(node.place,
-             fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
+    if (!(cell > 0.0)) fail(node.place, fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
     const Node& name = *node.find("file");
     const std::filesystem::path path = existingFile(name, context.path + ".file");
     file = path.string();
@@ -134,8 +131,7 @@ ReadShape readMesh(const Node& node, const Context& context)
 
 ReadShape readParts(const Node& node, const Context& context, const std::string& operation)
 {
-    if (!node.isList() || node.items.empty())
-        fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
+    if (!node.isList() || node.items.empty()) fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
     std::vector<Shape> shapes;
     std::string texts;
     std::vector<std::string> notes;
@@ -182,16 +178,14 @@ void apply(const ReadTransform& transform, const char* key, ReadShape& body)
 std::string shapeKind(const Node& node, const std::string& path)
 {
     if (!node.isMap())
-        fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path,
-                                     node.called()));
+        fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path, node.called()));
     std::vector<std::string> known = shapeKinds();
     known.insert(known.end(), {"rotate", "translate"});
     SectionReader(node, path).refuseKeysBut(known);
     std::string kind;
     for (const std::string& candidate : shapeKinds()) {
         if (!node.find(candidate)) continue;
-        if (!kind.empty())
-            fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
+        if (!kind.empty()) fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
         kind = candidate;
     }
     if (kind.empty()) fail(node.place, fmt::format("{}: names no body; it takes one of {}", path, listed(shapeKinds())));
@@ -213,10 +207,8 @@ ReadShape readShape(const Node& node, const std::string& path, double cell)
     const Node& given = *node.find(kind);
     ReadShape body = readBody(given, {joinPath(path, kind), cell}, kind);
     body.text = kind + ": " + body.text;
-    if (const Node* turn = node.find("rotate"))
-        apply(readRotation(*turn, joinPath(path, "rotate"), middleOf(body.shape)), "rotate", body);
-    if (const Node* by = node.find("translate"))
-        apply(readTranslation(*by, joinPath(path, "translate")), "translate", body);
+    if (const Node* turn = node.find("rotate")) apply(readRotation(*turn, joinPath(path, "rotate"), middleOf(body.shape)), "rotate", body);
+    if (const Node* by = node.find("translate")) apply(readTranslation(*by, joinPath(path, "translate")), "translate", body);
     body.text = "{" + body.text + "}";
     return body;
 }

@@ -24,7 +24,7 @@ struct FillSettings {
 
 /// A span of time in which a source gives liquid.
 struct Emission {
-    double from = 0.0, to = 0.0;  ///< [s]; both equal the start: once, the initial body
+    double from = 0.0, to = 0.0;                                 ///< [s]; both equal the start: once, the initial body
     double maxVolume = std::numeric_limits<double>::infinity();  ///< [cm^3]
     Vec3 velocity = Vec3::Zero();                                ///< [cm/s]
 };
@@ -33,26 +33,26 @@ struct SourceSettings {
     std::string name;
     Shape shape;
     FillSettings fill;
-    std::vector<Emission> emissions;  ///< at least one
-    double volume = 0.0;              ///< estimate, inside the domain and outside of obstacles [cm^3]
-    std::string where;                ///< "drop.yaml:14", for messages
-    std::string shapeText;            ///< the shape as a scene says it, in cgs, on one line
-    std::vector<std::string> notes;   ///< about its meshes
+    std::vector<Emission> emissions;             ///< at least one
+    double volume = 0.0;                         ///< estimate, inside the domain and outside of obstacles [cm^3]
+    std::string where;                           ///< "drop.yaml:14", for messages
+    std::string shapeText;                       ///< the shape as a scene says it, in cgs, on one line
+    std::vector<std::string> notes;              ///< about its meshes
     std::optional<VelocityField> velocityField;  ///< of the initial body, beside the emission's velocity
 };
 
 struct ObstacleSettings {
     std::string name;
-    Shape shape;      ///< the solid itself: already inverted where the scene says `inside: true`
+    Shape shape;  ///< the solid itself: already inverted where the scene says `inside: true`
     Motion motion;
-    bool inside = false;     ///< the scene said `inside: true`
-    bool collide = true;     ///< fabric feels it
-    bool cohesive = true;    ///< and sticks to it where it is wet, if there is cohesion
+    bool inside = false;                  ///< the scene said `inside: true`
+    bool collide = true;                  ///< fabric feels it
+    bool cohesive = true;                 ///< and sticks to it where it is wet, if there is cohesion
     std::optional<double> frictionAngle;  ///< of fabric on it; without: the fabric's own [rad]
-    std::string where;       ///< "drop.yaml:14", for messages
-    std::string shapeText;   ///< the shape (before inverting) as a scene says it, in cgs, on one line
-    std::vector<std::string> notes;  ///< about its meshes
-    std::string motionText;  ///< the motion likewise; empty if static
+    std::string where;                    ///< "drop.yaml:14", for messages
+    std::string shapeText;                ///< the shape (before inverting) as a scene says it, in cgs, on one line
+    std::vector<std::string> notes;       ///< about its meshes
+    std::string motionText;               ///< the motion likewise; empty if static
 };
 
 struct NamedMaterial {
@@ -71,14 +71,14 @@ struct SettingsChange {
 struct Scene {
     std::string name, title, description;
     std::vector<std::string> tags;
-    std::string file;                 ///< the file it came from, for messages
+    std::string file;  ///< the file it came from, for messages
     Settings settings;
     std::vector<SourceSettings> sources;
     std::vector<NamedMaterial> materials;
     std::vector<FabricPiece> fabrics;
     std::vector<ObstacleSettings> obstacles;
-    std::optional<Shape> domain;      ///< liquid outside of it is deleted
-    std::string domainText;           ///< the same as a scene says it, in cgs, on one line
+    std::optional<Shape> domain;          ///< liquid outside of it is deleted
+    std::string domainText;               ///< the same as a scene says it, in cgs, on one line
     std::vector<SettingsChange> changes;  ///< during the run, in order
     std::vector<std::string> notes;       ///< "drop.yaml:14: …": what was mended in its files, for the user to know
 };

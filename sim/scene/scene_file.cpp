@@ -30,8 +30,7 @@ std::string readText(const fs::path& path, const std::string& where)
     if (!fs::is_regular_file(status)) fail(where, fmt::format("{} is no file", fileInQuotes(path.string())));
     const std::uintmax_t size = fs::file_size(path, error);
     if (!error && size > kMaxFileBytes) {
-        fail(where, fmt::format("{} is larger than {} MB; meshes go to files of their own", fileInQuotes(path.string()),
-                                kMaxFileBytes >> 20));
+        fail(where, fmt::format("{} is larger than {} MB; meshes go to files of their own", fileInQuotes(path.string()), kMaxFileBytes >> 20));
     }
     std::ifstream in(path, std::ios::binary);
     std::ostringstream text;
@@ -80,16 +79,14 @@ class IncludeReader {
  private:
     Node readIncluded(const Node& name, const fs::path& from)
     {
-        if (!name.isScalar() || name.text.empty())
-            fail(name.place, fmt::format("include names files, like [dam_break.yaml], not {}", name.called()));
+        if (!name.isScalar() || name.text.empty()) fail(name.place, fmt::format("include names files, like [dam_break.yaml], not {}", name.called()));
         const fs::path path = (from.parent_path() / name.text).lexically_normal();
         requireAllowed(path, name.place);
         if (++included_ > kMaxIncludes) fail(name.place, fmt::format("more than {} included files", kMaxIncludes));
         const fs::path canonical = canonicalOf(path);
         for (const fs::path& open : open_) {
             if (open == canonical)
-                fail(name.place, fmt::format("include goes round in a circle: {} is being read already",
-                                             fileInQuotes(path.string())));
+                fail(name.place, fmt::format("include goes round in a circle: {} is being read already", fileInQuotes(path.string())));
         }
         return read(readText(path, name.place.text()), path);
     }
@@ -99,15 +96,11 @@ class IncludeReader {
     {
         const Node* version = root.find("drench");
         if (!version || version->text == "1") return;
-        const bool isNumber = version->isScalar() && !version->text.empty() &&
-                              version->text.find_first_not_of("0123456789") == std::string::npos &&
+        const bool isNumber = version->isScalar() && !version->text.empty() && version->text.find_first_not_of("0123456789") == std::string::npos &&
                               version->text != "0";
-        if (!isNumber)
-            fail(version->place,
-                 fmt::format("drench: {} is no schema version; write drench: {}", version->called(), kSchemaVersion));
+        if (!isNumber) fail(version->place, fmt::format("drench: {} is no schema version; write drench: {}", version->called(), kSchemaVersion));
         fail(version->place,
-             fmt::format("this scene wants schema version {}, this program reads version {}; use a newer drench",
-                         version->text, kSchemaVersion));
+             fmt::format("this scene wants schema version {}, this program reads version {}; use a newer drench", version->text, kSchemaVersion));
     }
 
     /// Reads and removes `units`: it holds for the numbers of its own file, wherever they are merged to.
@@ -133,8 +126,7 @@ void applyAll(const std::vector<Override>& changes, Node& root)
 {
     for (const Override& change : changes) {
         for (const char* fixed : {"units", "include", "drench"}) {
-            if (change.path == fixed)
-                fail(change.value.place, fmt::format("{} belongs to a file and cannot be overridden", fixed));
+            if (change.path == fixed) fail(change.value.place, fmt::format("{} belongs to a file and cannot be overridden", fixed));
         }
         apply(change, root);
     }
@@ -147,8 +139,7 @@ SceneFile finish(Node root, bool isSi, const fs::path& path, const LoadOptions& 
     scene.root = std::move(root);
     scene.variants = readVariants(scene.root);
     scene.variant = options.variant;
-    if (!options.variant.empty())
-        applyAll(findVariant(scene.variants, options.variant, scene.file).overrides, scene.root);
+    if (!options.variant.empty()) applyAll(findVariant(scene.variants, options.variant, scene.file).overrides, scene.root);
     for (const std::string& text : options.set) applyAll({parseOverride(text, isSi)}, scene.root);
     return scene;
 }
@@ -165,10 +156,7 @@ SceneFile sceneFileFromText(const std::string& text, const fs::path& name, const
     return file;
 }
 
-SceneFile loadSceneFile(const fs::path& path, const LoadOptions& options)
-{
-    return sceneFileFromText(readText(path, path.string()), path, options);
-}
+SceneFile loadSceneFile(const fs::path& path, const LoadOptions& options) { return sceneFileFromText(readText(path, path.string()), path, options); }
 
 std::vector<std::string> variantNames(const fs::path& path)
 {

@@ -10,9 +10,9 @@ namespace sim {
 
 /// What of a scene file to load.
 struct LoadOptions {
-    std::string variant = {};      ///< name of the variant; empty: the scene as written
+    std::string variant = {};           ///< name of the variant; empty: the scene as written
     std::vector<std::string> set = {};  ///< overrides "key.key=value", applied last
-    ReadingBounds bounds = {};     ///< of the file and all that it includes
+    ReadingBounds bounds = {};          ///< of the file and all that it includes
 };
 
 /// One file as it stands.
@@ -34,8 +34,7 @@ struct SceneFile {
 SceneFile loadSceneFile(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same from text in memory; `name` stands in messages, and includes are relative to its folder.
-SceneFile sceneFileFromText(const std::string& text, const std::filesystem::path& name,
-                            const LoadOptions& options = {});
+SceneFile sceneFileFromText(const std::string& text, const std::filesystem::path& name, const LoadOptions& options = {});
 
 /// Names of the file's variants, in order.
 std::vector<std::string> variantNames(const std::filesystem::path& path);

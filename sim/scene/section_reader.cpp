@@ -21,8 +21,7 @@ bool parseWhole(const std::string& text, Integer& out)
     return error == std::errc() && end == text.data() + text.size();
 }
 
-void readWholeNumbers(const Node& node, const std::string& path, const char* example, std::array<int*, 2> out, int low,
-                      int high)
+void readWholeNumbers(const Node& node, const std::string& path, const char* example, std::array<int*, 2> out, int low, int high)
 {
     if (!node.isList() || node.items.size() != 2)
         failAt(node, path, fmt::format("needs a list of 2 whole numbers, like {}, not {}", example, node.called()));
@@ -50,18 +49,15 @@ double readNumber(const Node& node, const std::string& path, Quantity quantity, 
     const ParsedNumber number = parseNumber(node.text, quantity, node.place.source && node.place.source->isSi);
     if (!number.problem.empty()) failAt(node, path, number.problem);
     const double inFile = inFileUnits(number.value, quantity);
-    if (!range.contains(inFile))
-        failAt(node, path, fmt::format("{} is out of range; must be {}", inQuotes(node.text), range.text(unit)));
+    if (!range.contains(inFile)) failAt(node, path, fmt::format("{} is out of range; must be {}", inQuotes(node.text), range.text(unit)));
     return number.value;
 }
 
-void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity,
-                 const Range& range)
+void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity, const Range& range)
 {
     if (!node.isList() || node.items.size() != out.size()) {
         failAt(node, path,
-               fmt::format("needs a list of {} numbers, like {}, not {}", out.size(),
-                           out.size() == 3 ? "[0, 1, 0]" : "[0, 1]", node.called()));
+               fmt::format("needs a list of {} numbers, like {}, not {}", out.size(), out.size() == 3 ? "[0, 1, 0]" : "[0, 1]", node.called()));
     }
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = readNumber(node.items[i], path, quantity, range);
 }
@@ -71,24 +67,21 @@ std::int64_t readInteger(const Node& node, const std::string& path, std::int64_t
     std::int64_t value = 0;
     if (!node.isScalar() || !parseWhole(node.text, value))
         failAt(node, path, fmt::format("needs a whole number, {} to {}, not {}", low, high, node.called()));
-    if (value < low || value > high)
-        failAt(node, path, fmt::format("{} is out of range; must be {} to {}", value, low, high));
+    if (value < low || value > high) failAt(node, path, fmt::format("{} is out of range; must be {} to {}", value, low, high));
     return value;
 }
 
 std::uint64_t readSeed(const Node& node, const std::string& path)
 {
     std::uint64_t value = 0;
-    if (!node.isScalar() || !parseWhole(node.text, value))
-        failAt(node, path, fmt::format("needs a whole number, 0 or more, not {}", node.called()));
+    if (!node.isScalar() || !parseWhole(node.text, value)) failAt(node, path, fmt::format("needs a whole number, 0 or more, not {}", node.called()));
     return value;
 }
 
 bool readFlag(const Node& node, const std::string& path)
 {
     if (node.isScalar() && node.text == "true") return true;
-    if (!node.isScalar() || node.text != "false")
-        failAt(node, path, fmt::format("needs true or false, not {}", node.called()));
+    if (!node.isScalar() || node.text != "false") failAt(node, path, fmt::format("needs true or false, not {}", node.called()));
     return false;
 }
 
@@ -108,11 +101,9 @@ std::vector<std::string> readTexts(const Node& node, const std::string& path)
 
 std::size_t readChoice(const Node& node, const std::string& path, const std::vector<std::string>& words)
 {
-    if (!node.isScalar())
-        failAt(node, path, fmt::format("needs one word of {}, not {}", listed(words), node.called()));
+    if (!node.isScalar()) failAt(node, path, fmt::format("needs one word of {}, not {}", listed(words), node.called()));
     const auto found = std::ranges::find(words, node.text);
-    if (found == words.end())
-        failAt(node, path, fmt::format("{} is unknown{}", inQuotes(node.text), suggestion(node.text, words)));
+    if (found == words.end()) failAt(node, path, fmt::format("{} is unknown{}", inQuotes(node.text), suggestion(node.text, words)));
     return static_cast<std::size_t>(found - words.begin());
 }
 
@@ -127,8 +118,7 @@ void readNamedFlags(const Node& node, const std::string& path, std::span<const N
     for (const Node& item : node.items) {
         const std::string& text = readText(item, path);
         const auto found = std::ranges::find(words, text);
-        if (found == words.end())
-            failAt(item, path, fmt::format("{} is unknown{}", inQuotes(text), suggestion(text, words)));
+        if (found == words.end()) failAt(item, path, fmt::format("{} is unknown{}", inQuotes(text), suggestion(text, words)));
         *flags[static_cast<std::size_t>(found - words.begin())].value = true;
     }
 }
@@ -144,8 +134,7 @@ Place SectionReader::placeOf(const char* key) const
     return node_.place;
 }
 
-void SectionReader::numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity,
-                                 Range range, const char*)
+void SectionReader::numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range, const char*)
 {
     const Node* n = find(key);
     if (!n) return;
@@ -153,8 +142,7 @@ void SectionReader::numberOrWord(const char* key, double& out, const char* word,
     if (!isWord) out = readNumber(*n, pathOf(key), quantity, range);
 }
 
-void SectionReader::numberOrPair(const char* key, std::array<double, 2>& out, Quantity quantity, Range range,
-                                 const char*)
+void SectionReader::numberOrPair(const char* key, std::array<double, 2>& out, Quantity quantity, Range range, const char*)
 {
     const Node* n = find(key);
     if (!n) return;
@@ -221,8 +209,7 @@ void SectionReader::refuseKeysBut(const std::vector<std::string>& known, const s
         const bool isDotted = key.find('.') != std::string::npos;
         fail(node_.items[i].place,
              fmt::format("unknown key {}{}{}", inQuotes(key), where,
-                         isDotted ? "; dotted keys stand in variants and behind --set, write them as maps here"
-                                  : suggestion(key, known)));
+                         isDotted ? "; dotted keys stand in variants and behind --set, write them as maps here" : suggestion(key, known)));
     }
 }
 

@@ -19,8 +19,7 @@ namespace sim {
 
 /// One number, vector or word; `path` names it in messages. Throw InputError.
 double readNumber(const Node& node, const std::string& path, Quantity quantity, const Range& range);
-void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity,
-                 const Range& range);
+void readNumbers(const Node& node, const std::string& path, std::span<double> out, Quantity quantity, const Range& range);
 std::int64_t readInteger(const Node& node, const std::string& path, std::int64_t low, std::int64_t high);
 std::uint64_t readSeed(const Node& node, const std::string& path);
 bool readFlag(const Node& node, const std::string& path);
@@ -49,13 +48,9 @@ class SectionReader {
         if (const Node* n = find(key)) out = readNumber(*n, pathOf(key), quantity, range);
     }
     /// A number that may be left out, in which case it has a value of its own, `unset`.
-    void numberOr(const char* key, double& out, double, Quantity quantity, Range range, const char* help)
-    {
-        number(key, out, quantity, range, help);
-    }
+    void numberOr(const char* key, double& out, double, Quantity quantity, Range range, const char* help) { number(key, out, quantity, range, help); }
     /// Either a number, or the word that sets the flag.
-    void numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range,
-                      const char* help);
+    void numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range, const char* help);
     void integer(const char* key, int& out, int low, int high, const char*)
     {
         if (const Node* n = find(key)) out = static_cast<int>(readInteger(*n, pathOf(key), low, high));

@@ -16,8 +16,7 @@ std::string SectionWriter::take() const
     std::string out;
     for (const Line& l : lines_) {
         out += l.text;
-        if (!l.comment.empty())
-            out += std::string(l.text.size() < column ? column - l.text.size() : 0, ' ') + "  # " + l.comment;
+        if (!l.comment.empty()) out += std::string(l.text.size() < column ? column - l.text.size() : 0, ' ') + "  # " + l.comment;
         out += '\n';
     }
     return out;
@@ -58,10 +57,7 @@ void SectionWriter::texts(const char* key, std::vector<std::string>& all, const 
     line(key, list.flow(), help);
 }
 
-void SectionWriter::color(const char* key, Eigen::Vector3f& x, const char* help)
-{
-    line(key, fmt::format("[{}, {}, {}]", x[0], x[1], x[2]), help);
-}
+void SectionWriter::color(const char* key, Eigen::Vector3f& x, const char* help) { line(key, fmt::format("[{}, {}, {}]", x[0], x[1], x[2]), help); }
 
 void SectionWriter::flags(const char* key, std::initializer_list<NamedFlag> all, const char* help)
 {

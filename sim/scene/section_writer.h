@@ -31,10 +31,7 @@ class SectionWriter {
     /// One line: a key and its value as YAML flow text, and the comment.
     void line(const std::string& key, const std::string& value, const std::string& comment);
     /// One element of a list, as YAML flow text.
-    void item(const std::string& value)
-    {
-        lines_.push_back({std::string(static_cast<std::size_t>(2 * depth_), ' ') + "- " + value, ""});
-    }
+    void item(const std::string& value) { lines_.push_back({std::string(static_cast<std::size_t>(2 * depth_), ' ') + "- " + value, ""}); }
     /// A line "key:" with everything `inner` writes below it.
     template <class Inner>
     void below(const std::string& key, const char* help, Inner inner)
@@ -46,10 +43,7 @@ class SectionWriter {
         lines_.insert(lines_.end(), deeper.lines_.begin(), deeper.lines_.end());
     }
 
-    void number(const char* key, double& x, Quantity q, Range, const char* help)
-    {
-        line(key, formatNumber(x, q), comment(q, help));
-    }
+    void number(const char* key, double& x, Quantity q, Range, const char* help) { line(key, formatNumber(x, q), comment(q, help)); }
     void numberOr(const char* key, double& x, double unset, Quantity q, Range range, const char* help)
     {
         if (x != unset) number(key, x, q, range, help);
@@ -77,19 +71,13 @@ class SectionWriter {
         line(key, chosen, std::string(help) + ": " + words);
     }
     void vector(const char* key, Vec3& x, Quantity q, const char* help) { numbers(key, {x.data(), 3}, q, help); }
-    void pair(const char* key, std::array<double, 2>& x, Quantity q, Range, const char* help)
-    {
-        numbers(key, x, q, help);
-    }
+    void pair(const char* key, std::array<double, 2>& x, Quantity q, Range, const char* help) { numbers(key, x, q, help); }
     void numberOrPair(const char* key, std::array<double, 2>& x, Quantity q, Range range, const char* help)
     {
         if (x[0] == x[1]) return number(key, x[0], q, range, help);
         numbers(key, x, q, help);
     }
-    void counts(const char* key, Eigen::Vector2i& n, int low, int high, const char* help)
-    {
-        pixels(key, n[0], n[1], low, high, help);
-    }
+    void counts(const char* key, Eigen::Vector2i& n, int low, int high, const char* help) { pixels(key, n[0], n[1], low, high, help); }
     void pixels(const char* key, int& width, int& height, int, int, const char* help)
     {
         std::string list = "[";

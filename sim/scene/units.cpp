@@ -106,18 +106,14 @@ std::optional<Scale> unitNamed(std::string_view symbol)
 void multiply(Scale& scale, const Scale& unit, int power)
 {
     scale.decimals += power * unit.decimals;
-    for (int i = 0; i < std::abs(power); ++i)
-        scale.factor = power > 0 ? scale.factor * unit.factor : scale.factor / unit.factor;
+    for (int i = 0; i < std::abs(power); ++i) scale.factor = power > 0 ? scale.factor * unit.factor : scale.factor / unit.factor;
     scale.dimension.length += power * unit.dimension.length;
     scale.dimension.mass += power * unit.dimension.mass;
     scale.dimension.time += power * unit.dimension.time;
     scale.dimension.angle += power * unit.dimension.angle;
 }
 
-bool isSeparator(char c)
-{
-    return c == ' ' || c == '*' || c == '/';
-}
+bool isSeparator(char c) { return c == ' ' || c == '*' || c == '/'; }
 
 /// Reads one factor "cm^2" or "s-1" into the scale; false if it is none.
 bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
@@ -133,8 +129,7 @@ bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
     int power = 1;
     if (!exponent.empty()) {
         const auto [stop, error] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
-        if (error != std::errc() || stop != exponent.data() + exponent.size() || std::abs(power) > kMaxPower)
-            return false;
+        if (error != std::errc() || stop != exponent.data() + exponent.size() || std::abs(power) > kMaxPower) return false;
     }
     const std::optional<Scale> unit = unitNamed(symbol);
     if (!unit) return false;
@@ -144,8 +139,7 @@ bool readFactor(std::string_view word, bool isDivisor, Scale& scale)
 
 void replaceAll(std::string& text, std::string_view from, std::string_view to)
 {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
 }
 
 /// Reads a product of units like "dyn s/cm^2"; a slash divides by the one unit after it.
@@ -183,15 +177,9 @@ std::string describeDimension(const Dimension& dimension)
     return "different quantity";
 }
 
-std::string withArticle(const std::string& name)
-{
-    return (std::string_view("aeiou").find(name[0]) == std::string_view::npos ? "a " : "an ") + name;
-}
+std::string withArticle(const std::string& name) { return (std::string_view("aeiou").find(name[0]) == std::string_view::npos ? "a " : "an ") + name; }
 
-double toStored(double inFile, Quantity quantity)
-{
-    return quantity == Quantity::Angle ? inFile * kPi / 180.0 : inFile;
-}
+double toStored(double inFile, Quantity quantity) { return quantity == Quantity::Angle ? inFile * kPi / 180.0 : inFile; }
 
 std::string example(Quantity quantity)
 {
@@ -199,10 +187,7 @@ std::string example(Quantity quantity)
     return *info.cgs ? fmt::format("{} like 0.5 or \"0.5 {}\"", nameOf(quantity), info.cgs) : "a number like 0.5";
 }
 
-ParsedNumber problem(std::string text)
-{
-    return {0.0, std::move(text)};
-}
+ParsedNumber problem(std::string text) { return {0.0, std::move(text)}; }
 
 /// A number as it is written, times a power of ten: rounded once, so that 1.65e-4 m is 0.0165 cm to the last bit. Infinite where it is out of
 /// range.
@@ -222,27 +207,15 @@ double shiftedNumber(std::string_view digits, int decimals, double number)
 }
 
 /// -0 is 0: there is no other scene with it.
-double unsignedZero(double value)
-{
-    return value == 0.0 ? 0.0 : value;
-}
+double unsignedZero(double value) { return value == 0.0 ? 0.0 : value; }
 
 }  // namespace
 
-std::string nameOf(Quantity quantity)
-{
-    return withArticle(infoOf(quantity).name);
-}
+std::string nameOf(Quantity quantity) { return withArticle(infoOf(quantity).name); }
 
-const char* unitOf(Quantity quantity, bool isSi)
-{
-    return isSi ? infoOf(quantity).si : infoOf(quantity).cgs;
-}
+const char* unitOf(Quantity quantity, bool isSi) { return isSi ? infoOf(quantity).si : infoOf(quantity).cgs; }
 
-double inFileUnits(double stored, Quantity quantity)
-{
-    return quantity == Quantity::Angle ? stored * 180.0 / kPi : stored;
-}
+double inFileUnits(double stored, Quantity quantity) { return quantity == Quantity::Angle ? stored * 180.0 / kPi : stored; }
 
 ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
 {
@@ -250,31 +223,25 @@ ParsedNumber parseNumber(std::string_view text, Quantity quantity, bool isSi)
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc::result_out_of_range)
-        return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
+    if (error == std::errc::result_out_of_range) return problem(fmt::format("{} is out of the range of numbers", inQuotes(given)));
     const std::string_view magnitude = text.starts_with('-') ? text.substr(1) : text;
     for (const char* word : {".inf", ".Inf", ".INF", ".nan", ".NaN", ".NAN"}) {
         if (magnitude == word) return problem(fmt::format("{} is not finite; write a number", inQuotes(given)));
     }
-    if (error != std::errc())
-        return problem(fmt::format("{} is no number; needs {}", inQuotes(given), example(quantity)));
+    if (error != std::errc()) return problem(fmt::format("{} is no number; needs {}", inQuotes(given), example(quantity)));
     if (!std::isfinite(number)) return problem(fmt::format("{} is not finite; write a number", inQuotes(given)));
 
     std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     const QuantityInfo& info = infoOf(quantity);
-    if (quantity == Quantity::Angle && unit == "rad")
-        return {unsignedZero(number), ""};  // as it is stored: not through degrees and back
+    if (quantity == Quantity::Angle && unit == "rad") return {unsignedZero(number), ""};  // as it is stored: not through degrees and back
     const std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.data()));
     double inFile = isSi ? shiftedNumber(digits, info.siInCgs, number) : number;
     if (!unit.empty()) {
         const std::optional<Scale> scale = parseUnit(unit);
-        if (!scale)
-            return problem(fmt::format("{} has the unknown unit {}; needs {}", inQuotes(given), inQuotes(unit),
-                                       example(quantity)));
+        if (!scale) return problem(fmt::format("{} has the unknown unit {}; needs {}", inQuotes(given), inQuotes(unit), example(quantity)));
         if (!(scale->dimension == info.dimension)) {
-            return problem(fmt::format("{} is {}, needs {}{}", inQuotes(given),
-                                       withArticle(describeDimension(scale->dimension)), nameOf(quantity),
+            return problem(fmt::format("{} is {}, needs {}{}", inQuotes(given), withArticle(describeDimension(scale->dimension)), nameOf(quantity),
                                        *info.cgs ? fmt::format(" (in {})", info.cgs) : ""));
         }
         inFile = shiftedNumber(digits, scale->decimals, number) * scale->factor;

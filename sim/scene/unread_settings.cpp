@@ -24,8 +24,8 @@ void addFabricReaders(const Scene& scene, std::vector<Reader>& readers)
     const CouplingSettings& c = scene.settings.coupling;
     const bool hasFabric = !scene.fabrics.empty(), isGrid = f.solver == FabricSolver::Grid, isVertex = f.solver == FabricSolver::Vertex;
     for (std::string_view section : {"fabric.", "porous.", "coupling."}) readers.push_back({section, hasFabric, "fabrics"});
-    for (std::string_view path : {"time.max_cfl.fabric", "transfer.method.fabric", "transfer.modes.fabric", "transfer.xi.fabric", "transfer.keep.fabric_",
-                                  "materials.*.contact_stiffness", "materials.*.pin_stiffness"})
+    for (std::string_view path : {"time.max_cfl.fabric", "transfer.method.fabric", "transfer.modes.fabric", "transfer.xi.fabric",
+                                  "transfer.keep.fabric_", "materials.*.contact_stiffness", "materials.*.pin_stiffness"})
         readers.push_back({path, hasFabric && isGrid, "fabric.solver grid"});
     for (std::string_view path : {"fabric.newton", "fabric.max_halvings"}) readers.push_back({path, isVertex, "fabric.solver vertex"});
     readers.push_back({"materials.*.friction_angle", f.contact, "fabric.contact true"});

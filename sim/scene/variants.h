@@ -22,8 +22,7 @@ std::vector<SceneVariant> readVariants(const Node& root);
 std::vector<SceneVariant> listedVariants(const Node& variants, const std::string& path);
 
 /// The variant of that name; throws InputError naming those there are.
-const SceneVariant& findVariant(const std::vector<SceneVariant>& variants, const std::string& name,
-                                const std::string& file);
+const SceneVariant& findVariant(const std::vector<SceneVariant>& variants, const std::string& name, const std::string& file);
 
 /// "PolyPIC 8" → "polypic_8": lower case, `_` for everything but letters and digits.
 std::string asName(const std::string& label);

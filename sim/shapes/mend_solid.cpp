@@ -58,10 +58,7 @@ void weld(TriangleMesh& mesh)
 }
 
 /// As many faces run along it forward as backward: then the whole goes around every place a whole number of times.
-bool isBalanced(const std::vector<Side>& sides)
-{
-    return 2 * std::ranges::count_if(sides, &Side::forward) == std::ssize(sides);
-}
+bool isBalanced(const std::vector<Side>& sides) { return 2 * std::ranges::count_if(sides, &Side::forward) == std::ssize(sides); }
 
 bool isBalanced(const Edges& edges)
 {

@@ -36,10 +36,7 @@ std::string_view withoutPlus(std::string_view number)
 /// Reads one file; knows the line for messages.
 class ObjReader {
  public:
-    ObjReader(const std::filesystem::path& file, bool wantsLines)
-        : file_(file.string()), in_(file, std::ios::binary), wantsLines_(wantsLines)
-    {
-    }
+    ObjReader(const std::filesystem::path& file, bool wantsLines) : file_(file.string()), in_(file, std::ios::binary), wantsLines_(wantsLines) {}
 
     TriangleMesh readMesh()
     {
@@ -66,8 +63,7 @@ class ObjReader {
             if (kind == "v") readVertex(rest);
             if (kind == "f") readFace(rest);
             if (kind == "l" && wantsLines_) readLine(rest);
-            if (std::max(mesh_.vertices.size(), mesh_.triangles.size()) > kMostElements)
-                fail("more than 100 million vertices or triangles");
+            if (std::max(mesh_.vertices.size(), mesh_.triangles.size()) > kMostElements) fail("more than 100 million vertices or triangles");
         }
         if (in_.bad()) throw InputError(file_ + ": could not be read to its end");
     }
@@ -99,16 +95,12 @@ class ObjReader {
         part.clear();
         int c = in_.get();
         if (c == std::ifstream::traits_type::eof()) return false;
-        for (; c != std::ifstream::traits_type::eof() && c != '\n' && c != '\r'; c = in_.get())
-            part.push_back(static_cast<char>(c));
+        for (; c != std::ifstream::traits_type::eof() && c != '\n' && c != '\r'; c = in_.get()) part.push_back(static_cast<char>(c));
         if (c == '\r' && in_.peek() == '\n') in_.get();
         return true;
     }
 
-    [[noreturn]] void fail(const std::string& what) const
-    {
-        throw InputError(file_ + ":" + std::to_string(line_) + ": " + what);
-    }
+    [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ":" + std::to_string(line_) + ": " + what); }
 
     void readVertex(std::string_view rest)
     {
@@ -118,8 +110,7 @@ class ObjReader {
             if (word.empty()) fail("a vertex needs three coordinates");
             const std::string_view number = withoutPlus(word);
             const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), x);
-            if (error != std::errc() || end != number.data() + number.size())
-                fail("not a number: \"" + std::string(word) + "\"");
+            if (error != std::errc() || end != number.data() + number.size()) fail("not a number: \"" + std::string(word) + "\"");
             if (!std::isfinite(x)) fail("not a finite number: \"" + std::string(word) + "\"");
         }
         mesh_.vertices.push_back(v);
@@ -130,8 +121,7 @@ class ObjReader {
         const std::string_view number = withoutPlus(word.substr(0, word.find('/')));
         long long index = 0;
         const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
-        if (error != std::errc() || end != number.data() + number.size())
-            fail("not a corner: \"" + std::string(word) + "\"");
+        if (error != std::errc() || end != number.data() + number.size()) fail("not a corner: \"" + std::string(word) + "\"");
         const auto count = static_cast<long long>(mesh_.vertices.size());
         const long long fromZero = index > 0 ? index - 1 : count + index;
         if (index == 0 || fromZero < 0 || fromZero >= count)
@@ -150,8 +140,7 @@ class ObjReader {
     void readLine(std::string_view rest)
     {
         std::vector<int>& line = lines_.emplace_back();
-        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest))
-            line.push_back(readCorner(word));
+        for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) line.push_back(readCorner(word));
         if (line.size() < 2) fail("a line needs two vertices or more");
     }
 
@@ -167,15 +156,9 @@ class ObjReader {
 
 }  // namespace
 
-TriangleMesh readObj(const std::filesystem::path& file)
-{
-    return ObjReader(file, false).readMesh();
-}
+TriangleMesh readObj(const std::filesystem::path& file) { return ObjReader(file, false).readMesh(); }
 
-PolylineSet readObjLines(const std::filesystem::path& file)
-{
-    return ObjReader(file, true).readLines();
-}
+PolylineSet readObjLines(const std::filesystem::path& file) { return ObjReader(file, true).readLines(); }
 
 Shape shapeFromObj(const std::filesystem::path& file, double scale, double cell, std::vector<std::string>* notes)
 {

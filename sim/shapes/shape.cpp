@@ -6,15 +6,9 @@
 
 namespace sim {
 
-double Shape::distance(const Vec3& x) const
-{
-    return body_ ? body_->distance(x) : std::numeric_limits<double>::infinity();
-}
+double Shape::distance(const Vec3& x) const { return body_ ? body_->distance(x) : std::numeric_limits<double>::infinity(); }
 
-Vec3 Shape::normal(const Vec3& x) const
-{
-    return body_ ? body_->normal(x) : Vec3(Vec3::UnitX());
-}
+Vec3 Shape::normal(const Vec3& x) const { return body_ ? body_->normal(x) : Vec3(Vec3::UnitX()); }
 
 Shape::Look Shape::over(std::span<const Vec3> corners, double enough) const
 {
@@ -36,10 +30,7 @@ static Vec3 lowestBetween(const Shape::Body& body, const Vec3& a, const Vec3& b)
     return a + 0.5 * (low + high) * way;
 }
 
-double Shape::steepest() const
-{
-    return body_ ? body_->steepest() : 0.0;
-}
+double Shape::steepest() const { return body_ ? body_->steepest() : 0.0; }
 
 /// The tangent plane in the middle, and then, while it bounds far less than the distance where it touches, those at the lowest points on the
 /// ways from there to the corner that lies deepest below each plane (Frank and Wolfe 1956). An edge of the body that runs along a hull is
@@ -72,25 +63,13 @@ double Shape::Body::mostOver(std::span<const Vec3> corners) const
     return most;
 }
 
-Eigen::AlignedBox3d Shape::bounds() const
-{
-    return body_ ? body_->bounds(Eigen::Isometry3d::Identity()) : Eigen::AlignedBox3d();
-}
+Eigen::AlignedBox3d Shape::bounds() const { return body_ ? body_->bounds(Eigen::Isometry3d::Identity()) : Eigen::AlignedBox3d(); }
 
-std::optional<Shape::AxisBox> Shape::axisBox() const
-{
-    return body_ ? body_->axisBox() : std::nullopt;
-}
+std::optional<Shape::AxisBox> Shape::axisBox() const { return body_ ? body_->axisBox() : std::nullopt; }
 
-bool Shape::isInverted() const
-{
-    return body_ && body_->inner() != nullptr;
-}
+bool Shape::isInverted() const { return body_ && body_->inner() != nullptr; }
 
-Shape Shape::moved(const Eigen::Isometry3d& transform) const
-{
-    return body_ ? Shape(moveBody(body_, transform)) : Shape();
-}
+Shape Shape::moved(const Eigen::Isometry3d& transform) const { return body_ ? Shape(moveBody(body_, transform)) : Shape(); }
 
 std::vector<std::shared_ptr<const Shape::Body>> Shape::bodies(const std::vector<Shape>& shapes)
 {

@@ -13,7 +13,7 @@ namespace sim {
 namespace {
 
 constexpr int kPadCells = 3;
-constexpr double kSteepest = 2.0;      ///< slope of its distance: along each axis at most 1 on the lattice, and 1 outside of it [-]
+constexpr double kSteepest = 2.0;     ///< slope of its distance: along each axis at most 1 on the lattice, and 1 outside of it [-]
 constexpr double kMostNodes = 5.0e8;  ///< 2 GB of distances
 
 /// Distances on a lattice, trilinear in between.
@@ -26,8 +26,7 @@ struct SampledBody final : Shape::Body {
 
     Eigen::AlignedBox3d lattice() const
     {
-        const Vec3 reach(static_cast<double>(size[0] - 1), static_cast<double>(size[1] - 1),
-                         static_cast<double>(size[2] - 1));
+        const Vec3 reach(static_cast<double>(size[0] - 1), static_cast<double>(size[1] - 1), static_cast<double>(size[2] - 1));
         return {lower, lower + cell * reach};
     }
 
@@ -73,9 +72,9 @@ struct SampledBody final : Shape::Body {
     }
     /// A coordinate on the lattice: between node `index` and the next.
     struct Cut {
-        double x;           ///< [cm]
+        double x;  ///< [cm]
         std::size_t index;
-        double t;           ///< how far between them, 0..1
+        double t;  ///< how far between them, 0..1
     };
     /// Both ends of a range within the lattice, and the nodes between them.
     /// @return how many
@@ -184,9 +183,8 @@ std::shared_ptr<SampledBody> latticeAround(const TriangleMesh& mesh, double cell
     const Vec3 cells = (lattice->body.sizes() / cell).array().ceil() + 2.0 * kPadCells;
     const double nodes = (cells + Vec3::Ones()).prod();
     if (!(nodes <= kMostNodes))
-        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) +
-                         " cm sampled with cells of " + std::to_string(cell) + " cm takes " + std::to_string(nodes) +
-                         " nodes, more than 5e8; use larger cells");
+        throw InputError("a mesh of " + std::to_string(lattice->body.sizes().maxCoeff()) + " cm sampled with cells of " + std::to_string(cell) +
+                         " cm takes " + std::to_string(nodes) + " nodes, more than 5e8; use larger cells");
     for (int a = 0; a < kAxes; ++a) lattice->size[a] = static_cast<std::size_t>(cells[a]) + 1;
     lattice->cell = cell;
     lattice->lower = lattice->body.center() - 0.5 * cell * cells;

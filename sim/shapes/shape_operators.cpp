@@ -23,10 +23,7 @@ struct Placed final : Shape::Body {
     {
         return body->over(std::span(inBody(corners).data(), corners.size()), enough);
     }
-    double mostOver(std::span<const Vec3> corners) const override
-    {
-        return body->mostOver(std::span(inBody(corners).data(), corners.size()));
-    }
+    double mostOver(std::span<const Vec3> corners) const override { return body->mostOver(std::span(inBody(corners).data(), corners.size())); }
     std::array<Vec3, Shape::kMostCorners> inBody(std::span<const Vec3> corners) const
     {
         std::array<Vec3, Shape::kMostCorners> moved;
@@ -50,16 +47,10 @@ struct Outside final : Shape::Body {
     {
         return {body ? -body->mostOver(corners) : -kInfinity, distance(meanOf(corners))};
     }
-    double mostOver(std::span<const Vec3> corners) const override
-    {
-        return body ? -body->over(corners, kInfinity).least : -kInfinity;
-    }
+    double mostOver(std::span<const Vec3> corners) const override { return body ? -body->over(corners, kInfinity).least : -kInfinity; }
     double steepest() const override { return body ? body->steepest() : 0.0; }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d&) const override { return unboundedBox(); }
-    BodyPointer movedBody(const Eigen::Isometry3d& t) const override
-    {
-        return std::make_shared<Outside>(body ? moveBody(body, t) : nullptr);
-    }
+    BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return std::make_shared<Outside>(body ? moveBody(body, t) : nullptr); }
     std::optional<Shape::AxisBox> axisBox() const override
     {
         auto box = body ? body->axisBox() : std::nullopt;
@@ -126,10 +117,7 @@ struct Union final : Shape::Body {
         for (const BodyPointer& b : parts) all.extend(b->bounds(t));
         return all;
     }
-    BodyPointer movedBody(const Eigen::Isometry3d& t) const override
-    {
-        return std::make_shared<Union>(moveAll(parts, t));
-    }
+    BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return std::make_shared<Union>(moveAll(parts, t)); }
 };
 
 struct Intersection final : Shape::Body {
@@ -173,10 +161,7 @@ struct Intersection final : Shape::Body {
         for (const BodyPointer& b : parts) common = common.intersection(b->bounds(t));
         return common.isEmpty() ? Eigen::AlignedBox3d() : common;
     }
-    BodyPointer movedBody(const Eigen::Isometry3d& t) const override
-    {
-        return std::make_shared<Intersection>(moveAll(parts, t));
-    }
+    BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return std::make_shared<Intersection>(moveAll(parts, t)); }
 };
 
 /// The outside of a body; of an outside, the body itself.
@@ -194,10 +179,7 @@ BodyPointer moveBody(const BodyPointer& body, const Eigen::Isometry3d& transform
     return moved ? moved : std::make_shared<Placed>(body, transform);
 }
 
-Shape Shape::inverted() const
-{
-    return Shape(outsideOf(body_));
-}
+Shape Shape::inverted() const { return Shape(outsideOf(body_)); }
 
 Shape Shape::unite(std::vector<Shape> shapes)
 {

@@ -18,15 +18,9 @@ void requireFinite(const Vec3& x, const char* what)
     if (!x.allFinite()) throw InputError(std::string(what) + " must have finite coordinates");
 }
 
-double signOf(double x)
-{
-    return x < 0.0 ? -1.0 : 1.0;
-}
+double signOf(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
-bool isTranslation(const Eigen::Isometry3d& t)
-{
-    return t.linear() == Mat3::Identity();
-}
+bool isTranslation(const Eigen::Isometry3d& t) { return t.linear() == Mat3::Identity(); }
 
 /// Box with round edges, its faces along the axes.
 struct Box final : Shape::Body {
@@ -47,10 +41,8 @@ struct Box final : Shape::Body {
         const Vec3 d = q.cwiseAbs() - half;
         Eigen::Index axis;
         Vec3 n = Vec3::Zero();
-        if (d.maxCoeff(&axis) > 0.0)
-            n = d.cwiseMax(0.0).stableNormalized();
-        else
-            n[axis] = 1.0;
+        if (d.maxCoeff(&axis) > 0.0) n = d.cwiseMax(0.0).stableNormalized();
+        else n[axis] = 1.0;
         for (int a = 0; a < kAxes; ++a) n[a] *= signOf(q[a]);
         return n;
     }
@@ -89,10 +81,7 @@ struct Ball final : Shape::Body {
         const Vec3 c = t * center;
         return {c - Vec3::Constant(radius), c + Vec3::Constant(radius)};
     }
-    BodyPointer movedBody(const Eigen::Isometry3d& t) const override
-    {
-        return std::make_shared<Ball>(t * center, radius);
-    }
+    BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return std::make_shared<Ball>(t * center, radius); }
 };
 
 struct Capsule final : Shape::Body {
@@ -122,20 +111,14 @@ struct Capsule final : Shape::Body {
         const Vec3 p = t * a, q = t * Vec3(a + along), reach = Vec3::Constant(radius);
         return {p.cwiseMin(q) - reach, p.cwiseMax(q) + reach};
     }
-    BodyPointer movedBody(const Eigen::Isometry3d& t) const override
-    {
-        return std::make_shared<Capsule>(t * a, t * Vec3(a + along), radius);
-    }
+    BodyPointer movedBody(const Eigen::Isometry3d& t) const override { return std::make_shared<Capsule>(t * a, t * Vec3(a + along), radius); }
 };
 
 struct Cylinder final : Shape::Body {
     Vec3 center, axis;
     double radius, half, round;
 
-    Cylinder(const Vec3& c, const Vec3& a, double r, double h, double edge)
-        : center(c), axis(a), radius(r), half(h), round(edge)
-    {
-    }
+    Cylinder(const Vec3& c, const Vec3& a, double r, double h, double edge) : center(c), axis(a), radius(r), half(h), round(edge) {}
 
     double distance(const Vec3& x) const override
     {
@@ -170,10 +153,7 @@ struct Cylinder final : Shape::Body {
 
 }  // namespace
 
-Shape Shape::box(const Vec3& center, const Vec3& half)
-{
-    return roundedBox(center, half, 0.0);
-}
+Shape Shape::box(const Vec3& center, const Vec3& half) { return roundedBox(center, half, 0.0); }
 
 Shape Shape::roundedBox(const Vec3& center, const Vec3& half, double round)
 {

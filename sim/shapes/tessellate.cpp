@@ -15,8 +15,7 @@ namespace {
 TriangleMesh boxMesh(const Eigen::AlignedBox3d& box)
 {
     TriangleMesh mesh;
-    for (int corner = 0; corner < 8; ++corner)
-        mesh.vertices.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    for (int corner = 0; corner < 8; ++corner) mesh.vertices.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
     for (int axis = 0; axis < kAxes; ++axis) {
         const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, w = 1 << axis;
         mesh.triangles.emplace_back(0, u + v, u);
@@ -76,8 +75,7 @@ class Marcher {
         const Eigen::AlignedBox3d box = shape.bounds();
         const Vec3 cells = (box.sizes() / cell).array().ceil() + 2.0;
         constexpr double kMostCells = 2.0e8;
-        if (!(cells.prod() <= kMostCells))
-            throw InputError("a shape is unbounded or too large to be drawn with such cells");
+        if (!(cells.prod() <= kMostCells)) throw InputError("a shape is unbounded or too large to be drawn with such cells");
         for (int a = 0; a < kAxes; ++a) nodes_[a] = static_cast<std::size_t>(cells[a]) + 1;
         lower_ = box.center() - 0.5 * cell * cells;
     }
@@ -95,8 +93,8 @@ class Marcher {
     Vec3 position(std::size_t node) const
     {
         const std::size_t row = node / nodes_[0];
-        return lower_ + cell_ * Vec3(static_cast<double>(node % nodes_[0]), static_cast<double>(row % nodes_[1]),
-                                     static_cast<double>(row / nodes_[1]));
+        return lower_ +
+               cell_ * Vec3(static_cast<double>(node % nodes_[0]), static_cast<double>(row % nodes_[1]), static_cast<double>(row / nodes_[1]));
     }
 
     void sample()
@@ -112,10 +110,7 @@ class Marcher {
         });
     }
 
-    std::size_t offset(int corner) const
-    {
-        return ((corner >> 2) * nodes_[1] + (corner >> 1 & 1)) * nodes_[0] + (corner & 1);
-    }
+    std::size_t offset(int corner) const { return ((corner >> 2) * nodes_[1] + (corner >> 1 & 1)) * nodes_[0] + (corner & 1); }
 
     void marchCube(std::size_t base)
     {
@@ -125,8 +120,7 @@ class Marcher {
         // Ways from corner 0 to corner 7, one axis at a time; every other way turns left.
         constexpr std::array<std::array<int, 2>, 6> kWays = {{{1, 3}, {2, 3}, {2, 6}, {4, 6}, {4, 5}, {1, 5}}};
         for (int w = 0; w < 6; ++w) {
-            std::array<std::size_t, 4> t = {base, base + offset(kWays[w][0]), base + offset(kWays[w][1]),
-                                            base + offset(7)};
+            std::array<std::size_t, 4> t = {base, base + offset(kWays[w][0]), base + offset(kWays[w][1]), base + offset(7)};
             if (w % 2 == 1) std::swap(t[1], t[2]);
             marchTetrahedron(t);
         }
@@ -146,8 +140,7 @@ class Marcher {
         if (inside == 1) {
             addTriangle(crossing(t[0], t[1]), crossing(t[0], t[2]), crossing(t[0], t[3]), mirrored);
         } else if (inside == 2) {
-            const int a = crossing(t[0], t[2]), b = crossing(t[0], t[3]), c = crossing(t[1], t[3]),
-                      d = crossing(t[1], t[2]);
+            const int a = crossing(t[0], t[2]), b = crossing(t[0], t[3]), c = crossing(t[1], t[3]), d = crossing(t[1], t[2]);
             addTriangle(a, b, c, mirrored);
             addTriangle(a, c, d, mirrored);
         } else if (inside == 3) {
@@ -155,17 +148,13 @@ class Marcher {
         }
     }
 
-    void addTriangle(int a, int b, int c, bool mirrored)
-    {
-        mesh_.triangles.push_back(mirrored ? Vec3i(a, c, b) : Vec3i(a, b, c));
-    }
+    void addTriangle(int a, int b, int c, bool mirrored) { mesh_.triangles.push_back(mirrored ? Vec3i(a, c, b) : Vec3i(a, b, c)); }
 
     /// Number of the vertex on an edge of the lattice.
     int crossing(std::size_t a, std::size_t b)
     {
         if (a > b) std::swap(a, b);
-        const auto [entry, isNew] =
-            crossings_.try_emplace(a * kEdgeKinds + edgeKind(b - a), static_cast<int>(mesh_.vertices.size()));
+        const auto [entry, isNew] = crossings_.try_emplace(a * kEdgeKinds + edgeKind(b - a), static_cast<int>(mesh_.vertices.size()));
         if (isNew) {
             const double t = values_[a] / (values_[a] - values_[b]);
             mesh_.vertices.push_back((1.0 - t) * position(a) + t * position(b));

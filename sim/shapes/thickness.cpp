@@ -40,9 +40,9 @@ double throughSolid(const Shape& shape, const Vec3& surface, const Vec3& normal,
 double thicknessOf(const Shape& shape, double pitch)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    constexpr int kMostPlaces = 32;     // along an axis
+    constexpr int kMostPlaces = 32;       // along an axis
     constexpr double kResolution = 0.01;  // [pitches]
-    constexpr double kThin = 0.05;      // share of the places
+    constexpr double kThin = 0.05;        // share of the places
     if (shape.empty() || shape.isInverted()) return kInfinity;
     const Eigen::AlignedBox3d box = shape.bounds();
     const Vec3 size = box.sizes();

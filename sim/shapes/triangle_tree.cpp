@@ -14,16 +14,12 @@ constexpr int kLeafTriangles = 4;
 constexpr int kMostDepth = 64;  ///< of a tree of halves with 2^31 triangles, and some
 constexpr double kFar = 2.0;    ///< a group of triangles acts as one at this many radii
 
-Vec3 areaVector(const std::array<Vec3, 3>& t)
-{
-    return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
-}
+Vec3 areaVector(const std::array<Vec3, 3>& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]); }
 
 /// Thinner triangles are lines, for which rounding would decide where they face.
 bool hasArea(const std::array<Vec3, 3>& t)
 {
-    const double edge =
-        std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+    const double edge = std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
     return areaVector(t).norm() > 1.0e-12 * edge;
 }
 
@@ -40,8 +36,7 @@ double squaredDistance(const Vec3& x, const std::array<Vec3, 3>& t)
     bool above = true;  // the triangle itself, not beyond one of its edges
     for (int c = 0; c < 3 && above; ++c) above = n.cross(t[(c + 1) % 3] - t[c]).dot(x - t[c]) >= 0.0;
     if (above) return std::pow(n.dot(x - t[0]), 2) / n.squaredNorm();
-    return std::min({squaredDistanceToSegment(x, t[0], t[1]), squaredDistanceToSegment(x, t[1], t[2]),
-                     squaredDistanceToSegment(x, t[2], t[0])});
+    return std::min({squaredDistanceToSegment(x, t[0], t[1]), squaredDistanceToSegment(x, t[1], t[2]), squaredDistanceToSegment(x, t[2], t[0])});
 }
 
 /// Solid angle of a triangle seen from x, positive from behind. Source: Van Oosterom and Strackee 1983.
@@ -86,10 +81,9 @@ int TriangleTree::build(int first, int last)
     Eigen::Index axis;
     node.box.sizes().maxCoeff(&axis);
     const int middle = first + (last - first) / 2;
-    std::nth_element(corners_.begin() + first, corners_.begin() + middle, corners_.begin() + last,
-                     [axis](const Corners& a, const Corners& b) {
-                         return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
-                     });
+    std::nth_element(corners_.begin() + first, corners_.begin() + middle, corners_.begin() + last, [axis](const Corners& a, const Corners& b) {
+        return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
+    });
     build(first, middle);
     const int right = build(middle, last);
     nodes_[number].right = right;

@@ -59,16 +59,14 @@ double boundedVolume(const Shape& shape, double cell)
     if (!box.sizes().allFinite()) throw InputError("the volume of an unbounded shape was asked for");
     const Vec3 counts = (box.sizes() / cell).array().ceil().max(1.0);
     constexpr double kMostCells = 1.0e9;
-    if (!(counts.prod() < kMostCells))
-        throw InputError("a shape is too large for its cells: its volume takes over 1e9 of them");
+    if (!(counts.prod() < kMostCells)) throw InputError("a shape is too large for its cells: its volume takes over 1e9 of them");
     const Vec3 size = box.sizes().cwiseQuotient(counts);
     const std::size_t nx = static_cast<std::size_t>(counts[0]), ny = static_cast<std::size_t>(counts[1]);
     const std::size_t rows = ny * static_cast<std::size_t>(counts[2]);
     const double cells = parallelSum(rows, [&](std::size_t row) {
         double sum = 0.0;
         for (std::size_t i = 0; i < nx; ++i) {
-            const Vec3 place(static_cast<double>(i) + 0.5, static_cast<double>(row % ny) + 0.5,
-                             static_cast<double>(row / ny) + 0.5);
+            const Vec3 place(static_cast<double>(i) + 0.5, static_cast<double>(row % ny) + 0.5, static_cast<double>(row / ny) + 0.5);
             sum += shareInside(shape, box.min() + place.cwiseProduct(size), size, kHalvings);
         }
         return sum;

@@ -86,20 +86,11 @@ inline CellSet cellsOfRow(Mask mask, int r)
 }
 
 /// The rows that hold cells of the set.
-inline std::uint64_t rowsOf(CellSet s)
-{
-    return (s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7]);
-}
+inline std::uint64_t rowsOf(CellSet s) { return (s[0] | s[1]) | (s[2] | s[3]) | (s[4] | s[5]) | (s[6] | s[7]); }
 
-inline Row<float> toFloat(Row<double> row)
-{
-    return __builtin_convertvector(row, Row<float>);
-}
+inline Row<float> toFloat(Row<double> row) { return __builtin_convertvector(row, Row<float>); }
 
-inline Row<double> toDouble(Row<float> row)
-{
-    return __builtin_convertvector(row, Row<double>);
-}
+inline Row<double> toDouble(Row<float> row) { return __builtin_convertvector(row, Row<double>); }
 
 /// parallelFor over blocks: body(b), each writes its own. Few blocks are quicker done by one thread than shared.
 template <class Body>

@@ -9,10 +9,7 @@ namespace sim {
 
 namespace {
 
-bool isEmpty(CellSet s)
-{
-    return rowsOf(s) == 0;
-}
+bool isEmpty(CellSet s) { return rowsOf(s) == 0; }
 
 /// What a block's couplings say about which cells hang together.
 struct BlockBonds {
@@ -126,8 +123,7 @@ int ConnectedComponents::labelBlock(int b, const BlockGrid& grid, const PoissonM
         const CellSet piece = flood(oneOf(rest), bonds);
         rest &= ~piece;
         isOpenLocal_.block(b)[pieces] = !isEmpty(piece & bonds.open);
-        for (int i = 0; i < kBlockEdge; ++i)
-            forEachRow(piece[i], [&](int r) { label[r * kBlockEdge + i] = static_cast<std::uint16_t>(pieces); });
+        for (int i = 0; i < kBlockEdge; ++i) forEachRow(piece[i], [&](int r) { label[r * kBlockEdge + i] = static_cast<std::uint16_t>(pieces); });
     }
     return pieces;
 }
@@ -158,8 +154,7 @@ void ConnectedComponents::joinBlocks(const BlockGrid& grid, const PoissonMatrix&
             for (int n = 0; n < kBlockRows; ++n) {
                 const int c = n % kBlockEdge * u + n / kBlockEdge * v;
                 if (!(coupling[c] > 0.0)) continue;
-                join(first_[b] + label_.block(b)[c],
-                     first_[lower] + label_.block(lower)[c + (kBlockEdge - 1) * kStep[axis]]);
+                join(first_[b] + label_.block(b)[c], first_[lower] + label_.block(lower)[c + (kBlockEdge - 1) * kStep[axis]]);
                 if (isSimple) break;
             }
         }

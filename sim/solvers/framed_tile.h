@@ -13,9 +13,9 @@ struct FramedTile {
     static constexpr int kUpY = kBlockEdge, kUpZ = kRowsPerPlane * kBlockEdge;  ///< steps to the next rows in x
 
     alignas(64) T x[kFrameRows * kBlockEdge];
-    alignas(64) T sum[kBlockCells];  ///< right-hand side plus couplings times neighbours along y and z
-    alignas(64) T left[kBlockRows];  ///< x beyond the left end of each row …
-    alignas(64) T right[kBlockRows]; ///< … and beyond the right end
+    alignas(64) T sum[kBlockCells];   ///< right-hand side plus couplings times neighbours along y and z
+    alignas(64) T left[kBlockRows];   ///< x beyond the left end of each row …
+    alignas(64) T right[kBlockRows];  ///< … and beyond the right end
 
     FramedTile() { std::fill(x, x + kFrameRows * kBlockEdge, T(0)); }
 
@@ -57,8 +57,7 @@ struct BlockCouplings {
     [[gnu::always_inline]] Row<T> alongRow(const FramedTile<T>& tile, int r, Row<T> v) const
     {
         const Row<T> lower = loadRow(x + r * kBlockEdge);
-        return lower * lowerAlongX<T>(v, tile.left[r]) +
-               upperAlongX<T>(lower, right[r]) * upperAlongX<T>(v, tile.right[r]);
+        return lower * lowerAlongX<T>(v, tile.left[r]) + upperAlongX<T>(lower, right[r]) * upperAlongX<T>(v, tile.right[r]);
     }
 };
 
@@ -67,8 +66,8 @@ struct BlockCouplings {
 /// @param couplings    couplings(block) of any block, the empty one included
 /// @param row          row(block, r): that row of the unknown; cell(block, c): one value of it
 template <class T, class Couplings, class RowOfX, class CellOfX>
-inline void addNeighbours(FramedTile<T>& tile, int block, const std::array<int, 6>& neighbours, const Couplings& couplings,
-                          const RowOfX& row, const CellOfX& cell)
+inline void addNeighbours(FramedTile<T>& tile, int block, const std::array<int, 6>& neighbours, const Couplings& couplings, const RowOfX& row,
+                          const CellOfX& cell)
 {
     const BlockCouplings<T> own = couplings(block);
     const BlockCouplings<T> beyondY = couplings(neighbours[3]), beyondZ = couplings(neighbours[5]);

@@ -9,20 +9,11 @@ namespace sim {
 
 namespace {
 
-int childIndex(const Vec3i& coords)
-{
-    return (coords.z() & 1) * 4 + (coords.y() & 1) * 2 + (coords.x() & 1);
-}
+int childIndex(const Vec3i& coords) { return (coords.z() & 1) * 4 + (coords.y() & 1) * 2 + (coords.x() & 1); }
 
-Vec3i parentCoords(const Vec3i& coords)
-{
-    return {coords.x() >> 1, coords.y() >> 1, coords.z() >> 1};
-}
+Vec3i parentCoords(const Vec3i& coords) { return {coords.x() >> 1, coords.y() >> 1, coords.z() >> 1}; }
 
-bool isBefore(const Vec3i& a, const Vec3i& b)
-{
-    return std::array{a.z(), a.y(), a.x()} < std::array{b.z(), b.y(), b.x()};
-}
+bool isBefore(const Vec3i& a, const Vec3i& b) { return std::array{a.z(), a.y(), a.x()} < std::array{b.z(), b.y(), b.x()}; }
 
 /// Everything of a level that follows from its blocks alone.
 void finishShape(MultigridLevel& level)

@@ -84,9 +84,7 @@ Row<float> gatherRow(const Level& fine, int kind, const std::array<int, 2>& chil
 {
     const auto half = [&](int b) {
         if (b == BlockGrid::kNone) return Row<float>{};
-        const auto row = [&](int r) {
-            return kind < kAxes ? lowerRow(fine, kind, b, r) : loadRow(fine.dirichlet.block(b) + r * kBlockEdge);
-        };
+        const auto row = [&](int r) { return kind < kAxes ? lowerRow(fine, kind, b, r) : loadRow(fine.dirichlet.block(b) + r * kBlockEdge); };
         Row<float> sum = row(fineRow);
         if (kind != 1) sum += row(fineRow + 1);
         if (kind != 2) sum += row(fineRow + kBlockEdge);
@@ -123,8 +121,7 @@ void gatherCoarse(const MultigridLevel& fine, MultigridLevel& coarse)
             const int j = r % kBlockEdge, k = r / kBlockEdge, pair = (k / 4 * 2 + j / 4) * 2;
             const std::array<int, 2> child = {coarse.children[b][pair], coarse.children[b][pair + 1]};
             const int fineRow = k % 4 * 2 * kBlockEdge + j % 4 * 2;
-            for (int axis = 0; axis < kAxes; ++axis)
-                storeLowerRow(coarse, axis, b, r, gatherRow(fine, axis, child, fineRow));
+            for (int axis = 0; axis < kAxes; ++axis) storeLowerRow(coarse, axis, b, r, gatherRow(fine, axis, child, fineRow));
             storeRow(coarse.dirichlet.block(b) + r * kBlockEdge, gatherRow(fine, kAxes, child, fineRow));
             storeRow(coarse.r.block(b) + r * kBlockEdge, Row<float>{});
         }

@@ -28,19 +28,15 @@ struct Tile {
 /// Couplings inside a block, times the neighbours in the tile.
 struct Couplings {
     Couplings(const Level& level, int b)
-        : x(level.matrix.block(b, Level::kCouplingX)),
-          y(level.matrix.block(b, Level::kCouplingY)),
-          z(level.matrix.block(b, Level::kCouplingZ))
+        : x(level.matrix.block(b, Level::kCouplingX)), y(level.matrix.block(b, Level::kCouplingY)), z(level.matrix.block(b, Level::kCouplingZ))
     {
     }
 
     [[gnu::always_inline]] Row<float> acrossRows(const Tile& tile, int c) const
     {
         const float* v = tile.x + c;
-        const Row<float> alongY = loadRow(y + c) * loadRow(v - kBlockEdge) +
-                                  loadRow(y + c + kBlockEdge) * loadRow(v + kBlockEdge);
-        const Row<float> alongZ = loadRow(z + c) * loadRow(v - kBlockRows) +
-                                  loadRow(z + c + kBlockRows) * loadRow(v + kBlockRows);
+        const Row<float> alongY = loadRow(y + c) * loadRow(v - kBlockEdge) + loadRow(y + c + kBlockEdge) * loadRow(v + kBlockEdge);
+        const Row<float> alongZ = loadRow(z + c) * loadRow(v - kBlockRows) + loadRow(z + c + kBlockRows) * loadRow(v + kBlockRows);
         return loadRow(tile.sum + c) + alongY + alongZ;
     }
     [[gnu::always_inline]] Row<float> alongRow(Row<float> v, int c) const
@@ -89,15 +85,9 @@ Row<float> coarseRow(const float* coarse, int corner, int r)
 }
 
 /// The cell of the coarse block where a block's part of it begins.
-int cornerInParent(const Vec3i& coords)
-{
-    return cellInBlock((coords.x() & 1) * 4, (coords.y() & 1) * 4, (coords.z() & 1) * 4);
-}
+int cornerInParent(const Vec3i& coords) { return cellInBlock((coords.x() & 1) * 4, (coords.y() & 1) * 4, (coords.z() & 1) * 4); }
 
-Row<float> whereUnknown(const float* inverse, int r, Row<float> v)
-{
-    return loadRow(inverse + r * kBlockEdge) != 0.0f ? v : Row<float>{};
-}
+Row<float> whereUnknown(const float* inverse, int r, Row<float> v) { return loadRow(inverse + r * kBlockEdge) != 0.0f ? v : Row<float>{}; }
 
 /// tile.sum = right-hand side.
 void sumRhs(const Level& level, int b, Tile& tile)
@@ -136,18 +126,13 @@ void loadBlock(const Level& level, int b, const Smoothing& smoothing, Tile& tile
 {
     const std::uint64_t rows = level.rows[b];
     const float* x = level.x.block(b);
-    if (smoothing.fromZero)
-        tile.fill(0, [](int) { return Row<float>{}; });
-    else if (smoothing.coarse == nullptr)
-        tile.fill(rows, [&](int r) { return loadRow(x + r * kBlockEdge); });
+    if (smoothing.fromZero) tile.fill(0, [](int) { return Row<float>{}; });
+    else if (smoothing.coarse == nullptr) tile.fill(rows, [&](int r) { return loadRow(x + r * kBlockEdge); });
     else {
         const float* correction = smoothing.coarse->x.block(level.parent[b]);
         const float* inverse = level.matrix.block(b, Level::kInverse);
         const int corner = cornerInParent(level.grid.coords(b));
-        tile.fill(rows, [&](int r) {
-            return Row<float>(loadRow(x + r * kBlockEdge) +
-                              whereUnknown(inverse, r, coarseRow(correction, corner, r)));
-        });
+        tile.fill(rows, [&](int r) { return Row<float>(loadRow(x + r * kBlockEdge) + whereUnknown(inverse, r, coarseRow(correction, corner, r))); });
     }
 }
 
@@ -155,9 +140,7 @@ double dotWithRhs(const Level& level, int b, const Tile& tile)
 {
     const float* rhs = level.r.block(b);
     Row<double> sum = {};
-    forEachRow(level.rows[b], [&](int r) {
-        sum += toDouble(loadRow(tile.x + r * kBlockEdge)) * toDouble(loadRow(rhs + r * kBlockEdge));
-    });
+    forEachRow(level.rows[b], [&](int r) { sum += toDouble(loadRow(tile.x + r * kBlockEdge)) * toDouble(loadRow(rhs + r * kBlockEdge)); });
     return sumOfRow<double>(sum);
 }
 
@@ -173,14 +156,10 @@ void smooth(MultigridLevel& level, const Smoothing& smoothing)
             return;
         }
         loadBlock(level, b, smoothing, tile);
-        if (smoothing.alone)
-            sumRhs(level, b, tile);
-        else
-            sumRhsAndNeighbours(level, b, tile);
-        if (smoothing.order == Order::Forward)
-            sweepBlock<Order::Forward>(level, b, smoothing.sweeps, tile);
-        else
-            sweepBlock<Order::Backward>(level, b, smoothing.sweeps, tile);
+        if (smoothing.alone) sumRhs(level, b, tile);
+        else sumRhsAndNeighbours(level, b, tile);
+        if (smoothing.order == Order::Forward) sweepBlock<Order::Forward>(level, b, smoothing.sweeps, tile);
+        else sweepBlock<Order::Backward>(level, b, smoothing.sweeps, tile);
         float* x = level.x.block(b);
         forEachRow(level.rows[b], [&](int r) { storeRow(x + r * kBlockEdge, loadRow(tile.x + r * kBlockEdge)); });
         if (smoothing.dots) level.dot[b] = dotWithRhs(level, b, tile);
@@ -223,8 +202,7 @@ void prolong(const MultigridLevel& coarse, MultigridLevel& fine, int colour)
         const float* correction = coarse.x.block(fine.parent[b]);
         const float* inverse = fine.matrix.block(b, Level::kInverse);
         forEachRow(fine.rows[b], [&](int r) {
-            storeRow<float>(x + r * kBlockEdge, loadRow(x + r * kBlockEdge) +
-                                                    whereUnknown(inverse, r, coarseRow(correction, corner, r)));
+            storeRow<float>(x + r * kBlockEdge, loadRow(x + r * kBlockEdge) + whereUnknown(inverse, r, coarseRow(correction, corner, r)));
         });
     });
 }

@@ -16,20 +16,11 @@ std::array<int, 6> faceNeighbours(const BlockGrid& grid, int b)
 }
 
 /// a or b, whichever is larger; not a number if one of them is not.
-double larger(double a, double b)
-{
-    return b > a || b != b ? b : a;
-}
+double larger(double a, double b) { return b > a || b != b ? b : a; }
 
-Row<double> absolute(Row<double> v)
-{
-    return v < 0.0 ? -v : v;
-}
+Row<double> absolute(Row<double> v) { return v < 0.0 ? -v : v; }
 
-Row<double> largerRow(Row<double> a, Row<double> b)
-{
-    return (b > a) | (b != b) ? b : a;
-}
+Row<double> largerRow(Row<double> a, Row<double> b) { return (b > a) | (b != b) ? b : a; }
 
 double largestOf(const std::vector<double>& values)
 {
@@ -39,8 +30,8 @@ double largestOf(const std::vector<double>& values)
 }
 
 /// Ax of row r, its tile filled with a sum that began at 0.
-[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal,
-                                                      const FramedTile<double>& tile, int r)
+[[gnu::always_inline]] inline Row<double> matrixTimes(const BlockCouplings<double>& couplings, const double* diagonal, const FramedTile<double>& tile,
+                                                      int r)
 {
     const Row<double> v = loadRow(tile.row(r));
     return loadRow(diagonal + r * kBlockEdge) * v - couplings.acrossRows(tile, r) - couplings.alongRow(tile, r, v);
@@ -88,8 +79,7 @@ void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, 
         tile.clearSum();
         addNeighbours(
             tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplings(problem, n); },
-            [&](int n, int r) { return loadRow(problem.p.block(n) + r * kBlockEdge); },
-            [&](int n, int c) { return problem.p.block(n)[c]; });
+            [&](int n, int r) { return loadRow(problem.p.block(n) + r * kBlockEdge); }, [&](int n, int c) { return problem.p.block(n)[c]; });
     }
     Row<double> largest = {};
     forEachRow(rows, [&](int r) {
@@ -103,8 +93,7 @@ void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, 
     });
     largest_[b] = maxOfRow<double>(largest);
     forEachRow(~rows, [&](int r) {
-        for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_})
-            storeRow(v->block(b) + r * kBlockEdge, Row<double>{});
+        for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_}) storeRow(v->block(b) + r * kBlockEdge, Row<double>{});
     });
 }
 
@@ -120,8 +109,7 @@ void PoissonSolver::start(const Problem& problem)
     const bool isGuessZero = measure(problem) == 0.0;
     scale_ = largestRhs_ > 0.0 && std::isfinite(largestRhs_) ? std::exp2(-std::ilogb(largestRhs_)) : 1.0;
     const auto findResidual = [&](bool fromZero) {
-        forEachBlockInTile<FramedTile<double>>(
-            n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, fromZero, tile); });
+        forEachBlockInTile<FramedTile<double>>(n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, fromZero, tile); });
     };
     findResidual(isGuessZero);
     if (!isGuessZero && !(largestOf(largest_) <= largestRhs_)) {
@@ -237,15 +225,15 @@ void PoissonSolver::prepare(const BlockGrid& grid, const PoissonMatrix& matrix)
     components_.find(grid, matrix);
 }
 
-SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
-                                 double tolerance, int maxIterations, BlockArray<double>& p)
+SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance,
+                                 int maxIterations, BlockArray<double>& p)
 {
     prepare(grid, matrix);
     return solvePrepared({grid, matrix, rhs, p}, tolerance, maxIterations);
 }
 
-SolveReport PoissonSolver::solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
-                                      double tolerance, int maxIterations, BlockArray<double>& p)
+SolveReport PoissonSolver::solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance,
+                                      int maxIterations, BlockArray<double>& p)
 {
     SIM_CHECK(multigrid_.finest().blocks() == grid.count());
     return solvePrepared({grid, matrix, rhs, p}, tolerance, maxIterations);

@@ -26,8 +26,8 @@ class PoissonSolver {
     /// @param p             in: a guess (dropped if its residual is larger than the right-hand side), out: the solution; 0 in cells
     ///                      that are no unknowns. If it has not the size of the grid, it is resized and the guess is 0.
     /// Not converged after maxIterations, or numbers that are not finite: told by the report.
-    SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs,
-                      double tolerance, int maxIterations, BlockArray<double>& p);
+    SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance, int maxIterations,
+                      BlockArray<double>& p);
 
     /// The same for the matrix that was last prepared or solved.
     SolveReport solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance, int maxIterations,
@@ -60,12 +60,12 @@ class PoissonSolver {
     Multigrid multigrid_;
     ConnectedComponents components_;
     BlockArray<double> residual_, direction_, nextDirection_, applied_;
-    AlignedArray<double> rightCoupling_;        ///< of each row, 64 per block: beyond its right end
-    std::vector<double> dot_;                   ///< direction · A direction of each block
-    std::vector<double> largest_;               ///< largest residual of each block, and before that largest guess
+    AlignedArray<double> rightCoupling_;  ///< of each row, 64 per block: beyond its right end
+    std::vector<double> dot_;             ///< direction · A direction of each block
+    std::vector<double> largest_;         ///< largest residual of each block, and before that largest guess
     std::vector<double> largestRhsOfBlock_;
     double largestRhs_ = 0.0;
-    double scale_ = 1.0;                ///< power of two that brings residuals near 1 for the float cycle
+    double scale_ = 1.0;  ///< power of two that brings residuals near 1 for the float cycle
 };
 
 }  // namespace sim

@@ -18,10 +18,7 @@ double factorOver(double dt, double factor, const TransferSettings& transfer)
 }
 
 /// Share of their own velocities that particles keep [-].
-double flipRatio(const StepContext& c)
-{
-    return c.isFlip() ? factorOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0;
-}
+double flipRatio(const StepContext& c) { return c.isFlip() ? factorOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0; }
 
 /// May what holds liquid move?
 bool isFrameMoving(const StepContext& c) { return c.plan.isMixed || c.work.obstacles.anyMoving(); }
@@ -66,8 +63,8 @@ PushedOut pushOut(StepContext& c, double fastest)
     if (!c.hasObstacles()) return {};
     Workspace& work = c.work;
     work.obstacles.moveTo(c.state.time, c.state.time + c.dt);
-    const double farthest = fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) +
-                            (c.plan.corrects ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
+    const double farthest =
+        fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) + (c.plan.corrects ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
     return pushOutOfObstacles(work.order, c.state.grid, work.obstacleField, work.obstacles, farthest, &work.places, c.state.liquid,
                               work.pushedSolids);
 }
@@ -93,8 +90,7 @@ void applyWalls(StepContext& c)
     LiquidGrid& liquid = work.grid;
     const LiquidSettings& settings = c.settings().liquid;
     const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
-        applyWalls(c.state.grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.wallFaces, valid,
-                   velocity);
+        applyWalls(c.state.grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.wallFaces, valid, velocity);
     };
     if (c.isFlip()) {
         liquid.advectedValid = liquid.faces.valid;

@@ -70,8 +70,8 @@ void levelHeldWeight(StepContext& c, LiquidOnSolids* onSolids)
         std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
         work.coupling->mixture.clearShared(work.free.bare);
     }
-    levelWeight(grid, work.obstacleField, work.pressure, work.free, c.plan.isMixed ? &work.free.bare : nullptr,
-                c.fallTime() * c.settings().gravity, work.grid, onSolids);
+    levelWeight(grid, work.obstacleField, work.pressure, work.free, c.plan.isMixed ? &work.free.bare : nullptr, c.fallTime() * c.settings().gravity,
+                work.grid, onSolids);
 }
 
 }  // namespace
@@ -114,14 +114,16 @@ void levelWeight(StepContext& c)
 {
     if (!c.plan.isWet || !hasHeldWeight(c)) return;
     const StageScope scope(c.clock, Stage::Pressure);
+    c.energy.remember();
     levelHeldWeight(c, &c.work.onSolids);
-    c.energy.onFaces(EnergyChange::Gravity);
+    c.energy.levelled();
 }
 
 void applySurfaceTension(StepContext& c)
 {
     if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
     const StageScope scope(c.clock, Stage::SurfaceTension);
+    c.energy.remember();
     applySurfaceSteps(c.state.grid, c.work.obstacleField, c.work.pressure, c.fallTime() / c.dt, c.work.surfaceTension, c.work.grid);
     c.energy.surfaceTension(c.plan.isMixed);
 }
@@ -149,8 +151,8 @@ void correctVolume(StepContext& c)
     if (!c.plan.corrects) return;
     const StageScope scope(c.clock, Stage::Volume);
     const double strength = std::min(kLargestShare, rate * state.uncorrected);
-    c.report.volume = correctVolume(state.grid, work.obstacleField, work.pressure, c.settings().gravity, work.grid, strength,
-                                    c.settings().solver, work.volume);
+    c.report.volume =
+        correctVolume(state.grid, work.obstacleField, work.pressure, c.settings().gravity, work.grid, strength, c.settings().solver, work.volume);
     state.uncorrected = 0.0;
     findUnheldFaces(state.grid, work.obstacleField, work.free);
     if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
@@ -169,8 +171,7 @@ void reflect(StepContext& c)
     if (!c.plan.reflects) return;
     const StageScope scope(c.clock, Stage::Reflection);
     Workspace& work = c.work;
-    c.report.reflection =
-        reflect(c.state.grid, work.obstacleField, c.settings().solver, work.inflow, work.pressure, work.grid, work.reflection);
+    c.report.reflection = reflect(c.state.grid, work.obstacleField, c.settings().solver, work.inflow, work.pressure, work.grid, work.reflection);
     restoreMomentum(c, work.reflection.velocity);
     c.energy.reflected(c.dt);
 }

@@ -11,17 +11,13 @@ namespace sim {
 
 namespace {
 
-
 float valueNear(const BlockGrid& grid, const BlockArray<float>& values, int block, const Vec3i& node)
 {
     const CellRef at = cellNear(grid, block, node.x(), node.y(), node.z());
     return values.block(at.block)[at.cell];
 }
 
-int countBits(unsigned bits)
-{
-    return std::popcount(bits);
-}
+int countBits(unsigned bits) { return std::popcount(bits); }
 
 template <class Visit>
 void forEachBit(unsigned bits, Visit&& visit)
@@ -55,8 +51,8 @@ void Contour::forEachCutCell(const BlockGrid& grid, int block, Visit&& visit) co
 {
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j) {
-            const std::array rows = {insideRow(grid, block, j, k), insideRow(grid, block, j + 1, k),
-                                     insideRow(grid, block, j, k + 1), insideRow(grid, block, j + 1, k + 1)};
+            const std::array rows = {insideRow(grid, block, j, k), insideRow(grid, block, j + 1, k), insideRow(grid, block, j, k + 1),
+                                     insideRow(grid, block, j + 1, k + 1)};
             const unsigned any = rows[0] | rows[1] | rows[2] | rows[3], all = rows[0] & rows[1] & rows[2] & rows[3];
             forEachBit((any | any >> 1) & ~(all & all >> 1) & 0xffu, [&](int i) {
                 unsigned inside = 0;
@@ -107,8 +103,7 @@ int Contour::vertexOn(const BlockGrid& grid, int block, int axis, const Vec3i& n
     return vertex;
 }
 
-void Contour::placeVertices(const BlockGrid& grid, const BlockArray<float>& values, float level, int block,
-                            SurfaceMesh& mesh)
+void Contour::placeVertices(const BlockGrid& grid, const BlockArray<float>& values, float level, int block, SurfaceMesh& mesh)
 {
     // Not at the very ends, so that no triangle is without an area.
     constexpr float kNearestToNode = 0.01f;
@@ -119,11 +114,9 @@ void Contour::placeVertices(const BlockGrid& grid, const BlockArray<float>& valu
         for (int axis = 0; axis < kAxes; ++axis)
             forEachBit(b.cut[axis][row], [&](int i) {
                 const Vec3i node(i, row & 7, row >> 3);
-                const float from = valueNear(grid, values, block, node),
-                            to = valueNear(grid, values, block, node + Vec3i::Unit(axis));
-                const Crossing crossing{
-                    block, static_cast<std::uint16_t>(kBlockEdge * row + i), static_cast<std::uint16_t>(axis),
-                    std::clamp((level - from) / (to - from), kNearestToNode, 1.0f - kNearestToNode)};
+                const float from = valueNear(grid, values, block, node), to = valueNear(grid, values, block, node + Vec3i::Unit(axis));
+                const Crossing crossing{block, static_cast<std::uint16_t>(kBlockEdge * row + i), static_cast<std::uint16_t>(axis),
+                                        std::clamp((level - from) / (to - from), kNearestToNode, 1.0f - kNearestToNode)};
                 crossings_[vertex] = crossing;
                 mesh.positions[vertex++] = corner + grid.dx * crossing.place().cast<double>();
             });
@@ -161,8 +154,7 @@ void Contour::extract(const BlockGrid& grid, const BlockArray<float>& values, fl
     parallelFor(grid.count(), [&](std::size_t b) { makeTriangles(grid, static_cast<int>(b), mesh); });
 }
 
-void findNormals(const BlockGrid& grid, const BlockArray<float>& values, const std::vector<Crossing>& crossings,
-                 std::vector<Vec3>& normals)
+void findNormals(const BlockGrid& grid, const BlockArray<float>& values, const std::vector<Crossing>& crossings, std::vector<Vec3>& normals)
 {
     normals.resize(crossings.size());
     parallelFor(crossings.size(), kGrain, [&](std::size_t v) {
@@ -170,17 +162,16 @@ void findNormals(const BlockGrid& grid, const BlockArray<float>& values, const s
         const auto slopeAt = [&](const Vec3i& node) {
             Vec3 slope;
             for (int a = 0; a < kAxes; ++a)
-                slope[a] = valueNear(grid, values, crossing.block, node + Vec3i::Unit(a)) -
-                           valueNear(grid, values, crossing.block, node - Vec3i::Unit(a));
+                slope[a] =
+                    valueNear(grid, values, crossing.block, node + Vec3i::Unit(a)) - valueNear(grid, values, crossing.block, node - Vec3i::Unit(a));
             return slope;
         };
         const Vec3i node = crossing.cell();
-        const Vec3 slope =
-            (1.0 - crossing.along) * slopeAt(node) + crossing.along * slopeAt(node + Vec3i::Unit(crossing.axis));
+        const Vec3 slope = (1.0 - crossing.along) * slopeAt(node) + crossing.along * slopeAt(node + Vec3i::Unit(crossing.axis));
         const double length = slope.norm();
         // Between two equal drops there is none; the edge tells at least which side is which.
-        const bool fallsAlong = valueNear(grid, values, crossing.block, node) >
-                                valueNear(grid, values, crossing.block, node + Vec3i::Unit(crossing.axis));
+        const bool fallsAlong =
+            valueNear(grid, values, crossing.block, node) > valueNear(grid, values, crossing.block, node + Vec3i::Unit(crossing.axis));
         normals[v] = length > 0.0 ? Vec3(-slope / length) : Vec3((fallsAlong ? 1.0 : -1.0) * Vec3::Unit(crossing.axis));
     });
 }

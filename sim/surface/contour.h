@@ -51,8 +51,7 @@ class Contour {
     void count(const BlockGrid& grid, int block);
     std::array<int, 2> findOffsets();
     int vertexOn(const BlockGrid& grid, int block, int axis, const Vec3i& node) const;
-    void placeVertices(const BlockGrid& grid, const BlockArray<float>& values, float level, int block,
-                       SurfaceMesh& mesh);
+    void placeVertices(const BlockGrid& grid, const BlockArray<float>& values, float level, int block, SurfaceMesh& mesh);
     void makeTriangles(const BlockGrid& grid, int block, SurfaceMesh& mesh) const;
     template <class Visit>
     void forEachCutCell(const BlockGrid& grid, int block, Visit&& visit) const;
@@ -62,7 +61,6 @@ class Contour {
 };
 
 /// Unit vectors down the gradient of the values at the crossings, by central differences at both ends of their edges.
-void findNormals(const BlockGrid& grid, const BlockArray<float>& values, const std::vector<Crossing>& crossings,
-                 std::vector<Vec3>& normals);
+void findNormals(const BlockGrid& grid, const BlockArray<float>& values, const std::vector<Crossing>& crossings, std::vector<Vec3>& normals);
 
 }  // namespace sim

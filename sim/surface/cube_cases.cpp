@@ -9,8 +9,8 @@ constexpr int kNone = -1;
 constexpr int edgeBetween(int a, int b)
 {
     for (int e = 0; e < 12; ++e)
-        if ((kCubeEdges[e].corner == a || kCubeEdges[e].corner == b) &&
-            (kCubeEdges[e].corner | 1 << kCubeEdges[e].axis) == (a | b) && (a ^ b) == 1 << kCubeEdges[e].axis)
+        if ((kCubeEdges[e].corner == a || kCubeEdges[e].corner == b) && (kCubeEdges[e].corner | 1 << kCubeEdges[e].axis) == (a | b) &&
+            (a ^ b) == 1 << kCubeEdges[e].axis)
             return e;
     return kNone;
 }
@@ -19,16 +19,14 @@ constexpr int edgeBetween(int a, int b)
 constexpr std::array<int, 4> cornersOfFace(int axis, int side)
 {
     const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, base = side << axis;
-    return side == 1 ? std::array{base, base | u, base | u | v, base | v}
-                     : std::array{base, base | v, base | u | v, base | u};
+    return side == 1 ? std::array{base, base | u, base | u | v, base | v} : std::array{base, base | v, base | u | v, base | u};
 }
 
 constexpr bool shareFace(int edge, int other)
 {
     for (int axis = 0; axis < 3; ++axis) {
         const bool bothLieAcross = kCubeEdges[edge].axis != axis && kCubeEdges[other].axis != axis;
-        if (bothLieAcross && (kCubeEdges[edge].corner >> axis & 1) == (kCubeEdges[other].corner >> axis & 1))
-            return true;
+        if (bothLieAcross && (kCubeEdges[edge].corner >> axis & 1) == (kCubeEdges[other].corner >> axis & 1)) return true;
     }
     return false;
 }
@@ -66,8 +64,7 @@ constexpr bool triangulate(const Loop& loop, int first, int last, CubeCase& out)
         if (!isAllowed(first, middle) || !isAllowed(middle, last)) continue;
         const std::uint8_t before = out.count;
         if (triangulate(loop, first, middle, out) && triangulate(loop, middle, last, out)) {
-            out.triangles[out.count++] = {static_cast<std::uint8_t>(loop.edges[first]),
-                                          static_cast<std::uint8_t>(loop.edges[middle]),
+            out.triangles[out.count++] = {static_cast<std::uint8_t>(loop.edges[first]), static_cast<std::uint8_t>(loop.edges[middle]),
                                           static_cast<std::uint8_t>(loop.edges[last])};
             return true;
         }
@@ -101,9 +98,6 @@ constexpr std::array<CubeCase, 256> kCases = [] {
 
 }  // namespace
 
-const std::array<CubeCase, 256>& cubeCases()
-{
-    return kCases;
-}
+const std::array<CubeCase, 256>& cubeCases() { return kCases; }
 
 }  // namespace sim

@@ -47,8 +47,7 @@ const SurfaceMesh& LiquidSurface::find(const LiquidParticles& liquid, double den
     smoothField(grid_, kNormalPasses, depth_, scratch_);  // after the surface itself is there
     findNormals(grid_, depth_, contour_.crossings(), mesh_.normals);
     if (settings.hasVelocities)
-        surfaceVelocities(grid_, particles_, static_cast<float>(kVelocityReach / kReach * reach), contour_.crossings(),
-                          mesh_.velocities);
+        surfaceVelocities(grid_, particles_, static_cast<float>(kVelocityReach / kReach * reach), contour_.crossings(), mesh_.velocities);
     return mesh_;
 }
 
@@ -61,8 +60,7 @@ void LiquidSurface::extract(const SurfaceSettings& settings)
 void LiquidSurface::keepVolume(const SurfaceSettings& settings)
 {
     double tooSmall = -kLargestOffset, tooLarge = kLargestOffset;
-    double slope = kUsualRise * grid_.dx / settings.cell * surfaceArea(mesh_),
-           lack = particles_.volume - enclosedVolume(mesh_);
+    double slope = kUsualRise * grid_.dx / settings.cell * surfaceArea(mesh_), lack = particles_.volume - enclosedVolume(mesh_);
     for (int n = 1; n < kMostExtractions && std::abs(lack) > kVolumeTolerance * particles_.volume; ++n) {
         (lack > 0.0 ? tooSmall : tooLarge) = offset_;
         const double lackBefore = lack, before = offset_,

@@ -24,8 +24,7 @@ constexpr FloatPack kLaneY = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 /// Nodes of a block along one axis that lie within `reach` of a place.
 struct Range {
     Range(float place, float reach)
-        : low(std::max(0, static_cast<int>(std::ceil(place - reach)))),
-          high(std::min(kBlockEdge - 1, static_cast<int>(std::floor(place + reach))))
+        : low(std::max(0, static_cast<int>(std::ceil(place - reach)))), high(std::min(kBlockEdge - 1, static_cast<int>(std::floor(place + reach))))
     {
     }
     int low, high;
@@ -37,8 +36,7 @@ constexpr float kSparse = 0.17f, kCrowded = 0.41f;
 
 /// Σ w, Σ w x … over particles at the nodes of one block, w = (1 − q)³ and q = d²/reach², and Σ (1 − q)¹⁶.
 struct NodeSums {
-    FloatPack weight[kPacks] = {}, x[kPacks] = {}, y[kPacks] = {}, z[kPacks] = {}, radius[kPacks] = {},
-              sharp[kPacks] = {};
+    FloatPack weight[kPacks] = {}, x[kPacks] = {}, y[kPacks] = {}, z[kPacks] = {}, radius[kPacks] = {}, sharp[kPacks] = {};
 
     /// @param at      place of the particle relative to the lower corner of the block [cells]
     /// @param wanted  a bit per pack: the others may stay as they are
@@ -79,8 +77,7 @@ struct NodeSums {
     FloatPack depth(int n, float reach, float bulkWeight) const
     {
         const FloatPack one = FloatPack{} + 1.0f, inverse = weight[n] > 0.0f ? 1.0f / weight[n] : FloatPack{};
-        const FloatPack dx = kLaneX - x[n] * inverse,
-                        dy = kLaneY + static_cast<float>(2 * (n % kPairs)) - y[n] * inverse,
+        const FloatPack dx = kLaneX - x[n] * inverse, dy = kLaneY + static_cast<float>(2 * (n % kPairs)) - y[n] * inverse,
                         dz = static_cast<float>(n / kPairs) - z[n] * inverse;
         const FloatPack fromMean = sqrtFloats(dx * dx + dy * dy + dz * dz);
         FloatPack rest = sqrtFloats(sqrtFloats(sqrtFloats(sqrtFloats(sharp[n]))));  // 1 − q of a particle alone
@@ -116,14 +113,12 @@ std::uint32_t packsNearSurface(const BlockGrid& grid, const SurfaceParticles& pa
         return true;
     };
     std::uint32_t near = 0;
-    for (int n = 0; n < kPacks; ++n)
-        near |= areFull(n % kPairs / 2, n / kPairs / SurfaceParticles::kBinEdge) ? 0u : 1u << n;
+    for (int n = 0; n < kPacks; ++n) near |= areFull(n % kPairs / 2, n / kPairs / SurfaceParticles::kBinEdge) ? 0u : 1u << n;
     return near;
 }
 
 /// All particles in reach of a block's nodes, in the order of the blocks around it.
-void addAround(const BlockGrid& grid, const SurfaceParticles& particles, float reach, int block, std::uint32_t wanted,
-               NodeSums& sums)
+void addAround(const BlockGrid& grid, const SurfaceParticles& particles, float reach, int block, std::uint32_t wanted, NodeSums& sums)
 {
     for (int n = 0; n < 27; ++n) {
         const int from = grid.neighbours(block)[n];
@@ -131,8 +126,7 @@ void addAround(const BlockGrid& grid, const SurfaceParticles& particles, float r
         const Eigen::Vector3f corner = (kBlockEdge * Vec3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)).cast<float>();
         for (int s = particles.begin(from); s < particles.end(from); ++s) {
             const Eigen::Vector3f at = corner + particles.place(s);
-            if (at.minCoeff() > -reach && at.maxCoeff() < kBlockEdge - 1 + reach)
-                sums.add(at, particles.radius[s], reach, wanted);
+            if (at.minCoeff() > -reach && at.maxCoeff() < kBlockEdge - 1 + reach) sums.add(at, particles.radius[s], reach, wanted);
         }
     }
 }
@@ -146,8 +140,7 @@ void loadWithHalo(const BlockGrid& grid, const BlockArray<float>& values, int bl
     const auto& around = grid.neighbours(block);
     for (int k = 0; k < kHalo; ++k)
         for (int j = 0; j < kHalo; ++j) {
-            const int row = cellInBlock(0, (j - 1) & 7, (k - 1) & 7),
-                      here = neighbourIndex(0, (j - 1) >> 3, (k - 1) >> 3);
+            const int row = cellInBlock(0, (j - 1) & 7, (k - 1) & 7), here = neighbourIndex(0, (j - 1) >> 3, (k - 1) >> 3);
             out[k][j][0] = values.block(around[here - 1])[row + kBlockEdge - 1];
             std::copy_n(values.block(around[here]) + row, kBlockEdge, out[k][j].begin() + 1);
             out[k][j][kHalo - 1] = values.block(around[here + 1])[row];
@@ -171,8 +164,7 @@ void smoothBlock(const HaloBlock& v, float* out)
 
 }  // namespace
 
-void surfaceField(const BlockGrid& grid, const SurfaceParticles& particles, float reach, float spacing,
-                  BlockArray<float>& depth)
+void surfaceField(const BlockGrid& grid, const SurfaceParticles& particles, float reach, float spacing, BlockArray<float>& depth)
 {
     SIM_CHECK(reach <= kBlockEdge - 1);
     depth.resize(grid.count());

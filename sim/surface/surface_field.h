@@ -18,8 +18,7 @@ namespace sim {
 /// Each block adds up the particles around it in their order: the same bits for any number of threads.
 /// @param reach    beyond which particles have no weight [cells], ≤ 7
 /// @param spacing  of the particles of bulk liquid [cells]
-void surfaceField(const BlockGrid& grid, const SurfaceParticles& particles, float reach, float spacing,
-                  BlockArray<float>& depth);
+void surfaceField(const BlockGrid& grid, const SurfaceParticles& particles, float reach, float spacing, BlockArray<float>& depth);
 
 /// Passes of (1 2 1)/4 along each axis over a field that is 0 outside of the blocks; each adds half a cell² to the
 /// variance.

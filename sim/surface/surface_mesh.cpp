@@ -13,8 +13,7 @@ double enclosedVolume(const SurfaceMesh& mesh)
     return parallelSum(mesh.triangles.size(),
                        [&](std::size_t t) {
                            const Vec3i& corner = mesh.triangles[t];
-                           const Vec3 &a = mesh.positions[corner[0]], &b = mesh.positions[corner[1]],
-                                      &c = mesh.positions[corner[2]];
+                           const Vec3 &a = mesh.positions[corner[0]], &b = mesh.positions[corner[1]], &c = mesh.positions[corner[2]];
                            return ((a - base) + (b - base) + (c - base)).dot((b - a).cross(c - a));
                        }) /
            18.0;

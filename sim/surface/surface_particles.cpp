@@ -13,10 +13,7 @@ namespace {
 
 constexpr std::size_t kParticlesPerTask = 4096;
 
-Vec3i stepTo(int neighbour)
-{
-    return {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1};
-}
+Vec3i stepTo(int neighbour) { return {neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1}; }
 
 void sortAndUnite(std::vector<Vec3i>& coords)
 {
@@ -32,8 +29,7 @@ void findPlaces(const LiquidParticles& liquid, const BlockGrid& grid, SurfacePar
     out.blockOf.resize(liquid.count);
     out.inside.resize(liquid.count);
     parallelFor(liquid.count, kParticlesPerTask, [&](std::size_t p) {
-        const Vec3 inCells = (liquid.position(p) - grid.origin) / grid.dx,
-                   inBlocks = (inCells / kBlockEdge).array().floor();
+        const Vec3 inCells = (liquid.position(p) - grid.origin) / grid.dx, inBlocks = (inCells / kBlockEdge).array().floor();
         if (!(inBlocks.cwiseAbs().maxCoeff() < BlockGrid::kMaxCoordinate - 2))
             throw RunError("surface: a particle is too far away from the origin for its grid");
         out.blockOf[p] = inBlocks.cast<int>();
@@ -44,14 +40,12 @@ void findPlaces(const LiquidParticles& liquid, const BlockGrid& grid, SurfacePar
 /// body(particle, block number) for all that have mass, one after the other. The simulation keeps particles of one
 /// place together: most are in the block of the one before.
 template <class Body>
-void forEachInItsBlock(const LiquidParticles& liquid, const BlockGrid& grid, const SurfaceParticles& particles,
-                       Body&& body)
+void forEachInItsBlock(const LiquidParticles& liquid, const BlockGrid& grid, const SurfaceParticles& particles, Body&& body)
 {
     int block = BlockGrid::kNone;
     for (std::size_t p = 0; p < liquid.count; ++p) {
         if (!(liquid.mass[p] > 0.0)) continue;
-        if (block == BlockGrid::kNone || grid.coords(block) != particles.blockOf[p])
-            block = grid.find(particles.blockOf[p]);
+        if (block == BlockGrid::kNone || grid.coords(block) != particles.blockOf[p]) block = grid.find(particles.blockOf[p]);
         body(p, block);
     }
 }
@@ -65,8 +59,7 @@ std::uint32_t blocksInReach(const Eigen::Vector3f& x, float reach)
     for (int n = 0; n < 27; ++n) {
         const Vec3i step = stepTo(n);
         bool isNear = true;
-        for (int a = 0; a < kAxes; ++a)
-            isNear = isNear && (step[a] == 0 || (step[a] < 0 ? x[a] < reach : x[a] > kBlockEdge - reach));
+        for (int a = 0; a < kAxes; ++a) isNear = isNear && (step[a] == 0 || (step[a] < 0 ? x[a] < reach : x[a] > kBlockEdge - reach));
         bits |= isNear ? 1u << n : 0u;
     }
     return bits;
@@ -77,8 +70,7 @@ void fitBlocks(const LiquidParticles& liquid, float reach, BlockGrid& grid, Surf
 {
     work.coords.clear();
     for (std::size_t p = 0; p < liquid.count; ++p)
-        if (liquid.mass[p] > 0.0 && (work.coords.empty() || work.coords.back() != work.blockOf[p]))
-            work.coords.push_back(work.blockOf[p]);
+        if (liquid.mass[p] > 0.0 && (work.coords.empty() || work.coords.back() != work.blockOf[p])) work.coords.push_back(work.blockOf[p]);
     sortAndUnite(work.coords);
     grid.setBlocks(work.coords);
 
@@ -89,8 +81,7 @@ void fitBlocks(const LiquidParticles& liquid, float reach, BlockGrid& grid, Surf
     work.missing.clear();
     for (int b = 0; b < grid.count(); ++b)
         for (int n = 0; n < 27; ++n)
-            if ((work.reached[b] >> n & 1) != 0 && grid.neighbours(b)[n] == grid.count())
-                work.missing.push_back(grid.coords(b) + stepTo(n));
+            if ((work.reached[b] >> n & 1) != 0 && grid.neighbours(b)[n] == grid.count()) work.missing.push_back(grid.coords(b) + stepTo(n));
     sortAndUnite(work.missing);
     work.coords.insert(work.coords.end(), work.missing.begin(), work.missing.end());
     grid.setBlocks(work.coords);
@@ -122,8 +113,7 @@ double surfaceSpacing(const LiquidParticles& liquid, double density)
     return sum > 0.0 ? std::cbrt(squares / sum / density) : 0.0;
 }
 
-void sortForSurface(const LiquidParticles& liquid, double density, double reach, BlockGrid& grid,
-                    SurfaceParticles& particles)
+void sortForSurface(const LiquidParticles& liquid, double density, double reach, BlockGrid& grid, SurfaceParticles& particles)
 {
     SIM_CHECK(reach <= kBlockEdge);
     findPlaces(liquid, grid, particles);
@@ -143,8 +133,7 @@ void sortForSurface(const LiquidParticles& liquid, double density, double reach,
         }
         particles.radius[s] = static_cast<float>(std::cbrt(0.75 / kPi * liquid.mass[p] / density) / grid.dx);
     });
-    particles.volume =
-        parallelSum(liquid.count, [&](std::size_t p) { return std::max(liquid.mass[p], 0.0); }) / density;
+    particles.volume = parallelSum(liquid.count, [&](std::size_t p) { return std::max(liquid.mass[p], 0.0); }) / density;
 }
 
 }  // namespace sim

@@ -19,8 +19,8 @@ struct SurfaceParticles {
     std::array<AlignedArray<float>, kAxes> x;         ///< [cells]
     std::array<AlignedArray<float>, kAxes> velocity;  ///< [cm/s]
     AlignedArray<float> radius;                       ///< of a ball of the particle's volume [cells]
-    std::vector<int> binStart;  ///< first particle of bin i of block b at kBins b + i, and the end of all
-    double volume = 0.0;        ///< of all of them [cm^3]
+    std::vector<int> binStart;                        ///< first particle of bin i of block b at kBins b + i, and the end of all
+    double volume = 0.0;                              ///< of all of them [cm^3]
 
     int begin(int block) const { return binStart[kBins * block]; }
     int end(int block) const { return binStart[kBins * (block + 1)]; }
@@ -42,7 +42,6 @@ double surfaceSpacing(const LiquidParticles& liquid, double density);
 /// Sort the particles that have mass, and make the blocks of `grid` - whose dx and origin are given - those that lie
 /// within `reach` cells of one, measured along each axis; reach ≤ 8. The same bits for any number of threads.
 /// Throws RunError if a particle is out of the range of block numbers.
-void sortForSurface(const LiquidParticles& liquid, double density, double reach, BlockGrid& grid,
-                    SurfaceParticles& particles);
+void sortForSurface(const LiquidParticles& liquid, double density, double reach, BlockGrid& grid, SurfaceParticles& particles);
 
 }  // namespace sim

@@ -23,8 +23,7 @@ struct Moments {
     FloatPack vy[kAxes][kAxes] = {};                 ///< Σ w v yᵀ
 
     /// Add the particles first … last − 1, which are relative to a corner that lies at −`at` from the place.
-    [[gnu::always_inline]] void addRun(const SurfaceParticles& particles, const Eigen::Vector3f& at, float reach,
-                                       int first, int last)
+    [[gnu::always_inline]] void addRun(const SurfaceParticles& particles, const Eigen::Vector3f& at, float reach, int first, int last)
     {
         if (!hasBase && first < last) {
             base = {particles.velocity[0][first], particles.velocity[1][first], particles.velocity[2][first]};
@@ -82,8 +81,8 @@ std::array<int, 2> binsInReach(float place, float reach)
 }
 
 /// Particles in the bins x … of one row of bins, which are runs as long as they are in one block.
-void addRow(const BlockGrid& grid, const SurfaceParticles& particles, const Crossing& crossing, float reach,
-            const std::array<int, 2>& x, int y, int z, Moments& moments)
+void addRow(const BlockGrid& grid, const SurfaceParticles& particles, const Crossing& crossing, float reach, const std::array<int, 2>& x, int y,
+            int z, Moments& moments)
 {
     for (int i = x[0]; i <= x[1];) {
         const Vec3i step(i >> 1, y >> 1, z >> 1);
@@ -91,8 +90,7 @@ void addRow(const BlockGrid& grid, const SurfaceParticles& particles, const Cros
         const int last = std::min(x[1], i | 1);
         if (block != grid.count()) {
             const int* bins = particles.binStart.data() + SurfaceParticles::kBins * block + 4 * (z & 1) + 2 * (y & 1);
-            moments.addRun(particles, crossing.place() - (kBlockEdge * step).cast<float>(), reach, bins[i & 1],
-                           bins[(last & 1) + 1]);
+            moments.addRun(particles, crossing.place() - (kBlockEdge * step).cast<float>(), reach, bins[i & 1], bins[(last & 1) + 1]);
         }
         i = last + 1;
     }
@@ -100,15 +98,14 @@ void addRow(const BlockGrid& grid, const SurfaceParticles& particles, const Cros
 
 }  // namespace
 
-void surfaceVelocities(const BlockGrid& grid, const SurfaceParticles& particles, float reach,
-                       const std::vector<Crossing>& crossings, std::vector<Vec3>& velocities)
+void surfaceVelocities(const BlockGrid& grid, const SurfaceParticles& particles, float reach, const std::vector<Crossing>& crossings,
+                       std::vector<Vec3>& velocities)
 {
     velocities.resize(crossings.size());
     parallelFor(crossings.size(), kVerticesPerTask, [&](std::size_t c) {
         const Crossing& crossing = crossings[c];
         const Eigen::Vector3f place = crossing.place();
-        const auto x = binsInReach(place.x(), reach), y = binsInReach(place.y(), reach),
-                   z = binsInReach(place.z(), reach);
+        const auto x = binsInReach(place.x(), reach), y = binsInReach(place.y(), reach), z = binsInReach(place.z(), reach);
         Moments moments;
         for (int k = z[0]; k <= z[1]; ++k)
             for (int j = y[0]; j <= y[1]; ++j) addRow(grid, particles, crossing, reach, x, j, k, moments);

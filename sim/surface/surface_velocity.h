@@ -11,7 +11,7 @@ namespace sim {
 /// spacing - but where the particles around lie in a plane or line, or alone, they say nothing of how it changes away
 /// from it, and the velocity in the plane, on the line or of the particle holds.
 /// @param reach  [cells]; velocities of places without particles in reach are 0
-void surfaceVelocities(const BlockGrid& grid, const SurfaceParticles& particles, float reach,
-                       const std::vector<Crossing>& crossings, std::vector<Vec3>& velocities);
+void surfaceVelocities(const BlockGrid& grid, const SurfaceParticles& particles, float reach, const std::vector<Crossing>& crossings,
+                       std::vector<Vec3>& velocities);
 
 }  // namespace sim

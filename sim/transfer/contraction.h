@@ -33,7 +33,7 @@ template <int kFactors, bool kFold>
             }
         }
     };
-    const auto weights = [](Pack r, Pack (&w)[3]) {
+    const auto weights = [](Pack r, Pack(&w)[3]) {
         w[0] = 0.5 * (0.5 - r) * (0.5 - r);
         w[1] = 0.75 - r * r;
         w[2] = 0.5 * (0.5 + r) * (0.5 + r);

@@ -31,12 +31,12 @@ struct Context {
     GatherScratch& scratch;
     Vec3 origin;
     double dx;
-    const GatherTile& tile;      ///< of the velocities whose modes are gathered
-    const GatherTile& moving;    ///< of those that the particles move with
-    const GatherTile* flipTile;  ///< of the old velocities, or null
+    const GatherTile& tile;              ///< of the velocities whose modes are gathered
+    const GatherTile& moving;            ///< of those that the particles move with
+    const GatherTile* flipTile;          ///< of the old velocities, or null
     const GatherTile* displacementTile;  ///< or null
-    int modes;                   ///< N_r
-    Vec3 frame;                  ///< in which particles move by the midpoint rule [cm/s]
+    int modes;                           ///< N_r
+    Vec3 frame;                          ///< in which particles move by the midpoint rule [cm/s]
 };
 
 struct LaneSums {
@@ -112,8 +112,7 @@ template <int kAxis>
     const double half = 0.5 * ctx.settings.dt / ctx.dx;
     Pack past[3];
     for (int a = 0; a < kAxes; ++a) past[a] = c[a][0][0][0] - ctx.frame[a];
-    for (int a = 0; a < kAxes; ++a)
-        path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * past[0] + c[a][0][1][0] * past[1] + c[a][0][0][1] * past[2]);
+    for (int a = 0; a < kAxes; ++a) path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * past[0] + c[a][0][1][0] * past[1] + c[a][0][0][1] * past[2]);
 }
 
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
@@ -183,10 +182,7 @@ template <class Set, int kModes, bool kFold, class Rows>
 }
 
 /// a unless b is larger: a NaN in a is not lost.
-double larger(double a, double b)
-{
-    return a < b ? b : a;
-}
+double larger(double a, double b) { return a < b ? b : a; }
 
 template <class Set, int kModes, bool kFold>
 GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox& box, const Context& ctx)
@@ -266,8 +262,7 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
                               settings.frames ? settings.frames[block] : Vec3(Vec3::Zero())};
             if (kModes == 27 && settings.modes == 27)
                 scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, kModes == 27>(order, block, box, ctx);
-            else
-                scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, false>(order, block, box, ctx);
+            else scratch.perBlock[n] = gatherBlock<ModeSet<kModes>, kModes, false>(order, block, box, ctx);
         });
     });
     GatherSums total;

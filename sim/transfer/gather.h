@@ -11,10 +11,10 @@ namespace sim {
 
 /// What one G2P does beside gathering the modes.
 struct GatherSettings {
-    double dt = 0.0;        ///< positions move with the gathered velocity for this long [s]
-    int modes = 8;          ///< N_r
-    double keep = 1.0;      ///< factor on every mode but the mean [-]
-    double flipRatio = 0.0; ///< R of FLIP; read with flipVelocity only [-]
+    double dt = 0.0;         ///< positions move with the gathered velocity for this long [s]
+    int modes = 8;           ///< N_r
+    double keep = 1.0;       ///< factor on every mode but the mean [-]
+    double flipRatio = 0.0;  ///< R of FLIP; read with flipVelocity only [-]
 
     /// FLIP: the face velocities straight after P2G, before any force; else null.
     const BlockArray<double, 3>* flipVelocity = nullptr;

@@ -32,8 +32,7 @@ Modes alongEachAxis(const Modes& c, F&& f)
 double evaluateModes(const Vec3& z, const Modes& c)
 {
     double u = 0.0;
-    for (int r = 0; r < kMaxModes; ++r)
-        u += c[r] * power(z.x(), kDegrees[r][0]) * power(z.y(), kDegrees[r][1]) * power(z.z(), kDegrees[r][2]);
+    for (int r = 0; r < kMaxModes; ++r) u += c[r] * power(z.x(), kDegrees[r][0]) * power(z.y(), kDegrees[r][1]) * power(z.z(), kDegrees[r][2]);
     return u;
 }
 

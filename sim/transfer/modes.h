@@ -18,6 +18,7 @@ inline constexpr int kMaxModes = 27;
 
 /// kDegrees[r] = degree of mode r along x, y, z. Prefixes of 1, 4, 8, 11 and 27 modes are PIC, APIC, trilinear,
 /// trilinear with the pure squares, and full PolyPIC.
+// clang-format off
 inline constexpr std::array<std::array<int, 3>, kMaxModes> kDegrees = {{
     {0, 0, 0},
     {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
@@ -29,6 +30,7 @@ inline constexpr std::array<std::array<int, 3>, kMaxModes> kDegrees = {{
     {1, 0, 2}, {0, 1, 2}, {1, 1, 2},
     {2, 2, 1}, {2, 1, 2}, {1, 2, 2},
 }};
+// clang-format on
 
 /// Number of the mode of degrees (a, b, c).
 constexpr int modeOfDegrees(int a, int b, int c)
@@ -69,10 +71,10 @@ struct Basis1D {
         }
     }
 
-    std::array<double, 3> weight;                 ///< B-spline weight of node n; sums to 1
-    std::array<double, 3> z;                      ///< node − particle, in cells
-    std::array<std::array<double, 3>, 3> project; ///< project[n][d]: share of node n in the orthogonal coefficient of degree d
-    double skew;                                  ///< A: g(z) = z² − A z − 1/4
+    std::array<double, 3> weight;                  ///< B-spline weight of node n; sums to 1
+    std::array<double, 3> z;                       ///< node − particle, in cells
+    std::array<std::array<double, 3>, 3> project;  ///< project[n][d]: share of node n in the orthogonal coefficient of degree d
+    double skew;                                   ///< A: g(z) = z² − A z − 1/4
 };
 
 using Basis = std::array<Basis1D, 3>;

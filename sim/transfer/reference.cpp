@@ -4,8 +4,7 @@
 
 namespace sim {
 
-Stencil::Stencil(const BlockGrid& grid, int axis, const Vec3& x)
-    : basis{Basis1D(0.0), Basis1D(0.0), Basis1D(0.0)}
+Stencil::Stencil(const BlockGrid& grid, int axis, const Vec3& x) : basis{Basis1D(0.0), Basis1D(0.0), Basis1D(0.0)}
 {
     for (int a = 0; a < kAxes; ++a) {
         const double inCells = (x[a] - grid.origin[a]) * (1.0 / grid.dx);

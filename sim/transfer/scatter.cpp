@@ -49,12 +49,12 @@ struct PlaneTables {
 /// What the planes need of 8 particles, computed once for all three face grids.
 template <int kFactors>
 struct Prepared {
-    double x[kLanes], y[kLanes];                ///< position in the cell, in cells
-    double middleX[kLanes], middleY[kLanes];    ///< offset from the cell's middle
-    double faceX[kLanes], faceY[kLanes];        ///< offset from the nearer face
-    double centerZ[3][kFactors][kLanes];        ///< mass × weight × z^d of the three cell middles around
-    double faceZ[4][kFactors][kLanes];          ///< the same of the four faces around
-    int typeX[kLanes], typeY[kLanes];           ///< spline type of faceX, faceY: 1 or 2
+    double x[kLanes], y[kLanes];              ///< position in the cell, in cells
+    double middleX[kLanes], middleY[kLanes];  ///< offset from the cell's middle
+    double faceX[kLanes], faceY[kLanes];      ///< offset from the nearer face
+    double centerZ[3][kFactors][kLanes];      ///< mass × weight × z^d of the three cell middles around
+    double faceZ[4][kFactors][kLanes];        ///< the same of the four faces around
+    int typeX[kLanes], typeY[kLanes];         ///< spline type of faceX, faceY: 1 or 2
 };
 
 template <int kFactors>
@@ -89,7 +89,7 @@ inline void prepare(const LiquidParticles& particles, const Vec3& origin, double
             out->typeY[l] = upperY[l] ? 2 : 1;
         }
         const Pack zero = broadcast(0.0);
-        const auto weights = [&](Pack r, Pack (&w)[3]) {
+        const auto weights = [&](Pack r, Pack(&w)[3]) {
             w[0] = mass * (0.5 * (0.5 - r) * (0.5 - r));
             w[1] = mass * (0.75 - r * r);
             w[2] = mass * (0.5 * (0.5 + r) * (0.5 + r));
@@ -135,8 +135,7 @@ template <int kModes>
 [[gnu::always_inline]] inline void prefetchModes(const double* const* mode, const int* source)
 {
     const int row = source[kPrefetchAhead];
-    if (row != source[kPrefetchAhead - 1] + 1 || (row & 7) == 0)
-        unroll<kModes>([&](auto r) { __builtin_prefetch(mode[r] + row); });
+    if (row != source[kPrefetchAhead - 1] + 1 || (row & 7) == 0) unroll<kModes>([&](auto r) { __builtin_prefetch(mode[r] + row); });
 }
 
 /// All particles of one column of 8 cells, onto the faces normal to kAxis. A window of planes slides up the column: the sums of a
@@ -145,8 +144,8 @@ template <int kModes>
 /// @param low, high  the cells of the column to visit
 template <int kAxis, class Set, int kModes>
 [[gnu::noinline, gnu::flatten]] void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
-                          const Prepared<Set::kFactors>* prepared, const double* const* mode, const int* source, double* mass,
-                          double* momentum)
+                                                   const Prepared<Set::kFactors>* prepared, const double* const* mode, const int* source,
+                                                   double* mass, double* momentum)
 {
     constexpr int kPlanes = kAxis == 2 ? 4 : 3, kRows = kAxis == 1 ? 4 : 3;
     Pack m[kPlanes][2] = {}, p[kPlanes][2] = {};
@@ -199,8 +198,8 @@ template <int kAxis, class Set, int kModes>
 }
 
 template <int kAxis, class Set, int kModes>
-inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& particles, const ParticleOrder& order, int block,
-                        const OccupiedBox& box, const Prepared<Set::kFactors>* prepared, ScatterTile& tile)
+inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& particles, const ParticleOrder& order, int block, const OccupiedBox& box,
+                        const Prepared<Set::kFactors>* prepared, ScatterTile& tile)
 {
     const double* mode[kModes];
     for (int r = 0; r < kModes; ++r) mode[r] = particles.mode(kAxis, r);
@@ -209,16 +208,14 @@ inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& partic
             const int* start = order.cells(block) + cellRank(i, j, 0);
             if (start[0] == start[kBlockEdge]) continue;
             const int corner = tileIndex(i - 1, j - 1, -1);
-            scatterColumn<kAxis, Set, kModes>(tables, start, box.low[2], box.high[2], order.begin(block), prepared, mode,
-                                              order.source.data(), tile.v[FaceFields::kMass + kAxis] + corner,
-                                              tile.v[FaceFields::kMomentum + kAxis] + corner);
+            scatterColumn<kAxis, Set, kModes>(tables, start, box.low[2], box.high[2], order.begin(block), prepared, mode, order.source.data(),
+                                              tile.v[FaceFields::kMass + kAxis] + corner, tile.v[FaceFields::kMomentum + kAxis] + corner);
         }
 }
 
 }  // namespace
 
-void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, ScatterScratch& scratch,
-                      FaceFields& faces)
+void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, ScatterScratch& scratch, FaceFields& faces)
 {
     withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
         using Set = ModeSet<kModes>;

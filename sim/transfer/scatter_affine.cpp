@@ -11,9 +11,8 @@ namespace sim {
 
 namespace {
 
-constexpr double kSmallestVolumeRatio =
-    0.1;                   ///< det(I + dt C) below which the map is not to be trusted (transfer/README.md, Maps)
-constexpr int kPacks = 4;  ///< for the 27 nodes of a stencil, node (i, j, k) at i + 3 j + 9 k; the rest has no weight
+constexpr double kSmallestVolumeRatio = 0.1;  ///< det(I + dt C) below which the map is not to be trusted (transfer/README.md, Maps)
+constexpr int kPacks = 4;                     ///< for the 27 nodes of a stencil, node (i, j, k) at i + 3 j + 9 k; the rest has no weight
 
 /// The nodes of one particle's stencil, as lanes.
 struct StencilPacks {
@@ -49,8 +48,7 @@ Pack evaluatePolynomial(const Modes& c, Pack x, Pack y, Pack z)
         unroll<kCountY>([&](auto fromTopY) {
             constexpr int kY = kCountY - 1 - fromTopY, kCountX = Set::countX(kY, kZ);
             Pack row = broadcast(0.0);
-            unroll<kCountX>(
-                [&](auto fromTopX) { row = row * x + c[Set::template kMode<kCountX - 1 - fromTopX, kY, kZ>]; });
+            unroll<kCountX>([&](auto fromTopX) { row = row * x + c[Set::template kMode<kCountX - 1 - fromTopX, kY, kZ>]; });
             plane = plane * y + row;
         });
         value = value * z + plane;
@@ -87,8 +85,7 @@ Mat3 inverseMotion(const Mat3& gradient, double dtPerCell)
 /// Give the values of one component the weighted mean and gradient that they had when they were gathered, at position
 /// `before`.
 template <class Set>
-void restoreMeanAndGradient(const BlockGrid& grid, int axis, const Vec3& before, const Modes& modes,
-                            const StencilPacks& nodes, Pack (&u)[kPacks])
+void restoreMeanAndGradient(const BlockGrid& grid, int axis, const Vec3& before, const Modes& modes, const StencilPacks& nodes, Pack (&u)[kPacks])
 {
     // Without squares the orthogonal coefficients are the monomial ones.
     const Modes gathered = Set::kDegree < 2 ? modes : toOrthogonal(Stencil(grid, axis, before).basis, modes);
@@ -101,13 +98,11 @@ void restoreMeanAndGradient(const BlockGrid& grid, int axis, const Vec3& before,
     const double mean = gathered[0] - sumLanes(sum);
     double slope[kAxes];
     for (int a = 0; a < kAxes; ++a) slope[a] = gathered[1 + a] - 4.0 * sumLanes(moment[a]);
-    for (int n = 0; n < kPacks; ++n)
-        u[n] += mean + slope[0] * nodes.z[0][n] + slope[1] * nodes.z[1][n] + slope[2] * nodes.z[2][n];
+    for (int n = 0; n < kPacks; ++n) u[n] += mean + slope[0] * nodes.z[0][n] + slope[1] * nodes.z[1][n] + slope[2] * nodes.z[2][n];
 }
 
 /// Add mass × weight and mass × weight × u to the 27 nodes of a tile that begin at `corner`.
-void addToTile(double particleMass, const StencilPacks& nodes, const Pack (&u)[kPacks], double* mass, double* momentum,
-               int corner)
+void addToTile(double particleMass, const StencilPacks& nodes, const Pack (&u)[kPacks], double* mass, double* momentum, int corner)
 {
     double m[kPacks * kLanes], p[kPacks * kLanes];
     for (int n = 0; n < kPacks; ++n) {
@@ -125,8 +120,7 @@ void addToTile(double particleMass, const StencilPacks& nodes, const Pack (&u)[k
 }
 
 template <class Set>
-void scatterParticle(const LiquidParticles& particles, int s, int row, const BlockGrid& grid, int block, XiMap map,
-                     double dt, ScatterTile& tile)
+void scatterParticle(const LiquidParticles& particles, int s, int row, const BlockGrid& grid, int block, XiMap map, double dt, ScatterTile& tile)
 {
     const ParticleModes modes(particles, row);
     const Vec3 x = particles.position(s);
@@ -137,12 +131,10 @@ void scatterParticle(const LiquidParticles& particles, int s, int row, const Blo
         Pack u[kPacks];
         for (int n = 0; n < kPacks; ++n) {
             Pack z[kAxes];
-            for (int a = 0; a < kAxes; ++a)
-                z[a] = toOld(a, 0) * nodes.z[0][n] + toOld(a, 1) * nodes.z[1][n] + toOld(a, 2) * nodes.z[2][n];
+            for (int a = 0; a < kAxes; ++a) z[a] = toOld(a, 0) * nodes.z[0][n] + toOld(a, 1) * nodes.z[1][n] + toOld(a, 2) * nodes.z[2][n];
             u[n] = evaluatePolynomial<Set>(modes.c[axis], z[0], z[1], z[2]);
         }
-        if (map == XiMap::AffineConservative)
-            restoreMeanAndGradient<Set>(grid, axis, x - dt * modes.mean(), modes.c[axis], nodes, u);
+        if (map == XiMap::AffineConservative) restoreMeanAndGradient<Set>(grid, axis, x - dt * modes.mean(), modes.c[axis], nodes, u);
         const Vec3i first = stencil.first - kBlockEdge * grid.coords(block);
         addToTile(particles.mass[s], nodes, u, tile.v[FaceFields::kMass + axis], tile.v[FaceFields::kMomentum + axis],
                   tileIndex(first.x(), first.y(), first.z()));
@@ -151,13 +143,10 @@ void scatterParticle(const LiquidParticles& particles, int s, int row, const Blo
 
 }  // namespace
 
-bool differsFromTranslation(XiMap map, int modes)
-{
-    return (map == XiMap::Affine && modes >= 4) || (map == XiMap::AffineConservative && modes > 4);
-}
+bool differsFromTranslation(XiMap map, int modes) { return (map == XiMap::Affine && modes >= 4) || (map == XiMap::AffineConservative && modes > 4); }
 
-void particlesToFacesAffine(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid,
-                            XiMap map, double dt, FaceFields& faces)
+void particlesToFacesAffine(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, XiMap map, double dt,
+                            FaceFields& faces)
 {
     withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
         scatterBlocks(order, grid, faces, [&](int block, const OccupiedBox&, int, ScatterTile& tile) {

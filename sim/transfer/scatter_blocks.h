@@ -15,12 +15,10 @@ inline void clearTile(const OccupiedBox& box, ScatterTile& tile)
 {
     for (auto& field : tile.v)
         for (int z = box.low[2] - 1; z <= box.high[2] + 2; ++z)
-            for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y)
-                std::fill_n(field + tileIndex(-1, y, z), kTileEdge, 0.0);
+            for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y) std::fill_n(field + tileIndex(-1, y, z), kTileEdge, 0.0);
 }
 
-inline void addTileToGrid(const BlockGrid& grid, int block, const OccupiedBox& box, const ScatterTile& tile,
-                          FaceFields& faces)
+inline void addTileToGrid(const BlockGrid& grid, int block, const OccupiedBox& box, const ScatterTile& tile, FaceFields& faces)
 {
     forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
         for (int kind = 0; kind < 6; ++kind) {
@@ -38,8 +36,7 @@ template <class Fill>
 void scatterBlocks(const ParticleOrder& order, const BlockGrid& grid, FaceFields& faces, Fill&& fill)
 {
     faces.sums.resize(grid.count());
-    parallelFor(grid.count(), 4,
-                [&](std::size_t b) { std::fill_n(faces.sums.block(static_cast<int>(b)), faces.sums.kStride, 0.0); });
+    parallelFor(grid.count(), 4, [&](std::size_t b) { std::fill_n(faces.sums.block(static_cast<int>(b)), faces.sums.kStride, 0.0); });
     for (const std::vector<int>& color : order.byColor)
         parallelForWorkers(color.size(), 1, [&](std::size_t n, int worker) {
             const int block = color[n];

@@ -69,7 +69,8 @@ class ToySimulation : public Steppable {
             forces_.fabrics.resize(1);
             forces_.pins.resize(2);
             forces_.begin(report.dt);
-            const sim::Impulse impulse = sim::Impulse::at(sim::Vec3(0.0, 3.0, 0.0), {report.dt * toy_.push * static_cast<double>(state_.step), 0.0, 0.0});
+            const sim::Impulse impulse =
+                sim::Impulse::at(sim::Vec3(0.0, 3.0, 0.0), {report.dt * toy_.push * static_cast<double>(state_.step), 0.0, 0.0});
             forces_.obstacles[0].liquid = impulse;
             forces_.fabrics[0].contact = -impulse;
             forces_.pins = {impulse, 2.0 * impulse};
@@ -106,8 +107,7 @@ RgbPicture greyPicture(std::uint8_t grey)
 std::uint8_t greyOf(const std::filesystem::path& file)
 {
     int width = 0, height = 0, channels = 0;
-    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 3),
-                                                                      &stbi_image_free);
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(stbi_load(file.c_str(), &width, &height, &channels, 3), &stbi_image_free);
     if (!pixels || width != kWidth || height != kHeight) throw std::runtime_error("cannot read " + file.string());
     return pixels.get()[0];
 }
@@ -136,8 +136,7 @@ RgbPicture putToysSideBySide(const std::vector<Panel>& panels)
 /// "key: number" or "key=number"
 void readLine(const std::string& line, char between, ToySettings& toy)
 {
-    const std::map<std::string, double*> doubles = {
-        {"duration", &toy.duration}, {"every", &toy.every}, {"dt", &toy.dt}, {"speed", &toy.speed}};
+    const std::map<std::string, double*> doubles = {{"duration", &toy.duration}, {"every", &toy.every}, {"dt", &toy.dt}, {"speed", &toy.speed}};
     const std::map<std::string, int*> ints = {{"step_ms", &toy.stepMilliseconds}, {"fail_at_step", &toy.failAtStep}};
     const auto split = line.find(between);
     const std::string key = line.substr(0, split);

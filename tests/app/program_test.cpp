@@ -23,10 +23,7 @@ class Program : public testing::Test {
  protected:
     Program() { test::writeFile(folder / "toy.yaml", "duration: 0.03\n"); }
 
-    ChildExit run(const std::vector<std::string>& arguments) const
-    {
-        return runChild(TOY_PROGRAM, arguments, {.folder = folder.path()});
-    }
+    ChildExit run(const std::vector<std::string>& arguments) const { return runChild(TOY_PROGRAM, arguments, {.folder = folder.path()}); }
     /// A shell script in which "$0" is the program.
     ChildExit runScript(const std::string& script) const
     {

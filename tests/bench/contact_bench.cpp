@@ -19,10 +19,7 @@ namespace {
 
 constexpr double kStep = 1.0e-3, kBall = 1.44, kSpeed = 300.0, kRadius = 0.048;
 
-double noise(int v, int step, int axis)
-{
-    return std::sin(12.9898 * v + 78.233 * step + 37.719 * axis);
-}
+double noise(int v, int step, int axis) { return std::sin(12.9898 * v + 78.233 * step + 37.719 * axis); }
 
 /// The sheet, hit: where it was at the start of a step, and where a solver without contact would want it.
 struct Driven {

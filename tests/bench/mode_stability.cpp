@@ -17,16 +17,10 @@ namespace {
 using namespace sim;
 using namespace sim::test;
 
-Transfer transferOf(int modes)
-{
-    return modes == 4 ? kApic : Transfer{fmt::format("PolyPIC-{}", modes), TransferMethod::PolyPic, modes};
-}
+Transfer transferOf(int modes) { return modes == 4 ? kApic : Transfer{fmt::format("PolyPIC-{}", modes), TransferMethod::PolyPic, modes}; }
 
 /// 12³ cells of particles at random places, 8 per cell.
-Transfers block(int modes)
-{
-    return Transfers(randomLiquid(12 * 12 * 12 * 8, modes, {12, 12, 12}, {0, 0, 0}));
-}
+Transfers block(int modes) { return Transfers(randomLiquid(12 * 12 * 12 * 8, modes, {12, 12, 12}, {0, 0, 0})); }
 
 /// Energy that random velocities of the faces still have after G2P and P2G with nothing moved, relative.
 double noiseKept(int modes)
@@ -97,9 +91,7 @@ void printNumbers(std::initializer_list<double> numbers)
 
 void measure(int modes)
 {
-    const auto turn = [&](TimeIntegrator integrator) {
-        return turnVortex(gathered(vortexScene(transferOf(modes), 0.25, integrator), vortex));
-    };
+    const auto turn = [&](TimeIntegrator integrator) { return turnVortex(gathered(vortexScene(transferOf(modes), 0.25, integrator), vortex)); };
     const VortexEnd plain = turn(TimeIntegrator::Plain), reflected = turn(TimeIntegrator::Reflected);
     fmt::print("{}", modes);
     printNumbers({noiseKept(modes), 1.0 - plain.kept, plain.error, 1.0 - reflected.kept, reflected.error});

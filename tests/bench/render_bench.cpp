@@ -13,15 +13,9 @@
 
 namespace {
 
-double wallSeconds()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double wallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-double cpuSeconds()
-{
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void timePictures(const render::FrameView& view, const render::Look& look, double elevation, int repeats, const char* file)
 {
@@ -30,15 +24,13 @@ void timePictures(const render::FrameView& view, const render::Look& look, doubl
     const render::Camera camera = render::frameBox(render::bounds(view), static_cast<double>(look.width) / look.height,
                                                    render::orbitCamera(Eigen::Vector3d::Zero(), 1.0, 18.0, elevation));
     std::printf("%s, %zu particles, %zu vertices of yarns, %zu of cloth, %d x %d, %d samples\n", context->rendererName().c_str(),
-                view.liquid.positions.size(), view.yarns.positions.size(), view.cloth.positions.size(), look.width, look.height,
-                look.samples);
+                view.liquid.positions.size(), view.yarns.positions.size(), view.cloth.positions.size(), look.width, look.height, look.samples);
     for (int i = 0; i < repeats; ++i) {
         const double wall0 = wallSeconds(), cpu0 = cpuSeconds();
         const render::Image image = renderer.draw(view, camera, look);
         const double wall1 = wallSeconds(), cpu1 = cpuSeconds();
         render::writePng(image, file);
-        std::printf("draw %.0f ms (cpu %.0f ms), png %.0f ms\n", 1e3 * (wall1 - wall0), 1e3 * (cpu1 - cpu0),
-                    1e3 * (wallSeconds() - wall1));
+        std::printf("draw %.0f ms (cpu %.0f ms), png %.0f ms\n", 1e3 * (wall1 - wall0), 1e3 * (cpu1 - cpu0), 1e3 * (wallSeconds() - wall1));
     }
 }
 

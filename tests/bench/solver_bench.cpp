@@ -18,11 +18,22 @@ struct Size {
     std::string name;
     PoissonScene (*make)();
 };
-const std::array<Size, 5> kSizes = {{{"column20k", [] { return boxWithSurface({34, 64, 10}); }},
+const std::array<Size, 5> kSizes = {{{"column20k",
+                                      [] {
+                                          return boxWithSurface({34, 64, 10});
+                                      }},
                                      {"pool87k", [] { return poolWithWaves(); }},
-                                     {"surface64", [] { return boxWithSurface({64, 64, 64}); }},
-                                     {"full64", [] { return fullBox({64, 64, 64}); }},
-                                     {"surface128", [] { return boxWithSurface({128, 128, 128}); }}}};
+                                     {"surface64",
+                                      [] {
+                                          return boxWithSurface({64, 64, 64});
+                                      }},
+                                     {"full64",
+                                      [] {
+                                          return fullBox({64, 64, 64});
+                                      }},
+                                     {"surface128", [] {
+                                          return boxWithSurface({128, 128, 128});
+                                      }}}};
 
 /// The scene of the last benchmark: those of one size follow each other.
 struct Prepared {
@@ -78,9 +89,13 @@ int main(int argc, char** argv)
     std::optional<Prepared> prepared;
     for (const Size& size : kSizes)
         for (const auto& [what, name] : {std::pair(What::Cold, "cold"), {What::Warm, "warm"}, {What::SetUp, "setup"}})
-            benchmark::RegisterBenchmark((size.name + "/" + name).c_str(), [&, what = what](benchmark::State& state) {
-                measure(state, size, what, prepared);
-            })->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+            benchmark::RegisterBenchmark((size.name + "/" + name).c_str(),
+                                         [&, what = what](benchmark::State& state) { measure(state, size, what, prepared); })
+                ->Arg(1)
+                ->Arg(2)
+                ->Unit(benchmark::kMillisecond)
+                ->UseRealTime()
+                ->MeasureProcessCPUTime();
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
 }

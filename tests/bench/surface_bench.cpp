@@ -68,7 +68,8 @@ void simulationStep(benchmark::State& state)
 BENCHMARK(sortAndField)->ArgName("field")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(surface)->ArgName("parts")->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 BENCHMARK(simulationStep)  // last: it leads the splash on
-    ->Unit(benchmark::kMillisecond)->Iterations(5);
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
 
 }  // namespace
 

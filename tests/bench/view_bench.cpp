@@ -52,10 +52,7 @@ void* inFrontOf(void* function, void(APIENTRYP)(Args...))
     return reinterpret_cast<void*>(&ifDrawn<real, Args...>);
 }
 
-const GLubyte* APIENTRY nameOfCard(GLenum)
-{
-    return reinterpret_cast<const GLubyte*>("one that draws for nothing");
-}
+const GLubyte* APIENTRY nameOfCard(GLenum) { return reinterpret_cast<const GLubyte*>("one that draws for nothing"); }
 
 /// Counts what shaders are called for between begin() and end().
 class WorkOfCard {
@@ -90,10 +87,7 @@ class WorkOfCard {
 
 using Clock = std::chrono::steady_clock;
 
-double since(Clock::time_point begin)
-{
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// From when the simulation is asked for something to the end of the frame that shows it [s].
 template <class IsThere>
@@ -180,17 +174,15 @@ int main(int argc, char** argv)
         pauses.push_back(timeToShow(viewer, [&] { return pair.first().status().mode == app::LiveMode::Paused; }));
         const std::string dt = fmt::format("{}", 1.0e-4 * (repeat + 1));
         pair.first().change({"solver.pressure_tolerance=" + dt});
-        changes.push_back(timeToShow(viewer, [&] {
-            return pair.first().scene()->setup.scene.changes.size() == static_cast<std::size_t>(repeat + 1);
-        }));
+        changes.push_back(
+            timeToShow(viewer, [&] { return pair.first().scene()->setup.scene.changes.size() == static_cast<std::size_t>(repeat + 1); }));
         pair.first().play();
         const auto step = pair.first().status().step;
         timeToShow(viewer, [&] { return pair.first().status().step > step + 1; });
     }
     fmt::print("{}: {} particles\n", scene, pair.sides().front()->shown->positions.size());
-    fmt::print("{:.1f} frames per second while it is simulated (median {:.1f} ms, longest {:.1f} ms of {})\n",
-               1.0 / medianOf(frames), 1.0e3 * medianOf(frames), 1.0e3 * *std::ranges::max_element(frames),
-               frames.size());
+    fmt::print("{:.1f} frames per second while it is simulated (median {:.1f} ms, longest {:.1f} ms of {})\n", 1.0 / medianOf(frames),
+               1.0e3 * medianOf(frames), 1.0e3 * *std::ranges::max_element(frames), frames.size());
     fmt::print("from a turn of the view to its picture: one frame\n");
     fmt::print("from pause to the picture (with the step in hand): median {:.3f} s\n", medianOf(pauses));
     fmt::print("from a changed setting to the panel, paused: median {:.3f} s\n", medianOf(changes));

@@ -44,8 +44,7 @@ Scene columnJetAndCloth(FabricSolver solver)
 {
     Scene scene = columnAndJet(kPoly8);
     scene.settings.fabric.solver = solver;
-    FabricPiece cloth =
-        testing::pieceOf(clothGrid({{9, 9}, {0.5, 0.5}, Vec3(4.0, 4.0, 2.0)}), testing::wool(), {0.0165, 0.018});
+    FabricPiece cloth = testing::pieceOf(clothGrid({{9, 9}, {0.5, 0.5}, Vec3(4.0, 4.0, 2.0)}), testing::wool(), {0.0165, 0.018});
     cloth.material.volumeFraction = 0.4;
     scene.fabrics.push_back(cloth);
     return scene;
@@ -79,8 +78,7 @@ Retry firstRetry(const Scene& scene)
 TEST(Adaptive, ARetriedStepBeginsFromTheStateBefore)
 {
     std::vector<std::pair<std::string, Scene>> scenes;
-    for (const Transfer& transfer : {kFlip, kApic, kPoly8, kPoly27})
-        scenes.emplace_back(transfer.name, columnAndJet(transfer));
+    for (const Transfer& transfer : {kFlip, kApic, kPoly8, kPoly27}) scenes.emplace_back(transfer.name, columnAndJet(transfer));
     scenes.emplace_back("stirred", stirredColumnAndJet());
     scenes.emplace_back("vertex", columnJetAndCloth(FabricSolver::Vertex));
     scenes.emplace_back("grid", columnJetAndCloth(FabricSolver::Grid));
@@ -148,8 +146,7 @@ TEST(Adaptive, StepsGrowAgain)
 TEST(Adaptive, GivesUpWithTheLastGoodState)
 {
     Scene scene = columnAndJet(kPoly8, 1.0e200);
-    scene.settings.time.integrator =
-        TimeIntegrator::Plain;  // one of its steps begins just with the jet, which cannot have moved yet
+    scene.settings.time.integrator = TimeIntegrator::Plain;  // one of its steps begins just with the jet, which cannot have moved yet
     Simulation simulation(scene);
     std::uint64_t last = 0;
     try {
@@ -161,13 +158,11 @@ TEST(Adaptive, GivesUpWithTheLastGoodState)
     } catch (const RunError& error) {
         const std::string message = error.what();
         for (const char* part :
-             {"scene tank, step 5, ", "stage grid_to_particles: velocities are not finite: particle ",
-              "10 halvings of the step", "try "})
+             {"scene tank, step 5, ", "stage grid_to_particles: velocities are not finite: particle ", "10 halvings of the step", "try "})
             EXPECT_NE(message.find(part), std::string::npos) << message;
     }
     EXPECT_EQ(stateHash(simulation.state()), last);
-    for (std::size_t p = 0; p < simulation.state().liquid.count; ++p)
-        ASSERT_LT(simulation.state().liquid.velocity(p).norm(), 1.0e3);
+    for (std::size_t p = 0; p < simulation.state().liquid.count; ++p) ASSERT_LT(simulation.state().liquid.velocity(p).norm(), 1.0e3);
 }
 
 TEST(Adaptive, TellsHowOftenAndWhatItCost)
@@ -194,8 +189,7 @@ TEST(Adaptive, IsResumedWithStepsAsLongAsTheyMayBe)
     const double usual = Simulation(scene, state).step(1.0).dt;
     state.memory.longest = 0.1 * usual;
     Simulation resumed(scene, state);
-    for (int step = 0; step < 4; ++step)
-        EXPECT_LE(resumed.step(1.0).dt, 0.1 * usual * std::pow(1.2, step) * (1.0 + 1.0e-9)) << step;
+    for (int step = 0; step < 4; ++step) EXPECT_LE(resumed.step(1.0).dt, 0.1 * usual * std::pow(1.2, step) * (1.0 + 1.0e-9)) << step;
 }
 
 }  // namespace

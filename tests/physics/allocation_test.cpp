@@ -22,30 +22,12 @@ void* countedNew(std::size_t bytes)
 }
 }  // namespace
 
-void* operator new(std::size_t bytes)
-{
-    return countedNew(bytes);
-}
-void* operator new[](std::size_t bytes)
-{
-    return countedNew(bytes);
-}
-void operator delete(void* p) noexcept
-{
-    std::free(p);
-}
-void operator delete[](void* p) noexcept
-{
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept
-{
-    std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept
-{
-    std::free(p);
-}
+void* operator new(std::size_t bytes) { return countedNew(bytes); }
+void* operator new[](std::size_t bytes) { return countedNew(bytes); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 
 extern "C" void* aligned_alloc(std::size_t alignment, std::size_t bytes)
 {

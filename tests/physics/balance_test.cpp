@@ -27,8 +27,7 @@ TEST(FreeFall, BlobFallsWithExactlyGravityAndKeepsItsShape)
         const State& state = simulation.state();
         const Vec3 expected(0.0, -kEarthGravity * (time - 0.5 * last), 0.0);  // halfway through the last step
         double worst = 0.0, pressure = 0.0;
-        for (std::size_t p = 0; p < state.liquid.count; ++p)
-            worst = std::max(worst, (state.liquid.velocity(p) - expected).norm());
+        for (std::size_t p = 0; p < state.liquid.count; ++p) worst = std::max(worst, (state.liquid.velocity(p) - expected).norm());
         for (int b = 0; b < state.grid.count(); ++b)
             for (int c = 0; c < kBlockCells; ++c) pressure = std::max(pressure, std::abs(state.pressure.block(b)[c]));
         EXPECT_LT(worst, 1.0e-9) << transfer.name;
@@ -57,16 +56,13 @@ TEST(Energy, DoesNotGrowBetweenWallsAtRest)
     for (const TimeIntegrator integrator : {TimeIntegrator::Plain, TimeIntegrator::Reflected})
         for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
             constexpr double kCell = 0.625;
-            Scene scene =
-                tankScene(transfer, kCell, Vec3(24.0, 30.0, 2.5) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 2.5) / kCell);
+            Scene scene = tankScene(transfer, kCell, Vec3(24.0, 30.0, 2.5) / kCell, Vec3::Zero(), Vec3(10.0, 12.0, 2.5) / kCell);
             scene.sources[0].fill.spacing = 0.5;
             scene.settings.time.cfl = 0.5;
             scene.settings.time.integrator = integrator;
             if (integrator == TimeIntegrator::Reflected) {
-                scene.settings.time.dt =
-                    2.0e-3;  // energies are taken halfway through steps: the first one would be seen
-                scene.settings.liquid.volume.rate =
-                    0.0;  // it lifts, by more than plain steps lose of what they fall too far
+                scene.settings.time.dt = 2.0e-3;          // energies are taken halfway through steps: the first one would be seen
+                scene.settings.liquid.volume.rate = 0.0;  // it lifts, by more than plain steps lose of what they fall too far
             }
             Simulation simulation(scene);
             const double start = simulation.energies().total(), gain = largestGain(simulation, 0.4);
@@ -142,8 +138,8 @@ TEST(Volume, LiquidThatFellOverFillsItsCellsWhateverTheStep)
             Simulation simulation(scene);
             while (simulation.state().time < 2.0) simulation.step(2.0);
             const auto [mean, largest] = errorOfVolume(simulation);
-            std::printf("%s, dt at most %g s: volume of cells off by %.1f %%, at most %.0f %%\n", transfer.name.c_str(),
-                        dt, 100.0 * mean, 100.0 * largest);
+            std::printf("%s, dt at most %g s: volume of cells off by %.1f %%, at most %.0f %%\n", transfer.name.c_str(), dt, 100.0 * mean,
+                        100.0 * largest);
             EXPECT_LT(mean, 0.03) << transfer.name << " at " << dt;
         }
 }
@@ -164,8 +160,8 @@ TEST(Stability, CoarseDamBreakSurvivesEveryTransferAndStepSize)
                 EXPECT_TRUE(report.pressure.converged) << transfer.name << " at CFL " << cfl << ", step " << step;
                 largest = std::max(largest, report.energies.total());
             }
-            std::printf("  CFL %.3f: largest %.3f, last %.3f at %.2f s", cfl, largest / start,
-                        report.energies.total() / start, simulation.state().time);
+            std::printf("  CFL %.3f: largest %.3f, last %.3f at %.2f s", cfl, largest / start, report.energies.total() / start,
+                        simulation.state().time);
             EXPECT_LT(largest, 1.02 * start) << transfer.name << " at CFL " << cfl;
         }
         std::printf("\n");

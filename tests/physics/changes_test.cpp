@@ -85,8 +85,7 @@ TEST(ChangingRun, ParticlesKeepTheirVelocities)
     for (const int modes : {11, 8, 4, 1, 27, 1}) {
         liquid.changeModes(modes);
         ASSERT_EQ(liquid.modeCount, modes);
-        for (std::size_t p = 0; p < liquid.count; ++p)
-            ASSERT_LT((liquid.velocity(p) - before[p]).norm(), 1.0e-10) << modes << " modes, of 1e2 cm/s";
+        for (std::size_t p = 0; p < liquid.count; ++p) ASSERT_LT((liquid.velocity(p) - before[p]).norm(), 1.0e-10) << modes << " modes, of 1e2 cm/s";
     }
 }
 

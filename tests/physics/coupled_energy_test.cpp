@@ -26,7 +26,8 @@ bool isDriven(const Scene& scene)
 
 /// Largest rise of all energy but what solids and pins have given over the least before, relative to the largest kinetic energy until then [-].
 /// @param longest  that the next step may be [s]
-double gainOf(const Scene& scene, double duration, const std::function<double()>& longest = [] { return 1.0; })
+double gainOf(
+    const Scene& scene, double duration, const std::function<double()>& longest = [] { return 1.0; })
 {
     Simulation run(scene);
     run.bookEnergy();

@@ -24,8 +24,7 @@ struct SegmentPair {
 inline SegmentPair closestOfSegments(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1)
 {
     const Vec3 d1 = a1 - a0, d2 = b1 - b0, r = a0 - b0;
-    const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), b = d1.dot(d2), c = d1.dot(r),
-                 denominator = a * e - b * b;
+    const double a = d1.squaredNorm(), e = d2.squaredNorm(), f = d2.dot(r), b = d1.dot(d2), c = d1.dot(r), denominator = a * e - b * b;
     SegmentPair p;
     p.s = denominator > 1.0e-12 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
     p.t = (b * p.s + f) / e;
@@ -45,8 +44,7 @@ template <class Box, class Body>
 void forEachNearPair(int count, double cell, double reach, Box&& box, Body&& body)
 {
     const auto key = [](int i, int j, int k) {
-        return (std::uint64_t(i + (1 << 20)) << 42) ^ (std::uint64_t(j + (1 << 20)) << 21) ^
-               std::uint64_t(k + (1 << 20));
+        return (std::uint64_t(i + (1 << 20)) << 42) ^ (std::uint64_t(j + (1 << 20)) << 21) ^ std::uint64_t(k + (1 << 20));
     };
     std::unordered_map<std::uint64_t, std::vector<int>> cells;
     std::vector<int> seen(count, -1);
@@ -215,9 +213,7 @@ inline int piercedFaces(const Fabric& fabric, std::span<const Vec3> x)
         return std::pair<Vec3, Vec3>(corner(f, 0).cwiseMin(corner(f, 1)).cwiseMin(corner(f, 2)),
                                      corner(f, 0).cwiseMax(corner(f, 1)).cwiseMax(corner(f, 2)));
     };
-    const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-        return (b - a).cross(c - a).dot(d - a);
-    };
+    const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); };
     const auto pierces = [&](const Vec3& p, const Vec3& q, int f) {
         const Vec3 &a = corner(f, 0), &b = corner(f, 1), &c = corner(f, 2);
         const double above = volume(a, b, c, p), below = volume(a, b, c, q);

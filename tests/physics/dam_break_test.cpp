@@ -48,8 +48,7 @@ void followTheExperiment(const Transfer& transfer)
 {
     constexpr int kCells = 32, kDepth = 4;
     constexpr double kWidth = 5.715;  // 2.25 inches [cm]
-    Scene scene =
-        tankScene(transfer, kWidth / kCells, {150.0, 80.0, kDepth}, {0.0, 0.0, 0.0}, {kCells, 2 * kCells, kDepth});
+    Scene scene = tankScene(transfer, kWidth / kCells, {150.0, 80.0, kDepth}, {0.0, 0.0, 0.0}, {kCells, 2 * kCells, kDepth});
     scene.sources[0].fill.spacing = 0.5;
     scene.settings.time.cfl = 0.75;
     Simulation simulation(scene);
@@ -68,18 +67,12 @@ void followTheExperiment(const Transfer& transfer)
         ++samples;
     }
     ASSERT_GT(samples, 10);
-    std::printf("%s: front error mean %.1f %%, largest %.1f %%, %ld steps\n", transfer.name.c_str(),
-                100.0 * sum / samples, 100.0 * worst, static_cast<long>(simulation.state().step));
+    std::printf("%s: front error mean %.1f %%, largest %.1f %%, %ld steps\n", transfer.name.c_str(), 100.0 * sum / samples, 100.0 * worst,
+                static_cast<long>(simulation.state().step));
 }
 
-TEST(DamBreak, FrontFollowsMartinAndMoyceWithPolyPic)
-{
-    followTheExperiment(kPoly8);
-}
-TEST(DamBreak, FrontFollowsMartinAndMoyceWithApic)
-{
-    followTheExperiment(kApic);
-}
+TEST(DamBreak, FrontFollowsMartinAndMoyceWithPolyPic) { followTheExperiment(kPoly8); }
+TEST(DamBreak, FrontFollowsMartinAndMoyceWithApic) { followTheExperiment(kApic); }
 
 /// Liquid thrown into the corner under a lid falls down again; right at the lid, it would hang there while its gradients
 /// grow by g dt in every step.
@@ -94,8 +87,8 @@ TEST(DamBreak, NothingHangsUnderALid)
         while (simulation.state().time < 4.0) course.add(simulation.step(4.0).energies.total() / start);
         const LiquidParticles& liquid = simulation.state().liquid;
         const double highest = *std::max_element(liquid.x[1].data(), liquid.x[1].data() + liquid.count);
-        std::printf("%s: after 4 s none is higher than %.2f cm, energy %.4f, risen by up to %.4f\n", transfer.name.c_str(),
-                    highest, course.end, course.rise);
+        std::printf("%s: after 4 s none is higher than %.2f cm, energy %.4f, risen by up to %.4f\n", transfer.name.c_str(), highest, course.end,
+                    course.rise);
         EXPECT_LT(highest, 6.0) << transfer.name;
         EXPECT_LT(course.rise, 0.02) << transfer.name;
     }

@@ -47,13 +47,11 @@ void expectRate(const Transfer& transfer, double factor)
     for (const TimeIntegrator integrator : {TimeIntegrator::Plain, TimeIntegrator::Reflected}) {
         const auto extra = [&](double times) {
             const double cfl = kShortest * times;
-            return decayRate(transfer, cfl, integrator, flips ? factor : 1.0, flips ? 1.0 : factor) -
-                   decayRate(transfer, cfl, integrator, 1.0, 1.0);
+            return decayRate(transfer, cfl, integrator, flips ? factor : 1.0, flips ? 1.0 : factor) - decayRate(transfer, cfl, integrator, 1.0, 1.0);
         };
         const double first = extra(1.0);
         EXPECT_GT(first, 0.0);
-        std::printf("%s, %s: adds %.3e 1/s", transfer.name.c_str(),
-                    integrator == TimeIntegrator::Plain ? "plain" : "reflected", first);
+        std::printf("%s, %s: adds %.3e 1/s", transfer.name.c_str(), integrator == TimeIntegrator::Plain ? "plain" : "reflected", first);
         for (const double times : {2.0, 4.0, 8.0}) {
             const double now = extra(times);
             std::printf(", %+.1f %%", 100.0 * (now / first - 1.0));
@@ -63,18 +61,9 @@ void expectRate(const Transfer& transfer, double factor)
     }
 }
 
-TEST(DampingRate, OfFlipDoesNotDependOnTheStep)
-{
-    expectRate(kFlip, 0.99);
-}
-TEST(DampingRate, OfAffineModesDoesNotDependOnTheStep)
-{
-    expectRate(kApic, 0.99);
-}
-TEST(DampingRate, OfPolynomialModesDoesNotDependOnTheStep)
-{
-    expectRate(kPoly8, 0.99);
-}
+TEST(DampingRate, OfFlipDoesNotDependOnTheStep) { expectRate(kFlip, 0.99); }
+TEST(DampingRate, OfAffineModesDoesNotDependOnTheStep) { expectRate(kApic, 0.99); }
+TEST(DampingRate, OfPolynomialModesDoesNotDependOnTheStep) { expectRate(kPoly8, 0.99); }
 
 }  // namespace
 }  // namespace sim::test

@@ -105,8 +105,7 @@ TEST(Drop, StandsUnderLaplacesPressure)
     std::printf(
         "drop at rest: pressure within %.2f %%, rms speed %.4f and at most %.3f of the capillary speed; "
         "capillary numbers of water %.1e and %.1e\n",
-        100.0 * worst, rms / kCapillarySpeed, fastest / kCapillarySpeed, rms * 0.01 / kTension,
-        fastest * 0.01 / kTension);
+        100.0 * worst, rms / kCapillarySpeed, fastest / kCapillarySpeed, rms * 0.01 / kTension, fastest * 0.01 / kTension);
     EXPECT_LT(worst, 0.01);
     EXPECT_LT(rms, 0.08 * kCapillarySpeed);
     EXPECT_LT(fastest, 0.4 * kCapillarySpeed);
@@ -131,9 +130,7 @@ std::vector<double> zerosOfStretch(Simulation& simulation, double duration)
 /// The drop is pushed into its mode l = 2, with velocities that have no divergence.
 Simulation pushedDrop(const Scene& scene, double amplitude = 0.05)
 {
-    return moving(scene, [amplitude](const Vec3& x) {
-        return Vec3(amplitude * kFrequency * (x - kMiddle).cwiseProduct(Vec3(-0.5, -0.5, 1.0)));
-    });
+    return moving(scene, [amplitude](const Vec3& x) { return Vec3(amplitude * kFrequency * (x - kMiddle).cwiseProduct(Vec3(-0.5, -0.5, 1.0))); });
 }
 
 double relativeFrequency(const Scene& scene)
@@ -141,9 +138,7 @@ double relativeFrequency(const Scene& scene)
     Simulation simulation = pushedDrop(scene);
     const std::vector<double> zeros = zerosOfStretch(simulation, 1.7 * kPeriod);
     EXPECT_GE(zeros.size(), 3u);
-    return zeros.size() < 3
-               ? 0.0
-               : (static_cast<double>(zeros.size()) - 1.0) * 0.5 * kPeriod / (zeros.back() - zeros.front());
+    return zeros.size() < 3 ? 0.0 : (static_cast<double>(zeros.size()) - 1.0) * 0.5 * kPeriod / (zeros.back() - zeros.front());
 }
 
 /// Rayleigh's within 3 %: seen are 1.7 % too little at 10 cells, of which the curvature makes 1.2 and the face masses'
@@ -193,8 +188,7 @@ TEST(Drop, BooksTheWorkOfItsSurface)
         pressure += changes[EnergyChange::Pressure];
         end = report.energies.total();
     }
-    std::printf("of %.4f erg surface tension takes %.4f, the pressure %.4f; %.4f are left\n", start, -tension,
-                -pressure, end);
+    std::printf("of %.4f erg surface tension takes %.4f, the pressure %.4f; %.4f are left\n", start, -tension, -pressure, end);
     EXPECT_NEAR(all, end - start, 1.0e-9 * start);
     // A quarter of a period later what the drop had is in its surface, but for what transfers have taken, 16 %, and for
     // what the noise of the curvature has given. The pressure only takes, as any projection.

@@ -14,10 +14,7 @@ constexpr double kRadius = 0.2, kLength = 10.0;  // cm
 constexpr double kStep = 2.0e-3;                 // s
 
 /// Young's modulus with which a yarn of length L has wL³/EI = Γ.
-double youngFor(double gamma, double length)
-{
-    return 4.0 * 1.3 * kEarthGravity * std::pow(length, 3) / (gamma * kRadius * kRadius);
-}
+double youngFor(double gamma, double length) { return 4.0 * 1.3 * kEarthGravity * std::pow(length, 3) / (gamma * kRadius * kRadius); }
 
 TEST(YarnCantilever, SmallDeflectionIsThatOfABeamHalfAnEdgeLonger)
 {
@@ -30,8 +27,7 @@ TEST(YarnCantilever, SmallDeflectionIsThatOfABeamHalfAnEdgeLonger)
         run.gravity *= gamma;
         ASSERT_TRUE(run.settle(kStep, 30.0, 1.0e-8));
         const double drop = -run.state.x[beam.tip].y(), slender = gamma * kLength / 8.0;
-        EXPECT_NEAR(drop / slender, ratio, 0.0005 * ratio + (n == 5 ? 0.005 : 0.0005))
-            << n << " edges";  // digits given
+        EXPECT_NEAR(drop / slender, ratio, 0.0005 * ratio + (n == 5 ? 0.005 : 0.0005)) << n << " edges";  // digits given
         RecordProperty("ratio" + std::to_string(n), std::to_string(drop / slender));
     }
 }
@@ -39,8 +35,7 @@ TEST(YarnCantilever, SmallDeflectionIsThatOfABeamHalfAnEdgeLonger)
 struct Elastica {
     double gamma, x, drop, degrees;
 };
-const std::vector<Elastica> kElastica = {
-    {1.0, 0.99125, 0.12347, 9.460}, {5.0, 0.84666, 0.49591, 39.935}, {20.0, 0.44523, 0.82988, 76.75}};
+const std::vector<Elastica> kElastica = {{1.0, 0.99125, 0.12347, 9.460}, {5.0, 0.84666, 0.49591, 39.935}, {20.0, 0.44523, 0.82988, 76.75}};
 
 TEST(YarnCantilever, FollowsTheHeavyElastica)
 {

@@ -59,11 +59,9 @@ TEST(Incline, RestsBelowTheFrictionAngleAndSlidesAboveIt)
     above.run->steps(200, h);
     const double first = above.speed();
     above.run->steps(2000, h);
-    const double a = (kAngle + 1.0) * kPi180,
-                 exact = kEarthGravity * (std::sin(a) - std::tan(kAngle * kPi180) * std::cos(a));
+    const double a = (kAngle + 1.0) * kPi180, exact = kEarthGravity * (std::sin(a) - std::tan(kAngle * kPi180) * std::cos(a));
     EXPECT_NEAR((above.speed() - first) / (2000 * h), exact, 0.02 * exact);
-    RecordProperty("creep", std::to_string(below.speed()) + " above " +
-                                std::to_string((above.speed() - first) / (2000 * h) / exact));
+    RecordProperty("creep", std::to_string(below.speed()) + " above " + std::to_string((above.speed() - first) / (2000 * h) / exact));
 }
 
 /// g (sin α − μ cos α) = 235.6 cm/s² at 30 degrees, μ = 0.3.
@@ -101,8 +99,7 @@ struct ClothOnCloth {
     double speed() const
     {
         double momentum = 0.0, sum = 0.0;
-        for (std::size_t v = held; v < run->state.v.size(); ++v)
-            momentum += run->fabric.mass[v] * run->state.v[v].x(), sum += run->fabric.mass[v];
+        for (std::size_t v = held; v < run->state.v.size(); ++v) momentum += run->fabric.mass[v] * run->state.v[v].x(), sum += run->fabric.mass[v];
         return momentum / sum;
     }
     std::optional<FabricRun> run;
@@ -162,8 +159,7 @@ TEST(Capstan, HoldsByTheExponentialOfItsAngle)
     std::vector<Vec3> path;
     const int legs = 30, arc = static_cast<int>(std::lround(kPi * around / kEdge));
     for (int i = legs; i > 0; --i) path.emplace_back(-around, -kEdge * i, 0.0);
-    for (int i = 0; i <= arc; ++i)
-        path.emplace_back(-around * std::cos(kPi * i / arc), around * std::sin(kPi * i / arc), 0.0);
+    for (int i = 0; i <= arc; ++i) path.emplace_back(-around * std::cos(kPi * i / arc), around * std::sin(kPi * i / arc), 0.0);
     for (int i = 1; i <= legs; ++i) path.emplace_back(around, -kEdge * i, 0.0);
     FabricPiece piece = pieceOf(strand(path), solidFibre(1.0e7), {kYarn, kYarn});
     piece.material.frictionAngle = std::atan(kFriction);
@@ -183,8 +179,7 @@ TEST(Capstan, HoldsByTheExponentialOfItsAngle)
         after += run.tension(last - 3);
     }
     EXPECT_NEAR(after / before, std::exp(kFriction * kPi), 0.03 * std::exp(kFriction * kPi));
-    RecordProperty("ratio",
-                   std::to_string(after / before) + " T1/mg " + std::to_string(before / 200 / (hung * kEarthGravity)));
+    RecordProperty("ratio", std::to_string(after / before) + " T1/mg " + std::to_string(before / 200 / (hung * kEarthGravity)));
 }
 
 /// Cloth dropped on a ball comes to lie on it, deeper than its thickness nowhere by more than contact's reach.
@@ -219,9 +214,8 @@ TEST(FabricOnABlade, DoesNotFallThrough)
     grid.nodes = Vec2i(kNodes, kNodes);
     grid.spacing = {kSpacing, kSpacing};
     grid.origin = Vec3(kFirst, 0.1, kFirst);
-    const FabricPiece pieces[] = {
-        pieceOf(clothGrid(grid), testing::wool(), {kRadius, kRadius}),
-        pieceOf(strand(Vec3(kFirst, 0.1, 0.0), Vec3(-kFirst, 0.1, 0.0), kNodes - 1), testing::wool(), {kRadius, kRadius})};
+    const FabricPiece pieces[] = {pieceOf(clothGrid(grid), testing::wool(), {kRadius, kRadius}),
+                                  pieceOf(strand(Vec3(kFirst, 0.1, 0.0), Vec3(-kFirst, 0.1, 0.0), kNodes - 1), testing::wool(), {kRadius, kRadius})};
     for (FabricPiece piece : pieces) {
         piece.material.frictionAngle = std::atan(0.6);
         FabricRun run(piece, FabricSettings{}, {obstacle(Shape::box(Vec3(0.0, -2.0, 0.0), Vec3(0.01, 2.0, 3.0)))});

@@ -156,8 +156,7 @@ TEST(FlyingFabric, FallsExactlyAsAPointWould)
         x += 1.0e-3 * v;
     }
     double worst = 0.0;
-    for (std::size_t i = 0; i < run.state.x.size(); ++i)
-        worst = std::max(worst, (run.state.x[i] - run.fabric.rest[i] - x).norm());
+    for (std::size_t i = 0; i < run.state.x.size(); ++i) worst = std::max(worst, (run.state.x[i] - run.fabric.rest[i] - x).norm());
     // Solves leave errors of 4 roundings of a place in a step, 4 eps |x| = 3e-14 cm; were they all of one sign, n^2 / 2 of them would add up in n steps.
     EXPECT_LT(worst, 1.5e-10);
     RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
@@ -196,8 +195,8 @@ TEST(FlyingFabric, LosesEnergyOnlyToTheStepAndInProportionToIt)
     grid.nodes = Vec2i(9, 9);
     grid.spacing = {0.25, 0.25};
     FabricMaterial soft = solidFibre(3.0e4, 0.3);
-    for (const FabricPiece& piece : {pieceOf(clothGrid(grid), soft, {0.05, 0.05}),
-                                     pieceOf(strand(Vec3::Zero(), Vec3(2.0, 0.0, 0.5), 12), soft, {0.1, 0.1})}) {
+    for (const FabricPiece& piece :
+         {pieceOf(clothGrid(grid), soft, {0.05, 0.05}), pieceOf(strand(Vec3::Zero(), Vec3(2.0, 0.0, 0.5), 12), soft, {0.1, 0.1})}) {
         bool onlyFalls = true;
         std::vector<double> loss;
         for (double h : {4.0e-5, 2.0e-5, 1.0e-5}) loss.push_back(lossOf(piece, h, 0.02, onlyFalls));
@@ -214,8 +213,8 @@ bool sameBits(const FabricState& a, const FabricState& b)
     const auto same = [](const auto& u, const auto& v) {
         return u.size() == v.size() && std::memcmp(u.data(), v.data(), u.size() * sizeof(u[0])) == 0;
     };
-    return same(a.x, b.x) && same(a.v, b.v) && same(a.theta, b.theta) && same(a.omega, b.omega) &&
-           same(a.tangent, b.tangent) && same(a.reference, b.reference) && same(a.referenceTwist, b.referenceTwist);
+    return same(a.x, b.x) && same(a.v, b.v) && same(a.theta, b.theta) && same(a.omega, b.omega) && same(a.tangent, b.tangent) &&
+           same(a.reference, b.reference) && same(a.referenceTwist, b.referenceTwist);
 }
 
 std::vector<ObstacleSettings> ballBelow()

@@ -36,17 +36,13 @@ class FabricRun {
  public:
     using Change = std::function<void(Fabric&)>;
 
-    explicit FabricRun(std::vector<FabricPiece> p, const FabricSettings& s = withoutContact(),
-                       std::vector<ObstacleSettings> o = {}, const Change& change = {})
-        : fabric(changed(assembleFabric(p), change)),
-          state(initialState(fabric, p)),
-          solver(fabric, s, o),
-          pieces(std::move(p)),
-          settings(s)
+    explicit FabricRun(std::vector<FabricPiece> p, const FabricSettings& s = withoutContact(), std::vector<ObstacleSettings> o = {},
+                       const Change& change = {})
+        : fabric(changed(assembleFabric(p), change)), state(initialState(fabric, p)), solver(fabric, s, o), pieces(std::move(p)), settings(s)
     {
     }
-    explicit FabricRun(const FabricPiece& piece, const FabricSettings& s = withoutContact(),
-                       std::vector<ObstacleSettings> o = {}, const Change& change = {})
+    explicit FabricRun(const FabricPiece& piece, const FabricSettings& s = withoutContact(), std::vector<ObstacleSettings> o = {},
+                       const Change& change = {})
         : FabricRun(std::vector<FabricPiece>{piece}, s, std::move(o), change)
     {
     }
@@ -144,19 +140,10 @@ inline PinGroup pinned(std::vector<int> vertices, bool twist = false, const Moti
 }
 
 /// Resistance of a round yarn's section [dyn cm^2].
-inline double bendingStiffness(const FabricPiece& p)
-{
-    return p.material.packing() * p.material.young * 0.25 * kPi * std::pow(p.radius[0], 4);
-}
-inline double torsionStiffness(const FabricPiece& p)
-{
-    return bendingStiffness(p) / (1.0 + p.material.poisson);
-}
+inline double bendingStiffness(const FabricPiece& p) { return p.material.packing() * p.material.young * 0.25 * kPi * std::pow(p.radius[0], 4); }
+inline double torsionStiffness(const FabricPiece& p) { return bendingStiffness(p) / (1.0 + p.material.poisson); }
 /// Mass of a yarn per length [g/cm].
-inline double lineDensity(const FabricPiece& p)
-{
-    return p.material.envelopeDensity() * kPi * p.radius[0] * p.radius[1];
-}
+inline double lineDensity(const FabricPiece& p) { return p.material.envelopeDensity() * kPi * p.radius[0] * p.radius[1]; }
 
 /// A straight round yarn along x of n free edges of length l, and one more before them, clamped.
 /// A clamped edge bends like a clamp half an edge inside it: the yarn is as long as n + ½ edges (fabric/rods/README.md, Energies).
@@ -167,8 +154,7 @@ struct Cantilever {
           clamp(0.5 * l * along),
           piece(testing::pieceOf(strand(Vec3::Zero(), (n + 1) * l * along, n + 1), solidFibre(young), {radius, radius}))
     {
-        piece.pins = {pinned({0}, true),
-                      pinned({1})};  // of vertex 1 the edge behind it would be held from turning, too
+        piece.pins = {pinned({0}, true), pinned({1})};  // of vertex 1 the edge behind it would be held from turning, too
     }
     double effectiveLength;  ///< [cm]
     int tip;                 ///< vertex

@@ -10,10 +10,7 @@ namespace {
 using testing::pieceOf;
 
 /// A yarn so thin that it hangs like a chain; the points given are its vertices at rest.
-FabricPiece chain(const FabricGeometry& geometry)
-{
-    return pieceOf(geometry, solidFibre(2.0e7), {0.001, 0.001});
-}
+FabricPiece chain(const FabricGeometry& geometry) { return pieceOf(geometry, solidFibre(2.0e7), {0.001, 0.001}); }
 
 /// Sag and the cosh law of a chain of length 10 whose ends are a distance apart.
 struct Catenary {
@@ -38,9 +35,7 @@ TEST(HangingChain, FollowsTheCatenary)
         run.steps(3400, kStep);
         ASSERT_TRUE(run.settle(kStep, 15.0, 1.0e-4, 12000));
 
-        const auto height = [&](double x) {
-            return exact.a * (std::cosh((x - 0.5 * exact.span) / exact.a) - std::cosh(0.5 * exact.span / exact.a));
-        };
+        const auto height = [&](double x) { return exact.a * (std::cosh((x - 0.5 * exact.span) / exact.a) - std::cosh(0.5 * exact.span / exact.a)); };
         double worst = 0.0;
         for (const Vec3& x : run.state.x) worst = std::max(worst, std::abs(x.y() - height(x.x())));
         EXPECT_LT(worst, 0.005 * exact.sag) << "span " << exact.span;
@@ -51,9 +46,9 @@ TEST(HangingChain, FollowsTheCatenary)
         const double ownHalf = 0.5 * weight * kLength / kEdges;  // what hangs on the pin itself
         EXPECT_NEAR(-pull.y() + ownHalf, 0.5 * weight * kLength, 0.001 * weight * kLength);
         EXPECT_NEAR(pull.x(), weight * exact.a, 0.005 * weight * exact.a);
-        RecordProperty("span" + std::to_string(int(exact.span)),
-                       std::to_string(-run.state.x[kEdges / 2].y()) + " worst " + std::to_string(worst / exact.sag) +
-                           " H " + std::to_string(pull.x() / (weight * exact.a)));
+        RecordProperty("span" + std::to_string(int(exact.span)), std::to_string(-run.state.x[kEdges / 2].y()) + " worst " +
+                                                                     std::to_string(worst / exact.sag) + " H " +
+                                                                     std::to_string(pull.x() / (weight * exact.a)));
     }
 }
 
@@ -62,8 +57,7 @@ TEST(HangingYarn, StretchesByItsWeight)
 {
     constexpr double kLength = 14.256;
     constexpr int kEdges = 30;
-    FabricPiece piece =
-        pieceOf(strand(Vec3::Zero(), Vec3(0.0, -kLength, 0.0), kEdges), testing::wool(), {0.048, 0.048});
+    FabricPiece piece = pieceOf(strand(Vec3::Zero(), Vec3(0.0, -kLength, 0.0), kEdges), testing::wool(), {0.048, 0.048});
     piece.pins.push_back(pinned({0}));
     FabricRun run(piece);
     ASSERT_TRUE(run.settle(0.002, 100.0, 1.0e-9));
@@ -111,8 +105,7 @@ TEST(HangingCloth, PullsAndNarrowsAsTheMembraneDoes)
     // What the clamped end holds has died out to a few thousandths here.
     EXPECT_NEAR(kYoung * kThickness * kWidth * stretch * green, force, 0.005 * force);
     EXPECT_NEAR(greenAcross, -kPoisson * green, 0.01 * kPoisson * green);
-    RecordProperty("force", std::to_string(kYoung * kThickness * kWidth * stretch * green / force) + " at " +
-                                std::to_string(stretch));
+    RecordProperty("force", std::to_string(kYoung * kThickness * kWidth * stretch * green / force) + " at " + std::to_string(stretch));
     RecordProperty("poisson", std::to_string(-greenAcross / green));
 }
 
@@ -137,16 +130,14 @@ TEST(YarnCantilever, VibratesAtItsFrequency)
     constexpr int kEdges = 40;
     constexpr double kLength = 10.0;
     const Cantilever beam(kEdges, kLength / kEdges, 0.2, 1.0e8);
-    const double exact = 0.55959 / (beam.effectiveLength * beam.effectiveLength) *
-                         std::sqrt(bendingStiffness(beam.piece) / lineDensity(beam.piece));
+    const double exact = 0.55959 / (beam.effectiveLength * beam.effectiveLength) * std::sqrt(bendingStiffness(beam.piece) / lineDensity(beam.piece));
     FabricRun run(beam.piece);
     run.gravity.setZero();
     for (int v = 2; v <= beam.tip; ++v) {
         const double s = (run.state.x[v].x() - beam.clamp.x()) / beam.effectiveLength;
         run.state.v[v] = Vec3(0.0, 5.0 * s * s, 0.0);  // nearly the first mode; others die out faster
     }
-    const double found =
-        frequency(run, 1.0 / (600.0 * exact), 0.6 / exact, 4.2 / exact, [&] { return run.state.x[beam.tip].y(); });
+    const double found = frequency(run, 1.0 / (600.0 * exact), 0.6 / exact, 4.2 / exact, [&] { return run.state.x[beam.tip].y(); });
     EXPECT_NEAR(found, exact, 0.02 * exact);
     RecordProperty("ratio", std::to_string(found / exact));
 }
@@ -160,8 +151,7 @@ TEST(HangingChain, SwingsAtItsFrequency)
     FabricRun run(piece);
     for (int v = 1; v <= kEdges; ++v) run.state.v[v] = Vec3(0.5 * std::pow(v / double(kEdges), 2), 0.0, 0.0);
     const double exact = 1.2024 * std::sqrt(kEarthGravity / kLength) / (2.0 * kPi);
-    const double found =
-        frequency(run, 1.0 / (600.0 * exact), 1.1 / exact, 5.2 / exact, [&] { return run.state.x[kEdges].x(); });
+    const double found = frequency(run, 1.0 / (600.0 * exact), 1.1 / exact, 5.2 / exact, [&] { return run.state.x[kEdges].x(); });
     EXPECT_NEAR(found, exact, 0.02 * exact);
     RecordProperty("ratio", std::to_string(found / exact));
 }

@@ -26,16 +26,13 @@ FabricGeometry bias(int cells, int rows)
     FabricGeometry mesh;
     const int n = cells + 1;
     for (int j = 0; j <= rows; ++j)
-        for (int i = 0; i < n; ++i)
-            mesh.points.emplace_back(kCell * (i - (j % 2 == 0 ? 0.0 : 0.5)), 0.0, 0.5 * kCell * j);
+        for (int i = 0; i < n; ++i) mesh.points.emplace_back(kCell * (i - (j % 2 == 0 ? 0.0 : 0.5)), 0.0, 0.5 * kCell * j);
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < cells; ++i) {
             const int a = j * n + i, b = a + n;
             mesh.faces.emplace_back(a, a + 1, j % 2 == 0 ? b + 1 : b);
-            if (j % 2 == 0)
-                mesh.faces.emplace_back(b, a, b + 1);
-            else
-                mesh.faces.emplace_back(a + 1, b + 1, b);
+            if (j % 2 == 0) mesh.faces.emplace_back(b, a, b + 1);
+            else mesh.faces.emplace_back(a + 1, b + 1, b);
         }
     return mesh;
 }

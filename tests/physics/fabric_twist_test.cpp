@@ -18,8 +18,7 @@ struct TwistedYarn {
     }
     void hold(const Motion& ofLast)
     {
-        piece.pins = {pinned({0}, true), pinned({1}), pinned({edges - 1}, false, ofLast),
-                      pinned({edges}, true, ofLast)};
+        piece.pins = {pinned({0}, true), pinned({1}), pinned({edges - 1}, false, ofLast), pinned({edges}, true, ofLast)};
     }
     static constexpr double kEdge = 0.2;
     int edges;
@@ -54,8 +53,7 @@ TEST(TwistedYarn, SpreadsItsTwistEvenly)
         worst = std::max(worst, std::abs(twist - turn / (yarn.edges - 1)));
     }
     EXPECT_LT(worst, 1.0e-13 * turn);
-    const double torque = 2.0 * run.energies().twisting / turn,
-                 exact = torsionStiffness(yarn.piece) * turn / yarn.bentLength();
+    const double torque = 2.0 * run.energies().twisting / turn, exact = torsionStiffness(yarn.piece) * turn / yarn.bentLength();
     EXPECT_NEAR(torque, exact, 1.0e-12 * exact);
     RecordProperty("worst", std::to_string(worst * 1e15) + "e-15");
     RecordProperty("torque", std::to_string((torque / exact - 1.0) * 1e15) + "e-15");
@@ -209,8 +207,7 @@ RingGrowth growthOfRing(int n, double twist)
     const double radius = n * TwistedYarn::kEdge / (2.0 * kPi);
     const double time = radius * radius * std::sqrt(lineDensity(ring.yarn.piece) / bendingStiffness(ring.yarn.piece));
     const auto off = [&] { return ring.offPlane(); };
-    const double before = ring.run.largestIn(2000, 0.02 * time, off),
-                 after = ring.run.largestIn(2000, 0.02 * time, off);
+    const double before = ring.run.largestIn(2000, 0.02 * time, off), after = ring.run.largestIn(2000, 0.02 * time, off);
     return {after / before, ring.shareOfMode2()};
 }
 
@@ -222,13 +219,12 @@ TEST(MichellRing, BucklesAtTheThresholdOfItsDiscreteEnergies)
     const double continuum = 2.0 * kPi * std::sqrt(3.0) * bendingStiffness(yarn.piece) / torsionStiffness(yarn.piece);
     EXPECT_NEAR(continuum, 14.69, 0.005);
     for (const auto& [n, factor] : {std::pair(20, 1.081), std::pair(30, 1.035)}) {
-        const RingGrowth below = growthOfRing(n, 0.99 * factor * continuum),
-                         above = growthOfRing(n, 1.01 * factor * continuum);
+        const RingGrowth below = growthOfRing(n, 0.99 * factor * continuum), above = growthOfRing(n, 1.01 * factor * continuum);
         EXPECT_LT(below.growth, 1.0) << n;
         EXPECT_GT(above.growth, 2.0) << n;
         EXPECT_GT(above.ofMode2, 0.95) << n;
-        RecordProperty("growth" + std::to_string(n), std::to_string(below.growth) + " " + std::to_string(above.growth) +
-                                                         " " + std::to_string(above.ofMode2));
+        RecordProperty("growth" + std::to_string(n),
+                       std::to_string(below.growth) + " " + std::to_string(above.growth) + " " + std::to_string(above.ofMode2));
     }
 }
 

@@ -78,8 +78,8 @@ std::vector<Vec3> turnedYarns(const Fabric& fabric, double degrees, double heigh
 TEST(CrossingChecker, TellsYarnsThatTurnFromYarnsThatPass)
 {
     const auto yarn = [](const Vec3& from, const Vec3& to) { return pieceOf(strand(from, to, 9), testing::wool(), {0.02, 0.02}); };
-    const Fabric fabric = assembleFabric(
-        std::vector<FabricPiece>{yarn(Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)), yarn(Vec3(0.0, 0.05, -1.0), Vec3(0.0, 0.05, 1.0))});
+    const Fabric fabric =
+        assembleFabric(std::vector<FabricPiece>{yarn(Vec3(-1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)), yarn(Vec3(0.0, 0.05, -1.0), Vec3(0.0, 0.05, 1.0))});
     Crossings turned(fabric, Vec3::UnitY()), passed(fabric, Vec3::UnitY());
     ASSERT_EQ(turned.size(), 1u);
     for (double angle : {90.0, 40.0, 3.0, -3.0, -40.0, -90.0}) EXPECT_EQ(turned.count(turnedYarns(fabric, angle, 0.05)).flipped, 0) << angle;
@@ -109,15 +109,13 @@ TEST(Weave, NoYarnPassesAnotherWhenABallStrikes)
         EXPECT_GE(near.spare, 0.0) << "step " << i;
         undecided = std::max(undecided, count.undecided);
         halvings += report.halvings, scalings += report.scalings, shortened += report.shortened;
-        spare = std::min(spare, near.spare), nearest = std::min(nearest, near.relative),
-        fastest = std::max(fastest, run.fastest());
+        spare = std::min(spare, near.spare), nearest = std::min(nearest, near.relative), fastest = std::max(fastest, run.fastest());
         deepest = std::max(deepest, run.solver.deepestInObstacles(run.state));
     }
     EXPECT_GT(fastest, 250.0);  // it was struck
-    RecordProperty("weave", "undecided " + std::to_string(undecided) + " halvings " + std::to_string(halvings) +
-                                " scalings " + std::to_string(scalings) + " shortened " + std::to_string(shortened) +
-                                " spare " + std::to_string(spare) + " nearest " + std::to_string(nearest) +
-                                " deepest " + std::to_string(deepest));
+    RecordProperty("weave", "undecided " + std::to_string(undecided) + " halvings " + std::to_string(halvings) + " scalings " +
+                                std::to_string(scalings) + " shortened " + std::to_string(shortened) + " spare " + std::to_string(spare) +
+                                " nearest " + std::to_string(nearest) + " deepest " + std::to_string(deepest));
 }
 
 /// Two sheets of cloth thrown at each other over a ball.

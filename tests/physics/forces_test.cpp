@@ -207,7 +207,8 @@ class ForcesOf : public ::testing::TestWithParam<FabricSolver> {
 TEST_P(ForcesOf, PinsCarryAWetTowel)
 {
     Scene wet = scene();
-    FabricPiece towel = testing::pieceOf(clothGrid({{13, 13}, {0.25, 0.25}, Vec3(0.0, 5.0, 0.0), Vec3::UnitX(), -Vec3::UnitY()}), testing::wool(), {0.05, 0.05});
+    FabricPiece towel =
+        testing::pieceOf(clothGrid({{13, 13}, {0.25, 0.25}, Vec3(0.0, 5.0, 0.0), Vec3::UnitX(), -Vec3::UnitY()}), testing::wool(), {0.05, 0.05});
     towel.material.dampingViscosity = 2000.0;
     towel.wetness = 0.7;
     towel.pins = {pinsAt({0, 1, 2, 3}), pinsAt({9, 10, 11, 12})};
@@ -319,7 +320,8 @@ TEST_P(ForcesOf, ContactPushesBothSides)
         ASSERT_LT(closed.error, kExact * closed.exchanged);
         const Forces& forces = simulation.forces();
         EXPECT_LT((forces.obstacles[0].contact + forces.fabrics[0].contact + forces.fabrics[1].contact).linear.norm(), kExact * closed.exchanged);
-        EXPECT_LT((forces.obstacles[0].contact + forces.fabrics[0].contact + forces.fabrics[1].contact).angular.norm(), 10.0 * kExact * closed.exchanged);
+        EXPECT_LT((forces.obstacles[0].contact + forces.fabrics[0].contact + forces.fabrics[1].contact).angular.norm(),
+                  10.0 * kExact * closed.exchanged);
         if (step < kFrom) continue;
         onBall += forces.obstacles[0].contact.linear;
         onTop += forces.fabrics[1].contact.linear;

@@ -58,9 +58,9 @@ Scene wetScene(FabricSolver solver, const Frame& frame, bool hasFloor)
 
 /// What is compared, as seen from the scene's own frame.
 struct Seen {
-    Vec3 centre, momentum;          ///< of the liquid [cm, g cm/s]
-    double kinetic, absorbed;       ///< of the liquid [erg], of the fabric [g]
-    std::vector<Vec3> vertices;     ///< [cm]
+    Vec3 centre, momentum;       ///< of the liquid [cm, g cm/s]
+    double kinetic, absorbed;    ///< of the liquid [erg], of the fabric [g]
+    std::vector<Vec3> vertices;  ///< [cm]
 };
 
 Seen runIn(FabricSolver solver, const Frame& frame, double until, bool hasFloor = true)
@@ -101,8 +101,12 @@ TEST_P(Frames, ThatMapTheGridToItselfSeeTheSame)
     EXPECT_GT(here.absorbed, 1.0e-4);
     const Mat3 quarter = turned(0.5 * kPi, Vec3::UnitY()).array().round(), tipped = turned(0.5 * kPi, Vec3::UnitX()).array().round();
     const Mat3 mirror = Vec3(-1.0, 1.0, 1.0).asDiagonal(), upside = Vec3(1.0, -1.0, -1.0).asDiagonal();
-    const Frame frames[] = {{Mat3::Identity(), cell * Vec3(3, -2, 5)}, {Mat3::Identity(), cell * Vec3(-64, 8, 1)}, {quarter, Vec3::Zero()},
-                            {tipped, Vec3::Zero()}, {mirror, Vec3::Zero()}, {upside, Vec3::Zero()},
+    const Frame frames[] = {{Mat3::Identity(), cell * Vec3(3, -2, 5)},
+                            {Mat3::Identity(), cell * Vec3(-64, 8, 1)},
+                            {quarter, Vec3::Zero()},
+                            {tipped, Vec3::Zero()},
+                            {mirror, Vec3::Zero()},
+                            {upside, Vec3::Zero()},
                             {tipped * quarter * mirror, cell * Vec3(1, 2, 3)}};
     for (const Frame& frame : frames) {
         SCOPED_TRACE(::testing::PrintToString(frame.turn) + ::testing::PrintToString(frame.shift.transpose()));
@@ -120,8 +124,10 @@ TEST_P(Frames, ThatLieAslantInTheGridSeeNearlyTheSame)
 {
     const double until = 0.015;
     const Seen here = runIn(GetParam(), {}, until, false);
-    const Frame frames[] = {{Mat3::Identity(), Vec3(0.08, 0.13, 0.04)}, {turned(0.25 * kPi, Vec3::UnitY()), Vec3::Zero()},
-                            {turned(0.25 * kPi, Vec3::UnitX()), Vec3(0.1, 0.0, 0.05)}, {turned(0.6, Vec3(1.0, 2.0, -1.0)), Vec3::Zero()}};
+    const Frame frames[] = {{Mat3::Identity(), Vec3(0.08, 0.13, 0.04)},
+                            {turned(0.25 * kPi, Vec3::UnitY()), Vec3::Zero()},
+                            {turned(0.25 * kPi, Vec3::UnitX()), Vec3(0.1, 0.0, 0.05)},
+                            {turned(0.6, Vec3(1.0, 2.0, -1.0)), Vec3::Zero()}};
     const double fallen = 100.0 * until;  // cm
     for (const Frame& frame : frames) {
         SCOPED_TRACE(::testing::PrintToString(frame.turn) + ::testing::PrintToString(frame.shift.transpose()));
@@ -151,7 +157,8 @@ obstacles: [{name: floor, shape: {box: {min: [-3.1, -1.9, -2.7], max: [3.3, -0.2
 fabrics:
   - {name: sheet, cloth_grid: {material: wool, nodes: [11, 11], spacing: 0.17, origin: [-0.85, 0.011, -0.85], u: [1, 0, 0], v: [0, 0, 1],
                                radius: 0.0165}}
-)", si = R"(drench: 1
+)",
+                      si = R"(drench: 1
 units: si
 time: {dt: 7.0e-4, duration: 0.01}
 grid: {cell: 0.0023}

@@ -24,12 +24,12 @@ constexpr double kSize = 2.0;           ///< of the fabric above [cm]
 /// A sheet or a yarn on a slope of cloth that is held.
 struct ClothSlope {
     bool isYarn = false;
-    double steepness = 0.9;             ///< tangent of the slope relative to that of the friction angle [-]
-    double scale = 1.0;                 ///< of lengths and gravity: times stay [-]
-    double h = 2.0e-3;                  ///< [s]
+    double steepness = 0.9;                                    ///< tangent of the slope relative to that of the friction angle [-]
+    double scale = 1.0;                                        ///< of lengths and gravity: times stay [-]
+    double h = 2.0e-3;                                         ///< [s]
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< of all
-    double yaw = 0.0;                   ///< of the fabric above about the normal of the slope [rad]
-    double wetness = 0.0;               ///< of the fabric above [-]
+    double yaw = 0.0;                                          ///< of the fabric above about the normal of the slope [rad]
+    double wetness = 0.0;                                      ///< of the fabric above [-]
 
     double angle() const { return std::atan(steepness * kFriction); }
     double gravity() const { return scale * kEarthGravity; }
@@ -68,8 +68,8 @@ FabricPiece above(const ClothSlope& slope)
     grid.spacing = {2.0 * half / (kNodes - 1), 2.0 * half / (kNodes - 1)};
     grid.origin = Vec3(-half, 0.0, -half);
     const Vec3 end(0.8 * half, 0.0, 0.6 * half);
-    FabricPiece piece = testing::pieceOf(slope.isYarn ? strand(-end, end, kNodes + 1) : clothGrid(grid), testing::wool(),
-                                         {slope.radius(), slope.radius()});
+    FabricPiece piece =
+        testing::pieceOf(slope.isYarn ? strand(-end, end, kNodes + 1) : clothGrid(grid), testing::wool(), {slope.radius(), slope.radius()});
     for (Vec3& x : piece.points) x = Eigen::AngleAxisd(slope.yaw, Vec3::UnitY()) * x;
     piece.wetness = slope.wetness;
     return piece;

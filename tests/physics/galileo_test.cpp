@@ -11,9 +11,9 @@ namespace {
 
 /// Velocities that strain and turn a body, by a quadratic polynomial of the position [cm/s].
 struct Flow {
-    Mat3 gradient;   ///< [1/s]
-    Vec3 bend;       ///< [1/(cm s)]
-    Vec3 mean;       ///< [cm/s]
+    Mat3 gradient;  ///< [1/s]
+    Vec3 bend;      ///< [1/(cm s)]
+    Vec3 mean;      ///< [cm/s]
 
     Vec3 operator()(const Vec3& x) const { return mean + gradient * x + bend.cwiseProduct(x.cwiseProduct(x)); }
 };

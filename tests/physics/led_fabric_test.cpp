@@ -51,8 +51,7 @@ TEST(LedFabric, IsAsWetAsTheSceneSays)
 {
     const Simulation simulation(wetSheet(FabricSolver::Off));
     const Fabric& fabric = simulation.fabric();
-    for (std::size_t v = 0; v < fabric.vertexCount(); ++v)
-        EXPECT_NEAR(simulation.state().fabric.absorbed[v], 0.4 * poreVolume(fabric, v), 1.0e-15);
+    for (std::size_t v = 0; v < fabric.vertexCount(); ++v) EXPECT_NEAR(simulation.state().fabric.absorbed[v], 0.4 * poreVolume(fabric, v), 1.0e-15);
 }
 
 TEST(LedFabric, PinsFollowTheirMotionsAndAllElseStays)
@@ -109,8 +108,7 @@ TEST(LedFabric, LetsLiquidThroughWithoutDrag)
         Simulation simulation(of);
         for (int n = 1; n <= 20; ++n) simulation.step(n * 1.0e-3);
         double lowest = 1.0e9;
-        for (std::size_t p = 0; p < simulation.state().liquid.count; ++p)
-            lowest = std::min(lowest, simulation.state().liquid.position(p).y());
+        for (std::size_t p = 0; p < simulation.state().liquid.count; ++p) lowest = std::min(lowest, simulation.state().liquid.position(p).y());
         return lowest;
     };
     EXPECT_LT(heightAfter(free), heightAfter(scene) - 0.1);

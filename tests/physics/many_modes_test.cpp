@@ -6,10 +6,7 @@
 namespace sim::test {
 namespace {
 
-Transfer polyPic(int modes)
-{
-    return {"PolyPIC-" + std::to_string(modes), TransferMethod::PolyPic, modes};
-}
+Transfer polyPic(int modes) { return {"PolyPIC-" + std::to_string(modes), TransferMethod::PolyPic, modes}; }
 
 /// From 12 on, 27 modes are stored and the rest of those gathered are left out.
 TEST(ManyModes, GainNoEnergyInALongDamBreak)
@@ -19,8 +16,7 @@ TEST(ManyModes, GainNoEnergyInALongDamBreak)
         scene.settings.time.cfl = 1.0;
         Simulation simulation(scene);
         const EnergyCourse course = followEnergy(simulation, 5.0);
-        std::printf("%d modes: energy %.4f after %.1f s, risen by up to %.4f\n", modes, course.end,
-                    simulation.state().time, course.rise);
+        std::printf("%d modes: energy %.4f after %.1f s, risen by up to %.4f\n", modes, course.end, simulation.state().time, course.rise);
         EXPECT_TRUE(course.isFinite) << modes;
         EXPECT_LT(course.rise, 0.02) << modes;  // the volume's correction lifts what lies too low
         EXPECT_LT(course.end, 0.6) << modes;

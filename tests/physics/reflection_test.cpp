@@ -24,9 +24,7 @@ double vortexError(const Transfer& transfer, double cfl, TimeIntegrator integrat
 TEST(Reflection, AThirdOfTheErrorInAnEighthOfTheSteps)
 {
     for (const Transfer& transfer : {kApic, kPoly8, kPoly27})
-        EXPECT_LT(vortexError(transfer, 1.0, TimeIntegrator::Reflected),
-                  vortexError(transfer, 0.125, TimeIntegrator::Plain) / 3.0)
-            << transfer.name;
+        EXPECT_LT(vortexError(transfer, 1.0, TimeIntegrator::Reflected), vortexError(transfer, 0.125, TimeIntegrator::Plain) / 3.0) << transfer.name;
 }
 
 /// Part of its energy that a dam break has, on average from the front's arrival at the far wall to its fall back: at
@@ -45,10 +43,8 @@ double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integr
 TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
 {
     // What other lengths of the steps change; 27 modes lose so little to the grid that the steps are most of it.
-    for (const auto& [transfer, noise] :
-         {std::pair(kApic, 1.0e-3), std::pair(kPoly8, 1.0e-3), std::pair(kPoly27, 2.0e-3)})
-        EXPECT_GT(damBreakKeeps(transfer, 1.0, TimeIntegrator::Reflected),
-                  damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - noise)
+    for (const auto& [transfer, noise] : {std::pair(kApic, 1.0e-3), std::pair(kPoly8, 1.0e-3), std::pair(kPoly27, 2.0e-3)})
+        EXPECT_GT(damBreakKeeps(transfer, 1.0, TimeIntegrator::Reflected), damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - noise)
             << transfer.name;
 }
 
@@ -63,8 +59,7 @@ std::vector<double> sloshingEnergies(const Transfer& transfer, double cfl, TimeI
     std::vector<double> energies;
     for (int quarter = 1; quarter <= 6; ++quarter) {
         StepReport report;
-        while (simulation.state().time < 0.25 * quarter * wave.period)
-            report = simulation.step(0.25 * quarter * wave.period);
+        while (simulation.state().time < 0.25 * quarter * wave.period) report = simulation.step(0.25 * quarter * wave.period);
         energies.push_back(report.energies.total() / start);
     }
     return energies;
@@ -135,10 +130,8 @@ TEST(Reflection, CyclesEndAtFrames)
         const StepReport report = simulation.step(frame);
         EXPECT_EQ(report.isReflected, step % 2 == 0);
         EXPECT_EQ(report.stageRan[static_cast<int>(Stage::Reflection)], report.isReflected);
-        if (report.isReflected)
-            first = report.dt;
-        else
-            EXPECT_NEAR(report.dt, first, 1.0e-12);
+        if (report.isReflected) first = report.dt;
+        else EXPECT_NEAR(report.dt, first, 1.0e-12);
         if (simulation.state().time < frame) continue;
         EXPECT_FALSE(report.isReflected);
         EXPECT_EQ(simulation.state().time, frame);

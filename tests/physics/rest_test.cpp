@@ -26,9 +26,15 @@ TEST(Rest, OfAPoolLasts)
         TimeIntegrator integrator;
     };
     constexpr auto kReflected = TimeIntegrator::Reflected, kPlain = TimeIntegrator::Plain;
-    for (const Case& c : {Case{kPoly8, 0.5, 6.0, 0.4, kReflected}, {kPoly8, 0.5, 6.2, 0.4, kReflected}, {kPoly8, 0.5, 6.8, 0.4, kPlain},
-                          {kPoly27, 0.4, 7.37, 0.4, kReflected}, {kApic, 0.25, 6.51, 0.5, kReflected}, {kPic, 0.5, 5.13, 0.4, kPlain},
-                          {kFlip, 1.0, 6.0, 0.4, kPlain}, {kPoly11, 0.5, 2.6, 0.4, kReflected}, {kPoly8, 0.5, 7.2, 0.3, kReflected}}) {
+    for (const Case& c : {Case{kPoly8, 0.5, 6.0, 0.4, kReflected},
+                          {kPoly8, 0.5, 6.2, 0.4, kReflected},
+                          {kPoly8, 0.5, 6.8, 0.4, kPlain},
+                          {kPoly27, 0.4, 7.37, 0.4, kReflected},
+                          {kApic, 0.25, 6.51, 0.5, kReflected},
+                          {kPic, 0.5, 5.13, 0.4, kPlain},
+                          {kFlip, 1.0, 6.0, 0.4, kPlain},
+                          {kPoly11, 0.5, 2.6, 0.4, kReflected},
+                          {kPoly8, 0.5, 7.2, 0.3, kReflected}}) {
         const Scene scene = pool(c.transfer, c.cell, c.depth, c.spacing, c.integrator);
         Simulation simulation(scene);
         const Energies start = simulation.energies();
@@ -118,7 +124,8 @@ TEST(Rest, IsWhereViscousLiquidSinksTo)
                     const double start = simulation.energies().total(), weight = std::abs(simulation.energies().potential);
                     double most = 0.0;
                     for (int step = 0; step < 40; ++step) most = std::max(most, simulation.step(1.0e9).energies.total() - start);
-                    EXPECT_LT(most, 1.0e-3 * weight) << viscosity << " P, " << thickness << " cells, " << above << " above, friction " << wallFriction;
+                    EXPECT_LT(most, 1.0e-3 * weight)
+                        << viscosity << " P, " << thickness << " cells, " << above << " above, friction " << wallFriction;
                 }
 }
 

@@ -16,9 +16,9 @@ struct Transfer {
     TransferMethod method;
     int modes;
 };
-inline const Transfer kPic{"PIC", TransferMethod::Pic, 1}, kFlip{"FLIP", TransferMethod::Flip, 1},
-    kApic{"APIC", TransferMethod::Apic, 4}, kPoly8{"PolyPIC-8", TransferMethod::PolyPic, 8},
-    kPoly11{"PolyPIC-11", TransferMethod::PolyPic, 11}, kPoly27{"PolyPIC-27", TransferMethod::PolyPic, 27};
+inline const Transfer kPic{"PIC", TransferMethod::Pic, 1}, kFlip{"FLIP", TransferMethod::Flip, 1}, kApic{"APIC", TransferMethod::Apic, 4},
+    kPoly8{"PolyPIC-8", TransferMethod::PolyPic, 8}, kPoly11{"PolyPIC-11", TransferMethod::PolyPic, 11},
+    kPoly27{"PolyPIC-27", TransferMethod::PolyPic, 27};
 inline const std::array<Transfer, 6> kTransfers = {kPic, kFlip, kApic, kPoly8, kPoly11, kPoly27};
 
 inline ObstacleSettings obstacle(const std::string& name, const Shape& shape, const Motion& motion = {})
@@ -71,10 +71,7 @@ inline Scene vortexScene(const Transfer& transfer, double cfl)
     scene.settings.time.dt = cfl * kCell;
     return scene;
 }
-inline Vec3 vortex(const Vec3& x)
-{
-    return {std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0};
-}
+inline Vec3 vortex(const Vec3& x) { return {std::sin(x.x()) * std::cos(x.y()), -std::cos(x.x()) * std::sin(x.y()), 0.0}; }
 
 /// A linear standing wave of half a wavelength in a tank 1 cm × `length`, as deep as that: the velocities it starts
 /// with.
@@ -93,8 +90,7 @@ struct StandingWave {
     Vec3 velocity(const Vec3& x) const
     {
         const double speed = 0.04 * length * frequency / std::sinh(number * length), k = number;
-        return {-speed * std::sin(k * x.x()) * std::cosh(k * x.y()), speed * std::cos(k * x.x()) * std::sinh(k * x.y()),
-                0.0};
+        return {-speed * std::sin(k * x.x()) * std::cosh(k * x.y()), speed * std::cos(k * x.x()) * std::sinh(k * x.y()), 0.0};
     }
 };
 
@@ -130,8 +126,7 @@ Simulation moving(const Scene& scene, U&& u)
 inline bool isLiquid(const Simulation& simulation, const Vec3i& c)
 {
     const int b = simulation.state().grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3});
-    return b != BlockGrid::kNone &&
-           simulation.workspace().grid.inside.test(b, cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7));
+    return b != BlockGrid::kNone && simulation.workspace().grid.inside.test(b, cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7));
 }
 
 }  // namespace sim::test

@@ -19,7 +19,7 @@ struct Units {
 
     double speed() const { return length / time; }
     double acceleration() const { return speed() / time; }
-    double pressure() const { return speed() * speed(); }         ///< densities stay
+    double pressure() const { return speed() * speed(); }  ///< densities stay
     double viscosity() const { return pressure() * time; }
     double tension() const { return pressure() * length; }
 };
@@ -81,10 +81,7 @@ Scene splashScene(const Units& unit, FabricSolver solver)
     return scene;
 }
 
-std::string nameOf(FabricSolver solver)
-{
-    return solver == FabricSolver::Grid ? "grid" : solver == FabricSolver::Vertex ? "vertex" : "no fabric";
-}
+std::string nameOf(FabricSolver solver) { return solver == FabricSolver::Grid ? "grid" : solver == FabricSolver::Vertex ? "vertex" : "no fabric"; }
 
 /// Of vertices and particles, in units of the scene [cm].
 std::vector<Vec3> placesAfter(int steps, const Scene& scene, const Units& unit)

@@ -56,14 +56,14 @@ TEST(Sloshing, PeriodIsThatOfALinearWave)
 {
     for (const Transfer& transfer : {kFlip, kApic, kPoly8, kPoly27}) {
         const Sloshing result = slosh(transfer, 16, 0.5, 3);
-        std::printf("%s: period %+.2f %% (expected %+.2f), amplitude kept per period %.3f\n", transfer.name.c_str(),
-                    100.0 * result.periodError, 100.0 * expectedPeriodError(16), result.kept);
+        std::printf("%s: period %+.2f %% (expected %+.2f), amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * result.periodError,
+                    100.0 * expectedPeriodError(16), result.kept);
         EXPECT_NEAR(result.periodError, expectedPeriodError(16), 0.01) << transfer.name;
     }
     for (const Transfer& transfer : {kApic, kPoly8}) {
         const Sloshing fine = slosh(transfer, 24, 0.5, 2);
-        std::printf("%s, 24 cells per wave: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(),
-                    100.0 * fine.periodError, fine.kept);
+        std::printf("%s, 24 cells per wave: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * fine.periodError,
+                    fine.kept);
         EXPECT_NEAR(fine.periodError, expectedPeriodError(24), 0.01);
         EXPECT_LT(std::abs(fine.periodError), 0.03);
     }
@@ -74,8 +74,7 @@ TEST(Sloshing, RicherModesDecayMoreSlowly)
     double kept = 0.0;
     for (const Transfer& transfer : {kPic, kApic, kPoly8, kPoly27}) {
         const Sloshing result = slosh(transfer, 16, 0.125, 3);
-        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(),
-                    100.0 * result.periodError, result.kept);
+        std::printf("%s: period %+.2f %%, amplitude kept per period %.3f\n", transfer.name.c_str(), 100.0 * result.periodError, result.kept);
         EXPECT_GT(result.kept, kept) << transfer.name;
         kept = result.kept;
     }

@@ -97,10 +97,9 @@ std::vector<Stirred> stirrers()
     all.push_back({"paddle", Shape::box({2.4, 2.0, 0.75}, {0.15, 1.5, 0.5}), swing});
     turn.addRotation(0.0, 1.0, Vec3::UnitZ(), 12.0, Vec3(2.9, 1.5, 0.75), Motion::Frame::World, 0.1, 0.1);
     all.push_back({"turning plate", Shape::box({2.9, 1.5, 0.75}, {1.1, 0.13, 0.5}), turn});
-    all.push_back(
-        {"slanted plate at rest",
-         Shape::box(Vec3::Zero(), {1.1, 0.13, 0.5}).moved(Eigen::Translation3d(2.4, 1.2, 0.75) * Eigen::AngleAxisd(0.6, Vec3::UnitZ())),
-         {}});
+    all.push_back({"slanted plate at rest",
+                   Shape::box(Vec3::Zero(), {1.1, 0.13, 0.5}).moved(Eigen::Translation3d(2.4, 1.2, 0.75) * Eigen::AngleAxisd(0.6, Vec3::UnitZ())),
+                   {}});
     return all;
 }
 
@@ -123,8 +122,7 @@ TEST(SolidsWork, IsAllThatMakesEnergyGrow)
                                 worked.rise / worked.most, worked.most);
                     // The weight of the surface layer acts where its liquid would be if it were even (levelWeight). Where that is lower than the
                     // liquid, potential energy is stored that counts as kinetic meanwhile: 1e-4 would hold without.
-                    EXPECT_LT(worked.rise, 4.0e-3 * worked.most)
-                        << stirred.name << ' ' << transfer.name << ' ' << friction;
+                    EXPECT_LT(worked.rise, 4.0e-3 * worked.most) << stirred.name << ' ' << transfer.name << ' ' << friction;
                 }
 }
 

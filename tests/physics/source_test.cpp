@@ -61,9 +61,8 @@ Jet jetOf(const Vec3& center, const Vec3& half, const Eigen::AngleAxisd& turn, c
     emission.velocity = velocity;
     jet.source.emissions.push_back(emission);
     const Vec3 own = turn.inverse() * velocity;
-    const double flow =
-        packingOf(fill.pattern) * 4.0 *
-        (std::abs(own[0]) * half[1] * half[2] + std::abs(own[1]) * half[2] * half[0] + std::abs(own[2]) * half[0] * half[1]);
+    const double flow = packingOf(fill.pattern) * 4.0 *
+                        (std::abs(own[0]) * half[1] * half[2] + std::abs(own[1]) * half[2] * half[0] + std::abs(own[2]) * half[0] * half[1]);
     jet.volume = flow * (to - from);
     jet.layer = flow / velocity.norm() * particleSpacing(fill, kCell);
     return jet;
@@ -74,10 +73,7 @@ void runUntil(double end, Simulation& simulation)
     while (simulation.state().time < end - 1.0e-9) simulation.step(end);
 }
 
-double massOf(const State& state)
-{
-    return std::accumulate(state.liquid.mass.data(), state.liquid.mass.data() + state.liquid.count, 0.0);
-}
+double massOf(const State& state) { return std::accumulate(state.liquid.mass.data(), state.liquid.mass.data() + state.liquid.count, 0.0); }
 
 void expectLedgerAddsUp(const State& state)
 {
@@ -115,8 +111,8 @@ TEST(Source, UnderLiquidGivesAreaTimesSpeedTimesTime)
 /// Mouths in the open air, with and without weight, on walls, and partly under water: to within a layer.
 TEST(Source, InAirAtWallsAndAtTheSurfaceGivesAreaTimesSpeedTimesTime)
 {
-    const FillSettings::Pattern patterns[] = {FillSettings::Pattern::Lattice, FillSettings::Pattern::Jittered,
-                                              FillSettings::Pattern::Poisson, FillSettings::Pattern::Reference};
+    const FillSettings::Pattern patterns[] = {FillSettings::Pattern::Lattice, FillSettings::Pattern::Jittered, FillSettings::Pattern::Poisson,
+                                              FillSettings::Pattern::Reference};
     for (std::uint64_t number = 0; number < 12; ++number) {
         Draw draw(100 + number);
         Scene scene = pool(draw.isTrue() ? 4.0 : 0.0);
@@ -185,8 +181,7 @@ TEST(Source, StopsWhereThereIsNoRoomLeft)
         fill.spacing = 0.5;
         const Vec3 velocity = draw.between(20.0, 40.0) * draw.inBox(1.0).normalized();
         scene.sources.push_back(
-            jetOf(Vec3(2.0, 1.5, 2.0) + draw.inBox(0.3), Vec3(0.6, 0.6, 0.6), Eigen::AngleAxisd::Identity(), velocity, 0.0, 10.0, fill)
-                .source);
+            jetOf(Vec3(2.0, 1.5, 2.0) + draw.inBox(0.3), Vec3(0.6, 0.6, 0.6), Eigen::AngleAxisd::Identity(), velocity, 0.0, 10.0, fill).source);
         Simulation simulation(scene);
         double fastest = 0.0;
         while (simulation.state().time < 0.5) fastest = std::max(fastest, simulation.step(0.5).maxSpeed);

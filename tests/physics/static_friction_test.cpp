@@ -16,24 +16,24 @@
 namespace sim::test {
 namespace {
 
-constexpr double kFriction = 0.577350;        ///< of 30 degrees [-]
-constexpr double kSize = 2.0;                 ///< of the fabric [cm]
-constexpr double kLeastCreep = 1.0e-3;        ///< that counts, in sizes per second
-constexpr double kShakenCreep = 1.2e-2;       ///< where accelerations change or steps are long: 2.4e-3 with solver vertex, 1e-2 with grid
+constexpr double kFriction = 0.577350;   ///< of 30 degrees [-]
+constexpr double kSize = 2.0;            ///< of the fabric [cm]
+constexpr double kLeastCreep = 1.0e-3;   ///< that counts, in sizes per second
+constexpr double kShakenCreep = 1.2e-2;  ///< where accelerations change or steps are long: 2.4e-3 with solver vertex, 1e-2 with grid
 
 /// A sheet or a yarn on a slope.
 struct Slope {
     FabricSolver solver = FabricSolver::Vertex;
     bool isYarn = false;
-    double steepness = 0.9;                   ///< tangent of the slope relative to that of the friction angle [-]
-    double scale = 1.0;                       ///< of lengths and gravity: times stay [-]
-    double h = 2.0e-3;                        ///< [s]
+    double steepness = 0.9;  ///< tangent of the slope relative to that of the friction angle [-]
+    double scale = 1.0;      ///< of lengths and gravity: times stay [-]
+    double h = 2.0e-3;       ///< [s]
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-    int nodes = 7;                            ///< along each side
-    double height = 0.0, tilt = 0.0;          ///< above where contact begins [sizes], about an axis downhill [rad]
-    double wetness = 0.0;                     ///< [-]
-    Vec3 velocity = Vec3::Zero();             ///< of the fabric at the start, before the turn [cm/s]
-    Motion motion;                            ///< of the slope
+    int nodes = 7;                    ///< along each side
+    double height = 0.0, tilt = 0.0;  ///< above where contact begins [sizes], about an axis downhill [rad]
+    double wetness = 0.0;             ///< [-]
+    Vec3 velocity = Vec3::Zero();     ///< of the fabric at the start, before the turn [cm/s]
+    Motion motion;                    ///< of the slope
 
     double angle() const { return std::atan(steepness * kFriction); }
     double gravity() const { return scale * kEarthGravity; }

@@ -59,8 +59,7 @@ double slabError(int cells)
     source.emissions.push_back({});
     scene.sources.push_back(source);
     Simulation simulation(scene);
-    while (simulation.state().time < 0.6)
-        EXPECT_TRUE(simulation.step(0.6).viscosity.converged);  // e^-6 of the start is left
+    while (simulation.state().time < 0.6) EXPECT_TRUE(simulation.step(0.6).viscosity.converged);  // e^-6 of the start is left
     const LiquidParticles& liquid = simulation.state().liquid;
     double square = 0.0;
     int count = 0;
@@ -142,8 +141,7 @@ TEST(ViscousLiquid, BlobKeepsItsMomentum)
     scene.obstacles.clear();
     scene.settings.gravity = Vec3::Zero();
     scene.settings.solver.viscosityTolerance = scene.settings.solver.pressureTolerance = 1.0e-12;
-    Simulation simulation = moving(
-        scene, [](const Vec3& x) { return Vec3(10.0 + 30.0 * x.y(), -20.0 + 50.0 * x.z() * x.x(), 40.0 * x.x()); });
+    Simulation simulation = moving(scene, [](const Vec3& x) { return Vec3(10.0 + 30.0 * x.y(), -20.0 + 50.0 * x.z() * x.x(), 40.0 * x.x()); });
     const auto momentum = [&] {
         Vec3 sum = Vec3::Zero();
         const LiquidParticles& liquid = simulation.state().liquid;

@@ -24,8 +24,7 @@ double energyKept(const Transfer& transfer)
 /// What is left in the periodic flow of which the box is a part, by the two-dimensional study of the time splitting.
 TEST(TaylorGreen, KeepsTheEnergyOfThePeriodicVortex)
 {
-    const double pic = energyKept(kPic), apic = energyKept(kApic), poly8 = energyKept(kPoly8),
-                 poly27 = energyKept(kPoly27);
+    const double pic = energyKept(kPic), apic = energyKept(kApic), poly8 = energyKept(kPoly8), poly27 = energyKept(kPoly27);
     EXPECT_LT(pic, 0.01);
     EXPECT_NEAR(apic, 0.867, 0.015);
     EXPECT_NEAR(poly8, 0.940, 0.015);
@@ -93,8 +92,8 @@ double largestChange(const Transfer& transfer, TimeIntegrator integrator, double
         worst = std::max(worst, (now - last).norm() / start.norm());
         last = now;
     }
-    std::printf("%s, cell %.1f, dt %.3f: angular momentum changes by up to %.2e per step, by %.2e in 20\n",
-                transfer.name.c_str(), cell, dt, worst, (last - start).norm() / start.norm());
+    std::printf("%s, cell %.1f, dt %.3f: angular momentum changes by up to %.2e per step, by %.2e in 20\n", transfer.name.c_str(), cell, dt, worst,
+                (last - start).norm() / start.norm());
     return worst;
 }
 

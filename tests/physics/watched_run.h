@@ -16,13 +16,13 @@ class WatchedRun {
  public:
     struct Seen {
         bool isFinite = true;
-        int flipped = 0, undecided = 0;        ///< crossings of yarns, the most at one look
-        int pierced = 0;                       ///< faces of cloth
-        double spare = std::numeric_limits<double>::infinity();     ///< Crossings::Nearness, the least [cm]
-        double nearest = std::numeric_limits<double>::infinity();   ///< of d / (r_A + r_B)
+        int flipped = 0, undecided = 0;                            ///< crossings of yarns, the most at one look
+        int pierced = 0;                                           ///< faces of cloth
+        double spare = std::numeric_limits<double>::infinity();    ///< Crossings::Nearness, the least [cm]
+        double nearest = std::numeric_limits<double>::infinity();  ///< of d / (r_A + r_B)
         int halvings = 0, shortened = 0;
-        double leastShare = 1.0;               ///< of its way that a vertex was let go
-        std::vector<double> milliseconds;      ///< of every step
+        double leastShare = 1.0;           ///< of its way that a vertex was let go
+        std::vector<double> milliseconds;  ///< of every step
     };
 
     /// @param up  across the fabric at rest, for yarns
@@ -71,8 +71,7 @@ class WatchedRun {
             seen_.spare = std::min(seen_.spare, spare);
             seen_.nearest = std::min(seen_.nearest, relative);
         }
-        if (simulation_.fabric().faces.size() > 0)
-            seen_.pierced = std::max(seen_.pierced, piercedFaces(simulation_.fabric(), x));
+        if (simulation_.fabric().faces.size() > 0) seen_.pierced = std::max(seen_.pierced, piercedFaces(simulation_.fabric(), x));
     }
 
     Simulation simulation_;

@@ -99,8 +99,7 @@ State permuted(const State& state, unsigned seed)
         result.liquid.id[p] = state.liquid.id[from[p]];
         for (int a = 0; a < kAxes; ++a) {
             result.liquid.x[a][p] = state.liquid.x[a][from[p]];
-            for (int r = 0; r < state.liquid.modeCount; ++r)
-                result.liquid.mode(a, r)[p] = state.liquid.mode(a, r)[from[p]];
+            for (int r = 0; r < state.liquid.modeCount; ++r) result.liquid.mode(a, r)[p] = state.liquid.mode(a, r)[from[p]];
         }
     }
     return result;

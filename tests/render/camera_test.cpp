@@ -85,8 +85,7 @@ TEST(Camera, FrameOfTheBoundsContainsAllParticles)
     view.liquid.positions = positions;
     const Camera camera = frameBox(bounds(view), 1.5, orbitCamera(Vector3d::Zero(), 1.0, 20.0, 10.0));
     for (const Eigen::Vector3f& x : positions) {
-        const Eigen::Vector4d clip = projection(camera, 1.5, 0.1, 1000.0) *
-                                     (viewTransform(camera) * x.cast<double>()).homogeneous();
+        const Eigen::Vector4d clip = projection(camera, 1.5, 0.1, 1000.0) * (viewTransform(camera) * x.cast<double>()).homogeneous();
         EXPECT_LT(std::abs(clip.x()), clip.w());
         EXPECT_LT(std::abs(clip.y()), clip.w());
     }

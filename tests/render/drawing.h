@@ -34,7 +34,7 @@ struct Drawing {
     std::vector<Eigen::Vector3f> positions;
     std::vector<float> values;
     std::vector<render::FrameView::Mesh> meshes;
-    float radius = 1.0f;                           ///< of every particle [cm]
+    float radius = 1.0f;  ///< of every particle [cm]
     render::Camera camera;
     render::Look look;
 };
@@ -43,8 +43,7 @@ struct Drawing {
 struct CubeMesh {
     explicit CubeMesh(float half)
     {
-        for (int i = 0; i < 8; ++i)
-            positions.emplace_back((i & 1 ? half : -half), (i & 2 ? half : -half), (i & 4 ? half : -half));
+        for (int i = 0; i < 8; ++i) positions.emplace_back((i & 1 ? half : -half), (i & 2 ? half : -half), (i & 4 ? half : -half));
         triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                      {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
     }

@@ -24,9 +24,7 @@ double volume(const Mesh& mesh)
 {
     double sum = 0.0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const auto corner = [&](std::size_t k) {
-            return mesh.vertices[mesh.indices[i + k]].position.template cast<double>().eval();
-        };
+        const auto corner = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]].position.template cast<double>().eval(); };
         sum += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
     }
     return sum;
@@ -37,9 +35,7 @@ template <class Mesh>
 bool isClosed(const Mesh& mesh)
 {
     std::map<std::array<long, 6>, int> balance;
-    const auto place = [&](std::uint32_t v) {
-        return (1.0e4f * mesh.vertices[v].position).array().round().template cast<long>().eval();
-    };
+    const auto place = [&](std::uint32_t v) { return (1.0e4f * mesh.vertices[v].position).array().round().template cast<long>().eval(); };
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = place(mesh.indices[i + k]), b = place(mesh.indices[i + (k + 1) % 3]);
@@ -134,8 +130,7 @@ TEST(ClothMesh, IsAClosedBodyOfItsThickness)
 {
     FakeDrape drape(20, 4.0f, 0.1f);
     for (Vector3f& x : drape.positions) x.y() = 0.0f;  // flat again …
-    for (int i = 0; i < 400; ++i)
-        drape.positions[i] = {0.2f * static_cast<float>(i % 20), 0.0f, 0.2f * static_cast<float>(i / 20)};
+    for (int i = 0; i < 400; ++i) drape.positions[i] = {0.2f * static_cast<float>(i % 20), 0.0f, 0.2f * static_cast<float>(i / 20)};
     ClothMesh mesh;
     makeClothMesh(drape.cloth(), mesh);
     EXPECT_TRUE(isClosed(mesh));

@@ -40,10 +40,7 @@ struct FabricDrawing : Drawing {
         view.yarns = yarns, view.cloth = cloth, view.obstacles = meshes;
         return renderer.draw(view, camera, look);
     }
-    double pixelsPerCm() const
-    {
-        return 0.5 * look.height / std::tan(0.5 * camera.fovDegrees * std::numbers::pi / 180.0) / camera.eye.norm();
-    }
+    double pixelsPerCm() const { return 0.5 * look.height / std::tan(0.5 * camera.fovDegrees * std::numbers::pi / 180.0) / camera.eye.norm(); }
 };
 
 struct FlatCloth {
@@ -51,12 +48,10 @@ struct FlatCloth {
     {
         for (int j = 0; j < 9; ++j)
             for (int i = 0; i < 9; ++i) {
-                positions.push_back((static_cast<float>(i) / 4.0f - 1.0f) * u +
-                                    (static_cast<float>(j) / 4.0f - 1.0f) * v);
+                positions.push_back((static_cast<float>(i) / 4.0f - 1.0f) * u + (static_cast<float>(j) / 4.0f - 1.0f) * v);
                 values.push_back(static_cast<float>(i) / 8.0f);
                 if (i < 8 && j < 8)
-                    triangles.insert(triangles.end(), {{9 * j + i, 9 * j + i + 1, 9 * j + i + 10},
-                                                       {9 * j + i, 9 * j + i + 10, 9 * j + i + 9}});
+                    triangles.insert(triangles.end(), {{9 * j + i, 9 * j + i + 1, 9 * j + i + 10}, {9 * j + i, 9 * j + i + 10, 9 * j + i + 9}});
             }
         thickness.assign(positions.size(), t), materials.assign(positions.size(), 0);
     }
@@ -117,13 +112,10 @@ TEST(DrawYarns, ColorsFollowValuesAndMaterials)
 TEST(DrawCloth, IsSeenFromBothSides)
 {
     FabricDrawing drawing;
-    const FlatCloth front(Vector3f::UnitX(), Vector3f::UnitY(), 0.02f),
-        back(Vector3f::UnitY(), Vector3f::UnitX(), 0.02f);
+    const FlatCloth front(Vector3f::UnitX(), Vector3f::UnitY(), 0.02f), back(Vector3f::UnitY(), Vector3f::UnitX(), 0.02f);
     const double area = std::pow(2.0 * drawing.pixelsPerCm(), 2.0);
-    for (const FlatCloth& cloth : {front, back})
-        EXPECT_NEAR(countUnlike(drawing.draw({}, cloth.view()), kWhite), area, 0.03 * area);
-    EXPECT_NE(drawing.draw({}, front.view()).color(160, 90), drawing.draw({}, back.view()).color(160, 90))
-        << "the sides differ a little";
+    for (const FlatCloth& cloth : {front, back}) EXPECT_NEAR(countUnlike(drawing.draw({}, cloth.view()), kWhite), area, 0.03 * area);
+    EXPECT_NE(drawing.draw({}, front.view()).color(160, 90), drawing.draw({}, back.view()).color(160, 90)) << "the sides differ a little";
 }
 
 TEST(DrawCloth, HasItsThicknessEdgeOn)
@@ -161,8 +153,7 @@ TEST(DrawOcclusion, DarkensWhereAYarnLiesOnCloth)
     const FlatCloth cloth(3.0f * Vector3f::UnitX(), 2.0f * Vector3f::UnitY(), 0.02f);
     FakeYarns yarns = straightYarn(0.3f, 0.3f, Vector3f::UnitY());
     for (Vector3f& x : yarns.positions) x.z() = 0.3f;
-    const int beside = 90 + static_cast<int>(0.36 * drawing.pixelsPerCm()),
-              away = 90 + static_cast<int>(1.6 * drawing.pixelsPerCm());
+    const int beside = 90 + static_cast<int>(0.36 * drawing.pixelsPerCm()), away = 90 + static_cast<int>(1.6 * drawing.pixelsPerCm());
     const Image image = drawing.draw(yarns.view(), cloth.view());
     EXPECT_LT(image.color(160, beside).g, 0.9 * image.color(160, away).g);
 }

@@ -10,11 +10,11 @@
 /// left and splashes up its wall. Same numbers on every machine.
 struct FakeDamBreak {
     std::vector<Eigen::Vector3f> positions;
-    std::vector<float> speeds;                     ///< [cm/s]
+    std::vector<float> speeds;  ///< [cm/s]
     std::vector<Eigen::Vector3f> tankPositions;
     std::vector<Eigen::Vector3i> tankTriangles;
     std::vector<render::FrameView::Mesh> meshes;
-    float radius = 0.0f;                           ///< [cm]
+    float radius = 0.0f;  ///< [cm]
 
     /// @param spacing  between particles [cm]
     explicit FakeDamBreak(float spacing);
@@ -33,17 +33,15 @@ inline float noise(std::uint32_t seed)
 }
 
 /// A box with edges rounded by `round`: the corners of a subdivided cube pushed onto it.
-inline void addRoundedBox(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float round, int arcSteps,
-                          std::vector<Eigen::Vector3f>& positions, std::vector<Eigen::Vector3i>& triangles)
+inline void addRoundedBox(const Eigen::Vector3f& low, const Eigen::Vector3f& high, float round, int arcSteps, std::vector<Eigen::Vector3f>& positions,
+                          std::vector<Eigen::Vector3i>& triangles)
 {
     // Along each axis of a face: an arc, one flat piece, an arc.
     std::vector<float> angle;
     const float quarter = 0.785398163f;
     for (int i = 0; i <= arcSteps; ++i) angle.push_back(-quarter + quarter * static_cast<float>(i) / static_cast<float>(arcSteps));
     const int n = static_cast<int>(2 * angle.size());
-    const auto tangent = [&](int i) {
-        return i < n / 2 ? std::tan(angle[i]) : -std::tan(angle[n - 1 - i]);
-    };
+    const auto tangent = [&](int i) { return i < n / 2 ? std::tan(angle[i]) : -std::tan(angle[n - 1 - i]); };
     const Eigen::Vector3f center = 0.5f * (low + high), half = 0.5f * (high - low) - Eigen::Vector3f::Constant(round);
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.0f, 1.0f}) {
@@ -72,7 +70,7 @@ inline FakeDamBreak::FakeDamBreak(float spacing) : radius(0.6f * spacing)
     addRoundedBox(low, high, 0.72f, 5, tankPositions, tankTriangles);
     meshes.push_back({tankPositions, tankTriangles, true});
 
-    const auto surface = [](float x, float z) {    // height of the liquid over the floor
+    const auto surface = [](float x, float z) {  // height of the liquid over the floor
         const float remaining = 9.5f / (1.0f + std::exp(-(x + 1.0f) / 2.2f));
         const float tongue = 1.9f + 0.25f * std::sin(1.1f * x) + 0.15f * std::sin(3.1f * z + 0.7f * x);
         const float wall = 13.0f * std::exp(-(x + 22.32f) / 0.9f);

@@ -19,8 +19,8 @@ inline void addBall(const Eigen::Vector3f& center, float radius, int rings, std:
         for (int j = 0; j <= sectors; ++j) {
             const float polar = pi * static_cast<float>(i) / static_cast<float>(rings);
             const float turn = 2.0f * pi * static_cast<float>(j % sectors) / static_cast<float>(sectors);
-            positions.push_back(center + radius * Eigen::Vector3f(std::sin(polar) * std::sin(turn), std::cos(polar),
-                                                                  std::sin(polar) * std::cos(turn)));
+            positions.push_back(center +
+                                radius * Eigen::Vector3f(std::sin(polar) * std::sin(turn), std::cos(polar), std::sin(polar) * std::cos(turn)));
         }
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < sectors; ++j) {
@@ -78,14 +78,10 @@ struct FakeSheet {
                 }
                 yarns.endStrand(radius, radius, direction);
             }
-        addBall({0.0f, -depth + ball * std::cos(contact) + 2.0f * radius, 0.0f}, ball, 48, ballPositions,
-                ballTriangles);
+        addBall({0.0f, -depth + ball * std::cos(contact) + 2.0f * radius, 0.0f}, ball, 48, ballPositions, ballTriangles);
         meshes.push_back({ballPositions, ballTriangles, false});
     }
-    render::FrameView view() const
-    {
-        return {.time = 0.25, .liquid = {}, .obstacles = meshes, .yarns = yarns.view(), .cloth = {}};
-    }
+    render::FrameView view() const { return {.time = 0.25, .liquid = {}, .obstacles = meshes, .yarns = yarns.view(), .cloth = {}}; }
 };
 
 /// A square cloth of `count` x `count` vertices that hangs over a ball in folds.
@@ -120,15 +116,11 @@ struct FakeDrape {
     {
         const float s = std::hypot(u, v), turn = std::atan2(v, u), polar = std::min(s / ball, leave);
         const float hanging = std::max(0.0f, s - leave * ball);
-        const float fold = 0.24f * hanging * hanging / (0.8f + hanging + 0.15f * hanging * hanging) *
-                           (std::cos(8.0f * turn) + 0.3f * std::sin(5.0f * turn + 1.0f));
-        const float out = ball * std::sin(polar) + 0.25f * hanging * std::exp(-0.1f * hanging) +
-                          0.45f * (1.0f - std::exp(-1.5f * hanging)) + fold;
+        const float fold =
+            0.24f * hanging * hanging / (0.8f + hanging + 0.15f * hanging * hanging) * (std::cos(8.0f * turn) + 0.3f * std::sin(5.0f * turn + 1.0f));
+        const float out = ball * std::sin(polar) + 0.25f * hanging * std::exp(-0.1f * hanging) + 0.45f * (1.0f - std::exp(-1.5f * hanging)) + fold;
         return {out * std::cos(turn), ball * std::cos(polar) - 0.93f * hanging, out * std::sin(turn)};
     }
     render::FrameView::Cloth cloth() const { return {positions, triangles, thickness, materials, values}; }
-    render::FrameView view() const
-    {
-        return {.time = 0.5, .liquid = {}, .obstacles = meshes, .yarns = {}, .cloth = cloth()};
-    }
+    render::FrameView view() const { return {.time = 0.5, .liquid = {}, .obstacles = meshes, .yarns = {}, .cloth = cloth()}; }
 };

@@ -10,8 +10,7 @@ struct FakeLiquidSurface {
         const std::size_t before = triangles.size();
         ::addBall(center, radius, rings, positions, triangles);
         for (std::size_t t = before; t < triangles.size(); ++t) triangles[t].array() += first;
-        for (std::size_t v = normals.size(); v < positions.size(); ++v)
-            normals.push_back((positions[v] - center).normalized());
+        for (std::size_t v = normals.size(); v < positions.size(); ++v) normals.push_back((positions[v] - center).normalized());
     }
     render::FrameView::LiquidSurface view() const { return {positions, normals, values, triangles}; }
 

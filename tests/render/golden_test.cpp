@@ -38,8 +38,8 @@ void expectLikeGolden(const Image& actual, const std::string& name)
     if (sameSize) writePng(differenceImage(actual, expected), folder / "diff.png");
     ADD_FAILURE() << name << ": mean similarity " << difference.similarity.mean << ", lowest " << difference.similarity.lowest << " at ("
                   << difference.similarity.x << ", " << difference.similarity.y << "), share of pixels that differ " << difference.color.share
-                  << (sameSize ? "" : "; another size") << "\n  expected " << golden << "\n  actual   "
-                  << folder / "actual.png" << "\n  diff     " << folder / "diff.png"
+                  << (sameSize ? "" : "; another size") << "\n  expected " << golden << "\n  actual   " << folder / "actual.png"
+                  << "\n  diff     " << folder / "diff.png"
                   << "\n  to accept the new picture: DRENCH_ACCEPT_GOLDENS=1";
 }
 

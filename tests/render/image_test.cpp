@@ -21,8 +21,8 @@ Image testCard(int width = 61, int height = 37)
     Image image(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            fill(image, {x, y, 1, 1}, {static_cast<std::uint8_t>(x * 4), static_cast<std::uint8_t>(y * 6),
-                                       static_cast<std::uint8_t>((x * 31 + y * 17) % 256)});
+            fill(image, {x, y, 1, 1},
+                 {static_cast<std::uint8_t>(x * 4), static_cast<std::uint8_t>(y * 6), static_cast<std::uint8_t>((x * 31 + y * 17) % 256)});
     return image;
 }
 

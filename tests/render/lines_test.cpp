@@ -13,21 +13,14 @@ constexpr Rgb kWhite = {255, 255, 255};
 struct LineDrawing : Drawing {
     Image draw()
     {
-        const FrameView::Lines lines = {.points = points,
-                                        .color = {1.0f, 0.0f, 0.0f},
-                                        .width = width,
-                                        .isTapered = isTapered,
-                                        .rim = rim,
-                                        .lift = lift};
+        const FrameView::Lines lines = {
+            .points = points, .color = {1.0f, 0.0f, 0.0f}, .width = width, .isTapered = isTapered, .rim = rim, .lift = lift};
         FrameView all = view();
         all.lines = {&lines, 1};
         return renderer.draw(all, camera, look);
     }
     /// In the plane through the origin that faces the camera.
-    double pixelsPerCm() const
-    {
-        return 0.5 * look.height / std::tan(0.5 * camera.fovDegrees * std::numbers::pi / 180.0) / 10.0;
-    }
+    double pixelsPerCm() const { return 0.5 * look.height / std::tan(0.5 * camera.fovDegrees * std::numbers::pi / 180.0) / 10.0; }
 
     std::vector<Vector3f> points = {{-1.5f, 1.0f, 0.0f}, {1.5f, 1.0f, 0.0f}};
     float width = 16.0f;  ///< 4 pixels in a picture of 180
@@ -159,10 +152,9 @@ TEST(Lines, HaveARim)
 TEST(Lines, HideNothing)
 {
     Drawing drawing;
-    const std::array<Vector3f, 2> near = {{{-1.0f, 0.0f, 2.0f}, {1.0f, 0.0f, 2.0f}}},
-                                  far = {{{0.0f, -1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}};
-    const std::array<FrameView::Lines, 2> lines = {{{.points = near, .color = {1.0f, 0.0f, 0.0f}, .width = 16.0f},
-                                                    {.points = far, .color = {0.0f, 0.0f, 1.0f}, .width = 16.0f}}};
+    const std::array<Vector3f, 2> near = {{{-1.0f, 0.0f, 2.0f}, {1.0f, 0.0f, 2.0f}}}, far = {{{0.0f, -1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}};
+    const std::array<FrameView::Lines, 2> lines = {
+        {{.points = near, .color = {1.0f, 0.0f, 0.0f}, .width = 16.0f}, {.points = far, .color = {0.0f, 0.0f, 1.0f}, .width = 16.0f}}};
     FrameView view = drawing.view();
     view.lines = lines;
     const Image image = drawing.renderer.draw(view, drawing.camera, drawing.look);

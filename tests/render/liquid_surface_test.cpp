@@ -29,10 +29,7 @@ struct BallDrawing : Drawing {
     FakeLiquidSurface surface;
 };
 
-int brightness(const Rgb& color)
-{
-    return color.r + color.g + color.b;
-}
+int brightness(const Rgb& color) { return color.r + color.g + color.b; }
 
 TEST(LiquidSurface, CoversTheAreaOfItsOutlineAndNoParticles)
 {

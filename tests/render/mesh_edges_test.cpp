@@ -12,10 +12,7 @@ namespace {
 using namespace render;
 using Eigen::Vector3f;
 
-long sharpEdges(const MeshEdges& outline)
-{
-    return std::ranges::count_if(outline.edges, &MeshEdges::Edge::isSharp);
-}
+long sharpEdges(const MeshEdges& outline) { return std::ranges::count_if(outline.edges, &MeshEdges::Edge::isSharp); }
 
 TEST(MeshEdges, CubeHasTwelve)
 {

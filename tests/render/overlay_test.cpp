@@ -58,9 +58,7 @@ TEST(Overlay, ColorBarRunsFromOneEndOfTheMapToTheOther)
     const ColorBar bar = {ColorMap::Viridis, {0.0f, 150.0f}, "speed [cm/s]"};
     const PixelBox box = drawColorBar(image, Font(), bar, inkOn(kPaper));
     const ColorTable table = colorTable(ColorMap::Viridis);
-    const auto expectLike = [](Rgb a, Rgb b) {
-        EXPECT_LE(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b), 3);
-    };
+    const auto expectLike = [](Rgb a, Rgb b) { EXPECT_LE(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b), 3); };
     expectLike(image.color(box.x, box.y), toRgb(table.back()));
     expectLike(image.color(box.x + box.width - 1, box.y + box.height - 1), toRgb(table.front()));
 
@@ -115,8 +113,7 @@ TEST(Compose, PanelsStayAsTheyAreAndSizesAreEven)
             for (int i = 0; i < count; ++i) {
                 const PixelBox& box = composed.panels[i];
                 for (int y = 0; y < box.height; ++y)
-                    for (int x = 0; x < box.width; ++x)
-                        ASSERT_EQ(composed.image.color(box.x + x, box.y + y), images[i].color(x, y));
+                    for (int x = 0; x < box.width; ++x) ASSERT_EQ(composed.image.color(box.x + x, box.y + y), images[i].color(x, y));
             }
         }
 }

@@ -90,8 +90,7 @@ TEST(Renderer, MirroredSceneGivesTheMirroredPicture)
     const Image mirrored = drawing.draw();
     int different = 0;
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            different += image.color(x, y) != mirrored.color(image.width - 1 - x, y);
+        for (int x = 0; x < image.width; ++x) different += image.color(x, y) != mirrored.color(image.width - 1 - x, y);
     EXPECT_LE(different, 6) << "pixel centres that fall on an outline may go either way";
     EXPECT_GT(countUnlike(image, kWhite), 80);
 }

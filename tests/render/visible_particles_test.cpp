@@ -16,7 +16,11 @@ ViewTransforms transformsOf(const Drawing& drawing)
     const float zNear = 5.0f, zFar = 20.0f;
     return {viewTransform(drawing.camera).matrix().cast<float>(),
             projection(drawing.camera, static_cast<double>(drawing.look.width) / drawing.look.height, zNear, zFar).cast<float>(),
-            drawing.camera.eye.cast<float>(), zNear, zFar, drawing.look.width, drawing.look.height};
+            drawing.camera.eye.cast<float>(),
+            zNear,
+            zFar,
+            drawing.look.width,
+            drawing.look.height};
 }
 
 /// A block of 15^3 particles that touch, stirred, about the origin.
@@ -49,8 +53,8 @@ TEST_P(HiddenParticles, MakeNoDifferenceToThePicture)
     Drawing drawing;
     drawing.look.samples = samples;
     addBlock(drawing, spacing);
-    drawing.add({0.0f, 0.0f, 9.99f}, 30.0f);       // about the eye
-    drawing.add({3.6f, 0.0f, 0.0f}, 30.0f);        // across an edge of the picture
+    drawing.add({0.0f, 0.0f, 9.99f}, 30.0f);  // about the eye
+    drawing.add({3.6f, 0.0f, 0.0f}, 30.0f);   // across an edge of the picture
     const Image every = drawing.draw();
     addNowhere(drawing);
     EXPECT_TRUE(drawing.draw() == every);
@@ -74,9 +78,9 @@ TEST(VisibleParticles, MostOfABlockIsHidden)
 TEST(VisibleParticles, OneBehindAnotherIsLeftOutAndOneBesideItStays)
 {
     Drawing drawing;
-    drawing.add({0.0f, 0.0f, 0.5f}, 1.0f);         // in front of the next
+    drawing.add({0.0f, 0.0f, 0.5f}, 1.0f);  // in front of the next
     drawing.add({0.0f, 0.0f, -0.5f}, 2.0f);
-    drawing.add({0.9f, 0.0f, -0.5f}, 3.0f);        // looks out behind the first
+    drawing.add({0.9f, 0.0f, -0.5f}, 3.0f);  // looks out behind the first
     drawing.add({3.0f, 0.0f, -0.5f}, 4.0f);
     addNowhere(drawing);
     VisibleParticles visible;

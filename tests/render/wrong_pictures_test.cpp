@@ -17,10 +17,10 @@ using namespace render;
 
 /// A dam break in its tank, and a weave under a ball, as they should be.
 struct Stage {
-    FakeDamBreak dam{1.0f};                        ///< of particles several pixels across
+    FakeDamBreak dam{1.0f};  ///< of particles several pixels across
     FakeSheet sheet{24};
     Drawing drawing;
-    FrameView view;                                ///< borrows from the others
+    FrameView view;  ///< borrows from the others
     bool isFabric = false;
 
     explicit Stage(bool fabric) : isFabric(fabric)
@@ -51,7 +51,10 @@ void fallOn(Stage& stage)
 
 const Wrong kWrongPictures[] = {
     {"ObstacleMissing", false, [](Stage& s) { s.view.obstacles = {}; }},
-    {"ColorBarShiftedByOneTick", false, [](Stage& s) { s.drawing.look.liquid.range = {50.0f, 250.0f}; }},
+    {"ColorBarShiftedByOneTick", false,
+     [](Stage& s) {
+         s.drawing.look.liquid.range = {50.0f, 250.0f};
+     }},
     {"ParticlesHalfAsLarge", false, [](Stage& s) { s.drawing.look.liquid.radiusFactor = 0.5f; }},
     {"WrongColorMap", false, [](Stage& s) { s.drawing.look.liquid.colorMap = ColorMap::Turbo; }},
     {"OneFrameLate", false, fallOn},

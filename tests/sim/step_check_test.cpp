@@ -98,7 +98,7 @@ TEST(StepCheck, LetsPinsDrive)
     Sample driven(pull);
     driven.report.energies.fabric.membrane += 1.0e6;  // wound up by the pin
     EXPECT_FALSE(driven.rash());
-    driven.report.energies.fabric.kinetic += 1.0e8;   // far more than being thrown at the pin's speed
+    driven.report.energies.fabric.kinetic += 1.0e8;  // far more than being thrown at the pin's speed
     EXPECT_TRUE(driven.rash());
 }
 

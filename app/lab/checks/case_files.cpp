@@ -24,10 +24,8 @@ std::vector<fs::path> caseFiles(const fs::path& folder, const std::vector<std::s
     for (const auto& file : files) known.push_back(file.stem().string());
     for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end())
-            throw sim::InputError(fmt::format("{}: there is no case {}: there are {}", folder.filename().string(), name,
-                                              fmt::join(known, ", ")));
-    std::erase_if(files,
-                  [&](const auto& file) { return std::ranges::find(names, file.stem().string()) == names.end(); });
+            throw sim::InputError(fmt::format("{}: there is no case {}: there are {}", folder.filename().string(), name, fmt::join(known, ", ")));
+    std::erase_if(files, [&](const auto& file) { return std::ranges::find(names, file.stem().string()) == names.end(); });
     return files;
 }
 

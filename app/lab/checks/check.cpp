@@ -11,8 +11,7 @@ double Check::expectedAt(double time, double at) const
 {
     if (expect) return (*expect)(std::array{time});
     const auto after = std::ranges::lower_bound(table, at, {}, [](const auto& row) { return row[0]; });
-    if (after == table.end() || (after == table.begin() && at < table.front()[0]))
-        return std::numeric_limits<double>::quiet_NaN();
+    if (after == table.end() || (after == table.begin() && at < table.front()[0])) return std::numeric_limits<double>::quiet_NaN();
     if (after == table.begin()) return table.front()[1];
     const auto before = std::prev(after);
     return (*before)[1] + ((*after)[1] - (*before)[1]) * (at - (*before)[0]) / ((*after)[0] - (*before)[0]);

@@ -29,10 +29,7 @@ struct Check {
     std::optional<double> atMost = {}, atLeast = {};
 
     /// Is what its readings are compared with known at each of them?
-    bool hasCurve() const
-    {
-        return take == Take::MeanError || take == Take::LargestError || take == Take::RmsError;
-    }
+    bool hasCurve() const { return take == Take::MeanError || take == Take::LargestError || take == Take::RmsError; }
     /// NaN beyond the table, and where nothing is expected.
     double expectedAt(double time, double at) const;
 };

@@ -17,13 +17,10 @@ Take takeIn(const Node& node, const std::string& path)
 
 std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& path)
 {
-    if (!node.isList() || node.items.empty())
-        sim::fail(node.place, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
+    if (!node.isList() || node.items.empty()) sim::fail(node.place, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
     std::vector<std::array<double, 2>> table;
-    for (const Node& row : node.items)
-        sim::readNumbers(row, path, table.emplace_back(), sim::Quantity::None, sim::Range::any());
-    if (!std::ranges::is_sorted(table, {}, [](const auto& row) { return row[0]; }))
-        sim::fail(node.place, path + ": its first numbers must ascend");
+    for (const Node& row : node.items) sim::readNumbers(row, path, table.emplace_back(), sim::Quantity::None, sim::Range::any());
+    if (!std::ranges::is_sorted(table, {}, [](const auto& row) { return row[0]; })) sim::fail(node.place, path + ": its first numbers must ascend");
     return table;
 }
 
@@ -33,8 +30,8 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
 {
     sim::SectionReader section(node, path);
     sim::SectionReader::read(&node, path, [](auto& v) {
-        for (const char* key : {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table",
-                                "tolerance", "within", "at_most", "at_least"})
+        for (const char* key :
+             {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table", "tolerance", "within", "at_most", "at_least"})
             v.other(key, "");
     });
     section.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
@@ -53,8 +50,7 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
     check.to = constant("to").value_or(check.to);
     check.level = constant("level").value_or(check.level);
     if (const Node* at = section.find("take")) check.take = takeIn(*at, section.pathOf("take"));
-    if (const Node* at = section.find("expect"))
-        check.expect = readFormula(*at, section.pathOf("expect"), context.known);
+    if (const Node* at = section.find("expect")) check.expect = readFormula(*at, section.pathOf("expect"), context.known);
     if (const Node* at = section.find("table")) check.table = tableIn(*at, section.pathOf("table"));
     check.tolerance = constant("tolerance");
     check.within = constant("within");

@@ -14,8 +14,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double mean(std::span<const Reading> all)
 {
-    return std::accumulate(all.begin(), all.end(), 0.0, [](double sum, const Reading& r) { return sum + r.value; }) /
-           static_cast<double>(all.size());
+    return std::accumulate(all.begin(), all.end(), 0.0, [](double sum, const Reading& r) { return sum + r.value; }) / static_cast<double>(all.size());
 }
 
 /// Slope of the straight line through points.
@@ -37,8 +36,7 @@ double slopeOfLogarithm(std::span<const Reading> all, bool isOfBoth)
 {
     std::vector<Reading> logarithms;
     for (const Reading& r : all)
-        if (!isOfBoth || (r.at > 0.0 && r.value > 0.0))
-            logarithms.push_back({isOfBoth ? std::log(r.at) : r.at, std::log(std::abs(r.value)), 0.0});
+        if (!isOfBoth || (r.at > 0.0 && r.value > 0.0)) logarithms.push_back({isOfBoth ? std::log(r.at) : r.at, std::log(std::abs(r.value)), 0.0});
     return slope(logarithms);
 }
 
@@ -56,8 +54,7 @@ Swings swingsOf(std::span<const Reading> all)
     for (std::size_t i = 1; i < all.size(); ++i) {
         const double before = all[i - 1].value - level, now = all[i].value - level;
         if ((before < 0.0) != (now < 0.0)) {
-            if (!swings.passings.empty())
-                swings.peaks.push_back(peak);  // before the first passing it may be part of one only
+            if (!swings.passings.empty()) swings.peaks.push_back(peak);  // before the first passing it may be part of one only
             swings.passings.push_back(all[i - 1].at + (all[i].at - all[i - 1].at) * before / (before - now));
             peak = {};
         }
@@ -94,8 +91,7 @@ double reach(std::span<const Reading> all, double level)
 {
     for (std::size_t i = 1; i < all.size(); ++i) {
         const Reading &before = all[i - 1], &now = all[i];
-        if (before.value < level && now.value >= level)
-            return before.at + (now.at - before.at) * (level - before.value) / (now.value - before.value);
+        if (before.value < level && now.value >= level) return before.at + (now.at - before.at) * (level - before.value) / (now.value - before.value);
     }
     return kNone;
 }
@@ -107,38 +103,24 @@ double take(Take what, std::span<const Reading> all, double level)
     if (all.empty()) return kNone;
     const auto byValue = [](const Reading& a, const Reading& b) { return a.value < b.value; };
     switch (what) {
-        case Take::First:
-            return all.front().value;
-        case Take::Last:
-            return all.back().value;
-        case Take::Mean:
-            return mean(all);
-        case Take::Smallest:
-            return std::ranges::min_element(all, byValue)->value;
-        case Take::Largest:
-            return std::ranges::max_element(all, byValue)->value;
-        case Take::Change:
-            return all.back().value - all.front().value;
-        case Take::Slope:
-            return slope(all);
-        case Take::Exponent:
-            return slopeOfLogarithm(all, true);
-        case Take::Rate:
-            return -slopeOfLogarithm(all, false);
-        case Take::EnvelopeRate:
-            return -slopeOfLogarithm(swingsOf(all).peaks, false);
-        case Take::Period:
-            return period(all);
+        case Take::First: return all.front().value;
+        case Take::Last: return all.back().value;
+        case Take::Mean: return mean(all);
+        case Take::Smallest: return std::ranges::min_element(all, byValue)->value;
+        case Take::Largest: return std::ranges::max_element(all, byValue)->value;
+        case Take::Change: return all.back().value - all.front().value;
+        case Take::Slope: return slope(all);
+        case Take::Exponent: return slopeOfLogarithm(all, true);
+        case Take::Rate: return -slopeOfLogarithm(all, false);
+        case Take::EnvelopeRate: return -slopeOfLogarithm(swingsOf(all).peaks, false);
+        case Take::Period: return period(all);
         case Take::MeanError: {
             const auto of = errors(all);
             return std::accumulate(of.begin(), of.end(), 0.0) / static_cast<double>(of.size());
         }
-        case Take::LargestError:
-            return std::ranges::max(errors(all));
-        case Take::RmsError:
-            return rmsError(all);
-        case Take::Reach:
-            return reach(all, level);
+        case Take::LargestError: return std::ranges::max(errors(all));
+        case Take::RmsError: return rmsError(all);
+        case Take::Reach: return reach(all, level);
     }
     return kNone;
 }

@@ -32,9 +32,9 @@ enum class Take {
 };
 
 /// As scene files write them, in the order of Take.
-inline constexpr std::array<std::string_view, 15> kTakes = {
-    "first",    "last", "mean",          "smallest", "largest",    "change",        "slope",
-    "exponent", "rate", "envelope_rate", "period",   "mean_error", "largest_error", "rms_error", "reach"};
+inline constexpr std::array<std::string_view, 15> kTakes = {"first",  "last",       "mean",          "smallest",  "largest",
+                                                            "change", "slope",      "exponent",      "rate",      "envelope_rate",
+                                                            "period", "mean_error", "largest_error", "rms_error", "reach"};
 
 /// NaN where there are too few readings for it.
 /// @param level  of Take::Reach

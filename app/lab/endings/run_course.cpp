@@ -83,7 +83,8 @@ double fastestSolid(const sim::Scene& scene, double duration)
         if (obstacle.motion.isStatic()) continue;
         const Eigen::AlignedBox3d box = obstacle.shape.bounds();
         for (int n = 0; n < kParts; ++n) {
-            const Eigen::Isometry3d from = obstacle.motion.transform(n * duration / kParts), to = obstacle.motion.transform((n + 1) * duration / kParts);
+            const Eigen::Isometry3d from = obstacle.motion.transform(n * duration / kParts),
+                                    to = obstacle.motion.transform((n + 1) * duration / kParts);
             for (int c = 0; c < 8; ++c) {
                 const sim::Vec3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
                 farthest = std::max(farthest, (to * corner - from * corner).norm());
@@ -102,7 +103,8 @@ double fastestDrawn(const sim::Scene& scene)
     if (settings.coupling.capillary)
         for (const sim::FabricPiece& piece : scene.fabrics) {
             const double fraction = piece.material.volumeFraction;
-            suction = std::max(suction, kAlong * sim::PorousLaw({settings.porous.fibreDiameter, fraction}, settings.liquid, settings.coupling).suction(fraction));
+            suction = std::max(
+                suction, kAlong * sim::PorousLaw({settings.porous.fibreDiameter, fraction}, settings.liquid, settings.coupling).suction(fraction));
         }
     return std::sqrt(2.0 * suction / settings.liquid.density);
 }
@@ -137,7 +139,8 @@ RunCourse courseOf(const std::filesystem::path& folder)
 std::string whyUnsound(const RunCourse& course)
 {
     if (course.energyGain > kAllowedGain) return fmt::format("energy: gained {:.3g} of its largest kinetic energy", course.energyGain);
-    if (course.commonSpeed > 0.0 && course.largestSpeed > std::max(kAllowedSpeed * std::max(course.commonSpeed, course.solidSpeed), course.drawnSpeed))
+    if (course.commonSpeed > 0.0 &&
+        course.largestSpeed > std::max(kAllowedSpeed * std::max(course.commonSpeed, course.solidSpeed), course.drawnSpeed))
         return fmt::format("speed: a particle at {:.3g} cm/s; all liquid {:.3g} cm/s", course.largestSpeed, course.commonSpeed);
     return "";
 }

@@ -8,13 +8,13 @@ namespace app {
 /// What the logs of a run tell about its energy and its speeds.
 struct RunCourse {
     int steps = 0;
-    double time = 0.0;           ///< sum of the lengths of the steps [s]
+    double time = 0.0;  ///< sum of the lengths of the steps [s]
     /// Largest rise of the energy over its start, less work done from outside, over the largest kinetic energy, or that of motion that is none [-].
     double energyGain = 0.0;
-    double largestSpeed = 0.0;   ///< of a particle of the liquid [cm/s]
-    double commonSpeed = 0.0;    ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
-    double solidSpeed = 0.0;     ///< of the fastest solid at any time of the run [cm/s]
-    double drawnSpeed = 0.0;     ///< to which suction of dry fabric could take liquid [cm/s]
+    double largestSpeed = 0.0;  ///< of a particle of the liquid [cm/s]
+    double commonSpeed = 0.0;   ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
+    double solidSpeed = 0.0;    ///< of the fastest solid at any time of the run [cm/s]
+    double drawnSpeed = 0.0;    ///< to which suction of dry fabric could take liquid [cm/s]
 };
 
 /// A run is sound if its energy is never above that of the start plus the work of sources, suction, surface tension, obstacles, moving solids

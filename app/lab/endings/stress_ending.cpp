@@ -44,10 +44,8 @@ StressOutcome judgeEnd(const ProcessEnd& end, const std::filesystem::path& folde
     const auto outcome = [&](StressEnding ending, std::string why) { return StressOutcome{ending, std::move(why), end.seconds}; };
     constexpr int kSignals = 128, kMistake = 2;  // exit codes
     if (end.timedOut) return outcome(StressEnding::TimedOut, fmt::format("ended after {:.0f} s", end.seconds));
-    if (end.exit.code > kSignals)
-        return outcome(StressEnding::Crashed, fmt::format("signal {}: {}", end.exit.code - kSignals, end.exit.lastWords()));
-    if (const std::string why = firstStepThatIsNotFinite(folder / "steps.jsonl"); !why.empty())
-        return outcome(StressEnding::NotFinite, why);
+    if (end.exit.code > kSignals) return outcome(StressEnding::Crashed, fmt::format("signal {}: {}", end.exit.code - kSignals, end.exit.lastWords()));
+    if (const std::string why = firstStepThatIsNotFinite(folder / "steps.jsonl"); !why.empty()) return outcome(StressEnding::NotFinite, why);
     const std::string words = end.exit.lastWords();
     if (end.exit.code == kMistake) return outcome(StressEnding::Refused, words);
     if (!end.exit.ok()) return outcome(isDiagnosis(words) ? StressEnding::Stopped : StressEnding::Undiagnosed, words);

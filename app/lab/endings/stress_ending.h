@@ -11,8 +11,8 @@ namespace app {
 
 /// How a run under stress ended.
 enum class StressEnding {
-    Finished,     ///< to its end, all numbers finite, all pictures there
-    Stopped,      ///< it told scene, step, stage and why
+    Finished,  ///< to its end, all numbers finite, all pictures there
+    Stopped,   ///< it told scene, step, stage and why
     TimedOut,
     Unsound,      ///< it gained energy or speed from nothing
     Escaped,      ///< something is inside a solid, or outside of the vessel that it was in

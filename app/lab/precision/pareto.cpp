@@ -7,12 +7,8 @@ namespace app {
 
 std::vector<Cost> paretoFront(std::vector<Cost> all)
 {
-    std::erase_if(all, [](const Cost& c) {
-        return !std::isfinite(c.error) || !std::isfinite(c.seconds) || c.error <= 0.0 || c.seconds <= 0.0;
-    });
-    std::ranges::sort(all, [](const Cost& a, const Cost& b) {
-        return a.seconds < b.seconds || (a.seconds == b.seconds && a.error < b.error);
-    });
+    std::erase_if(all, [](const Cost& c) { return !std::isfinite(c.error) || !std::isfinite(c.seconds) || c.error <= 0.0 || c.seconds <= 0.0; });
+    std::ranges::sort(all, [](const Cost& a, const Cost& b) { return a.seconds < b.seconds || (a.seconds == b.seconds && a.error < b.error); });
     std::vector<Cost> front;
     for (const Cost& cost : all)
         if (front.empty() || cost.error < front.back().error) front.push_back(cost);

@@ -16,8 +16,7 @@ struct PrecisionChoice {
     std::string name;
     std::vector<std::string> sets = {};  ///< "dotted.key=value"
     bool isQuick = true;
-    double cells =
-        0.0;  ///< that liquid as fast as Precision::speed crosses per step, which gives the step; 0: no matter
+    double cells = 0.0;  ///< that liquid as fast as Precision::speed crosses per step, which gives the step; 0: no matter
 };
 
 /// What is chosen for one run, by name.
@@ -32,14 +31,14 @@ struct Precision {
     double every = 0.0;                  ///< time between readings [s]
     std::vector<Check> errors;           ///< the error of a run is the root mean square of these
     std::optional<sim::Formula> energy;  ///< of which the table tells what is left
-    double decay = 0.0;  ///< the energy decays at this times the kinematic viscosity [1/cm²]; 0: not known
-    double speed = 0.0;  ///< [cm/s]
+    double decay = 0.0;                  ///< the energy decays at this times the kinematic viscosity [1/cm²]; 0: not known
+    double speed = 0.0;                  ///< [cm/s]
     std::vector<PrecisionChoice> methods, integrators, steps, resolutions;  ///< every combination is run
-    PrecisionNames published;            ///< the scheme to compare with, of any resolution; empty: none
-    std::vector<std::string> converged;  ///< changes that make the run which tells what is not known otherwise
-    bool isHeadline = false;             ///< drawn beside the other such cases
-    std::string question;                ///< as text: all that the error of a run depends on beside the run
-    std::shared_ptr<Measures> measures;  ///< what the formulas look at
+    PrecisionNames published;                                               ///< the scheme to compare with, of any resolution; empty: none
+    std::vector<std::string> converged;                                     ///< changes that make the run which tells what is not known otherwise
+    bool isHeadline = false;                                                ///< drawn beside the other such cases
+    std::string question;                                                   ///< as text: all that the error of a run depends on beside the run
+    std::shared_ptr<Measures> measures;                                     ///< what the formulas look at
 
     /// Is there an error that only a converged run tells?
     bool needsConverged() const;

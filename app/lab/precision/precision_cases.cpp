@@ -15,8 +15,7 @@ std::vector<Cost> PrecisionCase::costsOf(const std::string& method, const std::s
 {
     std::vector<Cost> costs;
     for (const PrecisionRow& row : rows)
-        if (row.names.method == method && row.names.integrator == integrator)
-            costs.push_back({row.wallSeconds, row.error});
+        if (row.names.method == method && row.names.integrator == integrator) costs.push_back({row.wallSeconds, row.error});
     return costs;
 }
 

@@ -18,16 +18,12 @@ struct Curve {
     std::vector<std::array<double, 2>> points;
 };
 
-std::string label(const std::string& method, const std::string& integrator)
-{
-    return integrator == "-" ? method : method + ", " + integrator;
-}
+std::string label(const std::string& method, const std::string& integrator) { return integrator == "-" ? method : method + ", " + integrator; }
 
 /// Colours tell methods, dashes integrators.
 std::string look(const Curve& curve)
 {
-    return fmt::format("lc rgb '{}' dt {}", kPlotColors[curve.method % kPlotColors.size()],
-                       curve.integrator == 0 ? "(9,5)" : "1");
+    return fmt::format("lc rgb '{}' dt {}", kPlotColors[curve.method % kPlotColors.size()], curve.integrator == 0 ? "(9,5)" : "1");
 }
 
 /// The numbers within the script itself.
@@ -63,10 +59,8 @@ std::vector<Curve> curvesOf(const PrecisionCase& of, Points&& points)
 
 std::string workPanel(const PrecisionCase& of, std::size_t number)
 {
-    const auto costs =
-        curvesOf(of, [&](auto& method, auto& integrator) { return pointsOf(of.costsOf(method, integrator)); });
-    const auto fronts = curvesOf(
-        of, [&](auto& method, auto& integrator) { return pointsOf(paretoFront(of.costsOf(method, integrator))); });
+    const auto costs = curvesOf(of, [&](auto& method, auto& integrator) { return pointsOf(of.costsOf(method, integrator)); });
+    const auto fronts = curvesOf(of, [&](auto& method, auto& integrator) { return pointsOf(paretoFront(of.costsOf(method, integrator))); });
     std::vector<Cost> published;
     for (const Gain& gain : gainsOf(of)) published.push_back({gain.published->wallSeconds, gain.published->error});
     const auto id = [&](const char* what, std::size_t i = 0) { return fmt::format("{}_{}_{}", what, number, i); };
@@ -74,17 +68,14 @@ std::string workPanel(const PrecisionCase& of, std::size_t number)
     std::string text = block(id("front"), pointsOf(of.front())) + block(id("published"), pointsOf(published));
     for (std::size_t i = 0; i < costs.size(); ++i) text += block(id("all", i), costs[i].points);
     for (std::size_t i = 0; i < fronts.size(); ++i) text += block(id("best", i), fronts[i].points);
-    text += fmt::format("set title {} noenhanced\nplot ${} with lines lw 9 lc rgb '#d0d0d0' title 'best of all'",
-                        gnuplotText(of.title), id("front"));
+    text += fmt::format("set title {} noenhanced\nplot ${} with lines lw 9 lc rgb '#d0d0d0' title 'best of all'", gnuplotText(of.title), id("front"));
     for (std::size_t i = 0; i < costs.size(); ++i)
-        text += fmt::format(", \\\n  ${} with points pt 7 ps 0.5 lc rgb '{}' notitle", id("all", i),
-                            kPlotColors[costs[i].method % kPlotColors.size()]);
+        text +=
+            fmt::format(", \\\n  ${} with points pt 7 ps 0.5 lc rgb '{}' notitle", id("all", i), kPlotColors[costs[i].method % kPlotColors.size()]);
     for (std::size_t i = 0; i < fronts.size(); ++i)
-        text += fmt::format(", \\\n  ${} with lines lw 1.6 {} title {} noenhanced", id("best", i), look(fronts[i]),
-                            gnuplotText(fronts[i].name));
+        text += fmt::format(", \\\n  ${} with lines lw 1.6 {} title {} noenhanced", id("best", i), look(fronts[i]), gnuplotText(fronts[i].name));
     if (!published.empty())
-        text += fmt::format(", \\\n  ${} with points pt 6 ps 2.4 lw 2 lc rgb '#000000' title 'published scheme'",
-                            id("published"));
+        text += fmt::format(", \\\n  ${} with points pt 6 ps 2.4 lw 2 lc rgb '#000000' title 'published scheme'", id("published"));
     return text + "\n";
 }
 
@@ -98,14 +89,12 @@ std::string head(std::size_t panels, const std::string& picture)
         640 * panels, gnuplotText(picture));
 }
 
-std::vector<std::array<double, 2>> viscositiesOf(const PrecisionCase& of, const std::string& method,
-                                                 const std::string& integrator)
+std::vector<std::array<double, 2>> viscositiesOf(const PrecisionCase& of, const std::string& method, const std::string& integrator)
 {
     std::vector<std::array<double, 2>> points;
     for (const PrecisionRow& row : of.rows)
-        if (row.names.method == method && row.names.integrator == integrator &&
-            row.names.resolution == of.precision.resolutions.front().name && std::isfinite(row.viscosity) &&
-            row.viscosity != 0.0)
+        if (row.names.method == method && row.names.integrator == integrator && row.names.resolution == of.precision.resolutions.front().name &&
+            std::isfinite(row.viscosity) && row.viscosity != 0.0)
             points.push_back({row.dt, std::abs(row.viscosity)});
     std::ranges::sort(points);
     return points;
@@ -123,17 +112,14 @@ std::string workPrecisionScript(const std::vector<const PrecisionCase*>& cases, 
 
 std::string viscosityScript(const PrecisionCase& of, const std::string& picture)
 {
-    const auto curves =
-        curvesOf(of, [&](auto& method, auto& integrator) { return viscositiesOf(of, method, integrator); });
+    const auto curves = curvesOf(of, [&](auto& method, auto& integrator) { return viscositiesOf(of, method, integrator); });
     std::string text =
-        head(1, picture) +
-        fmt::format(
-            "set xlabel 'time step [s]'\nset ylabel '|numerical viscosity| [cm^2/s]'\nset title {} noenhanced\n",
-            gnuplotText(of.title + ", " + of.precision.resolutions.front().name));
+        head(1, picture) + fmt::format("set xlabel 'time step [s]'\nset ylabel '|numerical viscosity| [cm^2/s]'\nset title {} noenhanced\n",
+                                       gnuplotText(of.title + ", " + of.precision.resolutions.front().name));
     for (std::size_t i = 0; i < curves.size(); ++i) text += block(fmt::format("curve_{}", i), curves[i].points);
     for (std::size_t i = 0; i < curves.size(); ++i)
-        text += fmt::format("{} $curve_{} with linespoints pt 7 ps 0.7 lw 1.6 {} title {} noenhanced",
-                            i == 0 ? "plot" : ", \\\n ", i, look(curves[i]), gnuplotText(curves[i].name));
+        text += fmt::format("{} $curve_{} with linespoints pt 7 ps 0.7 lw 1.6 {} title {} noenhanced", i == 0 ? "plot" : ", \\\n ", i,
+                            look(curves[i]), gnuplotText(curves[i].name));
     return text + "\n";
 }
 
@@ -143,16 +129,12 @@ void plotPrecision(const std::vector<PrecisionCase>& cases, const std::filesyste
     for (const PrecisionCase& of : cases) {
         if (of.front().empty()) continue;
         if (of.precision.isHeadline) drawn.push_back(&of);
-        drawPlot(folder, "work_precision_" + of.name,
-                 [&](const std::string& picture) { return workPrecisionScript({&of}, picture); });
+        drawPlot(folder, "work_precision_" + of.name, [&](const std::string& picture) { return workPrecisionScript({&of}, picture); });
         const auto hasViscosity = [](const PrecisionRow& row) { return std::isfinite(row.viscosity); };
         if (std::ranges::any_of(of.rows, hasViscosity))
-            drawPlot(folder, "numerical_viscosity",
-                     [&](const std::string& picture) { return viscosityScript(of, picture); });
+            drawPlot(folder, "numerical_viscosity", [&](const std::string& picture) { return viscosityScript(of, picture); });
     }
-    if (drawn.size() > 1)
-        drawPlot(folder, "work_precision",
-                 [&](const std::string& picture) { return workPrecisionScript(drawn, picture); });
+    if (drawn.size() > 1) drawPlot(folder, "work_precision", [&](const std::string& picture) { return workPrecisionScript(drawn, picture); });
 }
 
 }  // namespace app

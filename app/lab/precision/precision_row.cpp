@@ -47,8 +47,7 @@ PrecisionRow rowFrom(Cells& cells)
 {
     PrecisionRow row;
     row.scene = cells.text();
-    for (std::string* name : {&row.names.method, &row.names.integrator, &row.names.step, &row.names.resolution})
-        *name = cells.text();
+    for (std::string* name : {&row.names.method, &row.names.integrator, &row.names.step, &row.names.resolution}) *name = cells.text();
     row.modes = cells.whole();
     for (double* value : {&row.dt, &row.cfl, &row.cell}) *value = cells.number();
     row.steps = static_cast<std::int64_t>(cells.number());
@@ -73,11 +72,9 @@ std::string precisionCsv(const std::vector<PrecisionRow>& rows)
 {
     std::string csv = std::string(kHeader) + '\n';
     for (const PrecisionRow& row : rows)
-        fmt::format_to(std::back_inserter(csv),
-                       "{},{},{},{},{},{},{:.6g},{:.4g},{:.6g},{},{:.4g},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", row.scene,
-                       row.names.method, row.names.integrator, row.names.step, row.names.resolution, row.modes, row.dt,
-                       row.cfl, row.cell, row.steps, row.wallSeconds, row.error, row.energyLeft, row.viscosity,
-                       row.threads, row.repeats, row.settings, cellText(row.outcome));
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{:.6g},{:.4g},{:.6g},{},{:.4g},{:.6g},{:.6g},{:.6g},{},{},{},{}\n", row.scene,
+                       row.names.method, row.names.integrator, row.names.step, row.names.resolution, row.modes, row.dt, row.cfl, row.cell, row.steps,
+                       row.wallSeconds, row.error, row.energyLeft, row.viscosity, row.threads, row.repeats, row.settings, cellText(row.outcome));
     return csv;
 }
 
@@ -89,8 +86,7 @@ std::vector<PrecisionRow> readPrecisionCsv(const std::filesystem::path& file)
     std::string line;
     std::getline(in, line);
     const auto fail = [&](std::size_t number) {
-        throw sim::InputError(
-            fmt::format("{}:{}: is no row of bench precision: remove the file to start anew", file.string(), number));
+        throw sim::InputError(fmt::format("{}:{}: is no row of bench precision: remove the file to start anew", file.string(), number));
     };
     if (line != kHeader) fail(1);
     while (std::getline(in, line)) {

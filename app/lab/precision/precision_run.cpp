@@ -20,14 +20,12 @@ using AllReadings = std::vector<std::vector<Reading>>;
 SceneSetup load(const std::string& file, const std::vector<std::string>& sets, const Parts& parts)
 {
     SceneSetup setup = parts.loadScene({.file = file, .variant = "", .sets = sets});
-    if (!readPrecision(setup))
-        throw sim::InputError(fmt::format("{}: has no section precision, which tells what to run it with", file));
+    if (!readPrecision(setup)) throw sim::InputError(fmt::format("{}: has no section precision, which tells what to run it with", file));
     return setup;
 }
 
 /// The changes of a combination, the step by the cell where it is told in cells.
-std::vector<std::string> setsOf(const std::string& file, const std::array<const PrecisionChoice*, 4>& of,
-                                const Parts& parts)
+std::vector<std::string> setsOf(const std::string& file, const std::array<const PrecisionChoice*, 4>& of, const Parts& parts)
 {
     std::vector<std::string> sets;
     for (const PrecisionChoice* choice : of) sets.insert(sets.end(), choice->sets.begin(), choice->sets.end());
@@ -36,8 +34,7 @@ std::vector<std::string> setsOf(const std::string& file, const std::array<const 
     const SceneSetup setup = load(file, sets, parts);
     const double speed = readPrecision(setup)->speed;
     if (!(speed > 0.0))
-        throw sim::InputError(fmt::format(
-            "{}: precision.speed is missing: how fast is liquid that crosses so many cells per step?", file));
+        throw sim::InputError(fmt::format("{}: precision.speed is missing: how fast is liquid that crosses so many cells per step?", file));
     sets.push_back(fmt::format("time.dt={:.12g}", step.cells * setup.scene.settings.cell / speed));
     return sets;
 }
@@ -72,7 +69,8 @@ Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::
         if (precision.energy) outcome.energies.push_back({time, (*precision.energy)(std::array{time}), 0.0});
         precision.measures->startInterval();
     };
-    outcome.followed = follow(*simulation, setup.scene, precision.every, read, [&] { precision.measures->tookStep(); }, stopWanted);
+    outcome.followed = follow(
+        *simulation, setup.scene, precision.every, read, [&] { precision.measures->tookStep(); }, stopWanted);
     return outcome;
 }
 
@@ -128,18 +126,14 @@ std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& pa
             for (const auto& integrator : wanted(precision.integrators))
                 for (const auto& step : wanted(precision.steps)) {
                     const PrecisionNames names{method.name, integrator.name, step.name, resolution.name};
-                    SceneSetup setup =
-                        load(file, setsOf(file, {&resolution, &method, &integrator, &step}, parts), parts);
+                    SceneSetup setup = load(file, setsOf(file, {&resolution, &method, &integrator, &step}, parts), parts);
                     const std::string settings = settingsOf(setup);
                     runs.push_back({setup.scene.name, names, std::move(setup), settings});
                 }
     return runs;
 }
 
-SceneSetup convergedSetup(const std::string& file, const Parts& parts)
-{
-    return load(file, readPrecision(load(file, {}, parts))->converged, parts);
-}
+SceneSetup convergedSetup(const std::string& file, const Parts& parts) { return load(file, readPrecision(load(file, {}, parts))->converged, parts); }
 
 AllReadings readErrors(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted)
 {
@@ -149,8 +143,8 @@ AllReadings readErrors(const SceneSetup& setup, const Parts& parts, const std::f
     return runOnce(setup, precision, checks, parts, stopWanted).errors;
 }
 
-PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& converged, int threads, int repeats,
-                              const Parts& parts, const std::function<bool()>& stopWanted)
+PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& converged, int threads, int repeats, const Parts& parts,
+                              const std::function<bool()>& stopWanted)
 {
     const Precision precision = *readPrecision(run.setup);
     const std::vector<Check> checks = checksAgainst(precision, converged);

@@ -28,12 +28,11 @@ std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& pa
 SceneSetup convergedSetup(const std::string& file, const Parts& parts);
 
 /// What a run reads for each of the errors, to its end. Throws RunError.
-std::vector<std::vector<Reading>> readErrors(const SceneSetup& setup, const Parts& parts,
-                                             const std::function<bool()>& stopWanted);
+std::vector<std::vector<Reading>> readErrors(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted);
 
 /// Run it so many times. What keeps a run from its end stands in the row; a wish to stop is thrown as RunError.
 /// @param converged  readings of the run to compare with, of each of the errors; empty where all is known
-PrecisionRow measurePrecision(const PrecisionRun& run, const std::vector<std::vector<Reading>>& converged, int threads,
-                              int repeats, const Parts& parts, const std::function<bool()>& stopWanted);
+PrecisionRow measurePrecision(const PrecisionRun& run, const std::vector<std::vector<Reading>>& converged, int threads, int repeats,
+                              const Parts& parts, const std::function<bool()>& stopWanted);
 
 }  // namespace app

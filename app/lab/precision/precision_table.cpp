@@ -9,8 +9,7 @@ namespace app {
 
 const PrecisionRow* PrecisionTable::find(const PrecisionRun& run, int threads, int repeats) const
 {
-    const auto row = std::ranges::find_if(
-        rows_, [&](const PrecisionRow& of) { return of.scene == run.scene && of.names == run.names; });
+    const auto row = std::ranges::find_if(rows_, [&](const PrecisionRow& of) { return of.scene == run.scene && of.names == run.names; });
     if (row == rows_.end()) return nullptr;
     const bool isEnough = row->settings == run.settings && row->threads == threads && row->repeats >= repeats;
     return isEnough ? &*row : nullptr;

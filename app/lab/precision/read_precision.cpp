@@ -19,8 +19,7 @@ PrecisionChoice choiceIn(const Node& node, const std::string& path)
     sim::SectionReader section(node, path);
     section.needs("name", "what tables and plots call it, like {name: APIC, transfer.method: apic}");
     PrecisionChoice choice{.name = sim::readText(*section.find("name"), section.pathOf("name"))};
-    if (choice.name.find_first_of(",\"\n") != std::string::npos)
-        sim::fail(node.place, path + ".name: stands in a CSV file: no commas or quotes");
+    if (choice.name.find_first_of(",\"\n") != std::string::npos) sim::fail(node.place, path + ".name: stands in a CSV file: no commas or quotes");
     section.number("cells", choice.cells, sim::Quantity::None, sim::Range::above(0.0), "");
     for (const sim::Override& change : sim::overridesOf(node, {"name", "cells"})) choice.sets.push_back(change.text());
     return choice;
@@ -43,8 +42,7 @@ void requireKnown(const std::string& name, const Choices& choices, const Node& n
     std::vector<std::string> names;
     for (const PrecisionChoice& choice : choices) names.push_back(choice.name);
     if (std::ranges::find(names, name) == names.end())
-        sim::fail(node.place,
-                  fmt::format("{}: there is no {}: there are {}", path, sim::inQuotes(name), fmt::join(names, ", ")));
+        sim::fail(node.place, fmt::format("{}: there is no {}: there are {}", path, sim::inQuotes(name), fmt::join(names, ", ")));
 }
 
 struct Axis {
@@ -52,11 +50,10 @@ struct Axis {
     Choices Precision::*choices;
     std::string PrecisionNames::*name;
 };
-constexpr std::array<Axis, 4> kAxes = {
-    {{"methods", "method", &Precision::methods, &PrecisionNames::method},
-     {"integrators", "integrator", &Precision::integrators, &PrecisionNames::integrator},
-     {"steps", "step", &Precision::steps, &PrecisionNames::step},
-     {"resolutions", "resolution", &Precision::resolutions, &PrecisionNames::resolution}}};
+constexpr std::array<Axis, 4> kAxes = {{{"methods", "method", &Precision::methods, &PrecisionNames::method},
+                                        {"integrators", "integrator", &Precision::integrators, &PrecisionNames::integrator},
+                                        {"steps", "step", &Precision::steps, &PrecisionNames::step},
+                                        {"resolutions", "resolution", &Precision::resolutions, &PrecisionNames::resolution}}};
 
 void readPublished(const Node* node, Precision& precision)
 {
@@ -104,8 +101,7 @@ std::vector<Check> errorsIn(const sim::SectionReader& section, const ReadingCont
         errors.push_back(readCheck(node.items[i], path, context, fmt::format("error {}", i + 1)));
         const Check& check = errors.back();
         if (!check.expect && !check.hasCurve())
-            sim::fail(node.items[i].place,
-                      path + ": needs expect, or take: rms_error to be held against a converged run");
+            sim::fail(node.items[i].place, path + ": needs expect, or take: rms_error to be held against a converged run");
     }
     return errors;
 }
@@ -126,8 +122,8 @@ std::optional<Precision> readPrecision(const SceneSetup& setup)
     if (!node) return std::nullopt;
     sim::SectionReader section(*node, "precision");
     sim::SectionReader::read(node, "precision", [](auto& v) {
-        for (const char* key : {"about", "every", "let", "flow", "errors", "energy", "decay", "speed", "methods",
-                                "integrators", "steps", "resolutions", "published", "headline", "converged", "quick"})
+        for (const char* key : {"about", "every", "let", "flow", "errors", "energy", "decay", "speed", "methods", "integrators", "steps",
+                                "resolutions", "published", "headline", "converged", "quick"})
             v.other(key, "");
     });
     auto measures = std::make_shared<Measures>(setup.scene);
@@ -137,8 +133,7 @@ std::optional<Precision> readPrecision(const SceneSetup& setup)
     precision.measures = std::move(measures);
     section.text("about", precision.about, "");
     precision.every = readInterval(section, context);
-    if (const Node* at = section.find("energy"))
-        precision.energy = readFormula(*at, "precision.energy", context.reading);
+    if (const Node* at = section.find("energy")) precision.energy = readFormula(*at, "precision.energy", context.reading);
     section.flag("headline", precision.isHeadline, "");
     if (const Node* at = section.find("decay")) precision.decay = readConstant(*at, "precision.decay", context);
     if (const Node* at = section.find("speed")) precision.speed = readConstant(*at, "precision.speed", context);

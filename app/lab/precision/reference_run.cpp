@@ -18,17 +18,13 @@ namespace {
 
 using AllReadings = std::vector<std::vector<Reading>>;
 
-std::string headerOf(const std::string& settings)
-{
-    return "error,at,value," + settings;
-}
+std::string headerOf(const std::string& settings) { return "error,at,value," + settings; }
 
 std::string textOf(const AllReadings& all, const std::string& settings)
 {
     std::string text = headerOf(settings) + '\n';
     for (std::size_t i = 0; i < all.size(); ++i)
-        for (const Reading& reading : all[i])
-            fmt::format_to(std::back_inserter(text), "{},{:.12g},{:.12g}\n", i, reading.at, reading.value);
+        for (const Reading& reading : all[i]) fmt::format_to(std::back_inserter(text), "{},{:.12g},{:.12g}\n", i, reading.at, reading.value);
     return text;
 }
 
@@ -57,8 +53,8 @@ AllReadings readFile(const std::filesystem::path& file, const std::string& setti
 
 }  // namespace
 
-AllReadings convergedReadings(const std::filesystem::path& file, const SceneSetup& setup, int threads,
-                              const Parts& parts, const std::function<bool()>& stopWanted)
+AllReadings convergedReadings(const std::filesystem::path& file, const SceneSetup& setup, int threads, const Parts& parts,
+                              const std::function<bool()>& stopWanted)
 {
     const std::string settings = settingsOf(setup);
     AllReadings all = readFile(file, settings, readPrecision(setup)->errors.size());

@@ -36,15 +36,13 @@ std::string randomMotion(Dice& dice, const RandomPile& pile)
     switch (dice.whole(0, 4)) {
         case 0: return fmt::format("[{{{}, translate: {}}}]", span, listText(length * dice.direction()));
         case 1: return fmt::format("[{{{}, translate: [0, {:.4g}, 0], ease: [0, 0]}}]", span, length);
-        case 2:
-            return fmt::format("[{{{}, rotate: {{axis: {}, angle: {:.4g}, frame: local}}}}]", span, axis,
-                               dice.between(-90.0, 90.0));
+        case 2: return fmt::format("[{{{}, rotate: {{axis: {}, angle: {:.4g}, frame: local}}}}]", span, axis, dice.between(-90.0, 90.0));
         case 3:
-            return fmt::format("[{{{}, oscillate: {{direction: {}, amplitude: {:.4g}, frequency: {:.4g}}}}}]", span,
-                               axis, 0.3 * length, dice.between(0.3, 3.0) / pile.duration);
+            return fmt::format("[{{{}, oscillate: {{direction: {}, amplitude: {:.4g}, frequency: {:.4g}}}}}]", span, axis, 0.3 * length,
+                               dice.between(0.3, 3.0) / pile.duration);
         default:
-            return fmt::format("[{{keys: [[0, 0, 0, 0], [{:.4g}, 0, {:.4g}, 0], [{:.4g}, 0, 0, 0]]}}]",
-                               0.5 * pile.duration, 0.5 * length, pile.duration);
+            return fmt::format("[{{keys: [[0, 0, 0, 0], [{:.4g}, 0, {:.4g}, 0], [{:.4g}, 0, 0, 0]]}}]", 0.5 * pile.duration, 0.5 * length,
+                               pile.duration);
     }
 }
 
@@ -100,9 +98,8 @@ std::string randomCloth(Dice& dice, RandomPile& pile)
     const double thickness = spacing * (stands ? columns : 1.0 + 0.1 * columns);
     const Vec3 center{dice.between(-1.0, 1.0) * pile.cell, pile.add(thickness, dice.between(0.3, 1.0) * pile.cell), 0.0};
     const Vec3 across = stands ? Vec3(skew, 1.0, 0.0) : Vec3(skew, slope, 1.0);
-    return fmt::format(
-        "cloth_grid: {{material: thread, nodes: [{}, {}], spacing: {:.4g}, center: {}, u: [1, 0, 0], v: {}, radius: {}}}",
-        rows, columns, spacing, listText(center), listText(across), radius);
+    return fmt::format("cloth_grid: {{material: thread, nodes: [{}, {}], spacing: {:.4g}, center: {}, u: [1, 0, 0], v: {}, radius: {}}}", rows,
+                       columns, spacing, listText(center), listText(across), radius);
 }
 
 std::string randomWeave(Dice& dice, RandomPile& pile)
@@ -126,8 +123,8 @@ std::string randomStrand(Dice& dice, RandomPile& pile)
     const double height = pile.add(0.6 * pile.cell, dice.between(0.4, 1.0) * pile.cell);
     const Vec3 along{half, 0.0, dice.between(-1.0, 1.0) * half};
     const Vec3 middle{0.0, height, 0.0};
-    return fmt::format("strand: {{material: thread, from: {}, to: {}, segments: {}, radius: {}}}", listText(middle - along),
-                       listText(middle + along), segments, radius);
+    return fmt::format("strand: {{material: thread, from: {}, to: {}, segments: {}, radius: {}}}", listText(middle - along), listText(middle + along),
+                       segments, radius);
 }
 
 }  // namespace
@@ -167,8 +164,8 @@ std::string randomPlate(Dice& dice, const Vec3& center, double radius, double ce
     const Vec3 half = Vec3{dice.between(0.4, 0.8) * radius, 0.5 * cell * dice.acrossScales(0.1, 1.0), dice.between(0.4, 0.8) * radius};
     if (dice.chance(0.3)) return fmt::format("{{box: {{center: {}, half: {}}}}}", listText(center), listText(half));
     const Vec3 axis = dice.direction();
-    return fmt::format("{{box: {{center: {}, half: {}}}, rotate: {{axis: {}, angle: {:.4g}}}}}", listText(center), listText(half),
-                       listText(axis), dice.between(-60.0, 60.0));
+    return fmt::format("{{box: {{center: {}, half: {}}}, rotate: {{axis: {}, angle: {:.4g}}}}}", listText(center), listText(half), listText(axis),
+                       dice.between(-60.0, 60.0));
 }
 
 /// Through many cells, or round and round.
@@ -229,8 +226,8 @@ std::string randomSources(Dice& dice, RandomPile& pile, bool withPool)
     if (withPool) {
         const double half = dice.between(2.0, 4.0) * pile.cell, depth = dice.between(1.0, 2.5) * pile.cell;
         const double middle = pile.add(depth, dice.between(0.0, 1.0) * pile.cell);
-        text += fmt::format("    - name: pool\n      shape: {{box: {{center: [0, {:.4g}, 0], half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n", middle,
-                            half, 0.5 * depth, half);
+        text += fmt::format("    - name: pool\n      shape: {{box: {{center: [0, {:.4g}, 0], half: [{:.4g}, {:.4g}, {:.4g}]}}}}\n", middle, half,
+                            0.5 * depth, half);
     }
     if (withPool && dice.chance(0.3)) {
         Vec3 mouth = pile.cell * Vec3{dice.between(-1.0, 1.0), dice.between(0.4, 1.0), dice.between(-1.0, 1.0)};

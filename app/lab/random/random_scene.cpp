@@ -31,9 +31,8 @@ std::string randomTime(Dice& dice, const RandomPile& pile, double dt)
     const std::string_view integrator = dice.oneOf({"plain", "plain", "reflected"});
     const double cfl = dice.acrossScales(0.2, 3.0);
     const std::string lifted = dice.chance(0.3) ? ", max_cfl: {liquid: 30, fabric: 30}" : "";
-    return fmt::format(
-        "time: {{dt: {:.4g}, duration: {:.4g}, mode: {}, cfl: {:.3g}, dt_min: {:.3g}, integrator: {}{}}}\n",
-        dt, pile.duration, mode, cfl, dt / 300.0, integrator, lifted);
+    return fmt::format("time: {{dt: {:.4g}, duration: {:.4g}, mode: {}, cfl: {:.3g}, dt_min: {:.3g}, integrator: {}{}}}\n", dt, pile.duration, mode,
+                       cfl, dt / 300.0, integrator, lifted);
 }
 
 std::string randomGravity(Dice& dice)
@@ -53,8 +52,8 @@ std::string randomTransfer(Dice& dice)
     if (dice.chance(0.3)) text += fmt::format(", flip_ratio: {:.3g}", dice.between(0.0, 1.0));
     if (dice.chance(0.3)) {
         const double affine = dice.between(0.9, 1.0), stretch = dice.between(0.0, 1.0), rotation = dice.between(0.9, 1.0);
-        text += fmt::format(", keep: {{liquid_affine: {:.4g}, fabric_stretch: {:.4g}, fabric_rotation: {:.4g}}}, keep_dt: {}",
-                            affine, stretch, rotation, dice.oneOf({"step", "2.0e-4"}));
+        text += fmt::format(", keep: {{liquid_affine: {:.4g}, fabric_stretch: {:.4g}, fabric_rotation: {:.4g}}}, keep_dt: {}", affine, stretch,
+                            rotation, dice.oneOf({"step", "2.0e-4"}));
     }
     return text + "}\n";
 }

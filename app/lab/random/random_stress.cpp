@@ -39,8 +39,7 @@ void tell(const RandomStressResult& result)
 {
     const StressOutcome& outcome = result.outcome;
     if (outcome.ending == StressEnding::Finished) return;
-    fmt::print("{:<18} {:>6.1f} s  {}: {}\n", result.scene, outcome.seconds, kStressEndings[static_cast<int>(outcome.ending)],
-               outcome.message);
+    fmt::print("{:<18} {:>6.1f} s  {}: {}\n", result.scene, outcome.seconds, kStressEndings[static_cast<int>(outcome.ending)], outcome.message);
     std::fflush(stdout);
 }
 
@@ -79,8 +78,7 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
         const std::string name = nameOf(n);
         places.remove(name);
         writeWhole(places.file(name), sceneOf(n).text);
-        return std::vector<std::string>{"run",       places.file(name).string(), "--out", places.folder(name).string(),
-                                        "--threads", "1",                        "--no-video"};
+        return std::vector<std::string>{"run", places.file(name).string(), "--out", places.folder(name).string(), "--threads", "1", "--no-video"};
     };
     pool.ended = [&](std::size_t n, const ProcessEnd& end) {
         if (stress.stopWanted()) return;
@@ -109,12 +107,12 @@ std::string randomStressReport(const RandomStress& stress, const std::vector<Ran
                                    results.size(), stress.seed, formatDuration(seconds));
     for (int e = 0; e < static_cast<int>(StressEnding::Count); ++e)
         text += fmt::format("| {} | {} |\n", kStressEndings[e], counts[static_cast<StressEnding>(e)]);
-    text += "\n## What did not finish\n\nEach scene is a file that runs again by `drench run FILE --threads 1`.\n\n"
-            "| file | ending | message |\n|---|---|---|\n";
+    text +=
+        "\n## What did not finish\n\nEach scene is a file that runs again by `drench run FILE --threads 1`.\n\n"
+        "| file | ending | message |\n|---|---|---|\n";
     for (const RandomStressResult& result : results)
         if (const StressOutcome& outcome = result.outcome; outcome.ending != StressEnding::Finished)
-            text += fmt::format("| scenes/{}.yaml | {} | {} |\n", result.scene, kStressEndings[static_cast<int>(outcome.ending)],
-                                outcome.message);
+            text += fmt::format("| scenes/{}.yaml | {} | {} |\n", result.scene, kStressEndings[static_cast<int>(outcome.ending)], outcome.message);
     return text;
 }
 
@@ -122,8 +120,8 @@ std::string randomStressTable(const std::vector<RandomStressResult>& results)
 {
     std::string csv = "scene,ending,seconds,message\n";
     for (const RandomStressResult& result : results)
-        fmt::format_to(std::back_inserter(csv), "{},{},{:.3f},{}\n", result.scene,
-                       kStressEndings[static_cast<int>(result.outcome.ending)], result.outcome.seconds, quoted(result.outcome.message));
+        fmt::format_to(std::back_inserter(csv), "{},{},{:.3f},{}\n", result.scene, kStressEndings[static_cast<int>(result.outcome.ending)],
+                       result.outcome.seconds, quoted(result.outcome.message));
     return csv;
 }
 

@@ -62,8 +62,7 @@ std::vector<std::string> argumentsOf(const StabilityMap& map, const Job& job)
     sets.push_back(fmt::format("time.dt={:.9g}", job.row.dt));
     sets.push_back(fmt::format("time.duration={:.9g}", job.row.duration));
     sets.push_back(fmt::format("output.every={:.9g}", job.row.duration));
-    std::vector<std::string> arguments = {"run",         map.scene,    "--out",    job.folder.string(), "--threads", "1",
-                                          "--no-frames", "--no-video"};
+    std::vector<std::string> arguments = {"run", map.scene, "--out", job.folder.string(), "--threads", "1", "--no-frames", "--no-video"};
     for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
     return arguments;
 }
@@ -122,8 +121,14 @@ std::vector<StabilityRow> readStabilityTable(const std::filesystem::path& csv)
         std::vector<std::string> cell = csvCells(line);
         cell.resize(8);
         const auto number = [&](int i) { return std::strtod(cell[i].c_str(), nullptr); };
-        rows.push_back({.method = cell[0], .dt = number(1), .duration = number(2), .isStable = cell[3] == "yes", .why = cell[7],
-                        .energyGain = number(4), .largestSpeed = number(5), .seconds = number(6)});
+        rows.push_back({.method = cell[0],
+                        .dt = number(1),
+                        .duration = number(2),
+                        .isStable = cell[3] == "yes",
+                        .why = cell[7],
+                        .energyGain = number(4),
+                        .largestSpeed = number(5),
+                        .seconds = number(6)});
     }
     return rows;
 }

@@ -29,14 +29,14 @@ struct StabilityRow {
 
 /// What to map for one scene.
 struct StabilityMap {
-    std::string scene;                        ///< its file
-    std::vector<std::string> sets;            ///< of all runs
+    std::string scene;              ///< its file
+    std::vector<std::string> sets;  ///< of all runs
     std::vector<StabilityMethod> methods;
-    std::vector<double> steps;                ///< [s]
-    double duration = 0.0;                    ///< of every run: a whole number of the longest step [s]
-    std::filesystem::path folder;             ///< scene's own: map.csv, map.png, and a folder per run
-    bool largestOnly = false;                 ///< of each method only from the longest step to the first that is stable
-    int width = 1;                            ///< so many runs side by side, each on one thread
+    std::vector<double> steps;     ///< [s]
+    double duration = 0.0;         ///< of every run: a whole number of the longest step [s]
+    std::filesystem::path folder;  ///< scene's own: map.csv, map.png, and a folder per run
+    bool largestOnly = false;      ///< of each method only from the longest step to the first that is stable
+    int width = 1;                 ///< so many runs side by side, each on one thread
     double limitSeconds = 3600.0;
     std::function<bool()> stopWanted = [] { return false; };
 };
@@ -47,8 +47,8 @@ std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std
 
 /// The same with one number of the scene made larger or smaller by factors: stiffness, density, viscosity or cell. Throws
 /// InputError for another one.
-std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& methods, const SceneSetup& setup,
-                                      const std::string& knob, const std::vector<double>& factors);
+std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
+                                      const std::vector<double>& factors);
 
 /// Judge a run by how it ended and its logs in the folder.
 StabilityRow judgeStability(const ProcessEnd& end, const std::filesystem::path& folder, StabilityRow row);

@@ -30,8 +30,7 @@ void requireMethod(const std::string& name)
 {
     std::vector<std::string> known;
     for (const Transfer& transfer : transfers()) known.push_back(transfer.name);
-    if (std::ranges::find(known, name) == known.end())
-        throw sim::InputError(fmt::format("--method {}: there are {}", name, fmt::join(known, ", ")));
+    if (std::ranges::find(known, name) == known.end()) throw sim::InputError(fmt::format("--method {}: there are {}", name, fmt::join(known, ", ")));
 }
 
 std::vector<std::string> knobSets(const SceneSetup& setup, const std::string& knob, double factor)
@@ -39,10 +38,8 @@ std::vector<std::string> knobSets(const SceneSetup& setup, const std::string& kn
     const sim::LiquidSettings& liquid = setup.scene.settings.liquid;
     if (knob == "density") return {fmt::format("liquid.density={:.6g}", factor * liquid.density)};
     if (knob == "cell") return {fmt::format("grid.cell={:.6g}", factor * setup.scene.settings.cell)};
-    if (knob == "viscosity")
-        return {fmt::format("liquid.viscosity={:.6g}", factor * liquid.viscosity), "liquid.solve_viscosity=true"};
-    if (knob != "stiffness")
-        throw sim::InputError(fmt::format("--knob {}: there are stiffness, density, viscosity, cell", knob));
+    if (knob == "viscosity") return {fmt::format("liquid.viscosity={:.6g}", factor * liquid.viscosity), "liquid.solve_viscosity=true"};
+    if (knob != "stiffness") throw sim::InputError(fmt::format("--knob {}: there are stiffness, density, viscosity, cell", knob));
     std::vector<std::string> sets;
     for (const sim::NamedMaterial& material : setup.scene.materials)
         sets.push_back(fmt::format("materials.{}.young={:.6g}", material.name, factor * material.material.young));
@@ -68,8 +65,8 @@ std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std
     return methods;
 }
 
-std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& methods, const SceneSetup& setup,
-                                      const std::string& knob, const std::vector<double>& factors)
+std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
+                                      const std::vector<double>& factors)
 {
     std::vector<StabilityMethod> all;
     for (const StabilityMethod& method : methods) {

@@ -25,10 +25,7 @@ const StabilityRow* rowOf(const StabilityResult& result, const StabilityMethod& 
 }
 
 /// One word for a cell of the map: "cut", "energy", "speed", "stopped", …
-std::string reasonWord(const StabilityRow& row)
-{
-    return row.isStable ? "" : row.why.substr(0, row.why.find_first_of(" :"));
-}
+std::string reasonWord(const StabilityRow& row) { return row.isStable ? "" : row.why.substr(0, row.why.find_first_of(" :")); }
 
 std::string plotScript(const StabilityResult& result, const std::string& picture)
 {
@@ -42,8 +39,7 @@ std::string plotScript(const StabilityResult& result, const std::string& picture
             fmt::format_to(std::back_inserter(words), "{} {} \"{}\"\n", s, m, row ? reasonWord(*row) : "");
         }
     }
-    for (std::size_t s = 0; s < steps.size(); ++s)
-        stepNames += fmt::format("{}{} {}", s > 0 ? ", " : "", gnuplotText(milliseconds(steps[s])), s);
+    for (std::size_t s = 0; s < steps.size(); ++s) stepNames += fmt::format("{}{} {}", s > 0 ? ", " : "", gnuplotText(milliseconds(steps[s])), s);
     return fmt::format(
         "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\n$cells << END\n{}END\n$words << END\n{}END\n"
         "set label 1 {} at screen 0.5, screen 1 center offset 0,-1 noenhanced\nset tmargin 3\nset xlabel 'time step [ms]'\nset xtics ({}) "
@@ -91,7 +87,8 @@ std::string stabilityReport(const std::vector<StabilityResult>& results, bool wi
         "it comes to its end, all its numbers are finite, its energy never rises above that of the start (and the work of sources, "
         "suction, surface tension, obstacles, moving solids and pins) by more than {:g} of its largest kinetic energy, and no particle is "
         "faster than "
-        "{:g} times the speed of all liquid, had it all that kinetic energy, or than the fastest solid. The largest stable step is one at which all shorter ones "
+        "{:g} times the speed of all liquid, had it all that kinetic energy, or than the fastest solid. The largest stable step is one at which all "
+        "shorter ones "
         "tried are stable too.\n",
         kAllowedGain, kAllowedSpeed);
     for (const StabilityResult& result : results) {

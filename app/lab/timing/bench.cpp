@@ -59,8 +59,7 @@ BenchRepeat benchOnce(const SceneSetup& setup, const Parts& parts, const Options
     const sim::State& state = simulation->state();
     for (int n = 0; n < options.warmupSteps; ++n) simulation->step(nextFrameTime(setup, state.time));
     BenchRepeat repeat;
-    for (int n = 0; n < options.steps; ++n)
-        addStep(simulation->step(nextFrameTime(setup, state.time)), 1.0 / options.steps, repeat);
+    for (int n = 0; n < options.steps; ++n) addStep(simulation->step(nextFrameTime(setup, state.time)), 1.0 / options.steps, repeat);
     repeat.stateHash = simulation->stateHash();
     return repeat;
 }
@@ -87,8 +86,8 @@ std::string benchTable(const std::vector<BenchResult>& results)
         table += '\n';
     }
     const auto& first = results.front().repeats.front();
-    return table + fmt::format("particles {}, iterations per step {:.1f}, state {}\n", first.particles, first.meanIterations,
-                               hexDigits(first.stateHash));
+    return table +
+           fmt::format("particles {}, iterations per step {:.1f}, state {}\n", first.particles, first.meanIterations, hexDigits(first.stateHash));
 }
 
 std::string benchCsv(const std::string& scene, const Options& options, const std::vector<BenchResult>& results)
@@ -105,24 +104,16 @@ std::string benchCsv(const std::string& scene, const Options& options, const std
     return csv;
 }
 
-std::string machineOf(const Options& options)
-{
-    return options.machine.empty() ? machineName() : options.machine;
-}
+std::string machineOf(const Options& options) { return options.machine.empty() ? machineName() : options.machine; }
 
-std::filesystem::path machineFolder(const Options& options)
-{
-    return options.results / machineOf(options);
-}
+std::filesystem::path machineFolder(const Options& options) { return options.results / machineOf(options); }
 
 std::string machineName()
 {
     std::string slug;
     for (const unsigned char c : processorName() + fmt::format(" {} cores", std::thread::hardware_concurrency())) {
-        if (std::isalnum(c) != 0)
-            slug += static_cast<char>(std::tolower(c));
-        else if (!slug.empty() && slug.back() != '_')
-            slug += '_';
+        if (std::isalnum(c) != 0) slug += static_cast<char>(std::tolower(c));
+        else if (!slug.empty() && slug.back() != '_') slug += '_';
     }
     return slug;
 }

@@ -24,8 +24,8 @@ struct BenchResult {
     int threads = 1;
     std::vector<BenchRepeat> repeats;
 
-    double minimum(int stage) const;   ///< over the repeats [ms]
-    double middle(int stage) const;    ///< median over the repeats [ms]
+    double minimum(int stage) const;  ///< over the repeats [ms]
+    double middle(int stage) const;   ///< median over the repeats [ms]
     bool ran(int stage) const { return repeats.front().ran[stage]; }
 };
 

@@ -27,18 +27,16 @@ void follow(const SceneSetup& setup, const Parts& parts, const std::function<boo
         readAll(validation, time, result);
         measures.startInterval();
     };
-    result.steps = follow(*simulation, setup.scene, validation.every, read, [&] { measures.tookStep(); }, stopWanted).steps;
+    result.steps = follow(
+                       *simulation, setup.scene, validation.every, read, [&] { measures.tookStep(); }, stopWanted)
+                       .steps;
 }
 
 }  // namespace
 
-bool CaseResult::passes() const
-{
-    return failure.empty() && std::ranges::all_of(findings, &Finding::passes);
-}
+bool CaseResult::passes() const { return failure.empty() && std::ranges::all_of(findings, &Finding::passes); }
 
-CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts,
-                   const std::function<bool()>& stopWanted)
+CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted)
 {
     const auto begin = std::chrono::steady_clock::now();
     CaseResult result{.name = name, .setup = setup, .validation = *readValidation(setup), .readings = {}};

@@ -24,7 +24,6 @@ struct CaseResult {
 };
 
 /// Runs a scene with a section `validate` to its end and compares it with what is known.
-CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts,
-                   const std::function<bool()>& stopWanted);
+CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted);
 
 }  // namespace app

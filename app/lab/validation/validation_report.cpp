@@ -23,16 +23,12 @@ std::string deviation(const Finding& finding)
 {
     if (!std::isfinite(finding.expected) || !std::isfinite(finding.value)) return "-";
     const double error = finding.value - finding.expected;
-    return finding.expected == 0.0 ? fmt::format("{:+.2g}", error)
-                                   : fmt::format("{:+.2f} %", 100.0 * error / std::abs(finding.expected));
+    return finding.expected == 0.0 ? fmt::format("{:+.2g}", error) : fmt::format("{:+.2f} %", 100.0 * error / std::abs(finding.expected));
 }
 
 /// Is what is expected drawn beside the readings: where it is known at each, or is what one of them or their mean is
 /// compared with?
-bool hasLine(const Check& check)
-{
-    return check.hasCurve() || (check.expect && check.take <= Take::Largest);
-}
+bool hasLine(const Check& check) { return check.hasCurve() || (check.expect && check.take <= Take::Largest); }
 
 /// Of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
 std::string readingsLabel(const Check& check)
@@ -47,12 +43,10 @@ std::string panel(const CaseResult& result, std::size_t i)
     const auto column = [&](int number) { return fmt::format("using ($1=={}?$2:NaN):{}", i, number); };
     const std::string file = gnuplotText(result.name + ".csv");
     const std::string abscissa = check.against.text() == "t" ? "time [s]" : check.against.text();
-    std::string text = fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ",
-                                   gnuplotText(check.name), gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
-    if (hasLine(check))
-        text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title 'known', ", file, column(4));
-    return text +
-           fmt::format("{} skip 1 {} with lines lw 2 lc rgb '{}' title 'found'\n", file, column(3), kPlotColors[2]);
+    std::string text = fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ", gnuplotText(check.name),
+                                   gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
+    if (hasLine(check)) text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title 'known', ", file, column(4));
+    return text + fmt::format("{} skip 1 {} with lines lw 2 lc rgb '{}' title 'found'\n", file, column(3), kPlotColors[2]);
 }
 
 std::string plotScript(const CaseResult& result, const std::string& picture)
@@ -71,9 +65,8 @@ std::string rowOf(const CaseResult& result, std::size_t i)
 {
     const Check& check = result.validation.checks[i];
     const Finding& finding = result.findings[i];
-    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name,
-                       withUnit(finding.value, check.unit), withUnit(finding.expected, check.unit), deviation(finding),
-                       bounds(check), finding.passes ? "passes" : "**fails**");
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name, withUnit(finding.value, check.unit),
+                       withUnit(finding.expected, check.unit), deviation(finding), bounds(check), finding.passes ? "passes" : "**fails**");
 }
 
 }  // namespace
@@ -83,8 +76,7 @@ std::string findingsTable(const std::vector<CaseResult>& results)
     std::string table = "| case | check | found | known | deviation | allowed | |\n|---|---|---:|---:|---:|---|---|\n";
     for (const CaseResult& result : results) {
         for (std::size_t i = 0; i < result.findings.size(); ++i) table += rowOf(result, i);
-        if (!result.failure.empty())
-            table += fmt::format("| {} | {} | - | - | - | - | **fails** |\n", result.name, result.failure);
+        if (!result.failure.empty()) table += fmt::format("| {} | {} | - | - | - | - | **fails** |\n", result.name, result.failure);
     }
     return table;
 }
@@ -94,12 +86,12 @@ std::string validationReport(const std::vector<CaseResult>& results, bool isQuic
     const auto passed = std::ranges::count_if(results, &CaseResult::passes);
     double seconds = 0.0;
     for (const CaseResult& result : results) seconds += result.wallSeconds;
-    std::string text = fmt::format("# Validation{}\n\n{} of {} cases pass, in {}.\n\n{}", isQuick ? " (quick)" : "",
-                                   passed, results.size(), formatDuration(seconds), findingsTable(results));
+    std::string text = fmt::format("# Validation{}\n\n{} of {} cases pass, in {}.\n\n{}", isQuick ? " (quick)" : "", passed, results.size(),
+                                   formatDuration(seconds), findingsTable(results));
     for (const CaseResult& result : results) {
         const Validation& validation = result.validation;
-        text += fmt::format("\n## {}\n\n{}\n\nKnown from: {}. {} steps, {}.\n", result.setup.scene.title,
-                            validation.about, validation.source, result.steps, formatDuration(result.wallSeconds));
+        text += fmt::format("\n## {}\n\n{}\n\nKnown from: {}. {} steps, {}.\n", result.setup.scene.title, validation.about, validation.source,
+                            result.steps, formatDuration(result.wallSeconds));
         if (withPlots) text += fmt::format("\n![{}]({}.png)\n", result.setup.scene.title, result.name);
     }
     return text;
@@ -110,8 +102,7 @@ void writeReadings(const CaseResult& result, const std::filesystem::path& folder
     std::string csv = "check,at,found,known\n";
     for (std::size_t i = 0; i < result.readings.size(); ++i)
         for (const Reading& reading : result.readings[i])
-            fmt::format_to(std::back_inserter(csv), "{},{:.9g},{:.9g},{:.9g}\n", i, reading.at, reading.value,
-                           reading.expected);
+            fmt::format_to(std::back_inserter(csv), "{},{:.9g},{:.9g},{:.9g}\n", i, reading.at, reading.value, reading.expected);
     writeWhole(folder / (result.name + ".csv"), csv);
     const auto enough = [](const auto& readings) { return readings.size() > 1; };
     if (canPlot() && std::ranges::all_of(result.readings, enough))

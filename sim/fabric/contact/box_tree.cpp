@@ -17,14 +17,8 @@ constexpr float kFar = 1.0e30f;
 constexpr double kRounding = 5.0e-7;
 constexpr SweptBox kNowhere = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}, {kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
-float below(double v)
-{
-    return static_cast<float>(v - kRounding * std::abs(v));
-}
-float above(double v)
-{
-    return static_cast<float>(v + kRounding * std::abs(v));
-}
+float below(double v) { return static_cast<float>(v - kRounding * std::abs(v)); }
+float above(double v) { return static_cast<float>(v + kRounding * std::abs(v)); }
 
 std::uint64_t spread(std::uint64_t v)  // bits 0, 1, 2 … to bits 0, 3, 6 …
 {

@@ -84,11 +84,11 @@ class BoxTree {
     void refitLeaf(const Sweep& sweep, std::span<const char> dirtyVertices, int leaf);
 
     int perPrimitive_ = 0;
-    std::vector<int> corners_;       ///< in the order of the tree
-    std::vector<int> order_;         ///< primitives
-    std::vector<double> reach_;      ///< in the order of the tree
+    std::vector<int> corners_;                     ///< in the order of the tree
+    std::vector<int> order_;                       ///< primitives
+    std::vector<double> reach_;                    ///< in the order of the tree
     std::vector<std::vector<SweptBoxes>> levels_;  ///< leaf groups first; lanes of a level are the groups of the one before
-    std::vector<unsigned> dirty_;    ///< lanes of each leaf
+    std::vector<unsigned> dirty_;                  ///< lanes of each leaf
 };
 
 }  // namespace sim::contact

@@ -53,7 +53,8 @@ void CandidateList::findRestPairs(std::span<const Vec3> rest)
     for (const CandidatePool* pool : {&edgePairs_, &facePairs_}) {
         places.clear();
         for (std::size_t i = 0; i < pool->size(); ++i)
-            if (pool->distance[i] < pool->reach[i] + (bridges_ ? kNearAtRest * primitives_.bridge(pool->a[i], pool->b[i]) : 0.0)) places.push_back({pool->a[i], pool->b[i], static_cast<int>(i)});
+            if (pool->distance[i] < pool->reach[i] + (bridges_ ? kNearAtRest * primitives_.bridge(pool->a[i], pool->b[i]) : 0.0))
+                places.push_back({pool->a[i], pool->b[i], static_cast<int>(i)});
         sorter.sort(places, primitives_.firstFace());
         for (const PairPlace& pair : places) {
             found.begin.resize(pair.a + 1, static_cast<int>(found.partner.size()));
@@ -85,8 +86,7 @@ bool CandidateList::cover(std::span<const Vec3> x, std::span<const Vec3> u)
     if (strays == 0) return false;
     if (!built_ || strays > kMostDirty * static_cast<double>(x.size())) {
         stepsAhead_ = isStepStart_ ? stepsToLookAhead(u) : 0;
-        parallelFor(x.size(), kGrain,
-                    [&](std::size_t v) { setDirty(v, x[v], u.empty() ? Vec3::Zero().eval() : u[v]); });
+        parallelFor(x.size(), kGrain, [&](std::size_t v) { setDirty(v, x[v], u.empty() ? Vec3::Zero().eval() : u[v]); });
     }
     build();
     return true;
@@ -112,8 +112,7 @@ int CandidateList::findStrays(std::span<const Vec3> x, std::span<const Vec3> u, 
             const double most = limit[v] * limit[v];
             const Vec3 move = u.empty() ? Vec3::Zero().eval() : u[v];
             const bool isKnown = built_ && !(isStepStart_ && strayed_[v]);
-            const bool stays = (x[v] - sweep_.from[v]).squaredNorm() <= most &&
-                               (u.empty() || (moves * (move - expected(v))).squaredNorm() <= most);
+            const bool stays = (x[v] - sweep_.from[v]).squaredNorm() <= most && (u.empty() || (moves * (move - expected(v))).squaredNorm() <= most);
             dirtyVertices_[v] = 0;
             if (isKnown && stays) continue;
             ++strays[c];
@@ -135,8 +134,7 @@ void CandidateList::setDirty(std::size_t v, const Vec3& x, const Vec3& move)
 
 void CandidateList::build()
 {
-    if (isStepStart_)
-        parallelFor(ahead_.size(), kGrain, [&](std::size_t v) { sweep_.move.set(v, stepsAhead_ * ahead_[v]); });
+    if (isStepStart_) parallelFor(ahead_.size(), kGrain, [&](std::size_t v) { sweep_.move.set(v, stepsAhead_ * ahead_[v]); });
     search_.run(sweep_, dirtyVertices_, restPairs_);
     markDirtyPrimitives();
     for (CandidatePool* pool : {&edgePairs_, &facePairs_}) {
@@ -151,15 +149,10 @@ void CandidateList::markDirtyPrimitives()
 {
     parallelFor(static_cast<std::size_t>(primitives_.count()), 4096, [&](std::size_t i) {
         const int p = static_cast<int>(i);
-        const auto any = [&](const auto& vertices) {
-            return std::ranges::any_of(vertices, [&](int v) { return dirtyVertices_[v] != 0; });
-        };
-        if (p < primitives_.edgeCount)
-            dirty_[i] = any(primitives_.edges[p]);
-        else if (p < primitives_.firstFace())
-            dirty_[i] = dirtyVertices_[p - primitives_.firstVertex()];
-        else
-            dirty_[i] = any(primitives_.faces[p - primitives_.firstFace()]);
+        const auto any = [&](const auto& vertices) { return std::ranges::any_of(vertices, [&](int v) { return dirtyVertices_[v] != 0; }); };
+        if (p < primitives_.edgeCount) dirty_[i] = any(primitives_.edges[p]);
+        else if (p < primitives_.firstFace()) dirty_[i] = dirtyVertices_[p - primitives_.firstVertex()];
+        else dirty_[i] = any(primitives_.faces[p - primitives_.firstFace()]);
     });
 }
 
@@ -175,9 +168,9 @@ void CandidateList::moved()
 
 void CandidateList::measure(std::span<const Vec3> x)
 {
-    const bool stands = measured_ && parallelReduce(
-                                         x.size(), true, [&](std::size_t v) { return x[v] == measuredAt_[v]; },
-                                         [](bool a, bool b) { return a && b; });
+    const bool stands =
+        measured_ && parallelReduce(
+                         x.size(), true, [&](std::size_t v) { return x[v] == measuredAt_[v]; }, [](bool a, bool b) { return a && b; });
     if (!stands) parallelFor(x.size(), kGrain, [&](std::size_t v) { measuredAt_.set(v, x[v]); });
     edgePairs_.measure(measuredAt_, !stands);
     facePairs_.measure(measuredAt_, !stands);

@@ -13,10 +13,10 @@ struct CandidatePool {
     PairKind kind;
     AlignedArray<int> a, b;
     AlignedArray<std::array<int, 4>> vertices;
-    AlignedArray<double> reach, core;      ///< as in PairRange [cm]
-    AlignedArray<double> distance;         ///< of the two where they were last measured [cm]
-    AlignedArray<double> p, q;             ///< and their nearest points (Closest)
-    std::vector<int> fresh;                ///< places of pairs that have not been measured yet
+    AlignedArray<double> reach, core;  ///< as in PairRange [cm]
+    AlignedArray<double> distance;     ///< of the two where they were last measured [cm]
+    AlignedArray<double> p, q;         ///< and their nearest points (Closest)
+    std::vector<int> fresh;            ///< places of pairs that have not been measured yet
 
     std::size_t size() const { return a.size(); }
     PairRange range(std::size_t i) const { return {reach[i], core[i]}; }

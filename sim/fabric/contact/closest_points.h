@@ -16,8 +16,8 @@ enum class PairKind { EdgeEdge, VertexFace };
 /// Edges 0-1 and 2-3: the points (1 − p) x0 + p x1 and (1 − q) x2 + q x3. Vertex 0 and face 1-2-3: x0 and (1 − p − q) x1 + p x2 + q x3.
 template <class T>
 struct Closest {
-    T p, q;                 ///< [0..1]
-    Triple<T> separation;   ///< from the point of the second to that of the first [cm]
+    T p, q;                ///< [0..1]
+    Triple<T> separation;  ///< from the point of the second to that of the first [cm]
 };
 
 /// Shares of the four vertices in the separation; those of the second primitive are negative, all sum to zero.
@@ -89,7 +89,8 @@ template <class T>
     T p = unitClamp(T(f1 / a)), q = zero;
     Triple<T> separation = apart - p * e1;
     T nearest = dot(separation, separation);
-    const auto take = [&](T otherP, T otherQ, auto&& better) __attribute__((always_inline)) {
+    const auto take = [&](T otherP, T otherQ, auto&& better) __attribute__((always_inline))
+    {
         const Triple<T> s = apart - otherP * e1 - otherQ * e2;
         const T d = dot(s, s);
         const Mask<T> chosen = better(d);
@@ -103,9 +104,8 @@ template <class T>
 
     const T area = a * b - ab * ab;  // four times the square of the triangle's
     const T insideP = (b * f1 - ab * f2) / area, insideQ = (a * f2 - ab * f1) / area;
-    take(insideP, insideQ, [&](T) {
-        return Mask<T>((area > kParallel * a * b) & (insideP >= zero) & (insideQ >= zero) & (insideP + insideQ <= one));
-    });
+    take(insideP, insideQ,
+         [&](T) { return Mask<T>((area > kParallel * a * b) & (insideP >= zero) & (insideQ >= zero) & (insideP + insideQ <= one)); });
     return {p, q, separation};
 }
 
@@ -120,7 +120,8 @@ template <class T>
 template <class T, class Root, class Greater>
 [[gnu::always_inline]] inline T relativeMotion(PairKind kind, const std::array<Triple<T>, 4>& u, Root&& root, Greater&& greater)
 {
-    const auto from = [&](int a, const Triple<T>& middle) __attribute__((always_inline)) {
+    const auto from = [&](int a, const Triple<T>& middle) __attribute__((always_inline))
+    {
         const Triple<T> d = u[a] - middle;
         return dot(d, d);
     };
@@ -135,12 +136,14 @@ template <class T, class Root, class Greater>
 
 inline double relativeMotion(PairKind kind, const std::array<Triple<double>, 4>& u)
 {
-    return relativeMotion(kind, u, [](double v) { return std::sqrt(v); }, [](double a, double b) { return std::max(a, b); });
+    return relativeMotion(
+        kind, u, [](double v) { return std::sqrt(v); }, [](double a, double b) { return std::max(a, b); });
 }
 
 [[gnu::always_inline]] inline Pack relativeMotion(PairKind kind, const std::array<Triple<Pack>, 4>& u)
 {
-    return relativeMotion(kind, u, [](Pack v) { return sqrtPack(v); }, [](Pack a, Pack b) { return maxPack(a, b); });
+    return relativeMotion(
+        kind, u, [](Pack v) { return sqrtPack(v); }, [](Pack a, Pack b) { return maxPack(a, b); });
 }
 
 /// Largest gap, over the axes, between the boxes around the two sides while they move against each other: they don't come nearer [cm].

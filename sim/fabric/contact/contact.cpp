@@ -19,20 +19,20 @@ struct FabricContact::Parts {
     /// What the friction of an active pair goes by.
     struct Grip {
         PairRange range;
-        Vec3 apart;          ///< separation where it was looked at last [cm]
-        double stiffness;    ///< of the pair [dyn/cm]
-        double perStep;      ///< mean mass of its vertices over springStep² [dyn/cm]
-        double coefficient;  ///< Coulomb's [-]
-        double perMass;      ///< h² over the mass that its separation has [cm/dyn]
-        bool slides;         ///< friction is at its bound
-        double bridge = 0.0; ///< longest beyond the reach [cm] …
-        double pull = 0.0;   ///< … and what it holds with [dyn]
+        Vec3 apart;           ///< separation where it was looked at last [cm]
+        double stiffness;     ///< of the pair [dyn/cm]
+        double perStep;       ///< mean mass of its vertices over springStep² [dyn/cm]
+        double coefficient;   ///< Coulomb's [-]
+        double perMass;       ///< h² over the mass that its separation has [cm/dyn]
+        bool slides;          ///< friction is at its bound
+        double bridge = 0.0;  ///< longest beyond the reach [cm] …
+        double pull = 0.0;    ///< … and what it holds with [dyn]
     };
     /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
     struct Acted {
-        Vec3 apart;          ///< its separation [cm]
-        Vec3 friction;       ///< [dyn]
-        double bound;        ///< of friction [dyn]
+        Vec3 apart;     ///< its separation [cm]
+        Vec3 friction;  ///< [dyn]
+        double bound;   ///< of friction [dyn]
     };
 
     bool bridges() const { return cohesion && cohesion->isOnFabric(); }
@@ -50,22 +50,22 @@ struct FabricContact::Parts {
     Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
     double touchingMass();
 
-    const Cohesion* cohesion;                 ///< or null
+    const Cohesion* cohesion;  ///< or null
     CandidateList list;
     Limiter limiter;
-    std::vector<Vec3> start;                  ///< of the step [cm]
-    std::vector<double> mass, inverseMass;    ///< [g, 1/g]
-    double h = 0.0, springStep = 0.0;         ///< [s]
-    std::vector<PairPlace> acting;            ///< by chunks
+    std::vector<Vec3> start;                      ///< of the step [cm]
+    std::vector<double> mass, inverseMass;        ///< [g, 1/g]
+    double h = 0.0, springStep = 0.0;             ///< [s]
+    std::vector<PairPlace> acting;                ///< by chunks
     std::vector<PairPlace> edgePairs, facePairs;  ///< that act, sorted
     PairSorter sorter;
     ActiveContacts active;
-    std::vector<Grip> grips;                  ///< of the active pairs
-    Grips held;                               ///< at the start of the step
-    std::vector<Vec3> heldForce;              ///< of it on the active pairs [dyn]
-    std::vector<char> isTouching;             ///< of each vertex
-    std::vector<int> nearest, opposite;       ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
-    std::vector<Vec3> keptForce;              ///< of friction on the active pairs, at the end of the step [dyn]
+    std::vector<Grip> grips;             ///< of the active pairs
+    Grips held;                          ///< at the start of the step
+    std::vector<Vec3> heldForce;         ///< of it on the active pairs [dyn]
+    std::vector<char> isTouching;        ///< of each vertex
+    std::vector<int> nearest, opposite;  ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
+    std::vector<Vec3> keptForce;         ///< of friction on the active pairs, at the end of the step [dyn]
 };
 
 FabricContact::FabricContact(const Fabric& fabric, const Cohesion* cohesion) : parts_(std::make_unique<Parts>(fabric, cohesion)) {}
@@ -90,10 +90,7 @@ void FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitRepor
     parts_->limiter.limit(x, u, parts_->list, report, clock);
 }
 
-void FabricContact::moved()
-{
-    parts_->list.moved();
-}
+void FabricContact::moved() { parts_->list.moved(); }
 
 const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected)
 {
@@ -226,8 +223,7 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
-    const GripSpring spring{along(turn * heldForce[slot]), gripStiffness(-energy.slope, pressed, grip.perStep),
-                            grip.coefficient * -energy.slope};
+    const GripSpring spring{along(turn * heldForce[slot]), gripStiffness(-energy.slope, pressed, grip.perStep), grip.coefficient * -energy.slope};
     if (expected.empty()) return spring.at(along(apart - carried));
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
 }
@@ -253,8 +249,7 @@ double FabricContact::Parts::pullOf(int seeker, std::size_t i, std::span<const V
     const Primitives& primitives = list.primitives();
     const std::array<int, 4>& v = active.vertices[i];
     const std::array<double, 4>& c = active.weights[i];
-    if (primitives.kind(seeker) == PairKind::VertexFace)
-        return cohesion->onFace(v[0], {v[1], v[2], v[3]}, {-c[1], -c[2], -c[3]});
+    if (primitives.kind(seeker) == PairKind::VertexFace) return cohesion->onFace(v[0], {v[1], v[2], v[3]}, {-c[1], -c[2], -c[3]});
     const int other = active.between[i][active.between[i][0] == seeker ? 1 : 0];
     const Vec3 first = x[v[1]] - x[v[0]], second = x[v[3]] - x[v[2]];
     const double length = (active.between[i][0] == seeker ? first : second).norm();
@@ -311,7 +306,9 @@ double FabricContact::frictionError(std::span<const Vec3> x, double acceleration
             const double beyond = acted.friction.norm() - acted.bound;
             return Sums{p.grips[i].slides ? std::abs(beyond) : std::max(beyond, 0.0), acted.bound};
         },
-        [](const Sums& a, const Sums& b) { return Sums{a[0] + b[0], a[1] + b[1]}; });
+        [](const Sums& a, const Sums& b) {
+            return Sums{a[0] + b[0], a[1] + b[1]};
+        });
     return wrong > 0.0 ? wrong / std::max(bound, acceleration * p.touchingMass()) : 0.0;
 }
 
@@ -343,9 +340,8 @@ ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& 
     const auto press = [&](std::size_t i, double distance) { return pairEnergy(distance, p.grips[i].range, p.grips[i].stiffness); };
     ContactEnergy stored;
     if (p.bridges())
-        stored.bridges = -sumOver([&](std::size_t i, double distance) {
-            return p.grips[i].pull * std::max(0.0, p.grips[i].range.reach + p.grips[i].bridge - distance);
-        });
+        stored.bridges = -sumOver(
+            [&](std::size_t i, double distance) { return p.grips[i].pull * std::max(0.0, p.grips[i].range.reach + p.grips[i].bridge - distance); });
     stored.pressed = stored.bridges + sumOver([&](std::size_t i, double distance) { return press(i, distance).energy; });
     stored.gripped = sumOver([&](std::size_t i, double distance) {
         const double pressed = p.grips[i].range.reach - distance;
@@ -355,10 +351,7 @@ ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& 
     return stored;
 }
 
-std::size_t FabricContact::candidates() const
-{
-    return parts_->list.size();
-}
+std::size_t FabricContact::candidates() const { return parts_->list.size(); }
 
 double FabricContact::leastDistance() const
 {
@@ -366,8 +359,7 @@ double FabricContact::leastDistance() const
     double least = std::numeric_limits<double>::infinity();
     for (const CandidatePool* pairs : {&parts_->list.edgePairs(), &parts_->list.facePairs()})
         least = parallelReduce(
-            pairs->size(), least,
-            [&](std::size_t i) { return pairs->distance[i] / (pairs->reach[i] - primitives.band(pairs->a[i], pairs->b[i])); },
+            pairs->size(), least, [&](std::size_t i) { return pairs->distance[i] / (pairs->reach[i] - primitives.band(pairs->a[i], pairs->b[i])); },
             [](double a, double b) { return std::min(a, b); });
     return least;
 }

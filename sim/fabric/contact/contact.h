@@ -17,13 +17,13 @@ namespace sim {
 /// vertices, or the first alone where a vertex meets a face.
 struct ActiveContacts {
     std::vector<std::array<int, 4>> vertices;
-    std::vector<std::uint8_t> firstSide;           ///< vertices of the first side: 2 or 1
-    std::vector<std::array<double, 4>> weights;    ///< of both sides, those of the second negative: they sum to zero [-]
-    std::vector<Vec3> normal;                      ///< unit, from the second side to the first
-    std::vector<Vec3> force;                       ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]
-    std::vector<double> stiffness;                 ///< along the normal, k_n [dyn/cm]
-    std::vector<double> frictionStiffness;         ///< across it, k_t: the block of a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
-    std::vector<Vec2i> between;                    ///< the two, as contact/primitives.h counts them: ascending
+    std::vector<std::uint8_t> firstSide;         ///< vertices of the first side: 2 or 1
+    std::vector<std::array<double, 4>> weights;  ///< of both sides, those of the second negative: they sum to zero [-]
+    std::vector<Vec3> normal;                    ///< unit, from the second side to the first
+    std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]
+    std::vector<double> stiffness;               ///< along the normal, k_n [dyn/cm]
+    std::vector<double> frictionStiffness;       ///< across it, k_t: the block of a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
+    std::vector<Vec2i> between;                  ///< the two, as contact/primitives.h counts them: ascending
 
     std::size_t size() const { return vertices.size(); }
     bool empty() const { return vertices.empty(); }
@@ -31,9 +31,9 @@ struct ActiveContacts {
 
 /// What limiting the moves of one step took.
 struct LimitReport {
-    int listBuilds = 0;      ///< full and partial ones of the candidate list
-    int blends = 0;          ///< pairs whose motion was blended towards their mean
-    int scalings = 0;        ///< moves that had to be scaled as a whole: the last resort
+    int listBuilds = 0;  ///< full and partial ones of the candidate list
+    int blends = 0;      ///< pairs whose motion was blended towards their mean
+    int scalings = 0;    ///< moves that had to be scaled as a whole: the last resort
 };
 
 /// Fabric against fabric with true thickness, (fabric/contact/README.md, Pairs): every pair has an offset of its own, taken from the rest
@@ -67,8 +67,8 @@ class FabricContact {
     /// Energy that the pairs found last hold at x, in what presses and in the friction that is held there.
     ContactEnergy storedEnergy(std::span<const Vec3> x, const Grips& held) const;
 
-    std::size_t candidates() const;                ///< pairs in the list
-    double leastDistance() const;                  ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]
+    std::size_t candidates() const;  ///< pairs in the list
+    double leastDistance() const;    ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]
 
  private:
     struct Parts;

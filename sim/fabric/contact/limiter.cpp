@@ -19,10 +19,7 @@ std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3
 
 }  // namespace
 
-Limiter::Limiter(const Primitives& primitives) : primitives_(primitives)
-{
-    motion_.resize(primitives.count());
-}
+Limiter::Limiter(const Primitives& primitives) : primitives_(primitives) { motion_.resize(primitives.count()); }
 
 void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {

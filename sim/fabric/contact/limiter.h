@@ -23,11 +23,11 @@ class Limiter {
         PairKind kind;
         std::array<int, 4> vertices;
         std::array<double, 4> weights;
-        Vec3 normal;           ///< from the second to the first [-]
-        double allowed;        ///< approach along the normal that is left alone [cm]
-        double compliance;     ///< Σ c² / m of the free vertices [1/g]
-        double separation;     ///< least distance on the way [cm]
-        double radii;          ///< sum of both [cm]
+        Vec3 normal;        ///< from the second to the first [-]
+        double allowed;     ///< approach along the normal that is left alone [cm]
+        double compliance;  ///< Σ c² / m of the free vertices [1/g]
+        double separation;  ///< least distance on the way [cm]
+        double radii;       ///< sum of both [cm]
     };
 
     void cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
@@ -41,12 +41,12 @@ class Limiter {
 
     const Primitives& primitives_;
     std::span<const double> inverseMass_;
-    Points motion_;                  ///< of each primitive: mean of its vertices, and as the fourth their largest distance from it [cm]
-    std::vector<PairPlace> near_;    ///< by chunks: what the quick look left
+    Points motion_;                ///< of each primitive: mean of its vertices, and as the fourth their largest distance from it [cm]
+    std::vector<PairPlace> near_;  ///< by chunks: what the quick look left
     std::vector<PairPlace> places_;
     PairSorter sorter_;
-    std::vector<Closing> closing_;   ///< sorted: edges with edges first
-    std::vector<double> fraction_;   ///< of each: safe part of the move [0..1]
+    std::vector<Closing> closing_;  ///< sorted: edges with edges first
+    std::vector<double> fraction_;  ///< of each: safe part of the move [0..1]
 };
 
 /// Safe part of the move u of four vertices: on the way to it they never come nearer than `separation` [cm].

@@ -71,10 +71,7 @@ template <PairKind kKind>
 void measurePool(const Points& x, bool all, CandidatePool& pairs)
 {
     if (all) forEachPack(pairs.size(), [&](std::size_t first, std::size_t n) { measureFollowing<kKind>(x, first, n, pairs); });
-    else
-        forEachPack(pairs.fresh.size(), [&](std::size_t first, std::size_t n) {
-            measureListed<kKind>(x, &pairs.fresh[first], n, pairs);
-        });
+    else forEachPack(pairs.fresh.size(), [&](std::size_t first, std::size_t n) { measureListed<kKind>(x, &pairs.fresh[first], n, pairs); });
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ inline PairEnergy pairEnergy(double distance, const PairRange& range, double sti
     if (distance >= range.reach) return {};
     const double wall = range.wall(), pressed = range.reach - wall, depth = wall - range.core;
     const double soft = kSoftShare * pressed, gap = range.reach - distance, firm = gap - 0.5 * soft;
-    if (gap < soft)
-        return {stiffness * gap * gap * gap / (6.0 * soft), -0.5 * stiffness * gap * gap / soft, stiffness * gap / soft};
+    if (gap < soft) return {stiffness * gap * gap * gap / (6.0 * soft), -0.5 * stiffness * gap * gap / soft, stiffness * gap / soft};
     const double spring = 0.5 * stiffness * firm * firm + stiffness * soft * soft / 24.0;
     if (distance >= wall) return {spring, -stiffness * firm, stiffness};
     constexpr double kLeastDepth = 0.02;  // of the wall: where the parabola begins
@@ -56,9 +55,6 @@ inline double pairStiffness(double young, double touching, double mass, double s
 /// @param normalForce  [dyn]
 /// @param pressed      how far the pair is below its reach [cm]
 /// @param perStep      mean mass of the four vertices over step² [dyn/cm]
-inline double gripStiffness(double normalForce, double pressed, double perStep)
-{
-    return std::max(kFirmPerStep * perStep, normalForce / pressed);
-}
+inline double gripStiffness(double normalForce, double pressed, double perStep) { return std::max(kFirmPerStep * perStep, normalForce / pressed); }
 
 }  // namespace sim::contact

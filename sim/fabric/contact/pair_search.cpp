@@ -81,9 +81,7 @@ class PairSearch::Filter {
 PairSearch::PairSearch(const Primitives& primitives, std::span<const Vec3> rest) : primitives_(primitives)
 {
     for (double r : primitives.radius) reach_.push_back(ListMargin::reach(r));
-    const auto reachOf = [&](int first, int count) {
-        return std::vector<double>(reach_.begin() + first, reach_.begin() + first + count);
-    };
+    const auto reachOf = [&](int first, int count) { return std::vector<double>(reach_.begin() + first, reach_.begin() + first + count); };
     edges_ = BoxTree(flat(primitives.edges), 2, rest, reachOf(0, primitives.edgeCount));
     if (primitives.faceCount == 0) return;
     std::vector<int> all(primitives.vertexCount);
@@ -123,25 +121,22 @@ void PairSearch::run(const Sweep& sweep, std::span<const char> dirtyVertices, co
         all += found_[task].size();
     });
     if (all > most)
-        throw RunError(fmt::format("pieces of fabric have more than {} others near them on average, or would in this step: it has burst; "
-                                   "a smaller time step may help", kMostPairs));
+        throw RunError(
+            fmt::format("pieces of fabric have more than {} others near them on average, or would in this step: it has burst; "
+                        "a smaller time step may help",
+                        kMostPairs));
 }
 
 void PairSearch::searchFrom(const DirtyLeaf& dirty, Filter& filter) const
 {
-    const BoxTree& mine = dirty.query == Query::EdgesToEdges      ? edges_
-                          : dirty.query == Query::VerticesToFaces ? vertices_
-                                                                  : faces_;
-    const BoxTree& other = dirty.query == Query::EdgesToEdges      ? edges_
-                           : dirty.query == Query::VerticesToFaces ? faces_
-                                                                   : vertices_;
+    const BoxTree& mine = dirty.query == Query::EdgesToEdges ? edges_ : dirty.query == Query::VerticesToFaces ? vertices_ : faces_;
+    const BoxTree& other = dirty.query == Query::EdgesToEdges ? edges_ : dirty.query == Query::VerticesToFaces ? faces_ : vertices_;
     const unsigned myLanes = mine.dirtyLanes(dirty.leaf);
     const SweptBoxes& boxes = mine.leaf(dirty.leaf);
     other.forEachLeafNear(boxes.around(myLanes), [&](int leaf) {
         // Two dirty primitives meet once: edges from the one before in the tree, vertices and faces from the vertex.
         unsigned lanes = other.lanes(leaf);
-        if (dirty.query == Query::FacesToVertices || (dirty.query == Query::EdgesToEdges && leaf < dirty.leaf))
-            lanes &= ~other.dirtyLanes(leaf);
+        if (dirty.query == Query::FacesToVertices || (dirty.query == Query::EdgesToEdges && leaf < dirty.leaf)) lanes &= ~other.dirtyLanes(leaf);
         if (lanes == 0) return;
         const bool same = dirty.query == Query::EdgesToEdges && leaf == dirty.leaf;
         for (unsigned rest = myLanes; rest != 0; rest &= rest - 1) {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "sim/fabric/cohesion.h"
 #include "sim/fabric/contact/box_tree.h"
 #include "sim/fabric/contact/primitives.h"
 #include "sim/fabric/contact/rest_pairs.h"
-#include "sim/fabric/cohesion.h"
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace sim::contact {
 
 /// Two primitives that may touch soon.
 struct FoundPair {
-    int a, b;          ///< as Primitives numbers them, a < b
+    int a, b;  ///< as Primitives numbers them, a < b
     PairRange range;
 };
 
@@ -22,7 +22,7 @@ struct FoundPair {
 /// d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor, or the gap is: such a move is harmless at first glance (mayComeNearer). And at x alone
 /// d > Σ (reach − s') ≥ R for s' ≤ margin: it does not act.
 struct ListMargin {
-    static constexpr double kMargin = 0.7;   ///< of the radius [-]
+    static constexpr double kMargin = 0.7;  ///< of the radius [-]
     static double reach(double radius) { return (kMostReach + kMargin) * radius; }
     static double stray(double radius) { return (kMostReach + kMargin - kMostFloor) / (1.0 + 5.0 / 3.0) * radius; }
     static double strayAtRest(double radius) { return kMargin * radius; }
@@ -53,7 +53,7 @@ class PairSearch {
     void searchFrom(const DirtyLeaf& dirty, Filter& filter) const;
 
     const Primitives& primitives_;
-    std::vector<double> reach_;   ///< of each primitive [cm]
+    std::vector<double> reach_;  ///< of each primitive [cm]
     BoxTree edges_, vertices_, faces_;
     std::vector<DirtyLeaf> dirtyLeaves_;
     std::size_t tasks_ = 0;

@@ -37,7 +37,8 @@ using EightIndices = std::array<int, kLanes>;
 /// The eight points of these indices, lane by lane.
 [[gnu::always_inline]] inline QuadPack gatherQuads(const Points& points, const EightIndices& index)
 {
-    const auto two = [&](int lane) __attribute__((always_inline)) {
+    const auto two = [&](int lane) __attribute__((always_inline))
+    {
         const HalfPack a = *reinterpret_cast<const HalfPack*>(points.at(static_cast<std::size_t>(index[lane])));
         const HalfPack b = *reinterpret_cast<const HalfPack*>(points.at(static_cast<std::size_t>(index[lane + 1])));
         return Pack(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7));
@@ -47,8 +48,8 @@ using EightIndices = std::array<int, kLanes>;
     const PackMask lower = {0, 1, 2, 3, 8, 9, 10, 11}, upper = {4, 5, 6, 7, 12, 13, 14, 15};
     const Pack xy0 = __builtin_shuffle(p01, p23, xy), xy4 = __builtin_shuffle(p45, p67, xy);
     const Pack zw0 = __builtin_shuffle(p01, p23, zw), zw4 = __builtin_shuffle(p45, p67, zw);
-    return {__builtin_shuffle(xy0, xy4, lower), __builtin_shuffle(xy0, xy4, upper),
-            __builtin_shuffle(zw0, zw4, lower), __builtin_shuffle(zw0, zw4, upper)};
+    return {__builtin_shuffle(xy0, xy4, lower), __builtin_shuffle(xy0, xy4, upper), __builtin_shuffle(zw0, zw4, lower),
+            __builtin_shuffle(zw0, zw4, upper)};
 }
 
 [[gnu::always_inline]] inline Triple<Pack> gather(const Points& points, const EightIndices& index)

@@ -13,10 +13,7 @@ namespace {
 /// Pairs nearer at rest than this share of their radii are one body: sewn on, or meant to cross [-].
 constexpr double kJoined = 0.25;
 
-double effectiveYoung(const FabricMaterial& m)
-{
-    return m.young * m.packing();
-}
+double effectiveYoung(const FabricMaterial& m) { return m.young * m.packing(); }
 
 }  // namespace
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "sim/fabric/cohesion.h"
 #include "sim/fabric/contact/closest_points.h"
 #include "sim/fabric/contact/distances.h"
-#include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 
 #include <array>
@@ -27,13 +27,13 @@ struct Primitives {
     int edgeCount = 0, vertexCount = 0, faceCount = 0;
     std::vector<std::array<int, 2>> edges;
     std::vector<std::array<int, 3>> faces;
-    std::vector<char> pinned;        ///< of each vertex
-    std::vector<int> piece;          ///< of each vertex: its mesh or strand (FabricGroups)
-    std::vector<double> radius;      ///< of each primitive: of a yarn, half the thickness of cloth [cm]
-    std::vector<double> young;       ///< E χ [dyn/cm^2]
-    std::vector<double> friction;    ///< tan of the friction angle [-]
-    std::vector<int> strand;         ///< of each edge; −1 for edges of cloth
-    std::vector<int> strandReach;    ///< of each strand: edges no further along it than this don't touch
+    std::vector<char> pinned;      ///< of each vertex
+    std::vector<int> piece;        ///< of each vertex: its mesh or strand (FabricGroups)
+    std::vector<double> radius;    ///< of each primitive: of a yarn, half the thickness of cloth [cm]
+    std::vector<double> young;     ///< E χ [dyn/cm^2]
+    std::vector<double> friction;  ///< tan of the friction angle [-]
+    std::vector<int> strand;       ///< of each edge; −1 for edges of cloth
+    std::vector<int> strandReach;  ///< of each strand: edges no further along it than this don't touch
 
     int firstVertex() const { return edgeCount; }
     int firstFace() const { return edgeCount + vertexCount; }

@@ -19,8 +19,7 @@ template <class Set, class Store>
         const int corner = points.cells[c].corner, end = points.cells[c + 1].begin;
         for (int s = points.cells[c].begin; s < end; s += kLanes) {
             Operators<Set::kFactors> op[kAxes];
-            unroll<kAxes>(
-                [&](auto a) { setOperators<Set::kFactors, false>(loadPack(points.inCell[a].data() + s), op[a]); });
+            unroll<kAxes>([&](auto a) { setOperators<Set::kFactors, false>(loadPack(points.inCell[a].data() + s), op[a]); });
             unroll<kAxes>([&](auto a) {
                 Coefficients<Set::kFactors> found;
                 contract<a, Set>(tile.v[a] + corner, op, found);
@@ -96,8 +95,7 @@ struct AlongZ {
 /// Adds w Σ_d c_d (node − point)_z^d to the faces normal to kAxis, where form(kAxis, s)(x, y, c) sets the c_d of
 /// point s at nodes that are at (x, y) from it.
 template <int kAxis, int kTerms, class Form>
-[[gnu::noinline, gnu::flatten]] void scatterAxis(const PlaneTables& tables, const BlockPoints& points, std::size_t n,
-                                                 const Form& form, double* tile)
+[[gnu::noinline, gnu::flatten]] void scatterAxis(const PlaneTables& tables, const BlockPoints& points, std::size_t n, const Form& form, double* tile)
 {
     constexpr int kPlanes = kAxis == 2 ? 4 : 3, kRows = kAxis == 1 ? 4 : 3;
     const auto kindAndOffset = [](bool isSide, double at, int& kind) {
@@ -221,13 +219,11 @@ void BlockPoints::find(const LiquidParticles& particles, const ParticleOrder& or
 
 [[gnu::flatten]] void gatherValues(const FaceTile& tile, const BlockPoints& points, std::size_t n, PointArray<3>& u)
 {
-    gather<ModeSet<1>>(tile, points, n, [&](int a, int s, int count, const Coefficients<1>& found) {
-        storeFirst(u.of[a].data() + s, found[0][0][0], count);
-    });
+    gather<ModeSet<1>>(tile, points, n,
+                       [&](int a, int s, int count, const Coefficients<1>& found) { storeFirst(u.of[a].data() + s, found[0][0][0], count); });
 }
 
-[[gnu::flatten]] void gatherGradients(const FaceTile& tile, const BlockPoints& points, std::size_t n,
-                                      PointArray<9>& gradient)
+[[gnu::flatten]] void gatherGradients(const FaceTile& tile, const BlockPoints& points, std::size_t n, PointArray<9>& gradient)
 {
     gather<ModeSet<4>>(tile, points, n, [&](int a, int s, int count, const Coefficients<2>& found) {
         storeFirst(gradient.of[3 * a].data() + s, found[1][0][0], count);
@@ -236,28 +232,24 @@ void BlockPoints::find(const LiquidParticles& particles, const ParticleOrder& or
     });
 }
 
-void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>& f, FaceTile& tile)
-{
-    scatter<1>(points, n, ValueTerms{f}, tile);
-}
+void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>& f, FaceTile& tile) { scatter<1>(points, n, ValueTerms{f}, tile); }
 
 template <int kDirections>
-[[gnu::flatten]] void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n,
-                                  const PointArray<3 * kDirections>& d, PointArray<3 * kDirections>& carried)
+[[gnu::flatten]] void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
+                                  PointArray<3 * kDirections>& carried)
 {
     gather<ModeSet<4>>(tile, points, n, [&](int a, int s, int count, const Coefficients<2>& found) {
         unroll<kDirections>([&](auto k) {
             const auto direction = [&](int b) { return loadPack(d.of[3 * k + b].data() + s); };
             storeFirst(carried.of[3 * k + a].data() + s,
-                       found[1][0][0] * direction(0) + found[0][1][0] * direction(1) + found[0][0][1] * direction(2),
-                       count);
+                       found[1][0][0] * direction(0) + found[0][1][0] * direction(1) + found[0][0][1] * direction(2), count);
         });
     });
 }
 
 template <int kDirections>
-void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
-                  const PointArray<3 * kDirections>& f, FaceTile& tile)
+void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d, const PointArray<3 * kDirections>& f,
+                  FaceTile& tile)
 {
     scatter<2>(points, n, AlongTerms<kDirections>{d, f}, tile);
 }

@@ -21,11 +21,11 @@ struct BlockPoints {
         int corner;  ///< in a tile: the lowest node that the cell's points reach
         int begin;   ///< its first point
     };
-    std::vector<int> blockBegin;  ///< cells of block order.occupied[n] are [blockBegin[n], blockBegin[n + 1])
-    std::vector<Cell> cells;      ///< and one behind the last, where the points end
-    std::vector<int> id;          ///< of each point: number of the vertex or element
+    std::vector<int> blockBegin;                     ///< cells of block order.occupied[n] are [blockBegin[n], blockBegin[n + 1])
+    std::vector<Cell> cells;                         ///< and one behind the last, where the points end
+    std::vector<int> id;                             ///< of each point: number of the vertex or element
     std::array<AlignedArray<double>, kAxes> inCell;  ///< of each point: position in its cell, in cells, 0..1
-    std::vector<int> row;         ///< of each point after find(): among the sorted particles
+    std::vector<int> row;                            ///< of each point after find(): among the sorted particles
 
     void clear();
     std::size_t size() const { return id.size(); }
@@ -33,8 +33,7 @@ struct BlockPoints {
     int begin(std::size_t n) const { return cells[blockBegin[n]].begin; }
     int end(std::size_t n) const { return cells[blockBegin[n + 1]].begin; }
     /// Makes these the places of the sorted particles whose ids are in [idBegin, idEnd); they are numbered from idBegin on.
-    void find(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin,
-              std::uint32_t idEnd);
+    void find(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin, std::uint32_t idEnd);
     /// Makes this the points of `all` whose id `isKept`.
     void select(const BlockPoints& all, auto&& isKept);
 };
@@ -65,12 +64,12 @@ void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>
 
 /// G d for kDirections directions d of each point, over the cell size: component 3 k + a is ∂u_a along d_k.
 template <int kDirections>
-void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n,
-                 const PointArray<3 * kDirections>& d, PointArray<3 * kDirections>& carried);
+void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
+                 PointArray<3 * kDirections>& carried);
 /// Transpose of gatherAlong.
 template <int kDirections>
-void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
-                  const PointArray<3 * kDirections>& f, FaceTile& tile);
+void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d, const PointArray<3 * kDirections>& f,
+                  FaceTile& tile);
 
 void BlockPoints::select(const BlockPoints& all, auto&& isKept)
 {
@@ -96,8 +95,7 @@ inline void clearTile(const OccupiedBox& box, FaceTile& tile)
 {
     for (auto& field : tile.v)
         for (int z = box.low[2] - 1; z <= box.high[2] + 2; ++z)
-            for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y)
-                std::fill_n(field + tileIndex(-1, y, z), kTileEdge, 0.0);
+            for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y) std::fill_n(field + tileIndex(-1, y, z), kTileEdge, 0.0);
 }
 
 /// For every occupied block with its number in order.occupied, in parallel: body(n, tile of u).
@@ -107,8 +105,7 @@ void forEachBlock(const ParticleOrder& order, const BlockGrid& grid, const Block
         const int block = order.occupied[n];
         FaceTile tile;
         forEachTileRow(grid, block, OccupiedBox(order.cells(block)), [&](int piece, int cell, int node, auto length) {
-            for (int a = 0; a < kAxes; ++a)
-                std::copy_n(u.block(piece, a) + cell, static_cast<int>(length), tile.v[a] + node);
+            for (int a = 0; a < kAxes; ++a) std::copy_n(u.block(piece, a) + cell, static_cast<int>(length), tile.v[a] + node);
         });
         body(n, static_cast<const FaceTile&>(tile));
     });
@@ -124,8 +121,7 @@ struct FaceRows {
 
 /// For every occupied block: fill(n, empty tile), then adds the tile to u on rows with mass, which are cleared first;
 /// blocks of one colour share no face.
-void sumOverBlocks(const ParticleOrder& order, const BlockGrid& grid, const FaceRows& rows, BlockArray<double, 3>& u,
-                   auto&& fill)
+void sumOverBlocks(const ParticleOrder& order, const BlockGrid& grid, const FaceRows& rows, BlockArray<double, 3>& u, auto&& fill)
 {
     parallelFor(rows.first.size(), 1024, [&](std::size_t r) { std::fill_n(u.block(0) + rows.first[r], kLanes, 0.0); });
     for (const std::vector<int>& color : order.byColor)
@@ -134,8 +130,7 @@ void sumOverBlocks(const ParticleOrder& order, const BlockGrid& grid, const Face
             const OccupiedBox box(order.cells(block));
             FaceTile tile;
             clearTile(box, tile);
-            fill(static_cast<std::size_t>(std::ranges::lower_bound(order.occupied, block) - order.occupied.begin()),
-                 tile);
+            fill(static_cast<std::size_t>(std::ranges::lower_bound(order.occupied, block) - order.occupied.begin()), tile);
             forEachTileRow(grid, block, box, [&](int piece, int cell, int node, auto length) {
                 for (int a = 0; a < kAxes; ++a) {
                     double* to = u.block(piece, a) + cell;

@@ -66,10 +66,7 @@ Vec3 returned(const ContactModuli& m, const Vec3& r)
     return {share * r[0], share * r[1], std::max(r[2], kLeastThickness)};
 }
 
-Vec3 eased(const Vec3& r, double share)
-{
-    return {share * r[0], share * r[1], 1.0 - share * (1.0 - r[2])};
-}
+Vec3 eased(const Vec3& r, double share) { return {share * r[0], share * r[1], 1.0 - share * (1.0 - r[2])}; }
 
 }  // namespace sheet
 
@@ -84,24 +81,17 @@ Matrix2d rotation(double angle)
     return m;
 }
 
-Vector2d logs(const Vector2d& sigma)
-{
-    return {std::log(std::max(sigma[0], kLeastThickness)), std::log(std::max(sigma[1], kLeastThickness))};
-}
+Vector2d logs(const Vector2d& sigma) { return {std::log(std::max(sigma[0], kLeastThickness)), std::log(std::max(sigma[1], kLeastThickness))}; }
 
 /// ∂ψ/∂σ.
 Vector2d principal(const ContactModuli& m, const Vector2d& log)
 {
     const double sum = log.sum();
-    return {(2.0 * m.shear * log[0] + m.lame * sum) * std::exp(-log[0]),
-            (2.0 * m.shear * log[1] + m.lame * sum) * std::exp(-log[1])};
+    return {(2.0 * m.shear * log[0] + m.lame * sum) * std::exp(-log[0]), (2.0 * m.shear * log[1] + m.lame * sum) * std::exp(-log[1])};
 }
 
 /// The entries of a 2x2 matrix in the order of SectionStiffness.
-Eigen::Vector4d entries(const Matrix2d& a)
-{
-    return {a(0, 0), a(1, 0), a(0, 1), a(1, 1)};
-}
+Eigen::Vector4d entries(const Matrix2d& a) { return {a(0, 0), a(1, 0), a(0, 1), a(1, 1)}; }
 
 }  // namespace
 
@@ -110,8 +100,7 @@ Mat3 frameOf(const Vec3& along, const Vec3& d2)
     Mat3 q;
     q.col(0) = along.normalized();
     Vec3 across = d2 - d2.dot(q.col(0)) * q.col(0);
-    if (across.squaredNorm() <= 1.0e-24 * d2.squaredNorm())
-        across = q.col(0).unitOrthogonal();  // d2 is along the yarn: any side will do
+    if (across.squaredNorm() <= 1.0e-24 * d2.squaredNorm()) across = q.col(0).unitOrthogonal();  // d2 is along the yarn: any side will do
     q.col(1) = across.normalized();
     q.col(2) = q.col(0).cross(q.col(1));
     return q;
@@ -154,17 +143,13 @@ bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness&
     k.setZero();
     if (sum > -kLeastCompression) return false;
     const Vector2d sigma(std::exp(log[0]), std::exp(log[1])), p = principal(m, log);
-    const auto own = [&](int n) {
-        return (2.0 * m.shear * (1.0 - log[n]) + m.lame * (1.0 - sum)) / (sigma[n] * sigma[n]);
-    };
+    const auto own = [&](int n) { return (2.0 * m.shear * (1.0 - log[n]) + m.lame * (1.0 - sum)) / (sigma[n] * sigma[n]); };
     const double a = own(0), b = own(1), c = m.lame / (sigma[0] * sigma[1]);
 
     // Scaling: the 2x2 block by both singular values.
-    const double middle = 0.5 * (a + b), radius = std::hypot(0.5 * (a - b), c),
-                 angle = 0.5 * std::atan2(c, 0.5 * (a - b));
+    const double middle = 0.5 * (a + b), radius = std::hypot(0.5 * (a - b), c), angle = 0.5 * std::atan2(c, 0.5 * (a - b));
     const auto add = [&](double value, const Matrix2d& mode) {
-        if (value > 0.0)
-            k += value * entries(section.u * mode * section.vt) * entries(section.u * mode * section.vt).transpose();
+        if (value > 0.0) k += value * entries(section.u * mode * section.vt) * entries(section.u * mode * section.vt).transpose();
     };
     const double cosine = std::cos(angle), sine = std::sin(angle);
     add(middle + radius, Vector2d(cosine, sine).asDiagonal());
@@ -225,10 +210,8 @@ Strain returned(const ContactModuli& m, const Strain& r)
     const Held share = held(m, r, section);
     Strain kept;
     kept.row(0) = share.along * r.row(0);
-    if (section.log.sum() >= 0.0)
-        kept.bottomRows<2>() = section.u * section.vt;
-    else
-        kept.bottomRows<2>() = section.u * slid(section, share.across).sigma.asDiagonal() * section.vt;
+    if (section.log.sum() >= 0.0) kept.bottomRows<2>() = section.u * section.vt;
+    else kept.bottomRows<2>() = section.u * slid(section, share.across).sigma.asDiagonal() * section.vt;
     return kept;
 }
 

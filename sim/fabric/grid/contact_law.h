@@ -70,10 +70,7 @@ struct Section {
     Eigen::Vector2d sigma;
     Eigen::Vector2d log;  ///< of σ, which counts as kLeastThickness if it is less
 };
-inline Section sectionOf(const Strain& r)
-{
-    return Section(r.bottomRows<2>());
-}
+inline Section sectionOf(const Strain& r) { return Section(r.bottomRows<2>()); }
 
 // Of R with its section, which is most of the work.
 double energy(const ContactModuli& m, const Strain& r, const Section& section);

@@ -35,8 +35,7 @@ struct Symmetric {
 
     friend Triple<T> operator*(const Symmetric& m, const Triple<T>& v)
     {
-        return {m.xx * v.x + m.xy * v.y + m.zx * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
-                m.zx * v.x + m.yz * v.y + m.zz * v.z};
+        return {m.xx * v.x + m.xy * v.y + m.zx * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z, m.zx * v.x + m.yz * v.y + m.zz * v.z};
     }
 };
 
@@ -48,8 +47,7 @@ Triple<T> turnOfEdge(const Triple<T>& reciprocal, const Triple<T>& along)
 }
 /// That of a face's normal, where the edges from its first corner change at u1 and u2.
 template <class T>
-Triple<T> turnOfFace(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1,
-                     const Triple<T>& u2)
+Triple<T> turnOfFace(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1, const Triple<T>& u2)
 {
     return cross(dot(normal, u1) * reciprocal[0] + dot(normal, u2) * reciprocal[1], normal);
 }

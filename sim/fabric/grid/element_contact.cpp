@@ -11,7 +11,6 @@ namespace sim {
 
 namespace {
 
-
 /// Interior angle at `at` over π.
 double angleShare(const Vec3& at, const Vec3& b, const Vec3& c)
 {
@@ -84,30 +83,24 @@ std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
 /// Changes of the directions that the outlook expects, seen from the mesh.
 std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const
 {
-    const auto change = [&](int corner) {
-        return toTriple(outlook.motion.velocity[corners_[e][corner]] - outlook.motion.velocity[corners_[e][0]]);
-    };
+    const auto change = [&](int corner) { return toTriple(outlook.motion.velocity[corners_[e][corner]] - outlook.motion.velocity[corners_[e][0]]); };
     const std::array<Triple<double>, 2> reciprocal = {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])};
-    const Vec3 turn = toVec3(isEdge(e) ? turnOfEdge(reciprocal[0], change(1))
-                                       : turnOfFace(toTriple(at.normal), reciprocal, change(1), change(2)));
+    const Vec3 turn = toVec3(isEdge(e) ? turnOfEdge(reciprocal[0], change(1)) : turnOfFace(toTriple(at.normal), reciprocal, change(1), change(2)));
     const Mat3& g = outlook.motion.gradient[e];
     return {outlook.h * (g * at.d[0] - turn.cross(at.d[0])), outlook.h * (g * at.d[1] - turn.cross(at.d[1]))};
 }
 
 /// Whether the stresses at the start or at the expected end would be felt: spread over a cell they give accelerations
 /// below 4 |σ| / (m Δx).
-bool ElementContact::isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
-                            const StepOutlook& outlook) const
+bool ElementContact::isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const
 {
-    const std::array<Vec3, 2> last = {
-        found.stress[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
-        found.stress[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1]};
+    const std::array<Vec3, 2> last = {found.stress[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
+                                      found.stress[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1]};
     const auto size = [](const std::array<Vec3, 2>& s) { return std::sqrt(s[0].squaredNorm() + s[1].squaredNorm()); };
     return 4.0 * std::max(size(found.stress), size(last)) > outlook.negligible * mass_[e] * outlook.cell;
 }
 
-ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook,
-                                                    Local& at) const
+ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
 {
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3 along = state.x[corners_[e][1]] - state.x[corners_[e][0]];
@@ -154,8 +147,7 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
     return found;
 }
 
-ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook,
-                                                    Local& at) const
+ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
 {
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3& x0 = state.x[corners_[e][0]];
@@ -185,9 +177,7 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
 
 void ElementContact::assemble(const FabricState& state, const StepOutlook* outlook)
 {
-    parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
-        stress_[e] = assembleElement(e, state, outlook, local_[e]);
-    });
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assembleElement(e, state, outlook, local_[e]); });
     listActive();
 }
 

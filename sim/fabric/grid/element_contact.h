@@ -105,8 +105,7 @@ class ElementContact {
     Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;
-    bool isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
-                const StepOutlook& outlook) const;
+    bool isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const;
 
     std::size_t edges_ = 0;
     std::vector<std::array<int, 3>> corners_;

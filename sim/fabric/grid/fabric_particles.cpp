@@ -1,7 +1,7 @@
 #include "sim/fabric/grid/fabric_particles.h"
 
-#include "sim/liquid/energy.h"
 #include "sim/core/parallel.h"
+#include "sim/liquid/energy.h"
 #include "sim/transfer/modes.h"
 
 #include <algorithm>
@@ -24,10 +24,7 @@ FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
     particles_.resize(fabric.vertexCount());
 }
 
-double FabricParticles::keptOver(double factor, double h) const
-{
-    return keepPerStep_ || factor == 1.0 ? factor : std::pow(factor, h / keepDt_);
-}
+double FabricParticles::keptOver(double factor, double h) const { return keepPerStep_ || factor == 1.0 ? factor : std::pow(factor, h / keepDt_); }
 
 void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
 {
@@ -61,14 +58,12 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     if (differsFromTranslation(transfer_.xi, modes_)) {
         const Energies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
         particlesToFacesBounded(particles_, order_, grid_, transfer_.xi, state.sinceGather, own.kinetic + own.modal, bounded_, faces_);
-    } else
-        particlesToFaces(particles_, order_, grid_, scatter_, faces_);
+    } else particlesToFaces(particles_, order_, grid_, scatter_, faces_);
     faces_.velocity.resize(grid_.count());
     parallelFor(grid_.count(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = faces_.sums.block(block, FaceFields::kMass + a),
-                         *p = faces_.sums.block(block, FaceFields::kMomentum + a);
+            const double *m = faces_.sums.block(block, FaceFields::kMass + a), *p = faces_.sums.block(block, FaceFields::kMomentum + a);
             double* v = faces_.velocity.block(block, a);
             for (int c = 0; c < kBlockCells; ++c) v[c] = m[c] > 0.0 ? p[c] / m[c] : 0.0;
         }

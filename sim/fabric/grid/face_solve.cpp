@@ -20,8 +20,7 @@ void FaceSystem::clearInactive(BlockArray<double, 3>& u) const
 void FaceSystem::startSolve(FaceVector& v)
 {
     impulses(residual_);
-    forEachPack(
-        [&](auto isFace, std::size_t i, Pack&) { residual_.pack(isFace, i) += mass(isFace, i) * v.pack(isFace, i); });
+    forEachPack([&](auto isFace, std::size_t i, Pack&) { residual_.pack(isFace, i) += mass(isFace, i) * v.pack(isFace, i); });
     takeUpTwist(residual_, p_);
     gather(v.faces);
     stiffness_.followWithTwist(in_);
@@ -33,15 +32,11 @@ void FaceSystem::startSolve(FaceVector& v)
 /// v and r as far along the expected change as makes eᵀ A e least.
 void FaceSystem::goAlong(const BlockArray<double, 3>& expected, FaceVector& v)
 {
-    forEachFacePack([&](std::size_t i, Pack&) {
-        p_.pack(true, i) = select(mass(true, i) > 0.0, loadPack(expected.block(0) + i), broadcast(0.0));
-    });
+    forEachFacePack([&](std::size_t i, Pack&) { p_.pack(true, i) = select(mass(true, i) > 0.0, loadPack(expected.block(0) + i), broadcast(0.0)); });
     clearInactive(p_.faces);
     const double curvature = multiplyFollowed(p_, q_);
     if (!(curvature > 0.0)) return;
-    const double part =
-        forEachFacePack([&](std::size_t i, Pack& product) { product += residual_.pack(true, i) * p_.pack(true, i); }) /
-        curvature;
+    const double part = forEachFacePack([&](std::size_t i, Pack& product) { product += residual_.pack(true, i) * p_.pack(true, i); }) / curvature;
     forEachPack([&](auto isFace, std::size_t i, Pack&) {
         v.pack(isFace, i) += part * p_.pack(isFace, i);
         if constexpr (isFace) residual_.pack(true, i) -= part * q_.pack(true, i);

@@ -65,8 +65,7 @@ void FaceSystem::findMissing()
     work_.resize(blocks());
     const double* mass = mass_.block(0);
     parallelFor(mass_.size() / kBlockCells, 8, [&](std::size_t c) {
-        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i)
-            work_.block(0)[i] = mass[i] > 0.0 ? 1.0 : 0.0;
+        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) work_.block(0)[i] = mass[i] > 0.0 ? 1.0 : 0.0;
     });
     gatherElements(work_, missing_);
     constexpr double kRoundOff = 1.0e-12;
@@ -79,8 +78,7 @@ void FaceSystem::findPushes()
 {
     const BlockPoints& elements = particles_->elements();
     pressedEdges_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, 0);
-    pressedFaces_.assemble(contact_, stiffness_, elements, missing_, grid_->dx,
-                           static_cast<int>(pressedEdges_.pushes()));
+    pressedFaces_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, static_cast<int>(pressedEdges_.pushes()));
     const int none = static_cast<int>(pressedEdges_.pushes() + pressedFaces_.pushes());
     pushes_.resize(none);
     first_.assign(contact_.size(), none);
@@ -106,9 +104,7 @@ void FaceSystem::gather(const BlockArray<double, 3>& u)
         gatherValues(tile, vertices, n, onVertices_);
         for (int s = vertices.begin(n); s < vertices.end(n); ++s)
             stiffness_.set(in_, vertices.id[s], {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]});
-        forEachPressed([&](auto& pressed) {
-            gatherAlong<pressed.kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried());
-        });
+        forEachPressed([&](auto& pressed) { gatherAlong<pressed.kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried()); });
     });
 }
 
@@ -123,9 +119,7 @@ void FaceSystem::spread(FaceVector& q)
             for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = sum[a];
         }
         scatterValues(vertices, n, onVertices_, tile);
-        forEachPressed([&](auto& pressed) {
-            scatterAlong<pressed.kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile);
-        });
+        forEachPressed([&](auto& pressed) { scatterAlong<pressed.kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile); });
     });
     forEachTwist([&](std::size_t e, int slot) { q.twist[e] = out_[slot]; });
 }
@@ -143,8 +137,7 @@ double FaceSystem::contactWork(const FaceVector& u)
     out_.fill(0.0);
     const auto power = [&] {
         spread(q_);
-        return forEachPack(
-            [&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
+        return forEachPack([&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
     };
     forEachPressed([&](auto& pressed) { pressed.multiply(in_, pushes_); });
     const double byStiffness = power();

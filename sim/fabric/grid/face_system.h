@@ -24,22 +24,16 @@ struct FaceVector {
         twist.resize((edges + kLanes - 1) / kLanes * kLanes);
     }
     /// The pack of faces, or of twist angles, that begins at entry i.
-    Pack& pack(bool isFace, std::size_t i)
-    {
-        return *reinterpret_cast<Pack*>((isFace ? faces.block(0) : twist.data()) + i);
-    }
-    const Pack& pack(bool isFace, std::size_t i) const
-    {
-        return *reinterpret_cast<const Pack*>((isFace ? faces.block(0) : twist.data()) + i);
-    }
+    Pack& pack(bool isFace, std::size_t i) { return *reinterpret_cast<Pack*>((isFace ? faces.block(0) : twist.data()) + i); }
+    const Pack& pack(bool isFace, std::size_t i) const { return *reinterpret_cast<const Pack*>((isFace ? faces.block(0) : twist.data()) + i); }
 };
 
 /// When a linear solve on the faces is good enough.
 struct FaceTolerance {
-    double wanted;        ///< rms error [cm/s] …
-    int patience;         ///< … and after so many iterations
-    double bearable;      ///< this [cm/s]
-    int most;             ///< iterations
+    double wanted;    ///< rms error [cm/s] …
+    int patience;     ///< … and after so many iterations
+    double bearable;  ///< this [cm/s]
+    int most;         ///< iterations
     double after(int iterations) const { return iterations < patience ? wanted : bearable; }
 };
 
@@ -151,7 +145,7 @@ class FaceSystem {
     std::vector<int> first_;         ///< of each element: its first push
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
-    FaceVector residual_, p_, q_;  ///< of the solve
+    FaceVector residual_, p_, q_;      ///< of the solve
     std::vector<Vec3> left_, moving_;  ///< of each group: its sum of residuals [g cm/s] and of masses [g]
 };
 
@@ -166,8 +160,7 @@ double FaceSystem::forEachPack(Body&& body) const
         Pack sum{};
         for (std::size_t r = chunks.begin(c); r < std::min(chunks.end(c), faces); ++r)
             body(std::true_type(), static_cast<std::size_t>(rows_.first[r]), sum);
-        for (std::size_t r = std::max(chunks.begin(c), faces); r < chunks.end(c); ++r)
-            body(std::false_type(), (r - faces) * kLanes, sum);
+        for (std::size_t r = std::max(chunks.begin(c), faces); r < chunks.end(c); ++r) body(std::false_type(), (r - faces) * kLanes, sum);
         partial[c] = sum;
     });
     Pack all{};

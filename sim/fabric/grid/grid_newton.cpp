@@ -12,7 +12,7 @@ namespace {
 
 /// Elastic energy from nothing that a step may leave, relative to that of the motion: more asks for another iteration [-].
 constexpr double kNoGain = 1.0e-3;
-constexpr int kMostNewton = 8;  ///< iterations
+constexpr int kMostNewton = 8;   ///< iterations
 constexpr int kMostRepeats = 3;  ///< of a solve, to take such contact in
 
 }  // namespace

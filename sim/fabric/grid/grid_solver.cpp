@@ -23,8 +23,7 @@ constexpr double kNegligible = 0.01;
 
 }  // namespace
 
-GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& settings,
-                                   std::span<const ObstacleSettings> obstacles, bool meetsLiquid)
+GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles, bool meetsLiquid)
     : fabric_(fabric),
       settings_(settings.fabric),
       stiffness_(fabric, settings.fabric),
@@ -61,8 +60,7 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     velocity_.resize(system_.blocks(), system_.edges());
     const BlockArray<double, 3>&mass = system_.mass(), &velocity = particles_.velocity();
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
-        const int block = static_cast<int>(b),
-                  loaded = loads ? loads->grid.find(particles_.grid().coords(block)) : BlockGrid::kNone;
+        const int block = static_cast<int>(b), loaded = loads ? loads->grid.find(particles_.grid().coords(block)) : BlockGrid::kNone;
         for (int a = 0; a < kAxes; ++a) {
             const double *m = mass.block(block, a), *from = velocity.block(block, a);
             double* to = velocity_.faces.block(block, a);
@@ -144,10 +142,8 @@ const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState&
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b), before = state.faceBlocks.find(particles_.grid().coords(block));
         double* to = expected_.block(block);
-        if (before == BlockGrid::kNone)
-            std::fill_n(to, kAxes * kBlockCells, 0.0);
-        else
-            std::copy_n(state.faceChange.block(before), kAxes * kBlockCells, to);
+        if (before == BlockGrid::kNone) std::fill_n(to, kAxes * kBlockCells, 0.0);
+        else std::copy_n(state.faceChange.block(before), kAxes * kBlockCells, to);
     });
     return &expected_;
 }
@@ -174,8 +170,7 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a),
-                         *change = state.faceChange.block(block, a);
+            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a), *change = state.faceChange.block(block, a);
             double* to = acceleration_.block(block, a);
             for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? m[c] * change[c] / (h * own[c]) : 0.0;
         }
@@ -185,8 +180,7 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
 
 /// Contacts with obstacles where the vertices would be at the end of the step, which is in front of them. motion_ must hold how they would go
 /// without the fabric's own forces; friction expects these to act on as they did.
-std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity,
-                                                                  const FabricState& state)
+std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     obstacles_.moveTo(t, t + h);
     guard_.moveTo(t, t + h);
@@ -229,7 +223,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 {
     FabricReport report;
     const FaceLoads* loads = of.onFaces;
-    const double felt = feltAcceleration(gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
+    const double felt = feltAcceleration(
+        gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     const FaceTolerance until{tolerance, kMaxIterations, kBearable * felt * h, kMostIterations};
     clock.start(Stage::FabricContact);

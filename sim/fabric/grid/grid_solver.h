@@ -21,8 +21,7 @@ namespace sim {
 class GridFabricSolver final : public FabricIntegrator {
  public:
     /// @param meetsLiquid  is there any in the scene?
-    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles,
-                     bool meetsLiquid = false);
+    GridFabricSolver(const Fabric& fabric, const Settings& settings, std::span<const ObstacleSettings> obstacles, bool meetsLiquid = false);
 
     /// The fabric's masses and velocities on the grid.
     void prepare(FabricState& state, StageClock& clock) override;
@@ -37,10 +36,7 @@ class GridFabricSolver final : public FabricIntegrator {
  private:
     void begin(FabricState& state);
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
-    FabricObstacles::Start obstacleStart(double h, const FabricState& state) const
-    {
-        return {from_, mass_, state.onObstacles, h, state.springStep};
-    }
+    FabricObstacles::Start obstacleStart(double h, const FabricState& state) const { return {from_, mass_, state.onObstacles, h, state.springStep}; }
     /// Of the fabric [erg].
     struct Mechanical {
         double free, elastic;  ///< free: kinetic and potential
@@ -62,8 +58,7 @@ class GridFabricSolver final : public FabricIntegrator {
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void keepChange(FabricState& state) const;
     void keepAccelerations(double h, FabricState& state);
-    void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads,
-                   EnergyChanges& changes);
+    void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads, EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const;
     double facesKinetic(const BlockArray<double, 3>& velocity) const;
     void tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching);
@@ -81,18 +76,18 @@ class GridFabricSolver final : public FabricIntegrator {
     FaceSystem system_;
     FabricObstacles obstacles_;
     SolidGuard guard_;
-    FabricGroups groups_;                           ///< of the step under way …
-    std::vector<int> groupOfBlock_, nearBlock_;     ///< … and of blocks (findGroups)
+    FabricGroups groups_;                        ///< of the step under way …
+    std::vector<int> groupOfBlock_, nearBlock_;  ///< … and of blocks (findGroups)
     FaceVector velocity_;
     bool meetsLiquid_;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
     // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did
     // [cm/s^2].
     BlockArray<double, 3> start_, expected_, acceleration_;
-    std::vector<Vec3> points_;  ///< quadrature points of the elements [cm]
+    std::vector<Vec3> points_;               ///< quadrature points of the elements [cm]
     std::vector<Vec3> from_, expectedMove_;  ///< of each vertex: position at the start of the step, its move if forces act on as they did [cm]
     std::vector<Vec3> predicted_,
-        reached_;  ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
+        reached_;                      ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
     std::vector<Vec3> move_, wanted_;  ///< of each vertex in the step, and but for solids [cm]
     std::vector<Vec3> byLiquid_;       ///< of each vertex: impulse per mass [cm/s]
     FabricState trial_;                ///< places and frames where a move would take the fabric

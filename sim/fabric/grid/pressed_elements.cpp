@@ -8,10 +8,7 @@ namespace {
 
 constexpr std::size_t kPacksPerTask = 32;
 
-std::size_t packsOf(std::size_t n)
-{
-    return (n + kLanes - 1) / kLanes;
-}
+std::size_t packsOf(std::size_t n) { return (n + kLanes - 1) / kLanes; }
 
 void setLane(Symmetric<Pack>& to, int lane, const Mat3& m)
 {
@@ -47,9 +44,8 @@ void PressedElements<Contact>::lanesOf(std::size_t pack, auto&& body) const
 }
 
 template <class Contact>
-void PressedElements<Contact>::assemble(const ElementContact& contact, const VertexStiffness& stiffness,
-                                        const BlockPoints& elements, const std::vector<Mat3>& missing, double dx,
-                                        int firstPush)
+void PressedElements<Contact>::assemble(const ElementContact& contact, const VertexStiffness& stiffness, const BlockPoints& elements,
+                                        const std::vector<Mat3>& missing, double dx, int firstPush)
 {
     firstPush_ = firstPush;
     points_.select(elements, [&](int e) { return contact.isEdge(e) == (kCorners == 2) && contact.stress(e).isActive; });
@@ -104,12 +100,10 @@ auto PressedElements<Contact>::carriedAt(std::size_t pack, const Corners& u) con
 
 /// Transpose of `carriedAt`: what a pack gives to the faces, and to its corners.
 template <class Contact>
-void PressedElements<Contact>::store(std::size_t pack, const Across& stress, Corners onCorners,
-                                     std::vector<Vec3>& pushes)
+void PressedElements<Contact>::store(std::size_t pack, const Across& stress, Corners onCorners, std::vector<Vec3>& pushes)
 {
     for (int k = 0; k < kDirections; ++k)
-        for (int a = 0; a < kAxes; ++a)
-            std::memcpy(carried_.of[3 * k + a].data() + pack * kLanes, &stress[k][a], sizeof(Pack));
+        for (int a = 0; a < kAxes; ++a) std::memcpy(carried_.of[3 * k + a].data() + pack * kLanes, &stress[k][a], sizeof(Pack));
     lanesOf(pack, [&](int lane, std::size_t s) {
         Vec3* at = pushes.data() + firstPush_ + kCorners * s;
         for (int k = 0; k < kCorners; ++k) at[k] = laneOf(onCorners[k], lane);

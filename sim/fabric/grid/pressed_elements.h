@@ -18,16 +18,15 @@ class PressedElements {
     using Directions = PointArray<3 * kDirections>;
 
     /// @param firstPush  where this kind's pushes begin in the array of all
-    void assemble(const ElementContact& contact, const VertexStiffness& stiffness, const BlockPoints& elements,
-                  const std::vector<Mat3>& missing, double dx, int firstPush);
+    void assemble(const ElementContact& contact, const VertexStiffness& stiffness, const BlockPoints& elements, const std::vector<Mat3>& missing,
+                  double dx, int firstPush);
 
     const BlockPoints& points() const { return points_; }
     std::size_t pushes() const { return kCorners * points_.size(); }
     /// first[e] = an element's first push.
     void tellPushes(std::vector<int>& first) const
     {
-        for (std::size_t s = 0; s < points_.size(); ++s)
-            first[points_.id[s]] = firstPush_ + kCorners * static_cast<int>(s);
+        for (std::size_t s = 0; s < points_.size(); ++s) first[points_.id[s]] = firstPush_ + kCorners * static_cast<int>(s);
     }
     /// Directions across over the cell size [1/cm].
     const Directions& across() const { return across_; }

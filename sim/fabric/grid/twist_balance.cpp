@@ -7,15 +7,12 @@ namespace sim {
 namespace {
 
 /// A twist angle among the rows of its strand; vertices are at 4 j, and at distances 1 to 3 and 5 to 7.
-constexpr int rowOf(int edge)
-{
-    return 4 * edge + 3;
-}
+constexpr int rowOf(int edge) { return 4 * edge + 3; }
 
 }  // namespace
 
-void TwistBalance::factor(const StrandLayout& layout, const StrandMatrix& stiffness, std::span<const double> inertia,
-                          std::span<const double> held, double h)
+void TwistBalance::factor(const StrandLayout& layout, const StrandMatrix& stiffness, std::span<const double> inertia, std::span<const double> held,
+                          double h)
 {
     layout_ = &layout;
     stiffness_ = &stiffness;

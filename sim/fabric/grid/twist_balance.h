@@ -15,8 +15,7 @@ class TwistBalance {
     /// @param inertia   of each yarn edge [g cm^2]
     /// @param stiffness of the rows of the strands [dyn/cm, dyn, dyn cm]
     /// @param held      what holds each edge besides [dyn cm]
-    void factor(const StrandLayout& layout, const StrandMatrix& stiffness, std::span<const double> inertia,
-                std::span<const double> held, double h);
+    void factor(const StrandLayout& layout, const StrandMatrix& stiffness, std::span<const double> inertia, std::span<const double> held, double h);
     /// Sets the rates in the rows of group g to what balances the vertices' velocities there.
     void follow(std::size_t g, Pack* rows) const;
     /// (I + h² K)⁻¹ of impulses in the rows of group g, in place.

@@ -47,8 +47,7 @@ void VertexStiffness::findPinStiffness(const Fabric& fabric)
         const FabricMaterial& m = fabric.materials[fabric.strands.material[strand]];
         const auto [a, b] = fabric.strands.radius[strand];
         heldEdges_.push_back(static_cast<int>(e));
-        heldStiffness_.push_back(m.shear() * m.pinStiffness * 0.25 * kPi * a * b * (a * a + b * b) /
-                                 fabric.edges.restLength[e]);
+        heldStiffness_.push_back(m.shear() * m.pinStiffness * 0.25 * kPi * a * b * (a * a + b * b) / fabric.edges.restLength[e]);
     }
 }
 
@@ -85,8 +84,7 @@ void VertexStiffness::findPins(const FabricState& state, double end)
     }
     heldTorque_.resize(heldEdges_.size());
     for (std::size_t i = 0; i < heldEdges_.size(); ++i)
-        heldTorque_[i] = heldStiffness_[i] *
-                         (state.theta[heldEdges_[i]] - heldAngle(fabric_, restReference_, end, state, heldEdges_[i]));
+        heldTorque_[i] = heldStiffness_[i] * (state.theta[heldEdges_[i]] - heldAngle(fabric_, restReference_, end, state, heldEdges_[i]));
 }
 
 /// Gradient and derivatives of the material's own forces.
@@ -194,8 +192,7 @@ void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray
     });
     parallelFor(cloth_.chunks(), [&](std::size_t chunk) {
         cloth_.timesChunk(
-            static_cast<int>(chunk),
-            [&](int row) { return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * row); },
+            static_cast<int>(chunk), [&](int row) { return *reinterpret_cast<const HalfPack*>(clothIn_.data() + 4 * row); },
             [&](int row, const HalfPack& product) {
                 add(out, vertices[row], {product[0], product[1], product[2]});
             });

@@ -25,8 +25,7 @@ class VertexStiffness {
 
     /// Elastic and viscous forces at the state, which is that at the start of the step, and pins where they are at time
     /// t + h [s]. The contacts with obstacles must be those of positions x + h v of the `predicted` velocities [cm/s].
-    void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
-                  std::span<const Vec3> predicted);
+    void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles, std::span<const Vec3> predicted);
 
     /// The same with the material's own forces as they are at `there`, which velocities u lead to in that step; these forces are told from the
     /// start on all the same. `there` must stay until the next assemble.
@@ -88,8 +87,8 @@ class VertexStiffness {
     struct Spring {
         std::array<int, 3> vertices;
         std::array<double, 3> shares;  ///< of them in the point [-]
-        Mat3 stiffness;  ///< [dyn/cm]
-        Vec3 gradient;   ///< at the state [dyn]
+        Mat3 stiffness;                ///< [dyn/cm]
+        Vec3 gradient;                 ///< at the state [dyn]
     };
     void findShared();
     void findPinStiffness(const Fabric& fabric);

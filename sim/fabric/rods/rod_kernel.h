@@ -30,10 +30,10 @@ Triple<T> unitAcross(const Triple<T>& v, const Triple<T>& t)
 /// One edge of a rod in its present place.
 template <class T>
 struct RodEdge {
-    T length;                ///< [cm]
-    Triple<T> tangent;       ///< [-]
-    Triple<T> reference;     ///< first axis of the reference frame [-]
-    Triple<T> m1, m2;        ///< axes of the material frame: along the half axes a and b of the section [-]
+    T length;             ///< [cm]
+    Triple<T> tangent;    ///< [-]
+    Triple<T> reference;  ///< first axis of the reference frame [-]
+    Triple<T> m1, m2;     ///< axes of the material frame: along the half axes a and b of the section [-]
 };
 
 /// Derivatives of a quantity by the 11 unknowns of an interior vertex: x before, θ_e, x, θ_f, x after.
@@ -45,9 +45,9 @@ inline constexpr int kRodUnknowns = 11;
 /// How a rod is bent and twisted at an interior vertex.
 template <class T>
 struct RodStrain {
-    std::array<T, 4> curvature;                    ///< κ0 = κb·m2_e, κ1 = −κb·m1_e, and the same with the edge after [-]
+    std::array<T, 4> curvature;  ///< κ0 = κb·m2_e, κ1 = −κb·m1_e, and the same with the edge after [-]
     std::array<RodGradient<T>, 4> curvatureGradient;
-    RodGradient<T> twistGradient;                  ///< of m = reference twist + θ_f − θ_e
+    RodGradient<T> twistGradient;  ///< of m = reference twist + θ_f − θ_e
 };
 
 /// Equations: fabric/rods/README.md, Kinematics; fabric/rods/README.md, Gradients. The gradients are those of frames that follow by parallel
@@ -101,7 +101,7 @@ using Block = std::array<std::array<T, 3>, 3>;
 /// Second derivatives of m by the edges e and f (fabric/rods/README.md, Hessian; Bergou et al. 2010).
 template <class T>
 struct TwistCurvature {
-    Block<T> ee, ef, ff;     ///< [1/cm^2]; ef: a row for each component of e
+    Block<T> ee, ef, ff;  ///< [1/cm^2]; ef: a row for each component of e
 };
 
 template <class T>

@@ -54,10 +54,10 @@ inline void setMaterialFrame(const FabricState& state, const StrandLayout::Lanes
 
 /// A vertex with an edge on either side, as walkGroup meets it.
 struct Rods::Walk {
-    int j;                       ///< the vertex within the strands; edge j − 1 ends and edge j begins here
+    int j;  ///< the vertex within the strands; edge j − 1 ends and edge j begins here
     const RodEdge<Pack>&before, &after;
     RodStrain<Pack> strain;
-    Pack twist;                  ///< m [rad]
+    Pack twist;  ///< m [rad]
 };
 
 /// Calls visit(Walk) for every vertex between two edges, from the first to the last.

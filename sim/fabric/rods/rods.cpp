@@ -14,12 +14,12 @@ namespace {
 struct Section {
     double a, b;
     double area() const { return kPi * a * b; }
-    double alongA() const { return 0.25 * kPi * b * a * a * a; }   ///< second moment of bending in the direction of a [cm^4]
+    double alongA() const { return 0.25 * kPi * b * a * a * a; }  ///< second moment of bending in the direction of a [cm^4]
     double alongB() const { return 0.25 * kPi * a * b * b * b; }
     double torsion(TorsionModel model) const
     {
         if (model == TorsionModel::Polar) return 0.25 * kPi * a * b * (a * a + b * b);
-        return kPi * a * a * a * b * b * b / (a * a + b * b);      // St-Venant
+        return kPi * a * a * a * b * b * b / (a * a + b * b);  // St-Venant
     }
 };
 
@@ -86,8 +86,7 @@ void Rods::transportFrames(FabricState& state) const
             const StrandLayout::Lanes& edges = layout_.edge[group.firstEdge + j];
             const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
             const PackTriple tangent = edgeBetween(from, to, edges).tangent;
-            const PackTriple reference =
-                unitAcross(transported(gathered(state.reference, edges), gathered(state.tangent, edges), tangent), tangent);
+            const PackTriple reference = unitAcross(transported(gathered(state.reference, edges), gathered(state.tangent, edges), tangent), tangent);
             const PackTriple carried = j > 0 ? transported(referenceBefore, tangentBefore, tangent) : reference;
             const Pack sine = dot(cross(carried, reference), tangent), cosine = dot(carried, reference);
             for (int l = 0; l < kLanes; ++l) {

@@ -49,24 +49,24 @@ class Rods {
 
     /// One per group: of each of its strands, with the packing factor.
     struct Stiffness {
-        Pack stretch;                        ///< χ k_s [dyn]
-        Pack bend00, bend01, bend11;         ///< χ B [dyn cm^2]
-        Pack twist;                          ///< χ k_t [dyn cm^2]
+        Pack stretch;                                    ///< χ k_s [dyn]
+        Pack bend00, bend01, bend11;                     ///< χ B [dyn cm^2]
+        Pack twist;                                      ///< χ k_t [dyn cm^2]
         Pack stretchDamping, bendDamping, twistDamping;  ///< time by which the rate of strain counts: 3η/E, η/G [s]
     };
     /// One per packed vertex that has an edge on either side.
     struct Bend {
-        Pack perLength;                      ///< 1 / Voronoi length; 0 in unused lanes [1/cm]
-        std::array<Pack, 4> curvature;       ///< at rest [-]
+        Pack perLength;                 ///< 1 / Voronoi length; 0 in unused lanes [1/cm]
+        std::array<Pack, 4> curvature;  ///< at rest [-]
     };
 
     StrandLayout layout_;
     std::vector<Stiffness> stiffness_;
-    std::vector<Pack> perRestLength_;        ///< of each packed edge; 0 in unused lanes [1/cm]
+    std::vector<Pack> perRestLength_;  ///< of each packed edge; 0 in unused lanes [1/cm]
     std::vector<Bend> bends_;
     bool damped_ = false;
-    std::vector<Pack> startStretch_;         ///< l / l̄ of each packed edge
-    std::vector<Pack> torqueShare_;          ///< of each group: 1 in lanes of rods whose torque has its part in the matrix, else 0
+    std::vector<Pack> startStretch_;              ///< l / l̄ of each packed edge
+    std::vector<Pack> torqueShare_;               ///< of each group: 1 in lanes of rods whose torque has its part in the matrix, else 0
     std::vector<std::array<Pack, 5>> startBend_;  ///< curvatures and twist of each packed vertex
 };
 

@@ -96,7 +96,8 @@ void StrandMatrix::multiply(const StrandLayout::Group& group, const Pack* x, Pac
     const int n = group.rows();
     constexpr int kFarthest = kBand - 1;  // column that a row has, counted from its diagonal
     // A row has its lower part itself; its upper part is in the rows that follow.
-    const auto row = [&](int r, int before, int after) __attribute__((always_inline)) {
+    const auto row = [&](int r, int before, int after) __attribute__((always_inline))
+    {
         Pack lower = band[r * kBand] * x[r], upper{};
         for (int k = 1; k <= before; ++k) lower += band[r * kBand + k] * x[r - k];
         for (int k = 1; k <= after; ++k) upper += band[(r + k) * kBand + k] * x[r + k];

@@ -14,18 +14,18 @@ namespace sim {
 struct StrandLayout {
     using Lanes = std::array<int, kLanes>;
     struct Group {
-        int vertices = 0;        ///< of its longest strand
-        int firstVertex = 0;     ///< in `vertex`
-        int firstEdge = 0;       ///< in `edge`
-        int firstRow = 0;        ///< of all groups' rows
+        int vertices = 0;     ///< of its longest strand
+        int firstVertex = 0;  ///< in `vertex`
+        int firstEdge = 0;    ///< in `edge`
+        int firstRow = 0;     ///< of all groups' rows
         int edges() const { return vertices - 1; }
         int rows() const { return 4 * vertices - 1; }
     };
     std::vector<Group> groups;
-    std::vector<Lanes> strand;   ///< of each group
-    std::vector<Lanes> vertex;   ///< of each packed vertex: the fabric's vertex
-    std::vector<Lanes> edge;     ///< of each packed edge: the fabric's yarn edge
-    int rows = 0;                ///< of all groups
+    std::vector<Lanes> strand;  ///< of each group
+    std::vector<Lanes> vertex;  ///< of each packed vertex: the fabric's vertex
+    std::vector<Lanes> edge;    ///< of each packed edge: the fabric's yarn edge
+    int rows = 0;               ///< of all groups
 
     StrandLayout() = default;
     explicit StrandLayout(const Fabric::Strands& strands);
@@ -35,7 +35,7 @@ struct StrandLayout {
 /// diagonal; no pivoting.
 class StrandMatrix {
  public:
-    static constexpr int kBand = 11;   ///< entries stored per row: column r − k at k
+    static constexpr int kBand = 11;  ///< entries stored per row: column r − k at k
     /// Columns before the diagonal in which rows of x, y, z and θ have entries: those of two vertices and their angles before x, y, z,
     /// of one before θ. Factors have none elsewhere either.
     static constexpr std::array<int, 4> kReach = {8, 9, 10, 7};
@@ -73,8 +73,8 @@ class StrandMatrix {
     }
     static constexpr int kLowerPerVertex = kReach[0] + kReach[1] + kReach[2] + kReach[3];
 
-    AlignedArray<double> lower_;       ///< L without its unit diagonal: of each packed vertex its rows, one after the other
-    AlignedArray<double> inverse_;     ///< D⁻¹
+    AlignedArray<double> lower_;    ///< L without its unit diagonal: of each packed vertex its rows, one after the other
+    AlignedArray<double> inverse_;  ///< D⁻¹
     std::vector<Pack> definite_;
 };
 

@@ -18,12 +18,12 @@ using ShellCorners = std::array<Triple<T>, kShellVertices>;
 /// Constants of a triangle.
 template <class T>
 struct ShellRest {
-    std::array<T, 3> ru, rw;        ///< derivatives of the shape functions by the two rest coordinates [1/cm]
-    T area;                         ///< χ times the rest area [cm^2]
-    T young, poisson;               ///< E t [dyn/cm] and ν [-]
-    std::array<T, 3> hasNeighbor;   ///< 1, or 0 on the boundary [-]
-    std::array<T, 3> angle;         ///< dihedral angles at rest [rad]
-    std::array<T, 6> bending;       ///< Q00 Q11 Q22 Q01 Q02 Q12: χ energy is ½ θᵀQθ [dyn cm]
+    std::array<T, 3> ru, rw;       ///< derivatives of the shape functions by the two rest coordinates [1/cm]
+    T area;                        ///< χ times the rest area [cm^2]
+    T young, poisson;              ///< E t [dyn/cm] and ν [-]
+    std::array<T, 3> hasNeighbor;  ///< 1, or 0 on the boundary [-]
+    std::array<T, 3> angle;        ///< dihedral angles at rest [rad]
+    std::array<T, 6> bending;      ///< Q00 Q11 Q22 Q01 Q02 Q12: χ energy is ½ θᵀQθ [dyn cm]
 };
 
 /// Columns of the 3x2 deformation gradient, and the Green strain with engineering shear [-].
@@ -47,7 +47,7 @@ MembraneStrain<T> membraneStrain(const ShellRest<T>& rest, const ShellCorners<T>
 /// Second Piola-Kirchhoff stress times thickness [dyn/cm], and its derivative by the strain as 00 11 22 01 02 12.
 template <class T>
 struct MembraneStress {
-    T energy;                       ///< per rest area [dyn/cm]
+    T energy;  ///< per rest area [dyn/cm]
     std::array<T, 3> stress;
     std::array<T, 6> tangent;
 };
@@ -87,7 +87,7 @@ MembraneStress<T> neoHookean(const ShellRest<T>& rest, const MembraneStrain<T>& 
     m.energy = half * mu * (c00 + c11 - two - two * logJ) + half * lambda * logJ * logJ;
     m.stress = {mu + pull * p, mu + pull * q, pull * r};
     m.tangent = {lambda * p * p + g * p * p, lambda * q * q + g * q * q, lambda * r * r + half * g * (p * q + r * r),
-                 lambda * p * q + g * r * r, lambda * p * r + g * p * r,   lambda * q * r + g * q * r};
+                 lambda * p * q + g * r * r, lambda * p * r + g * p * r, lambda * q * r + g * q * r};
     return m;
 }
 
@@ -141,8 +141,8 @@ inline Pack angleOf(Pack sine, Pack cosine)
 /// How the three edges of a triangle are bent.
 template <class T>
 struct ShellBend {
-    std::array<T, 3> angle;                                        ///< 0 on the boundary [rad]
-    std::array<std::array<Triple<T>, kShellVertices>, 3> gradient; ///< of each angle by each vertex [1/cm]
+    std::array<T, 3> angle;                                         ///< 0 on the boundary [rad]
+    std::array<std::array<Triple<T>, kShellVertices>, 3> gradient;  ///< of each angle by each vertex [1/cm]
 };
 
 template <class T>

@@ -99,9 +99,10 @@ std::vector<std::array<int, 3>> verticesAcross(std::span<const Vec3i> faces)
         for (int k = 0; k < 3; ++k) {
             const std::pair edge(faces[f][(k + 1) % 3], faces[f][(k + 2) % 3]);
             if (!sides.emplace(edge, Side{f, k}).second)
-                throw InputError(fmt::format("cloth: the edge between vertices {} and {} has two faces of one orientation, or more than "
-                                             "two; orient all faces alike",
-                                             edge.first, edge.second));
+                throw InputError(
+                    fmt::format("cloth: the edge between vertices {} and {} has two faces of one orientation, or more than "
+                                "two; orient all faces alike",
+                                edge.first, edge.second));
         }
     std::vector<std::array<int, 3>> across(faces.size(), {-1, -1, -1});
     for (const auto& [edge, side] : sides) {

@@ -29,9 +29,8 @@ ShellCorners<Pack> cornersOf(const Batch& batch, std::span<const Vec3> x)
             setLane(c[1], l, Vec3::UnitX());
             setLane(c[2], l, Vec3::UnitY());
         }
-        for (int k = 0; k < 3; ++k)    // no neighbour: the flat continuation
-            if (batch.vertex[3 + k][l] < 0)
-                setLane(c[3 + k], l, laneOf(c[(k + 1) % 3], l) + laneOf(c[(k + 2) % 3], l) - laneOf(c[k], l));
+        for (int k = 0; k < 3; ++k)  // no neighbour: the flat continuation
+            if (batch.vertex[3 + k][l] < 0) setLane(c[3 + k], l, laneOf(c[(k + 1) % 3], l) + laneOf(c[(k + 2) % 3], l) - laneOf(c[k], l));
     }
     return c;
 }
@@ -81,8 +80,7 @@ Shells::Shells(const Fabric& fabric, const FabricSettings& settings) : settings_
     for (std::size_t begin = 0; begin < faces.size(); begin += kLanes)
         fill(fabric, settings, begin, std::min(faces.size(), begin + kLanes), pattern, batches_.emplace_back());
     colorTasks(fabric.vertexCount());
-    for (const FabricMaterial& m : fabric.materials)
-        damped_ = damped_ || (m.dampingViscosity > 0.0 && (m.dampBending || m.dampStretching));
+    for (const FabricMaterial& m : fabric.materials) damped_ = damped_ || (m.dampingViscosity > 0.0 && (m.dampBending || m.dampStretching));
 }
 
 /// Greedy: each task takes the first colour that none before it with a vertex of its own has.
@@ -93,8 +91,7 @@ void Shells::colorTasks(std::size_t vertices)
     for (int task = 0; task < tasks; ++task) {
         std::vector<int> own;
         for (std::size_t b = task * kBatchesPerTask; b < std::min(batches_.size(), (task + 1) * kBatchesPerTask); ++b)
-            for (const Lanes& lanes : batches_[b].vertex)
-                std::ranges::copy_if(lanes, std::back_inserter(own), [](int v) { return v >= 0; });
+            for (const Lanes& lanes : batches_[b].vertex) std::ranges::copy_if(lanes, std::back_inserter(own), [](int v) { return v >= 0; });
         std::vector<char> isTaken(tasks_.size() + 1, 0);
         for (int v : own)
             for (int color : colorsAt[v]) isTaken[color] = 1;
@@ -184,8 +181,7 @@ void Shells::forces(std::span<const Vec3> x, double h, std::span<const int> slot
         });
 }
 
-void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient,
-                       BlockMatrix* matrix) const
+void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const
 {
     const ShellRest<Pack>& rest = batch.rest;
     const ShellCorners<Pack> corners = cornersOf(batch, x);
@@ -214,8 +210,7 @@ void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, st
     for (int k = 0; k < 3; ++k) moment[k] *= measure.slope[k];
 
     std::array<std::array<PackTriple, 3>, 3> byStrain;  // of each own vertex: ∂ε/∂x for the three strains
-    for (int i = 0; i < 3; ++i)
-        byStrain[i] = {rest.ru[i] * strain.u, rest.rw[i] * strain.w, rest.ru[i] * strain.w + rest.rw[i] * strain.u};
+    for (int i = 0; i < 3; ++i) byStrain[i] = {rest.ru[i] * strain.u, rest.rw[i] * strain.w, rest.ru[i] * strain.w + rest.rw[i] * strain.u};
 
     for (int i = 0; i < kShellVertices; ++i) {
         PackTriple g{zero, zero, zero};
@@ -255,8 +250,7 @@ void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, st
                     const Pack e0 = byStrain[j][0][b], e1 = byStrain[j][1][b], e2 = byStrain[j][2][b];
                     const Pack s0 = stiff * (c[0] * e0 + c[3] * e1 + c[4] * e2), s1 = stiff * (c[3] * e0 + c[1] * e1 + c[5] * e2);
                     const Pack s2 = stiff * (c[4] * e0 + c[5] * e1 + c[2] * e2);
-                    for (int a = 0; a < 3; ++a)
-                        block[3 * a + b] += byStrain[i][0][a] * s0 + byStrain[i][1][a] * s1 + byStrain[i][2][a] * s2;
+                    for (int a = 0; a < 3; ++a) block[3 * a + b] += byStrain[i][0][a] * s0 + byStrain[i][1][a] * s1 + byStrain[i][2][a] * s2;
                 }
                 const Pack geometric = rest.area * (tension[0] * rest.ru[i] * rest.ru[j] + tension[1] * rest.rw[i] * rest.rw[j] +
                                                     tension[2] * (rest.ru[i] * rest.rw[j] + rest.rw[i] * rest.ru[j]));
@@ -295,7 +289,9 @@ std::array<double, 2> Shells::energies(std::span<const Vec3> x) const
     };
     return parallelReduce(
         batches_.size(), std::array<double, 2>{}, [&](std::size_t n) { return of(batches_[n]); },
-        [](std::array<double, 2> a, std::array<double, 2> b) { return std::array<double, 2>{a[0] + b[0], a[1] + b[1]}; });
+        [](std::array<double, 2> a, std::array<double, 2> b) {
+            return std::array<double, 2>{a[0] + b[0], a[1] + b[1]};
+        });
 }
 
 }  // namespace sim

@@ -45,13 +45,13 @@ class Shells {
     using Lanes = std::array<int, kLanes>;
     /// kLanes triangles of one colour.
     struct Batch {
-        std::array<Lanes, kShellVertices> vertex;   ///< −1 where there is none
+        std::array<Lanes, kShellVertices> vertex;  ///< −1 where there is none
         ShellRest<Pack> rest{};
-        Pack damping{};                             ///< 3η/E if the membrane is damped [s] …
-        Pack bendDamping{};                         ///< … and bending
-        std::array<Lanes, kBlocks> entry;           ///< where a block, or its transpose, stands in the matrix; −1 for no block
-        std::array<unsigned, kBlocks> isTransposed; ///< bit l: of lane l it is the transpose
-        std::array<Pack, 3> startGreen{}, startAngle{}; ///< at the start of the step
+        Pack damping{};                                  ///< 3η/E if the membrane is damped [s] …
+        Pack bendDamping{};                              ///< … and bending
+        std::array<Lanes, kBlocks> entry;                ///< where a block, or its transpose, stands in the matrix; −1 for no block
+        std::array<unsigned, kBlocks> isTransposed;      ///< bit l: of lane l it is the transpose
+        std::array<Pack, 3> startGreen{}, startAngle{};  ///< at the start of the step
     };
     void fill(const Fabric& fabric, const FabricSettings& settings, std::size_t begin, std::size_t end, const BlockMatrix& pattern,
               Batch& batch) const;
@@ -68,11 +68,11 @@ class Shells {
     BendMeasure measured(const Batch& batch, const ShellBend<Pack>& bend) const;
 
     FabricSettings settings_;
-    std::vector<int> vertices_, row_;               ///< row of each vertex of the fabric; −1 for those without cloth
-    std::vector<std::array<int, 3>> across_;        ///< of each face: vertices across its edges; −1 on the boundary
+    std::vector<int> vertices_, row_;         ///< row of each vertex of the fabric; −1 for those without cloth
+    std::vector<std::array<int, 3>> across_;  ///< of each face: vertices across its edges; −1 on the boundary
     std::vector<std::vector<int>> pattern_, neighbors_;
     std::vector<Batch> batches_;
-    std::vector<std::vector<int>> tasks_;           ///< of each colour: kBatchesPerTask batches from number · kBatchesPerTask on
+    std::vector<std::vector<int>> tasks_;  ///< of each colour: kBatchesPerTask batches from number · kBatchesPerTask on
     bool damped_ = false;
 };
 

@@ -13,12 +13,12 @@ using namespace solids;
 
 namespace {
 
-constexpr double kCore = 0.57;        ///< distance that is kept, as between pairs of fabric [radii]
-constexpr double kKept = 0.85;        ///< what begins nearer keeps this share of its distance on the way: less than kNearestError leaves [-] …
-constexpr double kStays = 1.0e-6;     ///< … and ends no nearer than it began, but for this share [-]
-constexpr double kPushed = 4.0;       ///< distance within which a solid may push [radii]
-constexpr double kInterior = 0.95;    ///< weight of a corner from which on the corner itself is what touches [-]
-constexpr int kSlides = 3;            ///< along as many surfaces a vertex goes: a corner has three
+constexpr double kCore = 0.57;      ///< distance that is kept, as between pairs of fabric [radii]
+constexpr double kKept = 0.85;      ///< what begins nearer keeps this share of its distance on the way: less than kNearestError leaves [-] …
+constexpr double kStays = 1.0e-6;   ///< … and ends no nearer than it began, but for this share [-]
+constexpr double kPushed = 4.0;     ///< distance within which a solid may push [radii]
+constexpr double kInterior = 0.95;  ///< weight of a corner from which on the corner itself is what touches [-]
+constexpr int kSlides = 3;          ///< along as many surfaces a vertex goes: a corner has three
 
 /// Around all ways; without moves, around all places.
 Eigen::AlignedBox3d boxAround(std::span<const Vec3> x, std::span<const Vec3> u)
@@ -292,9 +292,8 @@ const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
     // Of a face that lies across an edge of the solid any point along it may be nearest; those of the face's own edges are where it rests.
     for (const Elements* elements : {&elements_, &clothEdges_}) {
         const int first = elements == &elements_ ? 0 : static_cast<int>(elements_.size());
-        collect(*elements, nearestOfChunk_, nearest_, [&](int body, int element, std::vector<NearestPoint>& out) {
-            addNearest(body, first + element, x, (*elements)[element], out);
-        });
+        collect(*elements, nearestOfChunk_, nearest_,
+                [&](int body, int element, std::vector<NearestPoint>& out) { addNearest(body, first + element, x, (*elements)[element], out); });
     }
     std::ranges::sort(nearest_, {}, [](const NearestPoint& p) { return std::pair(p.element, p.body); });
     return nearest_;

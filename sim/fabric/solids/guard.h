@@ -18,11 +18,11 @@ struct GuardReport {
 
 /// Where an edge or a face touches a solid with none of its vertices.
 struct NearestPoint {
-    int element = 0, body = 0;      ///< number of the edge or face, and of the solid among those that fabric feels
-    int corners = 0;                ///< 2 or 3
+    int element = 0, body = 0;  ///< number of the edge or face, and of the solid among those that fabric feels
+    int corners = 0;            ///< 2 or 3
     std::array<int, 3> vertices{};
-    Vec3 weights = Vec3::Zero();    ///< [-]
-    double radius = 0.0;            ///< of the fabric [cm]
+    Vec3 weights = Vec3::Zero();  ///< [-]
+    double radius = 0.0;          ///< of the fabric [cm]
 };
 
 /// Fabric never gets through a solid's surface. Moves are looked at in the frame of each solid, in which it rests while corners of the
@@ -68,18 +68,18 @@ class SolidGuard {
         std::string name;
         Shape shape;
         Motion motion;
-        double steepest;                               ///< slope of its distance [-]
-        Eigen::Isometry3d end, toBegin, toEnd;         ///< from its frame at the end, and into it at both ends of the moves
+        double steepest;                        ///< slope of its distance [-]
+        Eigen::Isometry3d end, toBegin, toEnd;  ///< from its frame at the end, and into it at both ends of the moves
         bool moves = false, isNear = false;
-        std::vector<double> distance, clear;           ///< of each vertex: at the start, and less its way past the solid [cm]
+        std::vector<double> distance, clear;  ///< of each vertex: at the start, and less its way past the solid [cm]
     };
     /// One that comes too near on its way.
     struct Blocked {
         int body, element, corners;
         std::array<int, 3> vertices;
-        double part;       ///< of the way that is safe [0..1]
-        double lack;       ///< of its distance at the start: this much it should get away [cm]
-        Vec3 weights;      ///< of the corners where it is nearest [-]
+        double part;   ///< of the way that is safe [0..1]
+        double lack;   ///< of its distance at the start: this much it should get away [cm]
+        Vec3 weights;  ///< of the corners where it is nearest [-]
     };
     using Moves = std::span<Vec3>;
     using Points = std::span<const Vec3>;
@@ -105,18 +105,18 @@ class SolidGuard {
 
     const Fabric* fabric_ = nullptr;
     std::vector<Body> bodies_;
-    Elements elements_;                                ///< edges of yarns, whose third vertex is −1, and faces
-    Elements clothEdges_;                              ///< each once, likewise
+    Elements elements_;    ///< edges of yarns, whose third vertex is −1, and faces
+    Elements clothEdges_;  ///< each once, likewise
     bool isNear_ = false;
     std::vector<char> slid_;
-    std::vector<char> isLeft_;                         ///< of each element: pins draw it through a solid in this step
+    std::vector<char> isLeft_;  ///< of each element: pins draw it through a solid in this step
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
     struct Carrier {
-        int body = -1, changes = 0;                    ///< with which solid it goes in this limit(), and how often that was another one before
+        int body = -1, changes = 0;  ///< with which solid it goes in this limit(), and how often that was another one before
     };
-    std::vector<Carrier> carriers_;                    ///< of each vertex
-    std::vector<Vec3> at_, part_;                      ///< of each vertex, on its way in halves: its place and the next move [cm]
+    std::vector<Carrier> carriers_;  ///< of each vertex
+    std::vector<Vec3> at_, part_;    ///< of each vertex, on its way in halves: its place and the next move [cm]
     std::vector<std::vector<NearestPoint>> nearestOfChunk_;
     std::vector<NearestPoint> nearest_;
 };

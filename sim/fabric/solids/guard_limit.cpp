@@ -15,9 +15,9 @@ using namespace solids;
 namespace {
 
 constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
-constexpr int kHelped = 3;            ///< of those in which fabric goes with the solid, until what still fails is left to its pins
-constexpr double kDrawn = 0.5;        ///< towards the solid's own motion in one of them [-]
-constexpr int kMostCarriers = 3;      ///< with which a vertex goes in turn; one that is torn to and fro longer has no straight way between them
+constexpr int kHelped = 3;                             ///< of those in which fabric goes with the solid, until what still fails is left to its pins
+constexpr double kDrawn = 0.5;                         ///< towards the solid's own motion in one of them [-]
+constexpr int kMostCarriers = 3;  ///< with which a vertex goes in turn; one that is torn to and fro longer has no straight way between them
 
 }  // namespace
 
@@ -130,8 +130,10 @@ void SolidGuard::refuse() const
     std::string names;
     for (const Body& body : bodies_)
         if (body.isNear) names += (names.empty() ? "" : ", ") + body.name;
-    throw RunError(fmt::format("fabric among obstacles that move ({}) is pushed through one of them: more room between them or slower motion "
-                               "would do", names));
+    throw RunError(
+        fmt::format("fabric among obstacles that move ({}) is pushed through one of them: more room between them or slower motion "
+                    "would do",
+                    names));
 }
 
 double SolidGuard::safePart(Points x, std::span<const Vec3> u)

@@ -7,7 +7,7 @@ namespace sim::solids {
 
 namespace {
 
-constexpr int kMostLooks = 400;            ///< after as many the bound is taken as it is: safe, only less sharp
+constexpr int kMostLooks = 400;              ///< after as many the bound is taken as it is: safe, only less sharp
 constexpr double kLeastStride = 1.0 / 1024;  ///< of the way: nearer than this to what is not safe is arrived
 
 /// Part of an element: its corners as weights of those of the whole.
@@ -15,10 +15,7 @@ struct Part {
     std::array<Vec3, 3> corners;
 };
 
-Part whole()
-{
-    return {{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}};
-}
+Part whole() { return {{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}}; }
 
 Vec3 combine(const Vec3& weights, const std::array<Vec3, 3>& x, int corners)
 {

@@ -38,10 +38,7 @@ class SmallRuns {
  public:
     SmallRuns() { writeFile(folder / "small.yaml", kSmallScene); }
 
-    ChildExit drench(const std::vector<std::string>& arguments) const
-    {
-        return runChild(DRENCH_PROGRAM, arguments, {.folder = folder.path()});
-    }
+    ChildExit drench(const std::vector<std::string>& arguments) const { return runChild(DRENCH_PROGRAM, arguments, {.folder = folder.path()}); }
     /// The scene into the folder `out`.
     ChildExit run(const std::string& out, const std::vector<std::string>& more = {}) const
     {

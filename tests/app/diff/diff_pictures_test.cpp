@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <sys/wait.h>
 #include <algorithm>
 #include <cstdio>
-#include <sys/wait.h>
 
 namespace app::test {
 namespace {

@@ -118,7 +118,8 @@ TEST_F(DiffRuns, ReadTheirTolerancesInTheSceneOfA)
     writeFile(folder / "a" / "resolved.yaml", "compare: {tolerance: {series: 1.0e-5, position: 1 mm}}\n");
     const DiffResult result = diff("a", "b");
     EXPECT_EQ(result.tolerance.position, 0.1);
-    EXPECT_EQ(std::ranges::count_if(result.findings, [](const DiffFinding& f) { return f.what.starts_with("energy.csv") && f.differs; }), 0) << result.verdict();
+    EXPECT_EQ(std::ranges::count_if(result.findings, [](const DiffFinding& f) { return f.what.starts_with("energy.csv") && f.differs; }), 0)
+        << result.verdict();
 }
 
 TEST_F(DiffRuns, RowsOfEqualTimesAreComparedAndOthersTold)

@@ -14,8 +14,7 @@ namespace {
 
 SceneSetup load(const std::string& name, std::vector<std::string> sets)
 {
-    return drenchParts().loadScene(
-        {.file = DRENCH_SOURCE_DIR "/scenes/" + name + ".yaml", .variant = "", .sets = std::move(sets)});
+    return drenchParts().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/" + name + ".yaml", .variant = "", .sets = std::move(sets)});
 }
 
 /// A run as far as `time` [s].
@@ -29,8 +28,7 @@ std::unique_ptr<Steppable> runTo(double time, const SceneSetup& setup)
 FrameSnapshot shotOf(const Steppable& simulation, const SceneSetup& setup, const SnapshotExtras& extras)
 {
     FrameSnapshot snapshot;
-    takeSnapshot(simulation.state(), simulation.fabric(), simulation.contacts(), setup.scene.settings.liquid.density,
-                 extras, snapshot);
+    takeSnapshot(simulation.state(), simulation.fabric(), simulation.contacts(), setup.scene.settings.liquid.density, extras, snapshot);
     drenchParts().meshObstacles(setup)(simulation.state().time, snapshot.obstacles);
     return snapshot;
 }
@@ -65,8 +63,7 @@ TEST(Pictures, PressureAtRestIsTheWeightAbove)
     EXPECT_GT(between, snapshot.positions.size() / 2);
     const render::Image image = pictureOf(snapshot, setup, "pressure");
     // Jet: red is high, blue is low.
-    const render::Rgb bottom = image.color(image.width / 2, image.height * 3 / 4),
-                      top = image.color(image.width / 2, image.height * 2 / 5);
+    const render::Rgb bottom = image.color(image.width / 2, image.height * 3 / 4), top = image.color(image.width / 2, image.height * 2 / 5);
     EXPECT_GT(bottom.r, bottom.b + 60) << +bottom.r << ' ' << +bottom.g << ' ' << +bottom.b;
     EXPECT_GT(top.b, top.r + 60) << +top.r << ' ' << +top.g << ' ' << +top.b;
 }
@@ -101,8 +98,7 @@ TEST(Pictures, SurfaceCoversWhatItsParticlesDo)
 TEST(Pictures, ContactsAreWhereYarnsTouch)
 {
     const SceneSetup setup =
-        load("yarn_sheet", {"fabrics.sheet.woven_yarns.yarns=[20, 20]",
-                            "obstacles.ball.shape={ball: {center: [1.4, 1.05, 1.4], radius: 0.8}}",
+        load("yarn_sheet", {"fabrics.sheet.woven_yarns.yarns=[20, 20]", "obstacles.ball.shape={ball: {center: [1.4, 1.05, 1.4], radius: 0.8}}",
                             "render.camera={look_at: [1.4, 0, 1.4], eye: [1.4, 3.0, 6.0], fov: 40}"});
     const auto simulation = runTo(0.01, setup);
     FrameSnapshot snapshot = shotOf(*simulation, setup, {.contacts = true});

@@ -25,8 +25,7 @@ constexpr GeometryFormats kAll = {.vtp = true, .ply = true, .obj = true, .usda =
 std::set<std::string> namesIn(const std::filesystem::path& folder)
 {
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        names.insert(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
     return names;
 }
 
@@ -79,12 +78,10 @@ TEST(Exporter, ParticlesMayComeAndGo)
     std::vector<std::filesystem::path> files;
     for (int frame = 0; frame < 3; ++frame) {
         exporter.write(WetScene(std::array{5, 0, 9}[frame]).frame(frame));
-        for (const char* extension : {"vtp", "ply"})
-            files.push_back(folder / geometryFileName("liquid", frame, extension));
+        for (const char* extension : {"vtp", "ply"}) files.push_back(folder / geometryFileName("liquid", frame, extension));
     }
     const json read = test::readGeometry(files);
-    for (std::size_t f = 0; f < files.size(); ++f)
-        EXPECT_EQ(read[f].at("points").size(), (std::array{5u, 0u, 9u}[f / 2])) << files[f];
+    for (std::size_t f = 0; f < files.size(); ++f) EXPECT_EQ(read[f].at("points").size(), (std::array{5u, 0u, 9u}[f / 2])) << files[f];
 }
 
 TEST(Exporter, OnlyTheWantedFormatsAreWritten)
@@ -93,12 +90,11 @@ TEST(Exporter, OnlyTheWantedFormatsAreWritten)
     WetScene scene;
     Exporter(folder / "vtp", {.vtp = true}, 0.01).write(scene.frame());
     EXPECT_EQ(namesIn(folder / "vtp"),
-              (std::set<std::string>{"cloth.pvd", "cloth_00000.vtp", "liquid.pvd", "liquid_00000.vtp",
-                                     "obstacle_big_tank.pvd", "obstacle_big_tank_00000.vtp", "yarns.pvd",
-                                     "yarns_00000.vtp"}));
+              (std::set<std::string>{"cloth.pvd", "cloth_00000.vtp", "liquid.pvd", "liquid_00000.vtp", "obstacle_big_tank.pvd",
+                                     "obstacle_big_tank_00000.vtp", "yarns.pvd", "yarns_00000.vtp"}));
     Exporter(folder / "ply", {.vtp = false, .ply = true}, 0.01).write(scene.frame(12));
-    EXPECT_EQ(namesIn(folder / "ply"), (std::set<std::string>{"cloth_00012.ply", "liquid_00012.ply",
-                                                              "obstacle_big_tank_00012.ply", "yarns_00012.ply"}));
+    EXPECT_EQ(namesIn(folder / "ply"),
+              (std::set<std::string>{"cloth_00012.ply", "liquid_00012.ply", "obstacle_big_tank_00012.ply", "yarns_00012.ply"}));
     Exporter(folder / "obj", {.vtp = false, .obj = true}, 0.01).write(scene.frame(123456));
     EXPECT_EQ(namesIn(folder / "obj"), std::set<std::string>{"frame_123456.obj"});
     Exporter(folder / "usda", {.vtp = false, .usda = true}, 0.01).write(scene.frame());
@@ -128,9 +124,8 @@ TEST(Exporter, LiquidWithoutFabricLeavesNoFabric)
     scene.obstacles.clear();
     const TemporaryFolder folder;
     Exporter(folder.path(), kAll, 0.01).write(scene.frame());
-    EXPECT_EQ(namesIn(folder.path()),
-              (std::set<std::string>{"animation.usda", "frame_00000.obj", "frame_00000.usda", "liquid.pvd",
-                                     "liquid_00000.ply", "liquid_00000.vtp", "topology.usda"}));
+    EXPECT_EQ(namesIn(folder.path()), (std::set<std::string>{"animation.usda", "frame_00000.obj", "frame_00000.usda", "liquid.pvd",
+                                                             "liquid_00000.ply", "liquid_00000.vtp", "topology.usda"}));
 }
 
 TEST(Exporter, ThreadsLeaveTheSameBits)
@@ -182,8 +177,7 @@ TEST(Exporter, AFolderThatIsAFileIsRefusedInOneLine)
         Exporter(folder / "geometry", {}, 0.01);
         FAIL() << "not refused";
     } catch (const sim::InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("geometry: this is a file, not a folder"), std::string::npos)
-            << error.what();
+        EXPECT_NE(std::string(error.what()).find("geometry: this is a file, not a folder"), std::string::npos) << error.what();
     }
 }
 

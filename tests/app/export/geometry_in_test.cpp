@@ -68,10 +68,7 @@ WetScene::WetScene(std::size_t particles) : obstacles{tetrahedron()}
     state.nextId = 1000;
 }
 
-ExportFrame WetScene::frame(std::int64_t number) const
-{
-    return exportFrame(number, state, fabric, kDensity, obstacles);
-}
+ExportFrame WetScene::frame(std::int64_t number) const { return exportFrame(number, state, fabric, kDensity, obstacles); }
 
 void WetScene::move(double dt)
 {

@@ -86,12 +86,10 @@ TEST(Obj, HasEveryPartWithNumbersThatCountOn)
     ASSERT_EQ(read.at("verts").size(), 7u);
     ASSERT_EQ(read.at("lines").size(), 2u);
     ASSERT_EQ(read.at("polys").size(), 12u + 4u);
-    for (std::size_t p = 0; p < 7; ++p)
-        expectClose(point(read.at("verts")[scene.state.liquid.id[p] - 100][0]), scene.state.liquid.position(p));
+    for (std::size_t p = 0; p < 7; ++p) expectClose(point(read.at("verts")[scene.state.liquid.id[p] - 100][0]), scene.state.liquid.position(p));
     for (std::size_t i = 0; i < 3; ++i) expectClose(point(read.at("lines")[0][i]), scene.state.fabric.x[i]);
     for (std::size_t f = 0; f < 12; ++f)
-        for (int c = 0; c < 3; ++c)
-            expectClose(point(read.at("polys")[f][c]), scene.state.fabric.x[scene.fabric.faces.vertices[f][c]]);
+        for (int c = 0; c < 3; ++c) expectClose(point(read.at("polys")[f][c]), scene.state.fabric.x[scene.fabric.faces.vertices[f][c]]);
     const std::string text = test::contentOf(folder / "frame_00000.obj");
     for (const char* group : {"\ng liquid\n", "\ng yarns\n", "\ng cloth\n", "\ng obstacle_big_tank\n"})
         EXPECT_NE(text.find(group), std::string::npos) << group;
@@ -103,18 +101,14 @@ class Usda : public testing::Test {
     {
         Exporter exporter(folder.path(), {.vtp = false, .usda = true}, 0.004);
         for (int frame = 0; frame < 3; ++frame) exporter.write(WetScene(3 + frame).frame(frame));
-        const json read =
-            test::readGeometry({folder / "animation.usda", folder / "topology.usda", folder / "frame_00002.usda"});
+        const json read = test::readGeometry({folder / "animation.usda", folder / "topology.usda", folder / "frame_00002.usda"});
         animation = read[0], topology = read[1], frame2 = read[2];
     }
     const json& attribute(const std::string& prim, const std::string& name) const
     {
         return frame2.at("prims").at("/drench/" + prim).at("attributes").at(name);
     }
-    const json& sample(const std::string& prim, const std::string& name) const
-    {
-        return attribute(prim, name).at("samples").at("2");
-    }
+    const json& sample(const std::string& prim, const std::string& name) const { return attribute(prim, name).at("samples").at("2"); }
 
     const TemporaryFolder folder;
     const WetScene last{5};
@@ -144,8 +138,7 @@ TEST_F(Usda, TheAnimationPlaysOneClipPerFrame)
     EXPECT_EQ(clips.at("primPath"), "/drench");
     EXPECT_EQ(clips.at("manifestAssetPath"), "./topology.usda");
     EXPECT_EQ(animation.at("metadata").at("subLayers"), json({"./topology.usda"}));
-    for (const json& file : clips.at("assetPaths"))
-        EXPECT_TRUE(std::filesystem::exists(folder.path() / file.get<std::string>()));
+    for (const json& file : clips.at("assetPaths")) EXPECT_TRUE(std::filesystem::exists(folder.path() / file.get<std::string>()));
 }
 
 /// What varies has samples in the frames and none below the clips, where it would hide them.
@@ -197,8 +190,7 @@ TEST_F(Usda, FabricIsCurvesAndAMesh)
     EXPECT_EQ(attribute("cloth", "subdivisionScheme").at("value"), "none");
     EXPECT_EQ(sample("cloth", "faceVertexCounts"), json(std::vector<int>(12, 3)));
     ASSERT_EQ(sample("cloth", "faceVertexIndices").size(), 36u);
-    for (const char* each :
-         {"points", "velocities", "normals", "primvars:saturation", "primvars:absorbed", "primvars:material"})
+    for (const char* each : {"points", "velocities", "normals", "primvars:saturation", "primvars:absorbed", "primvars:material"})
         EXPECT_EQ(sample("cloth", each).size(), 12u) << each;
     for (std::size_t f = 0; f < 12; ++f)
         for (std::size_t c = 0; c < 3; ++c)

@@ -48,20 +48,16 @@ TEST(RunWithGeometry, AnotherRunTakesAwayWhatTheLastHasLeft)
     const TemporaryFolder folder;
     runToy({}, folder.path(), true);
     const auto geometry = folder / "geometry";
-    for (const char* own : {"obstacle_tank_00003.ply.part", "frame_00007.obj", "animation.usda"})
-        test::writeFile(geometry / own, "old");
-    for (const char* others : {"notes.txt", "liquid_surface.vtp", "frame_7.obj"})
-        test::writeFile(geometry / others, "mine");
+    for (const char* own : {"obstacle_tank_00003.ply.part", "frame_00007.obj", "animation.usda"}) test::writeFile(geometry / own, "old");
+    for (const char* others : {"notes.txt", "liquid_surface.vtp", "frame_7.obj"}) test::writeFile(geometry / others, "mine");
     test::ToySettings shorter;
     shorter.duration = 0.02;
     runToy(shorter, folder.path(), true);
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(geometry))
-        names.insert(entry.path().filename().string());
-    EXPECT_EQ(names, (std::set<std::string>{"frame_7.obj", "liquid.pvd", "liquid_00000.vtp", "liquid_00001.vtp",
-                                            "liquid_00002.vtp", "liquid_surface.vtp", "notes.txt", "provenance.json"}));
-    for (const char* others : {"notes.txt", "liquid_surface.vtp", "frame_7.obj"})
-        std::filesystem::remove(geometry / others);
+    for (const auto& entry : std::filesystem::directory_iterator(geometry)) names.insert(entry.path().filename().string());
+    EXPECT_EQ(names, (std::set<std::string>{"frame_7.obj", "liquid.pvd", "liquid_00000.vtp", "liquid_00001.vtp", "liquid_00002.vtp",
+                                            "liquid_surface.vtp", "notes.txt", "provenance.json"}));
+    for (const char* others : {"notes.txt", "liquid_surface.vtp", "frame_7.obj"}) std::filesystem::remove(geometry / others);
     runToy(shorter, folder.path(), false);
     EXPECT_FALSE(std::filesystem::exists(geometry));
 }

@@ -20,16 +20,10 @@ using test::expectClose;
 using test::kSingle;
 using test::WetScene;
 
-const json& values(const json& part, const char* array)
-{
-    return part.at("arrays").at(array).at("values");
-}
+const json& values(const json& part, const char* array) { return part.at("arrays").at(array).at("values"); }
 
 /// An array of one number per point.
-double number(const json& part, const char* array, std::size_t point)
-{
-    return values(part, array).at(point).at(0).get<double>();
-}
+double number(const json& part, const char* array, std::size_t point) { return values(part, array).at(point).at(0).get<double>(); }
 
 /// Places of a lattice in a ball around the origin [cm].
 std::vector<Vec3> latticeBall(double radius, double spacing)
@@ -83,8 +77,7 @@ TEST(Vtp, YarnsAreReadBackAsLinesWithTheirRadius)
         expectClose(part.at("points")[v], scene.state.fabric.x[v]);
         expectClose(values(part, "velocity")[v], scene.state.fabric.v[v]);
         EXPECT_NEAR(number(part, "absorbed", v), scene.state.fabric.absorbed[v], kSingle);
-        EXPECT_NEAR(number(part, "radius", v), 0.06, kSingle)
-            << "of a round yarn with the section of one of 0.04 by 0.09";
+        EXPECT_NEAR(number(part, "radius", v), 0.06, kSingle) << "of a round yarn with the section of one of 0.04 by 0.09";
         EXPECT_EQ(number(part, "material", v), 0);
     }
 }
@@ -114,8 +107,7 @@ TEST(Vtp, ClothIsReadBackAsItsOwnVerticesAndFaces)
     ASSERT_EQ(part.at("polys").size(), scene.fabric.faces.size());
     for (std::size_t f = 0; f < scene.fabric.faces.size(); ++f)
         for (int c = 0; c < 3; ++c)
-            expectClose(part.at("points")[part.at("polys")[f][c].get<std::size_t>()],
-                        scene.state.fabric.x[scene.fabric.faces.vertices[f][c]]);
+            expectClose(part.at("points")[part.at("polys")[f][c].get<std::size_t>()], scene.state.fabric.x[scene.fabric.faces.vertices[f][c]]);
     for (std::size_t i = 0; i < 12; ++i) {
         expectClose(values(part, "velocity")[i], scene.state.fabric.v[5 + i]);
         EXPECT_NEAR(number(part, "absorbed", i), scene.state.fabric.absorbed[5 + i], kSingle);
@@ -147,8 +139,7 @@ TEST(Vtp, ObstaclesAreReadBackByName)
     FrameSnapshot::Mesh second = scene.obstacles[0];
     second.velocities.assign(4, {1.0f, -2.0f, 3.0f});
     scene.obstacles.push_back(second);
-    const json still = written(scene.frame(), "obstacle_big_tank"),
-               moving = written(scene.frame(), "obstacle_big_tank_2");
+    const json still = written(scene.frame(), "obstacle_big_tank"), moving = written(scene.frame(), "obstacle_big_tank_2");
     EXPECT_EQ(still.at("polys"), json::parse("[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]"));
     expectClose(still.at("points")[2], Vec3(-5, 9, -5));
     expectClose(values(still, "velocity")[2], Vec3::Zero());

@@ -40,7 +40,8 @@ TEST(FrameQueue, AFullQueueMakesTheProducerWait)
     EXPECT_EQ(pushed, 2);
     queue.pop();
     while (pushed < 3) std::this_thread::sleep_for(1ms);
-    while (queue.pop()) {}
+    while (queue.pop()) {
+    }
     EXPECT_EQ(pushed, 5);
 }
 

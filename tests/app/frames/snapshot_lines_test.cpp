@@ -13,10 +13,7 @@ namespace {
 using sim::Vec3;
 using sim::Vec3i;
 
-double lengthOf(const FrameSnapshot::Lines& lines, std::size_t segment)
-{
-    return (lines.points[2 * segment + 1] - lines.points[2 * segment]).norm();
-}
+double lengthOf(const FrameSnapshot::Lines& lines, std::size_t segment) { return (lines.points[2 * segment + 1] - lines.points[2 * segment]).norm(); }
 
 TEST(BlockEdges, EachOfTwoNeighboursOnce)
 {
@@ -70,8 +67,7 @@ TEST(VelocityArrows, AreOfAFewParticlesEvenlyById)
     EXPECT_LE(places.size(), kMostArrows);
     EXPECT_GT(places.size(), kMostArrows * 9 / 10);
     EXPECT_EQ(places, placesOf(reversed));
-    for (auto next = std::next(places.begin()); next != places.end(); ++next)
-        ASSERT_EQ(*next - *std::prev(next), 11.0f);
+    for (auto next = std::next(places.begin()); next != places.end(); ++next) ASSERT_EQ(*next - *std::prev(next), 11.0f);
 }
 
 TEST(ContactLines, JoinTheNearestPoints)

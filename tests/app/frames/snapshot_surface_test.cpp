@@ -19,11 +19,9 @@ struct Cube {
         state.grid.setBlocks(std::array{Vec3i(0, 0, 0)});
         state.pressure.resize(1);
         state.step = 1;
-        for (int c = 0; c < sim::kBlockCells; ++c)
-            state.pressure.block(0)[c] = 50.0 * state.grid.dx * ((c >> 3 & 7) + 0.5);
+        for (int c = 0; c < sim::kBlockCells; ++c) state.pressure.block(0)[c] = 50.0 * state.grid.dx * ((c >> 3 & 7) + 0.5);
         for (int n = 0; n < 512; ++n)
-            state.liquid.add(Vec3::Constant(1.0) + 0.25 * Vec3(n & 7, n >> 3 & 7, n >> 6), 0.25 * 0.25 * 0.25, n,
-                             {0, 7, 0});
+            state.liquid.add(Vec3::Constant(1.0) + 0.25 * Vec3(n & 7, n >> 3 & 7, n >> 6), 0.25 * 0.25 * 0.25, n, {0, 7, 0});
     }
     sim::State state;
 };
@@ -44,8 +42,7 @@ TEST(SurfaceInFrame, IsThereWhereItIsAskedFor)
     }
     EXPECT_EQ(snapshot.view().surface.triangles.data(), surface.triangles.data());
     takeSnapshot(cube.state, {}, nullptr, 1.0, {}, snapshot);
-    EXPECT_TRUE(surface.positions.empty() && surface.normals.empty() && surface.values.empty() &&
-                surface.triangles.empty());
+    EXPECT_TRUE(surface.positions.empty() && surface.normals.empty() && surface.values.empty() && surface.triangles.empty());
 }
 
 TEST(SurfaceInFrame, ValuesArePressuresWhereTheyAreAskedFor)
@@ -54,8 +51,7 @@ TEST(SurfaceInFrame, ValuesArePressuresWhereTheyAreAskedFor)
     FrameSnapshot::Surface surface;
     takeSurface(cube.state, 1.0, {.pressure = true, .surface = true}, surface);
     ASSERT_GT(surface.values.size(), 100u);
-    for (std::size_t v = 0; v < surface.values.size(); ++v)
-        EXPECT_NEAR(surface.values[v], 50.0f * surface.positions[v].y(), 0.01f);
+    for (std::size_t v = 0; v < surface.values.size(); ++v) EXPECT_NEAR(surface.values[v], 50.0f * surface.positions[v].y(), 0.01f);
 }
 
 }  // namespace

@@ -46,10 +46,7 @@ void expectRefused(const std::string& content, int line, const std::string& word
     EXPECT_EQ(refused.leftBehind, "");
 }
 
-std::string inScene(const std::string& lines)
-{
-    return kHead + lines + "\n</scene>\n";
-}
+std::string inScene(const std::string& lines) { return kHead + lines + "\n</scene>\n"; }
 
 std::string utf16(const std::string& text)
 {
@@ -58,10 +55,7 @@ std::string utf16(const std::string& text)
     return out;
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by)
-{
-    return text.replace(text.find(what), what.size(), by);
-}
+std::string replaced(std::string text, const std::string& what, const std::string& by) { return text.replace(text.find(what), what.size(), by); }
 
 TEST(BadImport, NoFile)
 {
@@ -121,9 +115,7 @@ TEST(BadImport, DeepNesting)
 TEST(BadImport, EntityBomb)
 {
     std::string bomb = "<?xml version=\"1.0\"?>\n<!DOCTYPE scene [<!ENTITY a0 \"ha\">";
-    for (int i = 1; i < 10; ++i)
-        bomb +=
-            fmt::format("<!ENTITY a{0} \"&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};\">", i, i - 1);
+    for (int i = 1; i < 10; ++i) bomb += fmt::format("<!ENTITY a{0} \"&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};&a{1};\">", i, i - 1);
     bomb += "]>\n<scene><description text=\"&a9;\"/></scene>";
     const auto start = std::chrono::steady_clock::now();
     expectRefused(bomb, 2, "DOCTYPE");
@@ -133,8 +125,7 @@ TEST(BadImport, EntityBomb)
 TEST(BadImport, AbsurdCounts)
 {
     const std::string particles = "<particle x=\"0 0 0\"/><particle x=\"1 0 0\"/>\n";
-    expectRefused(inScene(particles + "<hair params=\"0\" start=\"0\" count=\"1000000000000\"/>"), 6,
-                  "hair@count names particle 999999999999");
+    expectRefused(inScene(particles + "<hair params=\"0\" start=\"0\" count=\"1000000000000\"/>"), 6, "hair@count names particle 999999999999");
     expectRefused(inScene("<hair params=\"0\" start=\"0\" count=\"1000000000000\"/>"), 5, "the file has no particles");
     expectRefused(inScene("<bucketinfo size=\"1\" numcells=\"1000000000000\"/>"), 5, "bucketinfo@numcells");
     expectRefused(inScene("<bucketinfo size=\"1e-9\"/>\n<distancefield usage=\"source\" type=\"sphere\" cx=\"0\" "
@@ -146,8 +137,7 @@ TEST(BadImport, AbsurdCounts)
     for (int i = 0; i < 20'000; ++i) hairs += "<hair params=\"0\" start=\"0\" count=\"2000\"/>";
     expectRefused(inScene(hairs), 5, "points together");
     std::string fields;
-    for (int i = 0; i < 10'001; ++i)
-        fields += "<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>";
+    for (int i = 0; i < 10'001; ++i) fields += "<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" cz=\"0\" radius=\"1\"/>";
     expectRefused(inScene(fields), 5, "more than 10000");
 }
 
@@ -161,8 +151,7 @@ TEST(BadImport, NumbersThatAreNone)
     expectRefused(inScene("<particle v=\"0 0 0\"/>"), 5, "particle@x is missing");
     expectRefused(inScene("<liquidinfo>\n<viscosity/></liquidinfo>"), 6, "viscosity@value is missing");
     expectRefused(inScene("<liquidinfo><surfTension value=\"maybe\"/></liquidinfo>"), 5, "neither 0 nor 1");
-    expectRefused(inScene("<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" radius=\"1\"/>"), 5,
-                  "distancefield@cz is missing");
+    expectRefused(inScene("<distancefield type=\"sphere\" cx=\"0\" cy=\"0\" radius=\"1\"/>"), 5, "distancefield@cz is missing");
     expectRefused(replaced(inScene(""), "dt=\"1e-3\"", "dt=\"0\""), 3, "integrator@dt must be above 0");
     expectRefused("<scene>\n<duration time=\"1\"/></scene>", 1, "has no <integrator");
     expectRefused("<scene>\n</scene>", 1, "has no <duration");
@@ -171,10 +160,8 @@ TEST(BadImport, NumbersThatAreNone)
 TEST(BadImport, ParticlesAndMaterialsThatAreNotThere)
 {
     const std::string particles = "<particle x=\"0 0 0\"/><particle x=\"1 0 0\"/><particle x=\"0 1 0\"/>\n";
-    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 3\"/></cloth>"), 7,
-                  "names particle 3, but the file has 0 to 2 only");
-    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 1\"/></cloth>"), 7,
-                  "names a particle twice");
+    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 3\"/></cloth>"), 7, "names particle 3, but the file has 0 to 2 only");
+    expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1 1\"/></cloth>"), 7, "names a particle twice");
     expectRefused(inScene(particles + "<cloth params=\"0\">\n<face i=\"0 1\"/></cloth>"), 7, "needs three numbers");
     expectRefused(inScene(particles + "<cloth params=\"1\"><face i=\"0 1 2\"/></cloth>"), 6, "there is no material 1");
     expectRefused(inScene(particles + "<hair params=\"0\" start=\"2\" count=\"2\"/>"), 6, "names particle 3");

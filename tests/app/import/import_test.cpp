@@ -25,12 +25,10 @@ TEST(Import, SheetBecomesAGridOfTheSameTriangles)
     const sim::FabricPiece& cloth = scene.fabrics[0];
     EXPECT_EQ(cloth.kind, "cloth_grid");
     EXPECT_EQ(cloth.velocity, Vec3(0.0, 0.0, -2.0));
-    for (const int v : cloth.pins[0].vertices)
-        EXPECT_GE(cloth.points[v][1], 1.25 - 1.0e-12) << "the two upper columns are held";
+    for (const int v : cloth.pins[0].vertices) EXPECT_GE(cloth.points[v][1], 1.25 - 1.0e-12) << "the two upper columns are held";
     // The file's first face goes from (y 0.5, z 0) up and then along z: its normal is +x.
     for (const sim::Vec3i& f : cloth.faces)
-        EXPECT_GT((cloth.points[f[1]] - cloth.points[f[0]]).cross(cloth.points[f[2]] - cloth.points[f[0]])[0], 0.0)
-            << "faces keep their side";
+        EXPECT_GT((cloth.points[f[1]] - cloth.points[f[0]]).cross(cloth.points[f[2]] - cloth.points[f[0]])[0], 0.0) << "faces keep their side";
     EXPECT_THAT(sheet.yaml(), HasSubstr("pin: {edge: y+, patch: 2}"));
 }
 
@@ -78,8 +76,7 @@ TEST(Import, MaterialsOf2018AreRead)
     EXPECT_EQ(cloth.material.density, 1.4);
     EXPECT_EQ(cloth.material.dampingViscosity, 12.0);
     EXPECT_TRUE(cloth.material.dampBending);
-    EXPECT_FALSE(cloth.material.dampStretching)
-        << "without accumulateViscousOnlyForBendingModes=0 bending alone is damped";
+    EXPECT_FALSE(cloth.material.dampStretching) << "without accumulateViscousOnlyForBendingModes=0 bending alone is damped";
     EXPECT_EQ(cloth.material.contactStiffness, 0.05);
     EXPECT_EQ(cloth.material.pinStiffness, 0.07);
     EXPECT_EQ(cloth.material.frictionAngle, 0.0) << "friction_angle is not read";
@@ -91,9 +88,7 @@ TEST(Import, MaterialsOf2018AreRead)
 TEST(Import, OptionsDecideOtherwise)
 {
     const sim::Scene scene =
-        Imported(ownScene("sheet"),
-                 {.strictFork = true, .trustFrictionAngle = true, .roundSections = true, .vertexSolver = true})
-            .scene();
+        Imported(ownScene("sheet"), {.strictFork = true, .trustFrictionAngle = true, .roundSections = true, .vertexSolver = true}).scene();
     EXPECT_EQ(scene.settings.transfer.method, sim::TransferMethod::Pic);
     EXPECT_EQ(scene.settings.fabric.solver, sim::FabricSolver::Vertex);
     EXPECT_NEAR(scene.fabrics.at(0).material.frictionAngle, 20.0 * kDegree, 1.0e-12);
@@ -159,8 +154,7 @@ TEST(Import, ObstaclesAreSolidWhereTheFileSays)
     EXPECT_LT(tank.distance({0.0, 8.0, 0.0}), 0.0) << "outside";
     EXPECT_NEAR(scene.obstacles[1].shape.distance({2.0, 0.0, 0.95}), 0.1, 1.0e-9)
         << "the cylinder was turned from y to z; half length and corner add up";
-    EXPECT_NEAR(scene.obstacles[2].shape.distance({-1.3, 0.0, 1.0}), 0.2, 0.02)
-        << "the cube of the file, half as large";
+    EXPECT_NEAR(scene.obstacles[2].shape.distance({-1.3, 0.0, 1.0}), 0.2, 0.02) << "the cube of the file, half as large";
     ASSERT_TRUE(scene.domain);
     EXPECT_GT(scene.domain->distance({0.0, -1.5, 0.0}), 0.0) << "a terminator without inside deletes within";
     EXPECT_LT(scene.domain->distance({5.0, 5.0, 5.0}), 0.0);
@@ -173,22 +167,18 @@ TEST(Import, ScriptsBecomeMotions)
     EXPECT_NEAR((lifted.transform(0.9) * Vec3(2.0, 0.0, 0.5) - Vec3(3.0, 1.0, 0.5)).norm(), 0.0, 1.0e-9);
     EXPECT_NEAR((lifted.transform(2.0) * Vec3(2.0, 0.0, 0.5) - Vec3(3.5, 1.0, 0.0)).norm(), 0.0, 1.0e-9)
         << "without an origin it turns about itself, where it is by then";
-    EXPECT_NEAR((turned.transform(1.0) * Vec3(-2.0, 0.0, 1.0) - Vec3(2.0, 0.0, 1.0)).norm(), 0.0, 1.0e-9)
-        << "half a turn about the scene's origin";
-    EXPECT_NEAR((turned.transform(1.125) * Vec3(-2.0, 0.0, 1.0) - Vec3(2.3, 0.0, 1.0)).norm(), 0.0, 1.0e-9)
-        << "then it swings";
+    EXPECT_NEAR((turned.transform(1.0) * Vec3(-2.0, 0.0, 1.0) - Vec3(2.0, 0.0, 1.0)).norm(), 0.0, 1.0e-9) << "half a turn about the scene's origin";
+    EXPECT_NEAR((turned.transform(1.125) * Vec3(-2.0, 0.0, 1.0) - Vec3(2.3, 0.0, 1.0)).norm(), 0.0, 1.0e-9) << "then it swings";
 }
 
 TEST(Import, WhatNoGeneratorMakesGoesToFiles)
 {
     const Imported odd(ownScene("odd"));
-    EXPECT_EQ(countFabric(odd.scene()),
-              (FabricCounts{.vertices = 55, .edges = 35, .faces = 3, .held = 1, .pieces = 4}));
+    EXPECT_EQ(countFabric(odd.scene()), (FabricCounts{.vertices = 55, .edges = 35, .faces = 3, .held = 1, .pieces = 4}));
     const sim::Scene scene = odd.scene();
     EXPECT_EQ(scene.fabrics.at(3).points.at(0), Vec3(0.0, -3.0123456789012, 0.0)) << "to the last digit";
     EXPECT_EQ(scene.fabrics.at(3).radius, (std::array{0.011, 0.012})) << "of its particles, not of the material";
-    for (const char* file : {"odd_cloth0.obj", "odd_yarns2.obj", "odd_yarns3.obj"})
-        EXPECT_TRUE(std::filesystem::exists(odd.folder() / file)) << file;
+    for (const char* file : {"odd_cloth0.obj", "odd_yarns2.obj", "odd_yarns3.obj"}) EXPECT_TRUE(std::filesystem::exists(odd.folder() / file)) << file;
     EXPECT_THAT(odd.report, HasSubstr("no vertex is further from its particle than"));
 }
 
@@ -208,16 +198,15 @@ TEST(Import, ReportNamesWhatIsNotInTheScene)
 {
     const Imported odd(ownScene("odd"));
     for (const char* words :
-         {"1 vertices join cloth and yarns", "radii of their own", "velocities of their own", "fixed=2",
-          "(m, vol) of 1 particles", "theta, omega", "springforce, the first in line 85", "the pose of line 86",
-          "1 particles belong to no cloth and no yarn and have no mass", "1 particles with a mass belong",
-          "1 particles of liquid are listed", "liquidinfo/misspelt", "scene/unheardof"})
+         {"1 vertices join cloth and yarns", "radii of their own", "velocities of their own", "fixed=2", "(m, vol) of 1 particles", "theta, omega",
+          "springforce, the first in line 85", "the pose of line 86", "1 particles belong to no cloth and no yarn and have no mass",
+          "1 particles with a mass belong", "1 particles of liquid are listed", "liquidinfo/misspelt", "scene/unheardof"})
         EXPECT_THAT(odd.report, HasSubstr(words));
     EXPECT_EQ(odd.report, test::contentOf(odd.folder() / "odd.import.txt"));
     const Imported sheet(ownScene("sheet"));
-    for (const char* words : {"apic=1", "biradius is not given", "friction_angle=20", "2 particles belong to no cloth",
-                              "drag by air", "cohesion of wet fabric", "liquidinfo/halfThickness",
-                              "StrandParameters/haircolor", "not from levelsetYoungModulus", "scene/collision", "bucketinfo@kernelorder"})
+    for (const char* words :
+         {"apic=1", "biradius is not given", "friction_angle=20", "2 particles belong to no cloth", "drag by air", "cohesion of wet fabric",
+          "liquidinfo/halfThickness", "StrandParameters/haircolor", "not from levelsetYoungModulus", "scene/collision", "bucketinfo@kernelorder"})
         EXPECT_THAT(sheet.report, HasSubstr(words));
     EXPECT_THAT(sheet.report, Not(HasSubstr("misspelt")));
 }
@@ -228,10 +217,8 @@ TEST(Import, ThreadsPerAreaGiveTheFractionOf2018)
     std::string text = test::contentOf(ownScene("sheet"));
     text.replace(text.find("<multiLevel"), 0, "<fabricThreadCount value=\"80\"/>");
     test::writeFile(folder / "threads.xml", text);
-    EXPECT_NEAR(Imported(folder / "threads.xml").scene().settings.porous.volumeFraction,
-                sim::kPi * 1.0e-4 * 80.0 / (8.0 * 0.02), 1.0e-12);
-    EXPECT_NEAR(Imported(folder / "threads.xml", {.legacyThreadCount = false}).scene().settings.porous.volumeFraction,
-                0.5, 1.0e-12);
+    EXPECT_NEAR(Imported(folder / "threads.xml").scene().settings.porous.volumeFraction, sim::kPi * 1.0e-4 * 80.0 / (8.0 * 0.02), 1.0e-12);
+    EXPECT_NEAR(Imported(folder / "threads.xml", {.legacyThreadCount = false}).scene().settings.porous.volumeFraction, 0.5, 1.0e-12);
 }
 
 }  // namespace

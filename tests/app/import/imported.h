@@ -9,10 +9,7 @@
 
 namespace app::test {
 
-inline std::filesystem::path ownScene(const std::string& name)
-{
-    return std::filesystem::path(IMPORT_SCENES_DIR) / (name + ".xml");
-}
+inline std::filesystem::path ownScene(const std::string& name) { return std::filesystem::path(IMPORT_SCENES_DIR) / (name + ".xml"); }
 
 /// A scene of libWetCloth, imported into a folder of the test's own, and loaded from there.
 class Imported {
@@ -56,8 +53,7 @@ inline FabricCounts countFabric(const sim::Scene& scene)
 
 inline void PrintTo(const FabricCounts& n, std::ostream* out)
 {
-    *out << n.vertices << " vertices, " << n.edges << " edges, " << n.faces << " faces, " << n.held << " held, "
-         << n.pieces << " pieces";
+    *out << n.vertices << " vertices, " << n.edges << " edges, " << n.faces << " faces, " << n.held << " held, " << n.pieces << " pieces";
 }
 
 }  // namespace app::test

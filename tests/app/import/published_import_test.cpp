@@ -32,10 +32,7 @@ struct Published {
     const char* words = "";  ///< that stand in the scene
 };
 
-void PrintTo(const Published& scene, std::ostream* out)
-{
-    *out << scene.name;
-}
+void PrintTo(const Published& scene, std::ostream* out) { *out << scene.name; }
 
 constexpr FabricCounts kNone{};
 constexpr FabricCounts kStrips{.vertices = 52, .faces = 48, .held = 8, .pieces = 2};
@@ -48,14 +45,7 @@ const Published kAll[] = {
     {"dam_break_small_PolyPIC", kNone, 1, 1, false, kDamBreak, 1611, "method: polypic"},
     {"dam_mini_APIC", kNone, 1, 1, false, 0.0, 1611, "method: apic"},
     {"dam_mini_PolyPIC", kNone, 1, 1, false, 0.0, 1611, "method: polypic"},
-    {"impermeable_small",
-     {.vertices = 10000, .faces = 19602, .held = 64, .pieces = 1},
-     1,
-     0,
-     true,
-     kBall,
-     0,
-     "pin: {corners: all, patch: 4}"},
+    {"impermeable_small", {.vertices = 10000, .faces = 19602, .held = 64, .pieces = 1}, 1, 0, true, kBall, 0, "pin: {corners: all, patch: 4}"},
     {"simple_cloth", kStrips, 0, 0, false, 0.0, 0, "name: group3"},
     {"simple_fluid", kNone, 1, 1, false, 0.0, 0, "inside: true"},
     {"simple_plastic", kStrips, 0, 0, false, 0.0, 0, "cloth_grid:"},
@@ -65,14 +55,7 @@ const Published kAll[] = {
     {"splash_cloth_small_APIC", kSheet, 1, 1, true, kBall, 0, "nodes: [99, 99]"},
     {"splash_cloth_small_PolyPIC", kSheet, 1, 1, true, kBall, 0, "pin: {corners: [x- z-, x- z+], patch: 2}"},
     {"splash_cloth_small_near_APIC", kSheet, 1, 1, true, kBall, 0, "nodes: [99, 99]"},
-    {"splash_yarn_small_APIC",
-     {.vertices = 19604, .edges = 19800, .held = 12, .pieces = 1},
-     1,
-     0,
-     true,
-     kFineBall,
-     0,
-     "weave: herringbone"},
+    {"splash_yarn_small_APIC", {.vertices = 19604, .edges = 19800, .held = 12, .pieces = 1}, 1, 0, true, kFineBall, 0, "weave: herringbone"},
 };
 
 class PublishedScene : public testing::TestWithParam<Published> {
@@ -81,8 +64,7 @@ class PublishedScene : public testing::TestWithParam<Published> {
     {
         xml = publishedScenes() / (std::string(GetParam().name) + ".xml");
         if (!fs::exists(xml))
-            GTEST_SKIP() << "no " << xml.filename()
-                         << ": DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
+            GTEST_SKIP() << "no " << xml.filename() << ": DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
     }
     fs::path xml;
 };
@@ -123,10 +105,7 @@ TEST_P(PublishedScene, RunsFor50Steps)
     EXPECT_EQ(simulation->state().liquid.count > 0, GetParam().sources > 0);
 }
 
-std::string nameOf(const testing::TestParamInfo<Published>& scene)
-{
-    return scene.param.name;
-}
+std::string nameOf(const testing::TestParamInfo<Published>& scene) { return scene.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(All, PublishedScene, testing::ValuesIn(kAll), nameOf);
 
@@ -135,23 +114,18 @@ TEST(PublishedImport, MeshThatIsMissingIsNamed)
     const fs::path xml = publishedScenes() / "simple_fluid_mesh.xml";
     if (!fs::exists(xml)) GTEST_SKIP() << "DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
     const Imported imported(xml);
-    EXPECT_THAT(
-        imported.yaml(),
-        testing::HasSubstr("cylinder: {center: [0, 4, 0], axis: [0, 1, 0], radius: 1, half: 1.25, round: 0.25}"));
+    EXPECT_THAT(imported.yaml(), testing::HasSubstr("cylinder: {center: [0, 4, 0], axis: [0, 1, 0], radius: 1, half: 1.25, round: 0.25}"));
     try {
         imported.setup();
         FAIL() << "there is no mesh";
     } catch (const sim::InputError& error) {
-        EXPECT_THAT(error.what(),
-                    testing::HasSubstr("there is no file \"" +
-                                       (imported.folder() / "assets/meshes/spot_triangulated.obj").string()));
+        EXPECT_THAT(error.what(), testing::HasSubstr("there is no file \"" + (imported.folder() / "assets/meshes/spot_triangulated.obj").string()));
     }
 }
 
 TEST(PublishedImport, EveryPublishedSceneIsInTheTable)
 {
-    if (!fs::is_directory(publishedScenes()))
-        GTEST_SKIP() << "DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
+    if (!fs::is_directory(publishedScenes())) GTEST_SKIP() << "DRENCH_LIBWETCLOTH_SCENES does not name a folder with the published scenes";
     for (const auto& entry : fs::directory_iterator(publishedScenes())) {
         const std::string name = entry.path().stem().string();
         if (entry.path().extension() != ".xml" || name == "simple_fluid_mesh") continue;

@@ -15,9 +15,7 @@ namespace {
 
 SceneRequest shortDrop()
 {
-    return {.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml",
-            .variant = "",
-            .sets = {"time.duration=0.02", "output.every=0.005", "time.dt=1.0e-3"}};
+    return {.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml", .variant = "", .sets = {"time.duration=0.02", "output.every=0.005", "time.dt=1.0e-3"}};
 }
 
 std::uint64_t hashOfRun(const SceneRequest& request)

@@ -29,10 +29,7 @@ struct Live {
     ToySettings toy;
     LiveSimulation live;
 
-    explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20)
-        : toy(t), live(SceneRequest(), toyParts(t), memory)
-    {
-    }
+    explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20) : toy(t), live(SceneRequest(), toyParts(t), memory) {}
     bool comesTo(LiveMode mode)
     {
         return comesTrue([&] { return live.status().mode == mode; });
@@ -66,8 +63,7 @@ TEST(LiveSimulation, PlaysToTheEndInTheStepsOfARun)
     ASSERT_TRUE(l.comesTo(LiveMode::Ended));
     const auto steps = l.live.takeSteps();
     ASSERT_EQ(steps.size(), 15u);
-    for (std::size_t i = 0; i < steps.size(); ++i)
-        EXPECT_NEAR(steps[i].report.dt, i % 3 == 2 ? 0.002 : 0.004, 1.0e-12) << i;
+    for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_NEAR(steps[i].report.dt, i % 3 == 2 ? 0.002 : 0.004, 1.0e-12) << i;
     EXPECT_EQ(l.live.status().time, 0.05);
     EXPECT_NEAR(l.seen(), 0.05, 1.0e-6) << "the last state is shown";
     l.live.play();
@@ -156,8 +152,7 @@ TEST(LiveSimulation, KeepsFewerMomentsInLessMemory)
     EXPECT_LE(moments.size(), 8u);
     EXPECT_GE(moments.size(), 4u);
     EXPECT_EQ(moments.front(), 0.0);
-    for (std::size_t i = 2; i < moments.size(); ++i)
-        EXPECT_NEAR(moments[i] - moments[i - 1], moments[1], 1.0e-9) << "evenly";
+    for (std::size_t i = 2; i < moments.size(); ++i) EXPECT_NEAR(moments[i] - moments[i - 1], moments[1], 1.0e-9) << "evenly";
     EXPECT_GT(moments.back(), 0.5);
 }
 

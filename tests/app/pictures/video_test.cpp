@@ -1,5 +1,5 @@
-#include "app/pictures/side_by_side.h"
 #include "app/pictures/video.h"
+#include "app/pictures/side_by_side.h"
 #include "tests/app/fake_parts.h"
 #include "tests/app/temporary_folder.h"
 

@@ -42,8 +42,10 @@ TEST_F(ProbedRuns, AreTheRunsThatTheyWouldBeWithout)
         const auto read = table("with/probes.csv");
         const std::vector<double>& times = read.at("time_s");
         EXPECT_EQ(read.size(), 1u + 4 + 5);
-        for (const char* name : {"height [cm]", "through [g/s]", "wetness at 0.5 cm [-]", "probe 5 [cm]"}) EXPECT_EQ(read.at(name).size(), times.size()) << name;
-        for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GE(std::floor(times[i] / std::stod(every) + 1e-6), std::floor(times[i - 1] / std::stod(every) + 1e-6) + 1.0);
+        for (const char* name : {"height [cm]", "through [g/s]", "wetness at 0.5 cm [-]", "probe 5 [cm]"})
+            EXPECT_EQ(read.at(name).size(), times.size()) << name;
+        for (std::size_t i = 1; i < times.size(); ++i)
+            EXPECT_GE(std::floor(times[i] / std::stod(every) + 1e-6), std::floor(times[i - 1] / std::stod(every) + 1e-6) + 1.0);
         EXPECT_NEAR(times.back(), 0.08, std::stod(every));
     }
 }
@@ -77,7 +79,8 @@ TEST_F(ProbedRuns, HaveTheSameReadingsAfterwards)
                 const auto row = std::ranges::find_if(times, [&](double t) { return std::abs(t - now.at("time_s")[i]) < 1e-9; });
                 if (row == times.end()) continue;  // a frame between two steps of one reflection
                 const double was = then.at(name)[static_cast<std::size_t>(row - times.begin())];
-                EXPECT_TRUE(values[i] == was || (std::isnan(values[i]) && std::isnan(was))) << name << " at " << *row << ": " << values[i] << ", " << was;
+                EXPECT_TRUE(values[i] == was || (std::isnan(values[i]) && std::isnan(was)))
+                    << name << " at " << *row << ": " << values[i] << ", " << was;
             }
     }
 }
@@ -85,9 +88,10 @@ TEST_F(ProbedRuns, HaveTheSameReadingsAfterwards)
 /// All that passes a plane has been above it: what goes through is what the mass above loses. The plane lies between layers of particles.
 TEST_F(ProbedRuns, FluxIsTheRateAtWhichMassGoesThrough)
 {
-    const std::string both = "{every: 1.0e-3, hoops: {plane: {center: [0, 0.82, 0], normal: [0, -2, 0]}, hoop: {center: [0.2, 0.82, 0], normal: [0, 1, 0], radius: 5},"
-                             " aside: {center: [9, 0.82, 0], normal: [0, 1, 0], radius: 5}}, readings: [{name: through, read: flux(\"plane\")},"
-                             " {name: hoop, read: flux(\"hoop\")}, {name: aside, read: flux(\"aside\")}, {name: above, read: \"mass_y(0.82, 100)\"}]}";
+    const std::string both =
+        "{every: 1.0e-3, hoops: {plane: {center: [0, 0.82, 0], normal: [0, -2, 0]}, hoop: {center: [0.2, 0.82, 0], normal: [0, 1, 0], radius: 5},"
+        " aside: {center: [9, 0.82, 0], normal: [0, 1, 0], radius: 5}}, readings: [{name: through, read: flux(\"plane\")},"
+        " {name: hoop, read: flux(\"hoop\")}, {name: aside, read: flux(\"aside\")}, {name: above, read: \"mass_y(0.82, 100)\"}]}";
     ASSERT_EQ(run("run", {"--no-frames", "--set", probes(both), "--set", "time.integrator=plain", "--set", "time.dt=5.0e-4"}).code, 0);
     const auto read = table("run/probes.csv");
     const std::vector<double>&time = read.at("time_s"), &through = read.at("through [-]"), &above = read.at("above [-]");

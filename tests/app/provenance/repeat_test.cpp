@@ -148,8 +148,8 @@ class BuildInfoFile : public testing::Test {
  protected:
     std::string commitIn(const std::filesystem::path& source) const
     {
-        const ChildExit end = runChild(*findProgram("cmake"), {"-D", "SOURCE=" + source.string(), "-D", "OUT=" + out().string(), "-D", "COMPILER=c++ 1",
-                                                               "-D", "FLAGS=-O3 -DA=\"b\"", "-P", BUILD_INFO_SCRIPT});
+        const ChildExit end = runChild(*findProgram("cmake"), {"-D", "SOURCE=" + source.string(), "-D", "OUT=" + out().string(), "-D",
+                                                               "COMPILER=c++ 1", "-D", "FLAGS=-O3 -DA=\"b\"", "-P", BUILD_INFO_SCRIPT});
         EXPECT_EQ(end.code, 0) << end.errorText;
         const std::string text = contentOf(out());
         EXPECT_NE(text.find("R\"(-O3 -DA=\"b\")\""), std::string::npos) << text;

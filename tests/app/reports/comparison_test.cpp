@@ -37,13 +37,11 @@ TEST(CompareTable, HasARowPerVariantAndAColumnPerStage)
     EXPECT_NE(table.find("| relax | - | - |\n"), std::string::npos) << "a stage that never ran";
 }
 
-TEST(CompareTable, WithoutReferenceThereIsNoRatio)
-{
-    EXPECT_EQ(compareTable("T", {resultOf("APIC", 0.02)}, "").find("×"), std::string::npos);
-}
+TEST(CompareTable, WithoutReferenceThereIsNoRatio) { EXPECT_EQ(compareTable("T", {resultOf("APIC", 0.02)}, "").find("×"), std::string::npos); }
 
-const std::string kEnergies = "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g\n"
-                              "0,0,0,3.6e6,3.6e6,10,2\n0.1,1e6,1e4,2.5e6,3.51e6,10,2\n0.2,1.5e6,1e4,1.9e6,3.41e6,10,2\n";
+const std::string kEnergies =
+    "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g\n"
+    "0,0,0,3.6e6,3.6e6,10,2\n0.1,1e6,1e4,2.5e6,3.51e6,10,2\n0.2,1.5e6,1e4,1.9e6,3.41e6,10,2\n";
 
 TEST(CompareTable, SaysInOneSentenceWhatKeptMostAndHowLongItTook)
 {

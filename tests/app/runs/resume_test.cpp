@@ -45,12 +45,12 @@ TEST_P(ResumeIsExact, InStatePicturesAndLogs)
         EXPECT_EQ(report("half").at(figure), report("whole").at(figure)) << figure;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , ResumeIsExact,
-    testing::Values(std::vector<std::string>{}, std::vector<std::string>{"transfer.modes=27", "time.integrator=plain"},
-                    std::vector<std::string>{"fabric.solver=grid", "time.mode=fixed", "time.dt=5e-4"},
-                    std::vector<std::string>{"transfer.method=flip", "liquid.surface_tension_force=true"},
-                    std::vector<std::string>{"changes=[{step: 8, set: {gravity: [100, -981, 0]}}, {step: 25, set: {transfer.modes: 27}}]"}));
+INSTANTIATE_TEST_SUITE_P(, ResumeIsExact,
+                         testing::Values(std::vector<std::string>{}, std::vector<std::string>{"transfer.modes=27", "time.integrator=plain"},
+                                         std::vector<std::string>{"fabric.solver=grid", "time.mode=fixed", "time.dt=5e-4"},
+                                         std::vector<std::string>{"transfer.method=flip", "liquid.surface_tension_force=true"},
+                                         std::vector<std::string>{
+                                             "changes=[{step: 8, set: {gravity: [100, -981, 0]}}, {step: 25, set: {transfer.modes: 27}}]"}));
 
 TEST_F(Resume, GeometryIsThatOfAWholeRun)
 {
@@ -76,8 +76,8 @@ TEST_F(Resume, GeometryIsThatOfAWholeRun)
     EXPECT_EQ(files, 21u * (2 * 4 + 2) + 4 + 2) << "liquid, its surface, yarns and cloth as .vtp and .ply, all as .obj and .usda; collections";
     ASSERT_EQ(run("stored", {"--no-frames"}).code, 0);
     ASSERT_EQ(drench({"export", "stored", "--to", "vtp,usda", "--set", "output.geometry_surface=true"}).code, 0);
-    for (const char* name : {"liquid.pvd", "liquid_00020.vtp", "surface_00011.vtp", "cloth_00007.vtp", "yarns_00000.vtp",
-                             "frame_00013.usda", "animation.usda"})
+    for (const char* name :
+         {"liquid.pvd", "liquid_00020.vtp", "surface_00011.vtp", "cloth_00007.vtp", "yarns_00000.vtp", "frame_00013.usda", "animation.usda"})
         EXPECT_TRUE(contentOf(folder / "stored" / "geometry" / name) == contentOf(folder / "whole" / "geometry" / name))
             << name << " afterwards, from stored states";
 }
@@ -249,8 +249,8 @@ TEST_F(Resume, AFullDiskIsSurvived)
 TEST_F(Resume, AFailedRunCanBeGoneOnWithOtherwise)
 {
     // From the tenth step on it falls so fast that its steps would have to be shorter than they may.
-    const ChildExit failed = run("failed", {"--set", "output.data=[energy]", "--set", "time.dt_min=1.0e-3", "--set",
-                                            "changes=[{step: 10, set: {gravity: [0, -5.0e+7, 0]}}]"});
+    const ChildExit failed = run(
+        "failed", {"--set", "output.data=[energy]", "--set", "time.dt_min=1.0e-3", "--set", "changes=[{step: 10, set: {gravity: [0, -5.0e+7, 0]}}]"});
     ASSERT_EQ(failed.code, 1) << failed.errorText;
     EXPECT_NE(failed.errorText.find("go on from the last good state with other settings: drench run --resume failed"), std::string::npos)
         << failed.errorText;

@@ -14,7 +14,8 @@ using nlohmann::json;
 using test::TemporaryFolder;
 using test::ToySettings;
 
-RunSummary runToy(const ToySettings& toy, const std::filesystem::path& out, std::function<bool()> stopWanted = [] { return false; })
+RunSummary runToy(
+    const ToySettings& toy, const std::filesystem::path& out, std::function<bool()> stopWanted = [] { return false; })
 {
     const RunOptions options = {.out = out, .contentHash = "0123", .threads = 2, .stopWanted = std::move(stopWanted)};
     return runOffline(test::toySetup(toy), test::toyParts(toy), options);
@@ -153,8 +154,9 @@ TEST(RunOffline, EnergyTableBeginsWithTheInitialState)
     TemporaryFolder folder;
     runToy({}, folder.path());
     const auto lines = test::linesOf(folder / "energy.csv");
-    EXPECT_EQ(lines[0], "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg,"
-                        "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg,fabric_contact_erg,published_erg");
+    EXPECT_EQ(lines[0],
+              "time_s,kinetic_erg,modal_erg,potential_erg,total_erg,particles,liquid_mass_g,total_per_particle_erg,"
+              "fabric_kinetic_erg,fabric_potential_erg,fabric_elastic_erg,fabric_contact_erg,published_erg");
     EXPECT_EQ(lines[1], "0,1,0,-0,1,1,2,1,0,0,0,0,0");
 }
 

@@ -4,10 +4,7 @@
 
 namespace {
 
-app::PictureSettings read(const std::string& text)
-{
-    return app::readPictureSettings(sim::sceneFileFromText(text, "good.yaml"));
-}
+app::PictureSettings read(const std::string& text) { return app::readPictureSettings(sim::sceneFileFromText(text, "good.yaml")); }
 
 TEST(PictureSettings, AreDefaultsWhereTheSceneSaysNothing)
 {
@@ -124,8 +121,7 @@ TEST(PictureSettings, PressureHasARangeOfItsOwnInItsUnit)
 TEST(PictureSettings, OrbitIsACameraOfItsOwn)
 {
     const app::CameraSettings c =
-        read("render: {camera: {orbit: {target: [1, 2, 3], distance: 9, azimuth: 20, elevation: 10, turn_per_s: 5}}}\n")
-            .render.camera;
+        read("render: {camera: {orbit: {target: [1, 2, 3], distance: 9, azimuth: 20, elevation: 10, turn_per_s: 5}}}\n").render.camera;
     EXPECT_TRUE(c.orbit);
     EXPECT_FALSE(c.autoFrame);
     EXPECT_EQ(Eigen::Vector3d(1, 2, 3), c.lookAt);
@@ -135,8 +131,7 @@ TEST(PictureSettings, OrbitIsACameraOfItsOwn)
 
 TEST(PictureSettings, LengthsFollowTheUnitsOfTheFile)
 {
-    const app::RenderSettings r =
-        read("units: si\nrender: {camera: {look_at: [0, 0, 0], eye: [0, 0, 1]}, liquid: {range: [0, 2]}}\n").render;
+    const app::RenderSettings r = read("units: si\nrender: {camera: {look_at: [0, 0, 0], eye: [0, 0, 1]}, liquid: {range: [0, 2]}}\n").render;
     EXPECT_EQ(100.0, r.camera.eye[2]);
     EXPECT_EQ(200.0, r.range[1]);
 }
@@ -150,8 +145,7 @@ compare:
 )")
                                        .compare;
     EXPECT_EQ("best_of_all", c.variants[0].name);
-    EXPECT_EQ((std::vector<std::string>{"transfer={method: apic, modes: 4}", "liquid.sources.a.velocity=[1, 2, 3]",
-                                        "scene.title=\"a: b\""}),
+    EXPECT_EQ((std::vector<std::string>{"transfer={method: apic, modes: 4}", "liquid.sources.a.velocity=[1, 2, 3]", "scene.title=\"a: b\""}),
               c.variants[0].overrides);
 }
 

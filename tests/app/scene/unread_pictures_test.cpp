@@ -1,6 +1,6 @@
 // No key of pictures and files is silently without effect: of each it is known what reads it, and where nothing does that is told.
-#include "app/scene/read_picture_settings.h"
 #include "app/scene/unread_pictures.h"
+#include "app/scene/read_picture_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -28,13 +28,22 @@ struct InVain {
     std::string lacking = "";
 };
 
-const std::string kFlat = "render.liquid.color_by=flat", kSpeed = "render.liquid.color_by speed and pressure", kNumber = "a color_by that shows a number",
-                  kCloth = "fabrics of cloth", kYarns = "fabrics of yarns", kCheckpoint = "output.data checkpoint", kGeometry = "output.data geometry",
-                  kVariants = "compare.variants";
+const std::string kFlat = "render.liquid.color_by=flat", kSpeed = "render.liquid.color_by speed and pressure",
+                  kNumber = "a color_by that shows a number", kCloth = "fabrics of cloth", kYarns = "fabrics of yarns",
+                  kCheckpoint = "output.data checkpoint", kGeometry = "output.data geometry", kVariants = "compare.variants";
 
 const std::map<std::string, InVain> kKeys = {
-    {"render.size", {}}, {"render.background", {}}, {"render.hud", {}}, {"render.samples", {}}, {"render.camera.up", {}}, {"render.camera.fov", {}},
-    {"render.camera.frame", {}}, {"output.every", {}}, {"output.frames", {}}, {"output.data", {}}, {"compare.sync", {}},
+    {"render.size", {}},
+    {"render.background", {}},
+    {"render.hud", {}},
+    {"render.samples", {}},
+    {"render.camera.up", {}},
+    {"render.camera.fov", {}},
+    {"render.camera.frame", {}},
+    {"output.every", {}},
+    {"output.frames", {}},
+    {"output.data", {}},
+    {"compare.sync", {}},
     {"render.liquid.style", {{}, kNothing, "liquid"}},
     {"render.liquid.color_by", {{}, kNothing, "liquid"}},
     {"render.liquid.colormap", {{kFlat}, kAll, kSpeed}},
@@ -55,8 +64,15 @@ const std::map<std::string, InVain> kKeys = {
     {"output.video.codec", {{"output.frames=none"}, kAll, "output.frames png"}},
     {"compare.layout", {{}, kAll, kVariants}},
     {"compare.products", {{}, kAll, kVariants}},
-    {"compare.tolerance.mean_ssim", {}}, {"compare.tolerance.lowest_ssim", {}}, {"compare.tolerance.pixels", {}}, {"compare.tolerance.largest", {}},
-    {"compare.tolerance.series", {}}, {"compare.tolerance.ignore", {}}, {"compare.tolerance.position", {}}, {"compare.tolerance.velocity", {}}, {"compare.tolerance.mass", {}},
+    {"compare.tolerance.mean_ssim", {}},
+    {"compare.tolerance.lowest_ssim", {}},
+    {"compare.tolerance.pixels", {}},
+    {"compare.tolerance.largest", {}},
+    {"compare.tolerance.series", {}},
+    {"compare.tolerance.ignore", {}},
+    {"compare.tolerance.position", {}},
+    {"compare.tolerance.velocity", {}},
+    {"compare.tolerance.mass", {}},
 };
 
 /// The keys of printed sections, with what is given them.
@@ -81,7 +97,8 @@ std::map<std::string, std::string> keysOf(const std::string& printed)
 
 TEST(UnreadPictures, OfEveryKeyItIsToldWhereNothingReadsIt)
 {
-    const std::map<std::string, std::string> keys = keysOf(printPictureSettings(readPictureSettings(sim::sceneFileFromText("grid: {cell: 1}\n", "all.yaml"))));
+    const std::map<std::string, std::string> keys =
+        keysOf(printPictureSettings(readPictureSettings(sim::sceneFileFromText("grid: {cell: 1}\n", "all.yaml"))));
     EXPECT_GT(keys.size(), 25u);
     for (const auto& [key, value] : keys) {
         ASSERT_TRUE(kKeys.contains(key)) << key << ": what reads it?";
@@ -99,10 +116,12 @@ TEST(UnreadPictures, OfEveryKeyItIsToldWhereNothingReadsIt)
 
 TEST(UnreadPictures, NothingIsToldOfWhatActs)
 {
-    EXPECT_TRUE(notesOn("render: {liquid: {range: [0, 1]}, cloth: {wet_color: [0, 0, 1]}, yarns: {tube_sides: 5}, obstacles: {opacity: 1}, colorbar: false}\n"
-                        "output: {data: [energy, checkpoint, geometry], checkpoint: {keep: 2}, geometry_surface: true, video: {fps: 25}}\n"
-                        "compare: {variants: {transfer.method: [pic, apic]}, layout: rows, reference: pic}\n",
-                        kAll).empty());
+    EXPECT_TRUE(
+        notesOn("render: {liquid: {range: [0, 1]}, cloth: {wet_color: [0, 0, 1]}, yarns: {tube_sides: 5}, obstacles: {opacity: 1}, colorbar: false}\n"
+                "output: {data: [energy, checkpoint, geometry], checkpoint: {keep: 2}, geometry_surface: true, video: {fps: 25}}\n"
+                "compare: {variants: {transfer.method: [pic, apic]}, layout: rows, reference: pic}\n",
+                kAll)
+            .empty());
 }
 
 TEST(UnreadPictures, AreNamedByTheirLine)

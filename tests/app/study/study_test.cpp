@@ -15,8 +15,9 @@ class StudyRuns : public testing::Test, protected SmallRuns {
  protected:
     StudyRuns()
     {
-        write("study: pulls\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\n"
-              "runs: {gravity: [[0, -981, 0], [0, -500, 0]], transfer.modes: [4, 8]}\n");
+        write(
+            "study: pulls\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\n"
+            "runs: {gravity: [[0, -981, 0], [0, -500, 0]], transfer.modes: [4, 8]}\n");
     }
     void write(const std::string& study) const { writeFile(folder / "study.yaml", study); }
     ChildExit sweep(std::vector<std::string> more = {}) const
@@ -159,11 +160,11 @@ TEST_F(StudyRuns, TwelveRunsOnSlurm)
     if (!findProgram("slurmctld") || !findProgram("slurmd") || !findProgram("munged"))
         GTEST_SKIP() << "there is no Slurm: slurmctld, slurmd and munge are missing";
     if (geteuid() != 0) GTEST_SKIP() << "slurmd runs as root only";
-    write("study: array\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\n"
-          "runs: {transfer.modes: [1, 4, 8], time.dt: [1.0e-3, 2.0e-3], gravity: [[0, -981, 0], [0, -500, 0]]}\n");
-    const ChildExit end =
-        runChild(WITH_SLURM, {(folder / "slurm").string(), DRENCH_PROGRAM, "sweep", "study.yaml", "--on", "slurm", "--jobs", "2"},
-                 {.folder = folder.path()});
+    write(
+        "study: array\nscene: small.yaml\nset: {time.duration: 0.012, output.frames: none}\n"
+        "runs: {transfer.modes: [1, 4, 8], time.dt: [1.0e-3, 2.0e-3], gravity: [[0, -981, 0], [0, -500, 0]]}\n");
+    const ChildExit end = runChild(WITH_SLURM, {(folder / "slurm").string(), DRENCH_PROGRAM, "sweep", "study.yaml", "--on", "slurm", "--jobs", "2"},
+                                   {.folder = folder.path()});
     ASSERT_EQ(end.code, 0) << end.errorText;
     const auto onSlurm = table("array");
     ASSERT_EQ(onSlurm.size(), 12u);

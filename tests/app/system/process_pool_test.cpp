@@ -7,10 +7,7 @@
 namespace app {
 namespace {
 
-ProcessPool shells(std::size_t count, int width)
-{
-    return {.program = *findProgram("sh"), .count = count, .width = width, .limitSeconds = 2.0};
-}
+ProcessPool shells(std::size_t count, int width) { return {.program = *findProgram("sh"), .count = count, .width = width, .limitSeconds = 2.0}; }
 
 TEST(ProcessPool, EachRunsOnceAndTooLongOnesAreEnded)
 {

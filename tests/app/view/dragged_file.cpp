@@ -48,8 +48,15 @@ struct DraggedFile::Connection {
         XChangeProperty(display, request.requestor, request.property, request.target, 8, PropModeReplace,
                         reinterpret_cast<const unsigned char*>(list.data()), static_cast<int>(list.size()));
         XEvent event = {};
-        event.xselection = {.type = SelectionNotify, .serial = 0, .send_event = True, .display = display, .requestor = request.requestor,
-                            .selection = request.selection, .target = request.target, .property = request.property, .time = request.time};
+        event.xselection = {.type = SelectionNotify,
+                            .serial = 0,
+                            .send_event = True,
+                            .display = display,
+                            .requestor = request.requestor,
+                            .selection = request.selection,
+                            .target = request.target,
+                            .property = request.property,
+                            .time = request.time};
         XSendEvent(display, request.requestor, False, NoEventMask, &event);
         XFlush(display);
     }

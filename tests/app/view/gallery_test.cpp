@@ -10,10 +10,7 @@ namespace {
 
 const ViewOptions kWide = {.width = 1200, .height = 700, .paused = true};
 
-SceneRequest wideDrop()
-{
-    return {.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml", .variant = "", .sets = {"time.dt=2 ms", "render.hud=true"}};
-}
+SceneRequest wideDrop() { return {.file = DRENCH_SOURCE_DIR "/scenes/drop.yaml", .variant = "", .sets = {"time.dt=2 ms", "render.hud=true"}}; }
 
 void playTo(Desktop& desktop, double time)
 {
@@ -27,8 +24,7 @@ void playTo(Desktop& desktop, double time)
 void keep(Desktop& desktop, const std::string& name)
 {
     const render::Image shot = desktop.shot();
-    if (const char* folder = std::getenv("DRENCH_KEEP_SCREENSHOTS"))
-        render::writePng(shot, std::filesystem::path(folder) / (name + ".png"));
+    if (const char* folder = std::getenv("DRENCH_KEEP_SCREENSHOTS")) render::writePng(shot, std::filesystem::path(folder) / (name + ".png"));
 }
 
 TEST(Gallery, AWindow)

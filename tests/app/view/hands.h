@@ -49,15 +49,11 @@ inline std::uint64_t hashOfRun(const std::string& file)
 inline render::Image rightHalf(const render::Image& image)
 {
     render::Image half(image.width / 2, image.height);
-    for (int y = 0; y < image.height; ++y)
-        std::copy_n(image.at(image.width - half.width, y), 3 * half.width, half.at(0, y));
+    for (int y = 0; y < image.height; ++y) std::copy_n(image.at(image.width - half.width, y), 3 * half.width, half.at(0, y));
     return half;
 }
 
-inline void doWithHands(const std::string& what)
-{
-    ASSERT_EQ(std::system(("xdotool " + what).c_str()), 0) << what;
-}
+inline void doWithHands(const std::string& what) { ASSERT_EQ(std::system(("xdotool " + what).c_str()), 0) << what; }
 
 /// A viewer in a folder of its own, where it may leave files. OpenGL must have had nothing to complain of at its end.
 class Desktop {
@@ -129,8 +125,7 @@ class Desktop {
         for (int frame = 0; frame < 3; ++frame) viewer.frame();
         const auto place = viewer.placeOf(setting);
         ASSERT_TRUE(place) << setting << " is not to be seen";
-        doWithHands("mousemove " + std::to_string(static_cast<int>((*place)[0])) + " " +
-                    std::to_string(static_cast<int>((*place)[1])));
+        doWithHands("mousemove " + std::to_string(static_cast<int>((*place)[0])) + " " + std::to_string(static_cast<int>((*place)[1])));
         viewer.frame();
         doWithHands("mousedown 1");
         viewer.frame();
@@ -145,8 +140,7 @@ class Desktop {
     void expectGolden(const std::string& name)
     {
         const render::Image seen = shot();
-        const std::filesystem::path golden =
-            std::filesystem::path(DRENCH_SOURCE_DIR) / "tests/app/view/golden" / (name + ".png");
+        const std::filesystem::path golden = std::filesystem::path(DRENCH_SOURCE_DIR) / "tests/app/view/golden" / (name + ".png");
         if (std::getenv("DRENCH_ACCEPT_GOLDENS")) return render::writePng(seen, golden);
         const render::Image known = render::readPng(golden);
         ASSERT_EQ(seen.width, known.width);

@@ -20,8 +20,7 @@ TEST(Hands, KeysPlayPauseStepAndRestart)
     desktop.keys("s");
     ASSERT_TRUE(desktop.comesTrue([&] { return desktop.status().step == 1; }));
     desktop.keys("space");
-    ASSERT_TRUE(
-        desktop.comesTrue([&] { return desktop.status().mode == LiveMode::Playing && desktop.status().step > 3; }));
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.status().mode == LiveMode::Playing && desktop.status().step > 3; }));
     desktop.keys("space");
     ASSERT_TRUE(desktop.comesTrue([&] { return desktop.status().mode == LiveMode::Paused; }));
     desktop.keys("r");
@@ -87,8 +86,7 @@ TEST(Hands, WhatIsSavedRunsToTheSameState)
     ASSERT_TRUE(desktop.comesTrue([&] { return desktop.status().mode == LiveMode::Ended; }));
     EXPECT_EQ(live.stateHash(), hash) << "back, and on as before";
     desktop.keys("ctrl+s");
-    ASSERT_TRUE(desktop.comesTrue([&] { return std::filesystem::exists("drop_live_2.yaml"); }))
-        << "nothing is overwritten";
+    ASSERT_TRUE(desktop.comesTrue([&] { return std::filesystem::exists("drop_live_2.yaml"); })) << "nothing is overwritten";
 }
 
 TEST(Hands, AFileThatIsDroppedOntoTheWindowIsOpened)

@@ -17,12 +17,10 @@ TEST(CommandLine, IsTakenApartByAShellAsItWasMade)
     const TemporaryFolder folder;
     const SceneRequest request = {.file = "my scenes/o'clock.yaml",
                                   .variant = "polypic_8",
-                                  .sets = {"time.dt=0.5 ms", "changes=[{step: 3, set: {gravity: [0, -1, 0]}}]",
-                                           "scene.title=$HOME \"x\" `y` \\\\"}};
+                                  .sets = {"time.dt=0.5 ms", "changes=[{step: 3, set: {gravity: [0, -1, 0]}}]", "scene.title=$HOME \"x\" `y` \\\\"}};
     const std::string line = commandLine(request);
     ASSERT_EQ(line.find("drench run "), 0u);
-    const std::string show = "for word in " + line.substr(11) + "; do printf '%s\\n' \"$word\"; done > '" +
-                             (folder / "words").string() + "'";
+    const std::string show = "for word in " + line.substr(11) + "; do printf '%s\\n' \"$word\"; done > '" + (folder / "words").string() + "'";
     ASSERT_EQ(std::system(show.c_str()), 0) << show;
     std::string words = request.file + "\n--variant\n" + request.variant + "\n";
     for (const std::string& set : request.sets) words += "--set\n" + set + "\n";

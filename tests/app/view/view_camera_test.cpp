@@ -7,10 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-render::Camera start()
-{
-    return {.eye = {0.0, 0.0, 10.0}, .target = {0.0, 0.0, 0.0}, .up = Vector3d::UnitY(), .fovDegrees = 60.0};
-}
+render::Camera start() { return {.eye = {0.0, 0.0, 10.0}, .target = {0.0, 0.0, 0.0}, .up = Vector3d::UnitY(), .fovDegrees = 60.0}; }
 
 TEST(ViewCamera, OrbitsAtTheSameDistance)
 {

@@ -22,8 +22,7 @@ TEST(Viewer, ShowsWhatARunDraws)
 
     FrameSnapshot snapshot;
     const auto simulation = parts.startSimulation(setup);
-    takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0,
-                 extrasOf(setup.pictures.render), snapshot);
+    takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0, extrasOf(setup.pictures.render), snapshot);
     parts.meshObstacles(setup)(0.0, snapshot.obstacles);
     parts.startRenderer(setup, false)(snapshot)("run.png");
     const render::Image drawn = render::readPng("run.png");
@@ -53,8 +52,7 @@ TEST(Viewer, TwoVariantsStandSideBySideAtOneTime)
         return desktop.timeShown(0) > 0.05;
     }));
     const auto& sides = desktop.viewer.pair().sides();
-    EXPECT_NE(sides[0]->live.scene()->setup.scene.settings.transfer.method,
-              sides[1]->live.scene()->setup.scene.settings.transfer.method);
+    EXPECT_NE(sides[0]->live.scene()->setup.scene.settings.transfer.method, sides[1]->live.scene()->setup.scene.settings.transfer.method);
 }
 
 TEST(Viewer, TinyWindowsAreNoTrouble)
@@ -76,8 +74,7 @@ TEST(Viewer, EveryFrameIsRecorded)
     desktop.focus();
     desktop.viewer.record(true);
     desktop.keys("space");
-    ASSERT_TRUE(desktop.comesTrue(
-        [&] { return desktop.status().mode == LiveMode::Ended && desktop.timeShown(0) == desktop.status().time; }));
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.status().mode == LiveMode::Ended && desktop.timeShown(0) == desktop.status().time; }));
     desktop.viewer.frame();
     for (int frame = 0; frame <= 4; ++frame) {
         const std::string name = "drop_frames/frame_0000" + std::to_string(frame) + ".png";

@@ -48,8 +48,7 @@ int largestDifference(const Image& whole, int x, int y, const Image& part)
     int largest = 0;
     for (int j = 0; j < part.height; ++j)
         for (int i = 0; i < part.width; ++i)
-            for (int c = 0; c < 3; ++c)
-                largest = std::max(largest, std::abs(whole.at(x + i, y + j)[c] - part.at(i, j)[c]));
+            for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(whole.at(x + i, y + j)[c] - part.at(i, j)[c]));
     return largest;
 }
 

@@ -10,8 +10,8 @@
 namespace sim::test {
 namespace {
 
-constexpr double kCell = 0.288;         // cm
-constexpr double kParticle = 1.5e-3;    // g
+constexpr double kCell = 0.288;       // cm
+constexpr double kParticle = 1.5e-3;  // g
 
 /// Cloth and a yarn amid random particles; dry.
 struct Bath {
@@ -112,8 +112,7 @@ TEST(Capture, FarLiquidStays)
     int far = 0;
     for (std::size_t p = 0; p < before.size(); ++p) {
         double nearest = 1.0e9;  // in cells, along the axis in which it is farthest
-        for (const Vec3& x : bath.state.x)
-            nearest = std::min(nearest, (x - bath.liquid.particles.position(p)).cwiseAbs().maxCoeff() / kCell);
+        for (const Vec3& x : bath.state.x) nearest = std::min(nearest, (x - bath.liquid.particles.position(p)).cwiseAbs().maxCoeff() / kCell);
         if (nearest < 3.0) continue;  // two stencils
         EXPECT_EQ(bath.liquid.particles.mass[p], before[p]);
         ++far;
@@ -249,8 +248,8 @@ TEST(LiquidAround, TellsHowFarLiquidIs)
         EXPECT_NEAR(at(8.0), 0.56, 0.04);
         EXPECT_NEAR(at(8.25), 0.73, 0.06);  // particles stand up to 0.025 off the middles of their room
         EXPECT_NEAR(at(-0.225), 0.73, 0.06);
-        EXPECT_LT(distanceAt(Vec3(4.0, 0.0 + 0.5 * shift, 4.0), true), 0.15);             // on the bottom …
-        EXPECT_LT(distanceAt(Vec3(0.5 * shift, 0.0 + 0.5 * shift, 4.0), true), 0.2);      // … and in its corner
+        EXPECT_LT(distanceAt(Vec3(4.0, 0.0 + 0.5 * shift, 4.0), true), 0.15);         // on the bottom …
+        EXPECT_LT(distanceAt(Vec3(0.5 * shift, 0.0 + 0.5 * shift, 4.0), true), 0.2);  // … and in its corner
     }
 }
 

@@ -1,5 +1,5 @@
-#include "sim/core/types.h"
 #include "sim/coupling/mixture_face.h"
+#include "sim/core/types.h"
 #include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 namespace sim::test {
 namespace {
 
-constexpr double kStep = 1.0e-3;       // s
-constexpr double kCell = 0.288;        // cm
+constexpr double kStep = 1.0e-3;  // s
+constexpr double kCell = 0.288;   // cm
 constexpr double kHalfThickness = 0.018;
 
 /// Level sheets of cloth one above the other in a grid of 16 cells each way, half a cell apart, as their vertices are: fibres fill the same

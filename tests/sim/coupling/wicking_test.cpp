@@ -52,8 +52,8 @@ std::vector<FabricPiece> clothAndYarn()
     return {testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.12}, Vec3::Zero()}), testing::wool(), {0.017, 0.02}), rod(20, Vec3(1.0, 0.7, 0.2))};
 }
 
-const double kSuction = 5933.6;                  // K2 [dyn/cm^2]
-const double kDrag = 8.9e-3 / 2.5045e-6;         // along, K1 [g/(cm^3 s)]
+const double kSuction = 5933.6;           // K2 [dyn/cm^2]
+const double kDrag = 8.9e-3 / 2.5045e-6;  // along, K1 [g/(cm^3 s)]
 
 /// Model-fluid E3: what is filled alike stays.
 TEST(Wicking, UniformSaturationStays)
@@ -150,7 +150,7 @@ TEST(Wicking, DryYarnFillsByTheSquareRootOfTime)
     Wick wick({rod(kSegments, Vec3(kLength, 0.0, 0.0))});
     Wicking wicking(wick.fabric, wick.elements, wick.settings);
     ASSERT_EQ(wicking.substeps(kStep), 1);  // the end is full in every part of a step
-    std::vector<double> filled;  // length [cm]
+    std::vector<double> filled;             // length [cm]
     const double perLength = poreVolume(wick.fabric, 1) * kSegments / kLength;
     for (int n = 0; n < kSteps; ++n) {
         wick.state.absorbed[0] = poreVolume(wick.fabric, 0);

@@ -39,8 +39,8 @@ TEST(Narrowings, GrowWithWhatNeighboursCover)
         std::vector<FabricPiece> pieces;
         for (int n = -20; n <= 20; ++n)
             if (spacing > 0.0 || n == 0)
-                pieces.push_back(testing::pieceOf(strand(Vec3(n * spacing, 0.0, -3.0), Vec3(n * spacing, 0.0, 3.0), segments), testing::wool(),
-                                                  {0.05, 0.05}));
+                pieces.push_back(
+                    testing::pieceOf(strand(Vec3(n * spacing, 0.0, -3.0), Vec3(n * spacing, 0.0, 3.0), segments), testing::wool(), {0.05, 0.05}));
         const Fabric fabric = assembleFabric(pieces);
         return narrowings(fabric, yarnDiameters(fabric))[fabric.vertexCount() / 2];
     };

@@ -31,25 +31,13 @@ FabricPiece pieceOf(const sim::FabricGeometry& geometry, double a, double b)
     return piece;
 }
 
-Fabric assemble(const FabricPiece& piece)
-{
-    return sim::assembleFabric({&piece, 1});
-}
+Fabric assemble(const FabricPiece& piece) { return sim::assembleFabric({&piece, 1}); }
 
-double total(const std::vector<double>& values)
-{
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
+double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-FabricPiece cloth()
-{
-    return pieceOf(sim::clothGrid({.nodes = {11, 6}, .spacing = {0.1, 0.2}}), 0.0165, 0.018);
-}
+FabricPiece cloth() { return pieceOf(sim::clothGrid({.nodes = {11, 6}, .spacing = {0.1, 0.2}}), 0.0165, 0.018); }
 
-FabricPiece yarnSheet()
-{
-    return pieceOf(sim::wovenYarns({.yarns = {20, 30}, .spacing = 0.144, .amplitude = 0.072}), 0.048, 0.018);
-}
+FabricPiece yarnSheet() { return pieceOf(sim::wovenYarns({.yarns = {20, 30}, .spacing = 0.144, .amplitude = 0.072}), 0.048, 0.018); }
 
 FabricPiece helix()
 {
@@ -120,8 +108,7 @@ TEST(AssembleFabric, SharedVerticesCountEachYarnOnce)
     const Fabric fabric = assemble(piece);
     double length = 0.0;
     for (const auto& strand : piece.strands) {
-        for (std::size_t j = 0; j + 1 < strand.size(); ++j)
-            length += (piece.points[strand[j + 1]] - piece.points[strand[j]]).norm();
+        for (std::size_t j = 0; j + 1 < strand.size(); ++j) length += (piece.points[strand[j + 1]] - piece.points[strand[j]]).norm();
     }
     EXPECT_NEAR(length, total(fabric.edges.restLength), 1.0e-9);
     EXPECT_NEAR(length * kPi * 0.048 * 0.018, total(fabric.volume), 1.0e-9);
@@ -192,8 +179,7 @@ TEST(AssembleFabric, HeldTwistReachesBothSidesOfAVertex)
     FabricPiece piece = helix();
     piece.pins = {pin({7}, {}, true)};
     const Fabric fabric = assemble(piece);
-    for (std::size_t e = 0; e < fabric.edges.size(); ++e)
-        EXPECT_EQ(e == 6 || e == 7, fabric.edges.twistHeld[e] != 0) << e;
+    for (std::size_t e = 0; e < fabric.edges.size(); ++e) EXPECT_EQ(e == 6 || e == 7, fabric.edges.twistHeld[e] != 0) << e;
 }
 
 void expectRefused(const FabricPiece& piece, const std::string& what)

@@ -92,7 +92,10 @@ struct WetRun {
     {
         for (int i = 0; i < n; ++i) step(h);
     }
-    double mass() const { return std::accumulate(fabric.mass.begin(), fabric.mass.end(), std::accumulate(state.absorbed.begin(), state.absorbed.end(), 0.0)); }
+    double mass() const
+    {
+        return std::accumulate(fabric.mass.begin(), fabric.mass.end(), std::accumulate(state.absorbed.begin(), state.absorbed.end(), 0.0));
+    }
     double weight() const { return kEarthGravity * mass(); }
     Vec3 momentum() const
     {
@@ -201,7 +204,8 @@ std::vector<FabricPiece> freePieces()
     FabricPiece one = sheet(Vec3(-0.6, 0.0, -0.6)), other = sheet(Vec3(-0.55, -1.3 * kThickness, -0.55));
     other.velocity = {1.0, 4.0, 2.0};
     FabricPiece yarn = pieceOf(strand(Vec3(-0.6, 1.5 * kThickness, 0.0), Vec3(0.6, 1.5 * kThickness, 0.3), 12), wool(), {0.03, 0.03});
-    FabricPiece across = pieceOf(strand(Vec3(0.0, 1.5 * kThickness + 0.065, -0.6), Vec3(0.1, 1.5 * kThickness + 0.065, 0.6), 12), wool(), {0.03, 0.03});
+    FabricPiece across =
+        pieceOf(strand(Vec3(0.0, 1.5 * kThickness + 0.065, -0.6), Vec3(0.1, 1.5 * kThickness + 0.065, 0.6), 12), wool(), {0.03, 0.03});
     yarn.velocity = {0.0, -3.0, 1.0};
     return {one, other, yarn, across};
 }

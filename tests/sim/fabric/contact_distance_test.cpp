@@ -202,7 +202,7 @@ TEST(PairEnergy, IsSmoothAtTheWallAndZeroAtTheReach)
     EXPECT_EQ(pairEnergy(kRange.reach, kRange, 1.0e4).slope, 0.0);
     const PairEnergy light = pairEnergy(kRange.reach - 1.0e-9, kRange, 1.0e4);
     EXPECT_NEAR(light.slope, 0.0, 1.0e-8);
-    EXPECT_NEAR(light.curvature, 0.0, 0.1);        // of 1e4: it grows from 0
+    EXPECT_NEAR(light.curvature, 0.0, 0.1);  // of 1e4: it grows from 0
 }
 
 TEST(PairEnergy, WallIsLastInsideTheCore)

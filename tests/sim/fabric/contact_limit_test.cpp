@@ -202,8 +202,7 @@ std::vector<Vec3> stirred(ContactRun& run, unsigned from, unsigned to)
         const ActiveContacts& contacts = run.active();
         std::vector<Vec3> push(u.size(), Vec3::Zero());
         for (std::size_t i = 0; i < contacts.size(); ++i)
-            for (int a = 0; a < 4; ++a)
-                push[contacts.vertices[i][a]] -= 0.1 * contacts.weights[i][a] / contacts.stiffness[i] * contacts.force[i];
+            for (int a = 0; a < 4; ++a) push[contacts.vertices[i][a]] -= 0.1 * contacts.weights[i][a] / contacts.stiffness[i] * contacts.force[i];
         run.moveSafely(push);
     }
     return run.x;

@@ -113,15 +113,14 @@ TEST(FabricContact, GradientIsThatOfTheEnergy)
         const ActiveContacts contacts = run.active();
         ASSERT_EQ(contacts.size(), 1u);
         const NearPair pair = allPairs(run.fabric).at(0);
-        const double stiffness = pairStiffness(run.fabric.materials[0].young * run.fabric.materials[0].packing(), 0.1,
-                                               run.fabric.mass[0], ContactRun::kStep);
+        const double stiffness =
+            pairStiffness(run.fabric.materials[0].young * run.fabric.materials[0].packing(), 0.1, run.fabric.mass[0], ContactRun::kStep);
         const auto energyAt = [&](int corner, int axis, double eps) {
             std::vector<Vec3> x = run.x;
             x[pair.vertices[corner]][axis] += eps;
             return pairEnergy(distanceOf(pair, x), pair.range, stiffness);
         };
-        constexpr double kEps =
-            1.0e-6;  // relative error (ε / depth of the wall)² ≈ 1e-8, and of rounding 1e-16 E / (ε E')
+        constexpr double kEps = 1.0e-6;  // relative error (ε / depth of the wall)² ≈ 1e-8, and of rounding 1e-16 E / (ε E')
         const double scale = contacts.force[0].norm();
         for (int c = 0; c < 4; ++c)
             for (int k = 0; k < 3; ++k) {
@@ -130,8 +129,7 @@ TEST(FabricContact, GradientIsThatOfTheEnergy)
             }
         const double d = distanceOf(pair, run.x);
         const double curvature =
-            (pairEnergy(d + kEps, pair.range, stiffness).slope - pairEnergy(d - kEps, pair.range, stiffness).slope) /
-            (2.0 * kEps);
+            (pairEnergy(d + kEps, pair.range, stiffness).slope - pairEnergy(d - kEps, pair.range, stiffness).slope) / (2.0 * kEps);
         EXPECT_NEAR(contacts.stiffness[0], curvature, 1.0e-6 * curvature) << gap;
     }
 }
@@ -171,8 +169,7 @@ TEST(FabricContact, FrictionOpposesSlidingAndIsBounded)
         for (int v : {2, 3}) run.x[v] += Vec3(slide, 0.0, 0.0);
         const ActiveContacts& contacts = run.active();
         ASSERT_EQ(contacts.size(), 1u);
-        const Vec3 onSecond =
-            contacts.force[0];  // the gradient of the first side is +force: it is pushed by −force, the second by +
+        const Vec3 onSecond = contacts.force[0];  // the gradient of the first side is +force: it is pushed by −force, the second by +
         const double normal = std::abs(onSecond.dot(contacts.normal[0]));
         const double mu = std::tan(run.fabric.materials[0].frictionAngle);
         EXPECT_LT(onSecond.x(), 0.0);

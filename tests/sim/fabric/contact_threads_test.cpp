@@ -32,26 +32,11 @@ void* operator new(std::size_t bytes, std::align_val_t alignment)
     if (void* p = memalign(static_cast<std::size_t>(alignment), bytes)) return p;
     throw std::bad_alloc();
 }
-void operator delete(void* p) noexcept
-{
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept
-{
-    std::free(p);
-}
-void operator delete(void* p, const std::nothrow_t&) noexcept
-{
-    std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept
-{
-    std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept
-{
-    std::free(p);
-}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 extern "C" void* aligned_alloc(std::size_t alignment, std::size_t bytes)
 {
     ++allocations;
@@ -78,8 +63,7 @@ void shake(ContactRun& run, std::vector<Vec3>& u, int steps)
             const ActiveContacts& contacts = run.contact.activeAt(run.x, clock);
             for (Vec3& w : u) w.setZero();
             for (std::size_t i = 0; i < contacts.size(); ++i)
-                for (int a = 0; a < 4; ++a)
-                    u[contacts.vertices[i][a]] -= 0.1 * contacts.weights[i][a] / contacts.stiffness[i] * contacts.force[i];
+                for (int a = 0; a < 4; ++a) u[contacts.vertices[i][a]] -= 0.1 * contacts.weights[i][a] / contacts.stiffness[i] * contacts.force[i];
         }
         if (step % 8 == 7) run.x = run.fabric.rest;  // the next period finds what the first did
     }

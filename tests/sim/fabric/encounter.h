@@ -16,8 +16,8 @@ inline ObstacleSettings anySolid(Noise& noise)
     if (kind == 2) solid.shape = Shape::capsule({0.0, -size, 0.0}, {0.0, size, 0.0}, 0.03);
     if (kind == 3) solid.shape = Shape::ball(Vec3::Zero(), 0.5 * size);
     if (kind >= 4)
-        solid.shape = Shape::subtract(
-            {Shape::box(Vec3::Zero(), Vec3::Constant(size)), Shape::box({0.0, 0.1, 0.0}, {size - 0.05, size, size - 0.05})});
+        solid.shape =
+            Shape::subtract({Shape::box(Vec3::Zero(), Vec3::Constant(size)), Shape::box({0.0, 0.1, 0.0}, {size - 0.05, size, size - 0.05})});
     const Vec3 axis = noise.vector().normalized();
     solid.shape = solid.shape.moved(Eigen::Isometry3d(Eigen::AngleAxisd(kPi * noise(), axis)));
     return solid;

@@ -26,8 +26,7 @@ TEST(GripSpring, IsElasticUpToTheBound)
         const Friction friction = spring.at(slip);
         EXPECT_LE(friction.force.norm(), spring.bound * (1.0 + 1.0e-14));
         if (trial.norm() <= spring.bound) EXPECT_EQ(friction.force, trial);
-        else
-            EXPECT_LT((friction.force - spring.bound * trial.normalized()).norm(), 1.0e-14);
+        else EXPECT_LT((friction.force - spring.bound * trial.normalized()).norm(), 1.0e-14);
     }
 }
 

@@ -18,20 +18,13 @@ using sim::Weave;
 
 constexpr double kSpacing = 0.144, kAmplitude = 0.072;  // of the published sheets [cm]
 
-Vec3 sum(const std::vector<Vec3>& points)
-{
-    return std::accumulate(points.begin(), points.end(), Vec3(Vec3::Zero()));
-}
+Vec3 sum(const std::vector<Vec3>& points) { return std::accumulate(points.begin(), points.end(), Vec3(Vec3::Zero())); }
 
-FabricGeometry publishedCloth()
-{
-    return sim::clothGrid({.nodes = {99, 99}, .spacing = {kSpacing, kSpacing}});
-}
+FabricGeometry publishedCloth() { return sim::clothGrid({.nodes = {99, 99}, .spacing = {kSpacing, kSpacing}}); }
 
 FabricGeometry publishedYarns(Weave weave = Weave::Herringbone, bool borders = true)
 {
-    return sim::wovenYarns(
-        {.yarns = {100, 100}, .spacing = kSpacing, .amplitude = kAmplitude, .weave = weave, .borders = borders});
+    return sim::wovenYarns({.yarns = {100, 100}, .spacing = kSpacing, .amplitude = kAmplitude, .weave = weave, .borders = borders});
 }
 
 TEST(ClothGrid, HasThePublishedCountsAndPlaces)
@@ -113,8 +106,7 @@ std::string pattern(Weave weave, int k, int count)
 
 TEST(WovenYarns, HerringboneTurnsEveryFourYarns)
 {
-    const char* expected[] = {"--++--++", "+--++--+", "++--++--", "-++--++-",
-                              "-++--++-", "++--++--", "+--++--+", "--++--++"};
+    const char* expected[] = {"--++--++", "+--++--+", "++--++--", "-++--++-", "-++--++-", "++--++--", "+--++--+", "--++--++"};
     for (int k = 0; k < 24; ++k) EXPECT_EQ(expected[k % 8], pattern(Weave::Herringbone, k, 8)) << k;
 }
 
@@ -139,8 +131,7 @@ TEST(WovenYarns, PassOnOppositeSidesOfEachCrossing)
     for (const Weave weave : {Weave::Plain, Weave::Twill, Weave::Herringbone}) {
         const FabricGeometry cloth = publishedYarns(weave);
         std::map<std::pair<int, int>, std::vector<double>> heights;
-        for (std::size_t i = 0; i < cloth.points.size(); ++i)
-            heights[{cloth.lattice[i][0], cloth.lattice[i][1]}].push_back(cloth.points[i][1]);
+        for (std::size_t i = 0; i < cloth.points.size(); ++i) heights[{cloth.lattice[i][0], cloth.lattice[i][1]}].push_back(cloth.points[i][1]);
         EXPECT_EQ(10000u, heights.size());
         for (const auto& [place, h] : heights) {
             const bool isInside = place.first > 0 && place.first < 99 && place.second > 0 && place.second < 99;
@@ -163,8 +154,7 @@ TEST(WovenYarns, FirstYarnHasTheRecipesHeights)
     // The first yarn across, m = 1: the opposite of S(1, i), p = 2, 1, 0, −1, −1, 0, 1, 2.
     const double across[] = {1, 1, -1, -1, -1, -1, 1, 1};
     for (int i = 0; i < 8; ++i) {
-        EXPECT_TRUE(cloth.points[9800 + i].isApprox(Vec3(kSpacing, kAmplitude * across[i], kSpacing * i), 1.0e-14))
-            << i;
+        EXPECT_TRUE(cloth.points[9800 + i].isApprox(Vec3(kSpacing, kAmplitude * across[i], kSpacing * i), 1.0e-14)) << i;
     }
 }
 

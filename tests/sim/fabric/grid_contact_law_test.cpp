@@ -11,14 +11,8 @@
 namespace sim::testing {
 namespace {
 
-double yarnEnergy(const ContactModuli& m, const yarn::Strain& r)
-{
-    return yarn::energy(m, r, yarn::sectionOf(r));
-}
-yarn::Strain yarnStress(const ContactModuli& m, const yarn::Strain& r)
-{
-    return yarn::stress(m, r, yarn::sectionOf(r));
-}
+double yarnEnergy(const ContactModuli& m, const yarn::Strain& r) { return yarn::energy(m, r, yarn::sectionOf(r)); }
+yarn::Strain yarnStress(const ContactModuli& m, const yarn::Strain& r) { return yarn::stress(m, r, yarn::sectionOf(r)); }
 
 constexpr double kStep = 1.0e-6;
 
@@ -47,14 +41,12 @@ TEST(GridContactLaw, StressesAreTheSlopesOfTheEnergy)
         const yarn::Strain s = squeezed(noise);
         for (int i = 0; i < 3; ++i) {
             const Vec3 by = kStep * Vec3::Unit(i);
-            EXPECT_NEAR((sheet::energy(m, r + by) - sheet::energy(m, r - by)) / (2.0 * kStep), sheet::stress(m, r)[i],
-                        1e-8);
+            EXPECT_NEAR((sheet::energy(m, r + by) - sheet::energy(m, r - by)) / (2.0 * kStep), sheet::stress(m, r)[i], 1e-8);
         }
         for (int i = 0; i < 6; ++i) {
             yarn::Strain by = yarn::Strain::Zero();
             by(i % 3, i / 3) = kStep;
-            EXPECT_NEAR((yarnEnergy(m, s + by) - yarnEnergy(m, s - by)) / (2.0 * kStep), yarnStress(m, s)(i % 3, i / 3),
-                        1e-7);
+            EXPECT_NEAR((yarnEnergy(m, s + by) - yarnEnergy(m, s - by)) / (2.0 * kStep), yarnStress(m, s)(i % 3, i / 3), 1e-7);
         }
     }
 }
@@ -102,8 +94,7 @@ TEST(GridContactLaw, YarnStiffnessIsThePositivePartOfTheSlopeOfTheStress)
             slope.col(i) << change(1, 0), change(2, 0), change(1, 1), change(2, 1);
         }
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(0.5 * (slope + slope.transpose()));
-        const Eigen::Matrix4d positive =
-            eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
+        const Eigen::Matrix4d positive = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
         EXPECT_LT((k - positive).cwiseAbs().maxCoeff(), 1e-5);
         EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(k).eigenvalues().minCoeff(), -1e-12);
     }
@@ -266,8 +257,7 @@ struct Pressed {
 TEST(GridContactLaw, ShearIsHeldByFrictionAlone)
 {
     constexpr double h = 1.0e-3, kShare = 0.99;
-    const Mat3 sliding =
-        200.0 * (Vec3::UnitX() * Vec3::UnitY().transpose() + Vec3::UnitX() * Vec3::UnitZ().transpose());
+    const Mat3 sliding = 200.0 * (Vec3::UnitX() * Vec3::UnitY().transpose() + Vec3::UnitX() * Vec3::UnitZ().transpose());
     for (double angle : {0.0, 0.4}) {
         FabricMaterial material = wool();
         material.frictionAngle = angle;
@@ -275,13 +265,12 @@ TEST(GridContactLaw, ShearIsHeldByFrictionAlone)
         pressed.assemble(h);
         const ContactModuli m(material);
         for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
-            const double volume = pressed.contact.isEdge(e) ? material.packing() * kPi * 0.05 * 0.05 * 0.5 / 3.0
-                                                            : material.packing() * 0.5 * 0.144 * 0.144 * 0.034;
+            const double volume =
+                pressed.contact.isEdge(e) ? material.packing() * kPi * 0.05 * 0.05 * 0.5 / 3.0 : material.packing() * 0.5 * 0.144 * 0.144 * 0.034;
             const std::array<Vec3, 2> last = pressed.lastStress(e, h);
             const double along = std::hypot(last[0][0], last[1][0]) / volume;
             const double log = std::log(kShare);
-            const double bound = pressed.contact.isEdge(e) ? m.coulomb * 0.5 * std::sqrt(2.0) *
-                                                                 std::abs(2.0 * (m.shear + m.lame) * log / kShare)
+            const double bound = pressed.contact.isEdge(e) ? m.coulomb * 0.5 * std::sqrt(2.0) * std::abs(2.0 * (m.shear + m.lame) * log / kShare)
                                                            : m.coulomb * m.normal() * (1.0 - kShare) * (1.0 - kShare);
             EXPECT_NEAR(along, bound, 1e-9 * m.normal()) << "element " << e;
         }
@@ -337,8 +326,7 @@ TEST(GridContactLaw, WhatWouldNotBeFeltIsLeftOut)
     double largest = 0.0;
     for (std::size_t e = 0; e < pressed.contact.size(); ++e) {
         const double thickness = pressed.contact.isEdge(e) ? 0.25 * kPi * 0.1 * 0.1 : 0.034;
-        const double mass =
-            wool().envelopeDensity() * thickness * (pressed.contact.isEdge(e) ? 0.5 / 3.0 : 0.5 * 0.144 * 0.144);
+        const double mass = wool().envelopeDensity() * thickness * (pressed.contact.isEdge(e) ? 0.5 / 3.0 : 0.5 * 0.144 * 0.144);
         const std::array<Vec3, 2>& stress = pressed.contact.stress(e).stress;
         largest = std::max(largest, 4.0 * std::hypot(stress[0].norm(), stress[1].norm()) / (mass * kCell));
     }
@@ -351,9 +339,8 @@ TEST(GridContactLaw, WhatWouldNotBeFeltIsLeftOut)
 /// Moves of the corners and of the directions by a gradient.
 TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
 {
-    std::vector<FabricPiece> pieces = {
-        pieceOf(clothGrid({{3, 3}, {0.144, 0.13}}), wool(), {0.017, 0.017}),
-        pieceOf(strand(Vec3(1.0, 0.0, 0.0), Vec3(1.5, 0.2, 0.3), 3), wool(), {0.05, 0.04})};
+    std::vector<FabricPiece> pieces = {pieceOf(clothGrid({{3, 3}, {0.144, 0.13}}), wool(), {0.017, 0.017}),
+                                       pieceOf(strand(Vec3(1.0, 0.0, 0.0), Vec3(1.5, 0.2, 0.3), 3), wool(), {0.05, 0.04})};
     const Fabric fabric = assembleFabric(pieces);
     FabricState rest = restState(fabric);
     ElementContact contact(fabric);

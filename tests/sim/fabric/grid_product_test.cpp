@@ -11,11 +11,7 @@ namespace {
 constexpr double kStep = 2.0e-4;
 
 /// No more iterations than these, however large the error is still.
-FaceTolerance within(double speed, int iterations)
-{
-    return {speed, iterations, speed, iterations};
-}
-
+FaceTolerance within(double speed, int iterations) { return {speed, iterations, speed, iterations}; }
 
 double spline(double r)
 {
@@ -77,16 +73,12 @@ struct PlainSystem {
         for (const Face& f : faces) of(q, f) = massOf(f.axis, f.block, f.cell) * of(p, f);
         for (int e : parts.contact.active()) addContact(e, p, u, force, q);
         for (std::size_t v = 0; v < vertices; ++v)
-            forEachWeight(parts.state.x[v], [&](const Face& f, double w, const Vec3&) {
-                of(q, f) += kStep * kStep * w * force[v][f.axis];
-            });
+            forEachWeight(parts.state.x[v], [&](const Face& f, double w, const Vec3&) { of(q, f) += kStep * kStep * w * force[v][f.axis]; });
         for (std::size_t e = 0; e < parts.system.edges(); ++e)
-            q.twist[e] = parts.fabric.edges.twistInertia[e] * p.twist[e] +
-                         kStep * kStep * out[parts.stiffness.unknowns().twistSlot[e]];
+            q.twist[e] = parts.fabric.edges.twistInertia[e] * p.twist[e] + kStep * kStep * out[parts.stiffness.unknowns().twistSlot[e]];
         return q;
     }
-    void addContact(int e, const FaceVector& p, const std::vector<Vec3>& u, std::vector<Vec3>& force,
-                    FaceVector& q) const
+    void addContact(int e, const FaceVector& p, const std::vector<Vec3>& u, std::vector<Vec3>& force, FaceVector& q) const
     {
         const Vec3 x = parts.contact.position(e, parts.state.x);
         const auto [gathered, missing] = gradientsAt(p, x);
@@ -95,13 +87,10 @@ struct PlainSystem {
         for (int k = 0; k < 3; ++k)
             if (parts.contact.corners(e)[k] >= 0) corners[k] = u[parts.contact.corners(e)[k]];
         const PlainPush push = changeOf(parts.contact, e, gathered - mean.asDiagonal() * missing, corners);
-        forEachWeight(x, [&](const Face& f, double, const Vec3& z) {
-            of(q, f) += kStep * kStep * push.onGrid.row(f.axis).dot(z);
-        });
+        forEachWeight(x, [&](const Face& f, double, const Vec3& z) { of(q, f) += kStep * kStep * push.onGrid.row(f.axis).dot(z); });
         const Vec3 onMean = -push.onGrid.cwiseProduct(missing).rowwise().sum();
         for (int k = 0; k < 3; ++k)
-            if (parts.contact.corners(e)[k] >= 0)
-                force[parts.contact.corners(e)[k]] += push.onCorners[k] + parts.contact.shares(e)[k] * onMean;
+            if (parts.contact.corners(e)[k] >= 0) force[parts.contact.corners(e)[k]] += push.onCorners[k] + parts.contact.shares(e)[k] * onMean;
     }
 
     struct Face {
@@ -116,10 +105,7 @@ struct PlainSystem {
     std::vector<Face> faces;
 };
 
-std::vector<FabricPiece> allKinds()
-{
-    return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))};
-}
+std::vector<FabricPiece> allKinds() { return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))}; }
 
 /// Some elements pressed, some not; some reach faces without mass.
 void assemble(GridParts& parts)
@@ -144,8 +130,7 @@ TEST(GridFabricProduct, EqualsPlainLoops)
     found.resize(parts.system.blocks(), parts.system.edges());
     parts.system.multiply(p, found);
     const double size = std::sqrt(GridParts::dot(expected, expected));
-    for (const PlainSystem::Face& f : plain.faces)
-        ASSERT_NEAR(PlainSystem::of(found, f), PlainSystem::of(expected, f), 1e-12 * size);
+    for (const PlainSystem::Face& f : plain.faces) ASSERT_NEAR(PlainSystem::of(found, f), PlainSystem::of(expected, f), 1e-12 * size);
     for (std::size_t e = 0; e < parts.system.edges(); ++e) ASSERT_NEAR(found.twist[e], expected.twist[e], 1e-12 * size);
 }
 
@@ -208,8 +193,7 @@ TEST(GridFabricProduct, StartsAsFarAlongAChangeAsHelps)
         ASSERT_TRUE(hasMass || v.faces.block(0)[f] == 0.0) << "face " << f;
     }
     FaceVector change = exact;
-    for (std::size_t f = 0; f < change.faces.size(); ++f)
-        change.faces.block(0)[f] = 0.3 * (exact.faces.block(0)[f] - start.faces.block(0)[f]);
+    for (std::size_t f = 0; f < change.faces.size(); ++f) change.faces.block(0)[f] = 0.3 * (exact.faces.block(0)[f] - start.faces.block(0)[f]);
     EXPECT_LT(errorAlong(&change, 0), 1.0e-8 * without);
     for (std::size_t f = 0; f < change.faces.size(); ++f) change.faces.block(0)[f] = 0.0;
     EXPECT_EQ(errorAlong(&change, 5), errorAlong(nullptr, 5));
@@ -227,8 +211,7 @@ double largestEigenvalue(GridParts& parts)
         double inertia = 0.0;
         for (std::size_t f = 0; f < p.faces.size(); ++f) inertia += mass[f] * std::pow(p.faces.block(0)[f], 2);
         largest = GridParts::dot(p, q) / inertia;
-        for (std::size_t f = 0; f < p.faces.size(); ++f)
-            p.faces.block(0)[f] = mass[f] > 0.0 ? q.faces.block(0)[f] / (mass[f] * largest) : 0.0;
+        for (std::size_t f = 0; f < p.faces.size(); ++f) p.faces.block(0)[f] = mass[f] > 0.0 ? q.faces.block(0)[f] / (mass[f] * largest) : 0.0;
     }
     return largest;
 }
@@ -290,8 +273,7 @@ TEST(TwistBalance, LeavesNoTorque)
 {
     std::vector<FabricPiece> pieces;
     for (int edges : {1, 2, 7, 3}) {
-        pieces.push_back(
-            pieceOf(strand(Vec3(0.0, edges, 0.0), Vec3(0.3 * edges, edges, 0.4), edges), wool(), {0.06, 0.04}));
+        pieces.push_back(pieceOf(strand(Vec3(0.0, edges, 0.0), Vec3(0.3 * edges, edges, 0.4), edges), wool(), {0.06, 0.04}));
         PinGroup pin;
         pin.vertices = {0};
         pin.twist = edges == 7;
@@ -328,8 +310,7 @@ TEST(TwistBalance, LeavesNoTorque)
 TEST(StrandMatrix, ProductEqualsAPlainLoop)
 {
     for (int vertices : {2, 3, 4, 30}) {
-        const std::vector<FabricPiece> pieces = {
-            pieceOf(strand(Vec3::Zero(), Vec3(3.0, 0.0, 0.0), vertices - 1), wool(), {0.05, 0.05})};
+        const std::vector<FabricPiece> pieces = {pieceOf(strand(Vec3::Zero(), Vec3(3.0, 0.0, 0.0), vertices - 1), wool(), {0.05, 0.05})};
         const Fabric fabric = assembleFabric(pieces);
         const StrandLayout layout(fabric.strands);
         StrandMatrix matrix;

@@ -103,8 +103,7 @@ struct GridParts {
         FaceVector v;
         v.resize(system.blocks(), system.edges());
         v.twist.fill(0.0);
-        for (std::size_t i = 0; i < v.faces.size(); ++i)
-            v.faces.block(0)[i] = system.mass().block(0)[i] > 0.0 ? noise() : 0.0;
+        for (std::size_t i = 0; i < v.faces.size(); ++i) v.faces.block(0)[i] = system.mass().block(0)[i] > 0.0 ? noise() : 0.0;
         for (std::size_t e = 0; e < system.edges(); ++e) v.twist[e] = 10.0 * noise();
         return v;
     }
@@ -138,16 +137,10 @@ struct GridParts {
 inline EdgeContact<double> edgeOf(const ElementContact& contact, std::size_t e)
 {
     const ElementContact::Local& at = contact.local(e);
-    const auto symmetric = [](const Mat3& m) {
-        return Symmetric<double>{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)};
-    };
+    const auto symmetric = [](const Mat3& m) { return Symmetric<double>{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}; };
     Rows<double> mixed;
     for (int a = 0; a < 3; ++a) mixed[a] = toTriple(at.stiffness[1].row(a));
-    return {{toTriple(at.d[0]), toTriple(at.d[1])},
-            toTriple(at.reciprocal[0]),
-            symmetric(at.stiffness[0]),
-            symmetric(at.stiffness[2]),
-            mixed};
+    return {{toTriple(at.d[0]), toTriple(at.d[1])}, toTriple(at.reciprocal[0]), symmetric(at.stiffness[0]), symmetric(at.stiffness[2]), mixed};
 }
 inline FaceContact<double> faceOf(const ElementContact& contact, std::size_t e)
 {
@@ -164,8 +157,7 @@ struct PlainPush {
     template <class Contact>
     PlainPush(const Contact& contact, const typename Contact::Across& stress)
     {
-        for (int k = 0; k < Contact::kDirections; ++k)
-            onGrid += toVec3(stress[k]) * toVec3(contact.d[k]).transpose();
+        for (int k = 0; k < Contact::kDirections; ++k) onGrid += toVec3(stress[k]) * toVec3(contact.d[k]).transpose();
         const auto corners = contact.onCorners(stress);
         for (int k = 0; k < Contact::kCorners; ++k) onCorners[k] = toVec3(corners[k]);
     }

@@ -148,8 +148,7 @@ TEST(GridFabric, ContactStopsSheetsThatMeet)
     for (int n = 0; n < 200; ++n) {
         run.step(kStep);
         double gap = 0.0;
-        for (std::size_t v = 0; v < half; ++v)
-            gap += (run.state.x[half + v][1] - run.state.x[v][1]) / static_cast<double>(half);
+        for (std::size_t v = 0; v < half; ++v) gap += (run.state.x[half + v][1] - run.state.x[v][1]) / static_cast<double>(half);
         least = std::min(least, gap);
     }
     EXPECT_GT(least, 0.0);
@@ -185,8 +184,7 @@ TEST(GridFabric, SheetsSlideWithoutFriction)
 
 TEST(GridFabric, TwistSpreadsWithPolyPic)
 {
-    GridRun run({pieceOf(strand(Vec3::Zero(), Vec3(2.88, 0.0, 0.0), 20), wool(), {0.048, 0.048})},
-                gridSettings(TransferMethod::PolyPic));
+    GridRun run({pieceOf(strand(Vec3::Zero(), Vec3(2.88, 0.0, 0.0), 20), wool(), {0.048, 0.048})}, gridSettings(TransferMethod::PolyPic));
     run.state.theta[10] = 0.5;
     const double start = run.energies().twisting;
     ASSERT_GT(start, 0.0);
@@ -207,8 +205,7 @@ TEST(GridFabric, PinsFollowTheirMotion)
     settings.gravity = Vec3(0.0, -981.0, 0.0);
     GridRun run({piece}, settings);
     for (int n = 0; n < 500; ++n) run.step(kStep);
-    for (int v : pins.vertices)
-        EXPECT_LT((run.state.x[v] - run.fabric.rest[v] - Vec3(0.0, 0.5, 0.0)).norm(), 0.2 * kCell);
+    for (int v : pins.vertices) EXPECT_LT((run.state.x[v] - run.fabric.rest[v] - Vec3(0.0, 0.5, 0.0)).norm(), 0.2 * kCell);
 }
 
 TEST(GridFabric, KeepFactorsAreRates)

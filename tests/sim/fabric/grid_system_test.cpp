@@ -10,10 +10,7 @@ namespace {
 
 constexpr double kStep = 2.0e-4;
 
-std::vector<FabricPiece> allKinds()
-{
-    return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))};
-}
+std::vector<FabricPiece> allKinds() { return {weave(6, 1.0e3), cloth(6, Vec3(0.1, 0.5, 0.2))}; }
 
 TEST(GridFabricSystem, IsSymmetricAndPositive)
 {
@@ -119,10 +116,7 @@ double errorAfterRoundTrip(const std::vector<FabricPiece>& pieces, int modes, F&
     return worst;
 }
 
-double affine(int axis, const Vec3& x)
-{
-    return 1.0 + axis + (0.3 + axis) * x[0] - 0.7 * x[1] + (0.2 * axis - 1.0) * x[2];
-}
+double affine(int axis, const Vec3& x) { return 1.0 + axis + (0.3 + axis) * x[0] - 0.7 * x[1] + (0.2 * axis - 1.0) * x[2]; }
 
 TEST(GridFabricTransfer, AffineFieldsComeBack)
 {
@@ -132,8 +126,7 @@ TEST(GridFabricTransfer, AffineFieldsComeBack)
 TEST(GridFabricTransfer, MultilinearFieldsComeBackWithEightModes)
 {
     const auto field = [](int axis, const Vec3& x) {
-        return affine(axis, x) + 2.0 * x[0] * x[1] - (1.0 + axis) * x[0] * x[2] + 3.0 * x[1] * x[2] +
-               1.5 * x[0] * x[1] * x[2];
+        return affine(axis, x) + 2.0 * x[0] * x[1] - (1.0 + axis) * x[0] * x[2] + 3.0 * x[1] * x[2] + 1.5 * x[0] * x[1] * x[2];
     };
     for (int modes : {8, 27}) EXPECT_LT(errorAfterRoundTrip(allKinds(), modes, field), 1e-12) << modes << " modes";
     EXPECT_GT(errorAfterRoundTrip(allKinds(), 4, field), 1e-3);

@@ -1,6 +1,6 @@
+#include "sim/fabric/rods/rods.h"
 #include "pieces.h"
 #include "sim/fabric/rods/rod_kernel.h"
-#include "sim/fabric/rods/rods.h"
 
 #include <gtest/gtest.h>
 
@@ -88,8 +88,7 @@ TEST(Rods, GradientMatchesFiniteDifferences)
         double largest = 0.0, error = 0.0;
         constexpr double kStep = 1.0e-5;  // cm or rad: truncation 1e-10 of the forces, round-off 1e-9 of them
         for (std::size_t i = 0; i < gradient.size(); ++i) {
-            const double differences =
-                (movedEnergy(rods, yarns.state, i, kStep) - movedEnergy(rods, yarns.state, i, -kStep)) / (2.0 * kStep);
+            const double differences = (movedEnergy(rods, yarns.state, i, kStep) - movedEnergy(rods, yarns.state, i, -kStep)) / (2.0 * kStep);
             error = std::max(error, std::abs(differences - gradient[i]));
             largest = std::max(largest, std::abs(gradient[i]));
         }
@@ -132,8 +131,7 @@ TEST(Rods, EnergyIsInvariantAndForcesAndTorquesBalance)
         torque += yarns.state.x[v].cross(f);
         scale += f.norm() * yarns.state.x[v].norm();
     }
-    for (std::size_t e = 0; e < yarns.state.theta.size(); ++e)
-        torque += gradient[3 * yarns.state.x.size() + e] * yarns.state.tangent[e];
+    for (std::size_t e = 0; e < yarns.state.theta.size(); ++e) torque += gradient[3 * yarns.state.x.size() + e] * yarns.state.tangent[e];
     EXPECT_LT(force.norm(), 1.0e-11 * scale);
     EXPECT_LT(torque.norm(), 1.0e-10 * scale);
 }
@@ -167,8 +165,8 @@ double hessianError(const Rods& rods, const Fabric& fabric, const FabricState& s
         };
         const std::vector<double> up = gradientAt(kStep), down = gradientAt(-kStep);
         for (int row = 0; row < 4 * n - 1; ++row) {
-            const std::size_t i = row % 4 == 3 ? 3 * state.x.size() + fabric.strands.edgeBegin(strand) + row / 4
-                                               : 3 * fabric.strands.vertex(strand, row / 4) + row % 4;
+            const std::size_t i =
+                row % 4 == 3 ? 3 * state.x.size() + fabric.strands.edgeBegin(strand) + row / 4 : 3 * fabric.strands.vertex(strand, row / 4) + row % 4;
             differences(row, column) = (up[i] - down[i]) / (2.0 * kStep);
         }
     }

@@ -26,8 +26,7 @@ struct CrumpledSheet {
         fabric = testing::fabricOf(testing::pieceOf(geometry, testing::wool(), {0.05, 0.05}));
         x = fabric.rest;
         for (Vec3& p : x) p += amount * noise.vector();
-        for (std::size_t v = 0; v < x.size(); ++v)
-            slot.push_back(static_cast<int>(v / kLanes * 3 * kLanes + v % kLanes));
+        for (std::size_t v = 0; v < x.size(); ++v) slot.push_back(static_cast<int>(v / kLanes * 3 * kLanes + v % kLanes));
     }
 
     std::vector<double> gradient(const Shells& shells, std::span<const Vec3> at, BlockMatrix* matrix = nullptr) const
@@ -126,8 +125,7 @@ TEST(Shells, HessianIsSymmetricPositiveAndExactAtRest)
             up[column / 3][column % 3] += kStep;
             down[column / 3][column % 3] -= kStep;
             const std::vector<double> gu = sheet.gradient(shells, up), gd = sheet.gradient(shells, down);
-            for (int row = 0; row < dense.rows(); ++row)
-                error = std::max(error, std::abs((gu[row] - gd[row]) / (2.0 * kStep) - dense(row, column)));
+            for (int row = 0; row < dense.rows(); ++row) error = std::max(error, std::abs((gu[row] - gd[row]) / (2.0 * kStep) - dense(row, column)));
         }
         EXPECT_LT(error, 1.0e-5 * dense.cwiseAbs().maxCoeff()) << model.name;
     }
@@ -175,10 +173,8 @@ TEST(Shells, ShapeOperatorHasThePlatesStiffness)
                 const double along = radius * std::sin(s / radius), up = radius * (1.0 - std::cos(s / radius));
                 p = alongX ? Vec3(along, up, p.z()) : Vec3(p.x(), up, along);
             }
-            const double plate =
-                material.packing() * material.young * std::pow(thickness, 3) / (12.0 * (1.0 - nu * nu));
-            const double inner =
-                3.8 * 3.8;  // the boundary triangles have edges without an angle; they are left out by the bounds below
+            const double plate = material.packing() * material.young * std::pow(thickness, 3) / (12.0 * (1.0 - nu * nu));
+            const double inner = 3.8 * 3.8;  // the boundary triangles have edges without an angle; they are left out by the bounds below
             const double energy = shells.energies(x)[1], perArea = 0.5 * plate / (radius * radius);
             EXPECT_GT(energy, 0.98 * perArea * inner);
             EXPECT_LT(energy, 1.02 * perArea * 16.0);

@@ -61,11 +61,14 @@ TEST(FabricAtSolids, IsNeverCrossedBySolverGrid)
         FabricState state = initialState(fabric, scene.pieces);
         GridFabricSolver solver(fabric, settings, {&scene.solid, 1});
         const double h = seed % 2 == 0 ? 1.0e-3 : 2.5e-4;
-        EXPECT_EQ(crossingsOf(scene, fabric, state, h, 15, true, [&](double t) {
-            StepReport report;
-            StageClock clock(report);
-            solver.step(t, h, kGravity, state, clock);
-        }), 0) << "seed " << seed;
+        EXPECT_EQ(crossingsOf(scene, fabric, state, h, 15, true,
+                              [&](double t) {
+                                  StepReport report;
+                                  StageClock clock(report);
+                                  solver.step(t, h, kGravity, state, clock);
+                              }),
+                  0)
+            << "seed " << seed;
     }
 }
 

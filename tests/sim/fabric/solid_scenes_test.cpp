@@ -110,11 +110,11 @@ TEST(FabricAtSolids, APinnedSheetIsNotPiercedByWhatSweepsThroughIt)
 {
     for (const FabricSolver kind : kSolvers)
         for (int shape = 0; shape < 3; ++shape) {
-            ObstacleSettings solid = solidOf(
-                shape == 0   ? Shape::capsule({0.13, -0.5, 0.07}, {0.13, -3.0, 0.07}, 0.02)
-                : shape == 1 ? Shape::box({0.13, -1.5, 0.07}, {0.01, 1.0, 0.4})
-                             : Shape::box(Vec3::Zero(), {0.4, 0.4, 0.4})
-                                   .moved(Eigen::Translation3d(0.1, -1.3, 0.0) * Eigen::AngleAxisd(0.9, Vec3(1.0, 0.3, 0.8).normalized())));
+            ObstacleSettings solid =
+                solidOf(shape == 0   ? Shape::capsule({0.13, -0.5, 0.07}, {0.13, -3.0, 0.07}, 0.02)
+                        : shape == 1 ? Shape::box({0.13, -1.5, 0.07}, {0.01, 1.0, 0.4})
+                                     : Shape::box(Vec3::Zero(), {0.4, 0.4, 0.4})
+                                           .moved(Eigen::Translation3d(0.1, -1.3, 0.0) * Eigen::AngleAxisd(0.9, Vec3(1.0, 0.3, 0.8).normalized())));
             solid.motion.addTranslation(0.0, 0.01, Vec3(0.1, 1.2, 0.1), 0.0, 0.0);
             solid.motion.addRotation(0.0, 0.01, Vec3::UnitY(), 1.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
             FabricPiece piece = sheet(9, 2.0, Vec3::Zero());
@@ -208,7 +208,8 @@ TEST(FabricAtSolids, PinsThatAreLedThroughATableTakeNothingElseThrough)
         pins.motion.addTranslation(0.0, 0.1, Vec3(0.0, -0.4, 0.0), 0.0, 0.0);
         piece.pins = {pins};
         SolidRun run({piece}, {table}, kind);
-        for (int i = 0; i < 50; ++i) {  // later the cloth is pulled out of all proportion, and springs may not become stiffer than its motion pays for
+        for (int i = 0; i < 50;
+             ++i) {  // later the cloth is pulled out of all proportion, and springs may not become stiffer than its motion pays for
             run.step(1.0e-3);
             for (std::size_t v = 1; v < run.state.x.size(); ++v)
                 ASSERT_GT(run.state.x[v].y(), 0.5 * kRadius) << "step " << i << " solver " << int(kind);

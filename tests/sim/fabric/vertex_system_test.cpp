@@ -1,5 +1,5 @@
-#include "pieces.h"
 #include "sim/fabric/vertex_system.h"
+#include "pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -80,8 +80,7 @@ TEST(VertexSystem, NewtonMoveTakesTheForcesAway)
 /// The preconditioner is exact for strands that touch nothing: one iteration solves.
 TEST(VertexSystem, FreeStrandsAreSolvedAtOnce)
 {
-    const Fabric fabric =
-        testing::fabricOf(testing::pieceOf(strand(Vec3::Zero(), Vec3(5.0, 0.0, 0.0), 50), testing::wool(), {0.05, 0.03}));
+    const Fabric fabric = testing::fabricOf(testing::pieceOf(strand(Vec3::Zero(), Vec3(5.0, 0.0, 0.0), 50), testing::wool(), {0.05, 0.03}));
     VertexSystem system(fabric, FabricSettings{});
     FabricState state = restState(fabric);
     Noise noise(8);

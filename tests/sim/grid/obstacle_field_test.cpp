@@ -28,10 +28,8 @@ double openAreaOfPlane(double a, double b, double c)
     double area = 0.0;
     for (int n = 0; n < kStrips; ++n) {
         const double atBottom = a + b * (n + 0.5) / kStrips, atTop = atBottom + c;
-        if (atBottom >= 0.0 && atTop >= 0.0)
-            area += 1.0;
-        else if (atBottom >= 0.0 || atTop >= 0.0)
-            area += std::max(atBottom, atTop) / std::abs(c);
+        if (atBottom >= 0.0 && atTop >= 0.0) area += 1.0;
+        else if (atBottom >= 0.0 || atTop >= 0.0) area += std::max(atBottom, atTop) / std::abs(c);
     }
     return area / kStrips;
 }
@@ -42,8 +40,7 @@ TEST(OpenFraction, OfAPlaneIsItsArea)
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int n = 0; n < 2000; ++n) {
         const double b = unit(random), c = unit(random), a = 0.7 * unit(random) - 0.5 * (b + c);
-        EXPECT_NEAR(openFraction(a, a + b, a + b + c, a + c), openAreaOfPlane(a, b, c), 2.0e-4)
-            << a << ' ' << b << ' ' << c;
+        EXPECT_NEAR(openFraction(a, a + b, a + b + c, a + c), openAreaOfPlane(a, b, c), 2.0e-4) << a << ' ' << b << ' ' << c;
     }
 }
 
@@ -97,8 +94,7 @@ TEST(ObstacleField, WallsInPlanesOfFacesCloseThemWhateverTheRounding)
             for (int b = 0; b < kAxes; ++b)
                 if (b != a) inside = inside && c[b] >= 0 && c[b] < 6 + b;
             ASSERT_EQ(scene.open(a, c), inside ? 1.0 : 0.0) << a << ": " << c.transpose();
-            ASSERT_EQ((scene.field.closed(scene.at(c).block, a)[c.z() & 7] >> (8 * (c.y() & 7) + (c.x() & 7)) & 1) == 1,
-                      !inside);
+            ASSERT_EQ((scene.field.closed(scene.at(c).block, a)[c.z() & 7] >> (8 * (c.y() & 7) + (c.x() & 7)) & 1) == 1, !inside);
         });
     }
 }
@@ -189,8 +185,8 @@ TEST(ObstacleField, FacesAreOpenAsFarAsSamplesOfThemAre)
         });
     }
     EXPECT_GT(faces, 2000);
-    EXPECT_LT(worst, 0.12);           // where one surface along the face hides another
-    EXPECT_LT(sum / faces, 5.0e-3);   // of which the samples are half
+    EXPECT_LT(worst, 0.12);          // where one surface along the face hides another
+    EXPECT_LT(sum / faces, 5.0e-3);  // of which the samples are half
 }
 
 TEST(ObstacleField, OpenFractionsOfABallCloseItsSurface)
@@ -223,8 +219,7 @@ TEST(ObstacleField, TellsDistancesUpToItsReachInEveryBlock)
                 // Where parts of a solid meet, its depth is counted from its surface and not from the parts' own.
                 const double distance = scene.obstacles.distance(scene.middle(c));
                 if (distance <= 0.0) return;
-                ASSERT_NEAR(told, std::min(distance, reach), 1.0e-12)
-                    << kind.name << " at cell " << c.transpose();
+                ASSERT_NEAR(told, std::min(distance, reach), 1.0e-12) << kind.name << " at cell " << c.transpose();
             });
         }
 }
@@ -301,8 +296,7 @@ TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
         field.update(grid, previous, obstacles, false);
         ObstacleField fresh;
         fresh.update(grid, std::vector<int>(grid.count(), BlockGrid::kNone), obstacles, false);
-        for (int b = 0; b < grid.count(); ++b)
-            ASSERT_NO_FATAL_FAILURE(expectSameBlock(field, b, fresh, b)) << "step " << step;
+        for (int b = 0; b < grid.count(); ++b) ASSERT_NO_FATAL_FAILURE(expectSameBlock(field, b, fresh, b)) << "step " << step;
         for (int a = 0; a < kAxes; ++a) EXPECT_EQ(field.open(grid.count(), a)[17], 1.0) << "the empty block";
     }
 }
@@ -326,9 +320,7 @@ TEST(ObstacleField, WallsMoveWithTheirBody)
     });
     scene.obstacles.moveTo(1.5, 1.6);
     scene.updateObstacles();
-    scene.forEachFace([&](int a, const Vec3i& c) {
-        ASSERT_EQ(scene.field.wallVelocity(scene.at(c).block, a)[scene.at(c).cell], 0.0);
-    });
+    scene.forEachFace([&](int a, const Vec3i& c) { ASSERT_EQ(scene.field.wallVelocity(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
 }  // namespace

@@ -49,26 +49,37 @@ struct Kind {
 /// Of sizes about 1 cm, around the origin.
 inline const std::array kSolidKinds = {
     Kind{"box", [](Chance& c) { return Shape::box(Vec3::Zero(), Vec3(0.6, 0.6, 0.6) + c.inCube(0.4)); }},
-    Kind{"plate", [](Chance& c) { return Shape::box(Vec3::Zero(), {0.5 * c.between(0.01, 0.1), 1.2, 1.0}); }},
+    Kind{"plate",
+         [](Chance& c) {
+             return Shape::box(Vec3::Zero(), {0.5 * c.between(0.01, 0.1), 1.2, 1.0});
+         }},
     Kind{"rounded box", [](Chance& c) { return Shape::roundedBox(Vec3::Zero(), Vec3(0.6, 0.6, 0.6) + c.inCube(0.4), 0.2); }},
     Kind{"ball", [](Chance& c) { return Shape::ball(Vec3::Zero(), c.between(0.2, 1.2)); }},
     Kind{"wire", [](Chance& c) { return Shape::capsule(c.inCube(1.0), c.inCube(1.0), c.between(0.03, 0.3)); }},
     Kind{"disc", [](Chance& c) { return Shape::cylinder(Vec3::Zero(), c.direction(), 1.0, c.between(0.02, 0.5), 0.01); }},
-    Kind{"cross", [](Chance& c) {
-        return Shape::unite({Shape::box(Vec3::Zero(), {1.2, c.between(0.05, 0.4), 0.7}), Shape::box(Vec3::Zero(), {c.between(0.05, 0.4), 1.2, 0.9})});
-    }},
-    Kind{"cup", [](Chance& c) {
-        const double wall = c.between(0.02, 0.3);
-        return Shape::subtract({Shape::box(Vec3::Zero(), {1.0, 0.8, 1.0}), Shape::box({0.0, wall, 0.0}, {1.0 - wall, 0.8, 1.0 - wall})});
-    }},
-    Kind{"bowl", [](Chance& c) {
-        const double radius = c.between(0.7, 1.2);
-        return Shape::subtract({Shape::ball(Vec3::Zero(), radius), Shape::ball(Vec3::Zero(), radius - c.between(0.03, 0.3)),
-                                Shape::box({0.0, 1.5, 0.0}, {2.0, 1.5, 2.0})});
-    }},
+    Kind{"cross",
+         [](Chance& c) {
+             return Shape::unite(
+                 {Shape::box(Vec3::Zero(), {1.2, c.between(0.05, 0.4), 0.7}), Shape::box(Vec3::Zero(), {c.between(0.05, 0.4), 1.2, 0.9})});
+         }},
+    Kind{"cup",
+         [](Chance& c) {
+             const double wall = c.between(0.02, 0.3);
+             return Shape::subtract({Shape::box(Vec3::Zero(), {1.0, 0.8, 1.0}), Shape::box({0.0, wall, 0.0}, {1.0 - wall, 0.8, 1.0 - wall})});
+         }},
+    Kind{"bowl",
+         [](Chance& c) {
+             const double radius = c.between(0.7, 1.2);
+             return Shape::subtract({Shape::ball(Vec3::Zero(), radius), Shape::ball(Vec3::Zero(), radius - c.between(0.03, 0.3)),
+                                     Shape::box({0.0, 1.5, 0.0}, {2.0, 1.5, 2.0})});
+         }},
     Kind{"vessel", [](Chance& c) { return Shape::box(Vec3::Zero(), Vec3(1.2, 1.2, 1.2) + c.inCube(0.5)).inverted(); }},
     Kind{"mesh", [](Chance& c) { return meshOfBox(Vec3(0.6, 0.6, 0.6) + c.inCube(0.4), 0.1); }, true},
-    Kind{"mesh of a plate", [](Chance& c) { return meshOfBox({c.between(0.03, 0.1), 1.0, 0.8}, 0.05); }, true}};
+    Kind{"mesh of a plate",
+         [](Chance& c) {
+             return meshOfBox({c.between(0.03, 0.1), 1.0, 0.8}, 0.05);
+         },
+         true}};
 
 /// A motion over the first second that goes and turns by any amount up to these [cm], [rad].
 inline Motion randomMotion(Chance& chance, double far, double angle)

@@ -31,8 +31,7 @@ TEST(Room, BesideAPlaneWallIsTheIntegralOfTheSpline)
         EXPECT_NEAR(values[c], normal[i], 1.0e-14) << i;
         for (int a = 1; a < kAxes; ++a) EXPECT_NEAR(values[a * kBlockCells + c], tangential[i], 1.0e-14) << i;
         if (i < 3) continue;
-        for (int a = 0; a < kAxes; ++a)
-            EXPECT_NEAR(mirrored[a * kBlockCells + c], 1.0, 1.0e-14) << "the image counts, " << i;
+        for (int a = 0; a < kAxes; ++a) EXPECT_NEAR(mirrored[a * kBlockCells + c], 1.0, 1.0e-14) << "the image counts, " << i;
     }
 }
 
@@ -81,8 +80,7 @@ TEST(Room, CellsWithoutAnOpenFaceAreBlocked)
     scene.forEachCell([&](const Vec3i& c) {
         if ((c.array() == 15).any()) return;  // whose upper faces are in no block
         bool open = false;
-        for (int a = 0; a < kAxes; ++a)
-            open = open || scene.open(a, c) > 0.0 || scene.open(a, c + Vec3i::Unit(a)) > 0.0;
+        for (int a = 0; a < kAxes; ++a) open = open || scene.open(a, c) > 0.0 || scene.open(a, c + Vec3i::Unit(a)) > 0.0;
         const CellRef ref = scene.at(c);
         const bool isBlocked = scene.field.blocked(ref.block)[ref.cell >> 6] >> (ref.cell & 63) & 1;
         EXPECT_EQ(isBlocked, !open) << c.transpose();

@@ -29,10 +29,7 @@ void fillBelow(GridScene& scene, double level)
     findLiquidCells(scene.grid, scene.field, scene.settings.full, scene.liquid);
 }
 
-double fillAt(const GridScene& scene, const Vec3i& c)
-{
-    return scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell];
-}
+double fillAt(const GridScene& scene, const Vec3i& c) { return scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell]; }
 
 TEST(Cells, AmidLiquidAreFullAlsoBesideWalls)
 {
@@ -59,8 +56,7 @@ TEST(Cells, ReachUpToHalfACellAboveTheSurface)
         fillBelow(scene, level);
         for (int j = 0; j < 7; ++j) {
             EXPECT_EQ(scene.isInside({3, j, 4}), j + 0.5 < level + 0.49) << level << ", row " << j;
-            EXPECT_NEAR(fillAt(scene, {3, j, 4}),
-                        (4.0 * splineUpTo(level - j - 0.5) + splineUpTo(level - j) + splineUpTo(level - j - 1)) / 6.0,
+            EXPECT_NEAR(fillAt(scene, {3, j, 4}), (4.0 * splineUpTo(level - j - 0.5) + splineUpTo(level - j) + splineUpTo(level - j - 1)) / 6.0,
                         1.0e-12);
         }
         // What the faces carry that are beside no liquid cell.

@@ -9,7 +9,7 @@
 namespace sim::test {
 namespace {
 
-constexpr double kCell = 0.25;        // [cm]
+constexpr double kCell = 0.25;      // [cm]
 const Vec3 kVessel(2.6, 2.7, 2.8);  // half its sizes [cm]
 
 double kinetic(const LiquidParticles& particles)

@@ -26,8 +26,7 @@ struct GridScene {
         grid.dx = dx;
         grid.origin = origin;
         std::vector<Vec3i> blocks;
-        const Vec3i from = first.unaryExpr([](int v) { return v >> 3; }),
-                    to = end.unaryExpr([](int v) { return (v - 1) >> 3; });
+        const Vec3i from = first.unaryExpr([](int v) { return v >> 3; }), to = end.unaryExpr([](int v) { return (v - 1) >> 3; });
         for (int z = from.z(); z <= to.z(); ++z)
             for (int y = from.y(); y <= to.y(); ++y)
                 for (int x = from.x(); x <= to.x(); ++x) blocks.emplace_back(x, y, z);
@@ -41,8 +40,7 @@ struct GridScene {
         levelSet.resize(grid.count());
         for (int b = 0; b < grid.count(); ++b) {
             std::fill_n(levelSet.block(b), kBlockCells, dx);
-            for (BlockBits<>* bits : {&liquid.inside, &liquid.surface, &liquid.deep})
-                std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
+            for (BlockBits<>* bits : {&liquid.inside, &liquid.surface, &liquid.deep}) std::fill_n(bits->block(b), BlockBits<>::kWords, 0);
             std::fill_n(liquid.faces.sums.block(b), 6 * kBlockCells, 0.0);
             std::fill_n(pressure.block(b), kBlockCells, 0.0);
             std::fill_n(liquid.faces.velocity.block(b), 3 * kBlockCells, 0.0);
@@ -64,10 +62,7 @@ struct GridScene {
         updateObstacles();
     }
 
-    CellRef at(const Vec3i& c) const
-    {
-        return {grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3}), cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)};
-    }
+    CellRef at(const Vec3i& c) const { return {grid.find({c.x() >> 3, c.y() >> 3, c.z() >> 3}), cellInBlock(c.x() & 7, c.y() & 7, c.z() & 7)}; }
     double& velocity(int axis, const Vec3i& c) { return liquid.faces.velocity.block(at(c).block, axis)[at(c).cell]; }
     double& phi(const Vec3i& c) { return levelSet.block(at(c).block)[at(c).cell]; }
     bool isInside(const Vec3i& c) const { return liquid.inside.test(at(c).block, at(c).cell); }
@@ -122,8 +117,7 @@ struct GridScene {
             const CellRef ref = at(c);
             liquid.wet.set(ref.block, ref.cell, a);
             const double full = liquid.fullMass * field.room(ref.block, a)[ref.cell];
-            liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] =
-                full * (above && under ? 1.0 : ghostFraction(c, below));
+            liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] = full * (above && under ? 1.0 : ghostFraction(c, below));
         });
     }
     double ghostFraction(const Vec3i& one, const Vec3i& other)
@@ -159,8 +153,7 @@ struct GridScene {
     {
         double largest = 0.0;
         forEachFace([&](int a, const Vec3i& c) {
-            if (isValid(a, c) && open(a, c) > 0.0)
-                largest = std::max(largest, std::abs(velocity(a, c) - expected(faceMiddle(a, c))[a]));
+            if (isValid(a, c) && open(a, c) > 0.0) largest = std::max(largest, std::abs(velocity(a, c) - expected(faceMiddle(a, c))[a]));
         });
         return largest;
     }

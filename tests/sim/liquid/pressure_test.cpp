@@ -35,8 +35,7 @@ TEST(Hydrostatics, ColumnRestsAndItsPressureIsItsDepth)
             if (!scene.isInside(c)) return;
             ++cells;
             const double depth = surface - scene.middle(c).y();
-            EXPECT_NEAR(scene.pressureAt(c), kGravity * depth, 1.0e-10 * kGravity * depth)
-                << level << " at " << c.transpose();
+            EXPECT_NEAR(scene.pressureAt(c), kGravity * depth, 1.0e-10 * kGravity * depth) << level << " at " << c.transpose();
         });
         EXPECT_EQ(cells, 30u * static_cast<std::size_t>(std::ceil(level - 0.5)));
     }
@@ -73,8 +72,7 @@ GridScene fullBoxWithBall(const Vec3i& shift = Vec3i::Zero())
     GridScene scene(Vec3i(-3, -3, -3) + shift, Vec3i(13, 12, 11) + shift);
     scene.settings.full = true;
     scene.add(tankOfCells(scene, shift, Vec3i(10, 9, 8) + shift));
-    scene.add(
-        Shape::ball(scene.corner(Vec3i(4, 5, 4) + shift) + scene.grid.dx * Vec3(0.3, 0.2, 0.6), 2.3 * scene.grid.dx));
+    scene.add(Shape::ball(scene.corner(Vec3i(4, 5, 4) + shift) + scene.grid.dx * Vec3(0.3, 0.2, 0.6), 2.3 * scene.grid.dx));
     scene.findInside();
     scene.setMasses();
     return scene;
@@ -129,9 +127,7 @@ TEST(Pressure, FlowAlongATurnedWallStays)
     GridScene scene({-4, -4, 4}, {26, 26, 14});
     const double angle = 0.4;
     scene.add(turnedTank(scene, angle, {40.0, 4.3, 40.0}));
-    scene.fill([&](const Vec3& x) {
-        return (x - scene.corner({10, 10, 10})).cwiseAbs().maxCoeff() - 4.2 * scene.grid.dx;
-    });
+    scene.fill([&](const Vec3& x) { return (x - scene.corner({10, 10, 10})).cwiseAbs().maxCoeff() - 4.2 * scene.grid.dx; });
     const Vec3 flow(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0.0);
     scene.setVelocities([&](const Vec3&) { return flow; });
     EXPECT_LT(scene.divergence(), 1.0e-10 / scene.grid.dx) << "the open fractions of a plane wall close";
@@ -152,8 +148,7 @@ TEST(Hydrostatics, LiquidInATurnedTankRests)
         EXPECT_LT(scene.largestError(kAtRest), 1.0e-8) << angle;
         scene.forEachCell([&](const Vec3i& c) {
             if (!scene.isInside(c) || scene.field.centerDistance(scene.at(c).block)[scene.at(c).cell] <= 0.0) return;
-            EXPECT_NEAR(scene.pressureAt(c), kGravity * (surface - scene.middle(c).y()), 1.0e-8 * kGravity)
-                << c.transpose();
+            EXPECT_NEAR(scene.pressureAt(c), kGravity * (surface - scene.middle(c).y()), 1.0e-8 * kGravity) << c.transpose();
         });
     }
 }
@@ -187,9 +182,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
     });
     ASSERT_GT(cells.size(), 200u);
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<int>(cells.size()), static_cast<int>(cells.size()));
-    const auto indexOf = [&](const Vec3i& c) {
-        return static_cast<int>(std::find(cells.begin(), cells.end(), c) - cells.begin());
-    };
+    const auto indexOf = [&](const Vec3i& c) { return static_cast<int>(std::find(cells.begin(), cells.end(), c) - cells.begin()); };
     // From the definition (liquid/README.md, Pressure), not from the way the matrix is stored.
     scene.forEachFace([&](int axis, const Vec3i& c) {
         const Vec3i below = c - Vec3i::Unit(axis);
@@ -211,8 +204,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
         for (int axis = 0; axis < kAxes; ++axis) {
             const Vec3i below = cells[n] - Vec3i::Unit(axis);
             const double stored = scene.work.matrix.coupling(axis, ref.block)[ref.cell];
-            const double expected =
-                below[axis] >= scene.lower[axis] && scene.isInside(below) ? -a(n, indexOf(below)) : 0.0;
+            const double expected = below[axis] >= scene.lower[axis] && scene.isInside(below) ? -a(n, indexOf(below)) : 0.0;
             EXPECT_NEAR(stored, expected, 1.0e-13);
         }
     }
@@ -222,9 +214,7 @@ TEST(Pressure, MatrixIsSymmetricAndPositiveDefinite)
 TEST(Pressure, MovingTheSceneByWholeCellsChangesNothing)
 {
     GridScene scene = fullBoxWithBall();
-    scene.setVelocities([](const Vec3& x) {
-        return Vec3(40.0 * std::sin(3.0 * x.y()), 40.0 * x.x() * x.z(), 40.0 * std::cos(2.0 * x.x() + x.z()));
-    });
+    scene.setVelocities([](const Vec3& x) { return Vec3(40.0 * std::sin(3.0 * x.y()), 40.0 * x.x() * x.z(), 40.0 * std::cos(2.0 * x.x() + x.z())); });
     const BlockArray<double, 3> start = scene.liquid.faces.velocity;
     scene.project(kDt);
     for (const Vec3i& shift : {Vec3i(8, -16, 8), Vec3i(3, 1, -2), Vec3i(-7, 5, 4)}) {
@@ -314,9 +304,8 @@ double errorInBall(int cellsPerRadius)
     const auto exact = [&](const Vec3& x) { return std::sin((x - middle).squaredNorm()) - std::sin(1.0); };
     scene.fill([&](const Vec3& x) { return (x - middle).norm() - 1.0; });
     // What the gradient takes away again.
-    scene.setVelocities([&](const Vec3& x) {
-        return Vec3((kDt / scene.settings.density) * 2.0 * std::cos((x - middle).squaredNorm()) * (x - middle));
-    });
+    scene.setVelocities(
+        [&](const Vec3& x) { return Vec3((kDt / scene.settings.density) * 2.0 * std::cos((x - middle).squaredNorm()) * (x - middle)); });
     EXPECT_TRUE(scene.project(kDt).converged);
     double largest = 0.0;
     scene.forEachCell([&](const Vec3i& c) {
@@ -328,8 +317,7 @@ double errorInBall(int cellsPerRadius)
 TEST(Pressure, WithGhostFluidFractionsIsOfSecondOrderAtACurvedSurface)
 {
     const double coarse = errorInBall(8), fine = errorInBall(16), finest = errorInBall(32);
-    std::printf("error of the pressure in a ball: %.2e, %.2e, %.2e at 8, 16, 32 cells per radius\n", coarse, fine,
-                finest);
+    std::printf("error of the pressure in a ball: %.2e, %.2e, %.2e at 8, 16, 32 cells per radius\n", coarse, fine, finest);
     EXPECT_LT(coarse, 0.02);
     EXPECT_LT(finest, coarse / 12.0) << "second order: a sixteenth";
 }

@@ -15,20 +15,13 @@ namespace {
 /// Spread of the fill that P2G leaves along each axis: B-splines and the mean over a cell's faces [cells].
 const double kSpread = std::sqrt(1.0 / 3.0);
 
-double gauss(double x)
-{
-    return std::exp(-0.5 * x * x / (kSpread * kSpread)) / (kSpread * std::sqrt(2.0 * kPi));
-}
+double gauss(double x) { return std::exp(-0.5 * x * x / (kSpread * kSpread)) / (kSpread * std::sqrt(2.0 * kPi)); }
 /// Fill at a distance from a plane surface [cells].
-double planeFill(double distance)
-{
-    return 0.5 * std::erfc(distance / (std::sqrt(2.0) * kSpread));
-}
+double planeFill(double distance) { return 0.5 * std::erfc(distance / (std::sqrt(2.0) * kSpread)); }
 /// And r from the middle of a ball: a ball smoothed by a Gaussian, in closed form.
 double ballFill(double r, double radius)
 {
-    return planeFill(r - radius) - planeFill(r + radius) -
-           kSpread * kSpread / r * (gauss(r - radius) - gauss(r + radius));
+    return planeFill(r - radius) - planeFill(r + radius) - kSpread * kSpread / r * (gauss(r - radius) - gauss(r + radius));
 }
 
 /// Liquid that is given by the fill of the cells, and the curvatures found on the faces of its surface.
@@ -43,8 +36,7 @@ struct Surface {
 
     /// @param fill  of the cell at x [cells]
     template <class Fill>
-    Surface(const Vec3i& lower, const Vec3i& upper, Fill&& fill, const std::optional<Shape>& wall = {},
-            double cell = 1.0)
+    Surface(const Vec3i& lower, const Vec3i& upper, Fill&& fill, const std::optional<Shape>& wall = {}, double cell = 1.0)
         : scene(lower, upper, cell, Vec3::Zero())
     {
         if (wall) scene.add(*wall);
@@ -92,11 +84,9 @@ Errors errorsOfBall(double radius)
 {
     const int reach = static_cast<int>(radius) + 4;
     const Vec3 middle(0.31, 0.17, -0.43);
-    const Surface ball(Vec3i::Constant(-reach), Vec3i::Constant(reach),
-                       [&](const Vec3& x) { return ballFill((x - middle).norm(), radius); });
+    const Surface ball(Vec3i::Constant(-reach), Vec3i::Constant(reach), [&](const Vec3& x) { return ballFill((x - middle).norm(), radius); });
     const Errors errors = errorsOf(ball, 2.0 / radius);
-    std::printf("ball of %2.0f cells: curvature %+.2f %% on average, %.2f %% rms\n", radius, 100.0 * errors.mean,
-                100.0 * errors.rms);
+    std::printf("ball of %2.0f cells: curvature %+.2f %% on average, %.2f %% rms\n", radius, 100.0 * errors.mean, 100.0 * errors.rms);
     return errors;
 }
 
@@ -131,8 +121,7 @@ TEST(SurfaceTension, PlanesAreFlat)
 {
     for (const Vec3& direction : {Vec3(0.0, 1.0, 0.0), Vec3(1.0, 2.0, 0.0), Vec3(2.0, -1.0, 3.0)}) {
         const Vec3 normal = direction.normalized();
-        const Surface plane(Vec3i::Constant(-32), Vec3i::Constant(32),
-                            [&](const Vec3& x) { return planeFill(normal.dot(x) - 0.37); });
+        const Surface plane(Vec3i::Constant(-32), Vec3i::Constant(32), [&](const Vec3& x) { return planeFill(normal.dot(x) - 0.37); });
         double largest = 0.0;
         int count = 0;
         for (const Surface::Face& face : plane.faces) {  // far from where the blocks end, and the liquid with them
@@ -140,8 +129,7 @@ TEST(SurfaceTension, PlanesAreFlat)
             largest = std::max(largest, std::abs(face.kappa));
             ++count;
         }
-        std::printf("plane (%g, %g, %g): curvature up to %.1e of a cell's\n", direction.x(), direction.y(),
-                    direction.z(), largest);
+        std::printf("plane (%g, %g, %g): curvature up to %.1e of a cell's\n", direction.x(), direction.y(), direction.z(), largest);
         EXPECT_GT(count, 100);
         EXPECT_LT(largest, 1.0e-3);  // of a ball of 10 cells it is 0.2
     }
@@ -152,8 +140,7 @@ TEST(SurfaceTension, WallsMirror)
 {
     const auto fill = [&](const Vec3& x) { return ballFill((x - Vec3(0.2, 0.0, -0.3)).norm(), 9.0); };
     const Surface whole(Vec3i::Constant(-16), Vec3i::Constant(16), fill);
-    const Surface half(Vec3i::Constant(-16), Vec3i::Constant(16), fill,
-                       Shape::box({0.0, -100.0, 0.0}, {200.0, 100.0, 200.0}));
+    const Surface half(Vec3i::Constant(-16), Vec3i::Constant(16), fill, Shape::box({0.0, -100.0, 0.0}, {200.0, 100.0, 200.0}));
     std::size_t compared = 0;
     for (const Surface::Face& face : whole.faces) {
         const auto same = [&](const Surface::Face& other) { return other.x == face.x; };
@@ -172,8 +159,7 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
 {
     constexpr double kPressure = 1000.0, kStep = 1.0e-3;
     Surface drop(
-        Vec3i::Constant(-12), Vec3i::Constant(12), [&](const Vec3& x) { return ballFill(x.norm() + 1.0e-9, 7.0); }, {},
-        0.288);
+        Vec3i::Constant(-12), Vec3i::Constant(12), [&](const Vec3& x) { return ballFill(x.norm() + 1.0e-9, 7.0); }, {}, 0.288);
     GridScene& scene = drop.scene;
     scene.setMasses();
     for (int b = 0; b < scene.grid.count(); ++b)
@@ -184,8 +170,7 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
     findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
     applySurfaceSteps(scene.grid, scene.field, scene.work, 1.0, drop.work, scene.liquid);
     preparePressure(scene.grid, scene.liquid, scene.work);
-    const SolveReport report =
-        solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+    const SolveReport report = solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     EXPECT_TRUE(report.converged);
     const double scale = kStep * kPressure / scene.grid.dx;  // what it would do to a full face alone
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_LT(std::abs(scene.velocity(a, c)), 1.0e-10 * scale); });
@@ -201,8 +186,7 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
 TEST(SurfaceTension, SameBitsForAnyThreadCount)
 {
     const auto steps = [&] {
-        const Surface ball(Vec3i::Constant(-16), Vec3i::Constant(16),
-                           [&](const Vec3& x) { return ballFill((x - Vec3(0.3, 0.2, 0.1)).norm(), 9.0); });
+        const Surface ball(Vec3i::Constant(-16), Vec3i::Constant(16), [&](const Vec3& x) { return ballFill((x - Vec3(0.3, 0.2, 0.1)).norm(), 9.0); });
         std::vector<double> kappa;
         for (const Surface::Face& face : ball.faces) kappa.push_back(face.kappa);
         return kappa;

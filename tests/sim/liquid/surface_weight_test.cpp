@@ -10,7 +10,7 @@ namespace sim::test {
 namespace {
 
 constexpr int kFloor = 0, kWide = 12;
-constexpr double kStep = 1.0e-3;          // [s]
+constexpr double kStep = 1.0e-3;  // [s]
 const Vec3 kFall(0.0, -981.0 * kStep, 0.0);
 
 /// Liquid in a tank, up to a level above its floor or as a block in mid-air [cells], in whose surface layer mass has been moved up or down within

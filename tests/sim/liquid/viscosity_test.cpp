@@ -1,5 +1,5 @@
-#include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/viscosity.h"
+#include "sim/liquid/liquid_on_solids.h"
 #include "tests/sim/fixtures.h"
 #include "tests/sim/grid/random_solids.h"
 #include "tests/sim/liquid/grid_scene.h"
@@ -30,10 +30,7 @@ struct ViscousScene {
         const CellRef ref = scene.at(c);
         return scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + axis)[ref.cell];
     }
-    bool isUnknown(int axis, const Vec3i& c) const
-    {
-        return work.system.unknown.test(scene.at(c).block, scene.at(c).cell, axis);
-    }
+    bool isUnknown(int axis, const Vec3i& c) const { return work.system.unknown.test(scene.at(c).block, scene.at(c).cell, axis); }
     /// Σ of(axis, cell) over the unknown faces.
     template <class Of>
     auto sum(Of&& of)
@@ -54,9 +51,7 @@ struct ViscousScene {
     }
     Vec3 angularMomentum()
     {
-        return sum([&](int a, const Vec3i& c) {
-            return Vec3(mass(a, c) * scene.velocity(a, c) * scene.faceMiddle(a, c).cross(Vec3::Unit(a)));
-        });
+        return sum([&](int a, const Vec3i& c) { return Vec3(mass(a, c) * scene.velocity(a, c) * scene.faceMiddle(a, c).cross(Vec3::Unit(a))); });
     }
 };
 
@@ -105,8 +100,7 @@ TEST(ViscousSystem, IsSymmetricAndPositive)
             v.resize(grid.count());
             for (int b = 0; b < grid.count(); ++b)
                 for (int a = 0; a < kAxes; ++a)
-                    for (int c = 0; c < kBlockCells; ++c)
-                        v.block(b, a)[c] = system.unknown.test(b, c, a) ? unit(random) : 0.0;
+                    for (int c = 0; c < kBlockCells; ++c) v.block(b, a)[c] = system.unknown.test(b, c, a) ? unit(random) : 0.0;
             return v;
         };
         const auto times = [&](const BlockArray<double, 3>& v) {
@@ -163,15 +157,12 @@ TEST(ViscousMultigrid, IsSymmetricAndPositive)
     std::array<BlockArray<double, 3>, 2> v, cycled;
     for (int n = 0; n < 2; ++n) {
         v[n].resize(blocks);
-        viscous.scene.forEachFace([&](int a, const Vec3i& c) {
-            v[n].block(scene.at(c).block, a)[scene.at(c).cell] = viscous.isUnknown(a, c) ? unit(random) : 0.0;
-        });
+        viscous.scene.forEachFace(
+            [&](int a, const Vec3i& c) { v[n].block(scene.at(c).block, a)[scene.at(c).cell] = viscous.isUnknown(a, c) ? unit(random) : 0.0; });
         viscous.work.multigrid.cycle(v[n]);
         cycled[n] = viscous.work.multigrid.solution();
     }
-    const auto dot = [&](int n, int m) {
-        return std::inner_product(v[n].block(0), v[n].block(blocks), cycled[m].block(0), 0.0);
-    };
+    const auto dot = [&](int n, int m) { return std::inner_product(v[n].block(0), v[n].block(blocks), cycled[m].block(0), 0.0); };
     EXPECT_GT(dot(0, 0), 0.0);
     EXPECT_GT(dot(1, 1), 0.0);
     EXPECT_NEAR(dot(0, 1), dot(1, 0), 1.0e-12 * dot(0, 0));
@@ -187,9 +178,8 @@ TEST(Viscosity, RigidMotionOfABallStays)
     viscous.scene.setVelocities(motion);
     EXPECT_TRUE(viscous.solve(1.0e-3, 1.0e-10).converged);
     double worst = 0.0;
-    viscous.scene.forEachFace([&](int a, const Vec3i& c) {
-        worst = std::max(worst, std::abs(viscous.scene.velocity(a, c) - motion(viscous.scene.faceMiddle(a, c))[a]));
-    });
+    viscous.scene.forEachFace(
+        [&](int a, const Vec3i& c) { worst = std::max(worst, std::abs(viscous.scene.velocity(a, c) - motion(viscous.scene.faceMiddle(a, c))[a])); });
     EXPECT_LT(worst, 1.0e-10 * shift.norm());
 }
 
@@ -327,8 +317,7 @@ TEST(Viscosity, LiquidTurnsRigidlyWithItsWalls)
     EXPECT_TRUE(viscous.solve(1.0e6).converged);
     double worst = 0.0;
     scene.forEachFace([&](int a, const Vec3i& c) {
-        if (viscous.isUnknown(a, c))
-            worst = std::max(worst, std::abs(scene.velocity(a, c) - turning(scene.faceMiddle(a, c))[a]));
+        if (viscous.isUnknown(a, c)) worst = std::max(worst, std::abs(scene.velocity(a, c) - turning(scene.faceMiddle(a, c))[a]));
     });
     EXPECT_LT(worst, 1.0e-6);  // inertia over viscosity is 1e-9, the tolerance on top
 }

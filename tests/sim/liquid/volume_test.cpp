@@ -20,9 +20,7 @@ GridScene tank()
     scene.add(tankOfCells(scene, {0, 0, 0}, {10, 12, 9}));
     const double surface = scene.corner({0, 8, 0}).y() - 1.0e-6 * scene.grid.dx;
     scene.fill([&](const Vec3& x) { return x.y() - surface; });
-    scene.forEachCell([&](const Vec3i& c) {
-        scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell] = scene.isInside(c) ? 1.0 : 0.0;
-    });
+    scene.forEachCell([&](const Vec3i& c) { scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell] = scene.isInside(c) ? 1.0 : 0.0; });
     scene.project(1.0e-3);
     return scene;
 }
@@ -41,8 +39,7 @@ double expansion(const GridScene& scene, const VolumeWorkspace& work, const Vec3
 
 TEST(Volume, CellsExpandByWhatTheyHoldTooMuchAndHolesClose)
 {
-    for (const auto& [cell, fill] :
-         {std::pair(Vec3i(4, 3, 4), 1.3), {Vec3i(0, 0, 0), 1.2}, {Vec3i(5, 2, 8), 0.6}, {Vec3i(5, 7, 4), 1.1}}) {
+    for (const auto& [cell, fill] : {std::pair(Vec3i(4, 3, 4), 1.3), {Vec3i(0, 0, 0), 1.2}, {Vec3i(5, 2, 8), 0.6}, {Vec3i(5, 7, 4), 1.1}}) {
         GridScene scene = tank();
         scene.liquid.fill.block(scene.at(cell).block)[scene.at(cell).cell] = fill;
         VolumeWorkspace work;
@@ -53,8 +50,7 @@ TEST(Volume, CellsExpandByWhatTheyHoldTooMuchAndHolesClose)
         scene.forEachCell([&](const Vec3i& c) {
             if (!scene.isInside(c)) return;
             // To the tolerance of the solve, 1 % of the largest source.
-            EXPECT_NEAR(expansion(scene, work, c), c == cell ? expected : 0.0, 0.0101 * std::abs(expected))
-                << c.transpose();
+            EXPECT_NEAR(expansion(scene, work, c), c == cell ? expected : 0.0, 0.0101 * std::abs(expected)) << c.transpose();
         });
     }
 }
@@ -70,21 +66,16 @@ TEST(Volume, NoiseOfTheParticlesPlacesIsLeftAlone)
     });
     VolumeWorkspace work;
     correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work);
-    scene.forEachFace([&](int a, const Vec3i& c) {
-        EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0);
-    });
+    scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
 TEST(Volume, OfThinPlacesAtTheSurfaceIsLeftAlone)
 {
     GridScene scene = tank();
-    for (int j = 6; j < 8; ++j)
-        scene.liquid.fill.block(scene.at({4, j, 4}).block)[scene.at({4, j, 4}).cell] = j == 7 ? 0.3 : 0.85;
+    for (int j = 6; j < 8; ++j) scene.liquid.fill.block(scene.at({4, j, 4}).block)[scene.at({4, j, 4}).cell] = j == 7 ? 0.3 : 0.85;
     VolumeWorkspace work;
     correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work);
-    scene.forEachFace([&](int a, const Vec3i& c) {
-        EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0);
-    });
+    scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
 TEST(Volume, WhatComesOffACeilingIsNotPulledBackToIt)
@@ -105,9 +96,8 @@ TEST(Volume, WhatComesOffACeilingIsNotPulledBackToIt)
         VolumeWorkspace work;
         correctVolume(scene.grid, scene.field, scene.work, gravity, scene.liquid, kStrength, SolverSettings(), work);
         double largest = 0.0;
-        scene.forEachFace([&](int a, const Vec3i& c) {
-            largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell]));
-        });
+        scene.forEachFace(
+            [&](int a, const Vec3i& c) { largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell])); });
         if (n % 2 == 0) EXPECT_EQ(largest, 0.0) << "state " << n;
         else EXPECT_GT(largest, 1.0e-3 * scene.grid.dx) << "holes at a floor close: state " << n;
     }
@@ -122,9 +112,8 @@ TEST(Volume, NothingMovesFartherThanTheLargestCorrection)
     VolumeWorkspace work;
     correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, 1.0, SolverSettings(), work);
     double largest = 0.0;
-    scene.forEachFace([&](int a, const Vec3i& c) {
-        largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell]));
-    });
+    scene.forEachFace(
+        [&](int a, const Vec3i& c) { largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell])); });
     EXPECT_EQ(largest, kLargestCorrection * scene.grid.dx);
 }
 

@@ -37,8 +37,7 @@ TEST(Walls, FreeSlipMirrorsTheLiquidAlsoInEdgesAndCorners)
         // Normal components odd, tangential ones even about every wall.
         const auto mirrored = [&](const Vec3& x) {
             const Vec3 q = (x - low).cwiseProduct(k), s = q.array().sin(), c = q.array().cos();
-            return Vec3(s.x() * (1.0 + c.y()) * (2.0 + c.z()), s.y() * (1.5 + c.z()) * (1.0 + c.x()),
-                        s.z() * c.x() * c.y());
+            return Vec3(s.x() * (1.0 + c.y()) * (2.0 + c.z()), s.y() * (1.5 + c.z()) * (1.0 + c.x()), s.z() * c.x() * c.y());
         };
         fillAndApply(scene, 0.0, mirrored);
         scene.forEachFace([&](int a, const Vec3i& c) {
@@ -49,8 +48,7 @@ TEST(Walls, FreeSlipMirrorsTheLiquidAlsoInEdgesAndCorners)
             }
             if (!near) return;
             ASSERT_TRUE(scene.isValid(a, c)) << a << ": " << c.transpose();
-            ASSERT_NEAR(scene.velocity(a, c), mirrored(scene.faceMiddle(a, c))[a], 1.0e-12)
-                << a << ": " << c.transpose();
+            ASSERT_NEAR(scene.velocity(a, c), mirrored(scene.faceMiddle(a, c))[a], 1.0e-12) << a << ": " << c.transpose();
         });
     }
 }
@@ -143,8 +141,7 @@ TEST(Walls, FoldingIsLikeMirroredParticles)
             for (int b = 0; b < kAxes; ++b) liquid.particles.mode(a, 1 + b)[p] = slope(a, b);
     };
     for (int n = 0; n < 300; ++n) {
-        const Vec3 x = Vec3(unit(random), unit(random), unit(random)).cwiseProduct(far),
-                   v = Vec3(unit(random), unit(random), unit(random));
+        const Vec3 x = Vec3(unit(random), unit(random), unit(random)).cwiseProduct(far), v = Vec3(unit(random), unit(random), unit(random));
         Mat3 slope;
         for (int e = 0; e < 9; ++e) slope(e / 3, e % 3) = unit(random) - 0.5;
         add(inside, x, v, slope);

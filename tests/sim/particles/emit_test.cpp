@@ -25,10 +25,7 @@ Scene sceneWith(const Shape& shape, const Emission& emission, Pattern pattern = 
     return scene;
 }
 
-double liquidMass(const State& s)
-{
-    return std::accumulate(s.liquid.mass.data(), s.liquid.mass.data() + s.liquid.count, 0.0);
-}
+double liquidMass(const State& s) { return std::accumulate(s.liquid.mass.data(), s.liquid.mass.data() + s.liquid.count, 0.0); }
 
 /// Let all particles fly on as they are.
 void fly(State& s, double dt)
@@ -140,8 +137,7 @@ TEST(Emit, AJetGivesItsSpeedTimesItsArea)
         }
         expectLedgerIsExact(scene, s);
         const double tolerance = pattern == Pattern::Lattice ? 0.01 : 0.03;
-        EXPECT_NEAR((s.emittedVolume[0] - initial) / (flow * kSteps * kDt), 1.0, tolerance)
-            << static_cast<int>(pattern);
+        EXPECT_NEAR((s.emittedVolume[0] - initial) / (flow * kSteps * kDt), 1.0, tolerance) << static_cast<int>(pattern);
         EXPECT_NEAR(initial / boundedVolume(nozzle, 0.1), 1.0, 0.12);
     }
 }
@@ -231,8 +227,7 @@ TEST(Emit, ObstaclesKeepTheirPlaceWhereverTheyHaveMoved)
 
 TEST(Emit, SaysWhichSourceHasNoRoom)
 {
-    Scene scene =
-        sceneWith(Shape::ball(Vec3::Zero(), 0.001).moved(Eigen::Isometry3d(Eigen::Translation3d(0.0, 1.0, 0.0))), {});
+    Scene scene = sceneWith(Shape::ball(Vec3::Zero(), 0.001).moved(Eigen::Isometry3d(Eigen::Translation3d(0.0, 1.0, 0.0))), {});
     scene.obstacles.push_back({"floor", Shape::box({0.0, 1.0, 0.0}, Vec3::Ones()), {}});
     State s;
     try {
@@ -247,8 +242,7 @@ TEST(Emit, SaysWhichSourceHasNoRoom)
         emitLiquid(scene, s, 0.0, 0.0);
         FAIL() << "an unbounded source was accepted";
     } catch (const InputError& e) {
-        EXPECT_NE(std::string(e.what()).find("pour.yaml: source 1 \"jet\" is unbounded"), std::string::npos)
-            << e.what();
+        EXPECT_NE(std::string(e.what()).find("pour.yaml: source 1 \"jet\" is unbounded"), std::string::npos) << e.what();
     }
 }
 

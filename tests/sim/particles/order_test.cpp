@@ -14,15 +14,9 @@ using namespace sim::test;
 namespace {
 
 /// Global coordinates of the cell a place is in.
-Vec3i cellAt(const BlockGrid& grid, const Vec3& x)
-{
-    return ((x - grid.origin) * (1.0 / grid.dx)).array().floor().cast<int>();
-}
+Vec3i cellAt(const BlockGrid& grid, const Vec3& x) { return ((x - grid.origin) * (1.0 / grid.dx)).array().floor().cast<int>(); }
 
-Vec3i blockOfCell(const Vec3i& cell)
-{
-    return {cell.x() >> 3, cell.y() >> 3, cell.z() >> 3};
-}
+Vec3i blockOfCell(const Vec3i& cell) { return {cell.x() >> 3, cell.y() >> 3, cell.z() >> 3}; }
 
 /// Particles at random places whose modes tell their id, not sorted.
 SortedLiquid unsortedLiquid(std::size_t count, const std::vector<Vec3>& corners, double edge, unsigned seed = 5)
@@ -92,8 +86,7 @@ TEST(ParticleOrder, EveryParticleIsInTheRunOfItsCell)
                 for (int k = 0; k < kBlockEdge; ++k) {
                     const int* run = liquid.order.cells(b) + cellRank(i, j, k);
                     for (int s = run[0]; s < run[1]; ++s, ++seen)
-                        EXPECT_EQ(cellAt(liquid.grid, liquid.particles.position(s)),
-                                  8 * liquid.grid.coords(b) + Vec3i(i, j, k));
+                        EXPECT_EQ(cellAt(liquid.grid, liquid.particles.position(s)), 8 * liquid.grid.coords(b) + Vec3i(i, j, k));
                 }
     EXPECT_EQ(seen, 5000);
     EXPECT_EQ(liquid.particles.count, 5000);
@@ -105,8 +98,7 @@ TEST(ParticleOrder, MassAndIdTravelWithThePlaceAndSourceTellsWhereTheModesAre)
     const LiquidParticles before = liquid.particles;
     liquid.sort();
     const LiquidParticles& p = liquid.particles;
-    std::vector<int> source(liquid.order.source.begin(),
-                            liquid.order.source.begin() + static_cast<std::ptrdiff_t>(p.count));
+    std::vector<int> source(liquid.order.source.begin(), liquid.order.source.begin() + static_cast<std::ptrdiff_t>(p.count));
     for (std::size_t s = 0; s < p.count; ++s) {
         const std::uint32_t id = p.id[s];
         EXPECT_EQ(p.position(s), before.position(id));
@@ -243,13 +235,11 @@ TEST(ParticleOrder, DeletionIsInTheLedger)
         momentum += liquid.particles.mass[p] * liquid.particles.velocity(p);
     }
     sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
-    EXPECT_EQ(std::set<std::uint32_t>(liquid.particles.id.data(), liquid.particles.id.data() + liquid.particles.count),
-              inside);
+    EXPECT_EQ(std::set<std::uint32_t>(liquid.particles.id.data(), liquid.particles.id.data() + liquid.particles.count), inside);
     EXPECT_GT(inside.size(), 100);
     EXPECT_NEAR(liquid.ledger.leftMass, mass, 1e-13 * mass);
     EXPECT_LT((liquid.ledger.leftMomentum - momentum).norm(), 1e-13 * momentum.norm());
-    for (std::size_t s = 0; s < liquid.particles.count; ++s)
-        EXPECT_EQ(liquid.particles.velocity(liquid.order.source[s]).x(), liquid.particles.id[s]);
+    for (std::size_t s = 0; s < liquid.particles.count; ++s) EXPECT_EQ(liquid.particles.velocity(liquid.order.source[s]).x(), liquid.particles.id[s]);
     // Nobody is outside any more.
     liquid.moveModesHome();
     sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
@@ -280,8 +270,7 @@ TEST(ParticleOrder, NamesWhatIsWrongWithAPlace)
         return "no error";
     };
     const double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_THAT(messageFor(std::numeric_limits<double>::quiet_NaN()),
-                testing::HasSubstr("position of a particle is not finite"));
+    EXPECT_THAT(messageFor(std::numeric_limits<double>::quiet_NaN()), testing::HasSubstr("position of a particle is not finite"));
     EXPECT_THAT(messageFor(-infinity), testing::HasSubstr("position of a particle is not finite"));
     EXPECT_THAT(messageFor(1.0e8), testing::HasSubstr("domain"));
     EXPECT_THAT(messageFor(-1.0e15), testing::HasSubstr("domain"));

@@ -16,8 +16,7 @@ SortedLiquid liquidAt(const std::vector<Vec3>& positions)
     SortedLiquid liquid;
     liquid.grid.dx = kDx;
     liquid.grid.origin = Vec3(0.1, -0.2, 0.3);
-    for (std::size_t p = 0; p < positions.size(); ++p)
-        liquid.particles.add(positions[p], 1.0, static_cast<std::uint32_t>(p), Vec3::Zero());
+    for (std::size_t p = 0; p < positions.size(); ++p) liquid.particles.add(positions[p], 1.0, static_cast<std::uint32_t>(p), Vec3::Zero());
     liquid.sort();
     return liquid;
 }
@@ -29,8 +28,7 @@ std::vector<Vec3> displacementsOf(const SortedLiquid& liquid, double reach = kRe
     Displacements displacement;
     relaxationDisplacements(liquid.particles, liquid.order, liquid.grid, rate, reach, kDt, scratch, displacement);
     std::vector<Vec3> byId(liquid.particles.count);
-    for (std::size_t s = 0; s < byId.size(); ++s)
-        byId[liquid.particles.id[s]] = {displacement[0][s], displacement[1][s], displacement[2][s]};
+    for (std::size_t s = 0; s < byId.size(); ++s) byId[liquid.particles.id[s]] = {displacement[0][s], displacement[1][s], displacement[2][s]};
     return byId;
 }
 
@@ -60,8 +58,7 @@ TEST(Relaxation, NothingMovesBeyondTheReach)
     std::mt19937 random(2);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int n = 0; n < 300; ++n) {
-        const Vec3 a = 2.5 * Vec3(unit(random), unit(random), unit(random)),
-                   way = Vec3(unit(random), unit(random), unit(random)).normalized();
+        const Vec3 a = 2.5 * Vec3(unit(random), unit(random), unit(random)), way = Vec3(unit(random), unit(random), unit(random)).normalized();
         const std::vector<Vec3> d = displacementsOf(liquidAt({a, a + 1.0001 * kReach * way}));
         EXPECT_EQ(d[0].norm() + d[1].norm(), 0.0);
     }
@@ -75,8 +72,7 @@ TEST(Relaxation, LatticeRests)
     for (int i = 0; i < 12; ++i)
         for (int j = 0; j < 12; ++j)
             for (int k = 0; k < 12; ++k) positions.emplace_back(pitch * Vec3(i, j, k));
-    for (const Vec3& d : displacementsOf(liquidAt(positions), 2.0 * 0.5103 * pitch))
-        EXPECT_LT(d.norm(), 1.0e-3 * pitch);
+    for (const Vec3& d : displacementsOf(liquidAt(positions), 2.0 * 0.5103 * pitch)) EXPECT_LT(d.norm(), 1.0e-3 * pitch);
 }
 
 TEST(Relaxation, IsTheSumOverAllPairs)
@@ -104,8 +100,7 @@ TEST(Relaxation, ParticlesAtTheSamePlaceLeaveInOppositeDirections)
 TEST(Relaxation, StepMovesNoFartherThanTheLimitOfTheRate)
 {
     const SortedLiquid liquid = randomLiquid(500, 1, {6, 6, 6}, {0, 0, 0}, kDx);
-    const std::vector<Vec3> once = displacementsOf(liquid, kReach, 1.0 / kDt),
-                            more = displacementsOf(liquid, kReach, 50.0 / kDt);
+    const std::vector<Vec3> once = displacementsOf(liquid, kReach, 1.0 / kDt), more = displacementsOf(liquid, kReach, 50.0 / kDt);
     for (std::size_t p = 0; p < once.size(); ++p) EXPECT_EQ(once[p], more[p]);
 }
 

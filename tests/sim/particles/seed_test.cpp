@@ -61,10 +61,7 @@ TEST(Seed, AreaAcrossIsThatOfTheShadow)
     EXPECT_NEAR(areaAcross(Shape::cylinder(to, axis.normalized(), 0.5, 0.2, 0.0), axis, 0.1152) / (kPi * 0.25), 1.0, 0.01);
 }
 
-double countOf(const Seeds& seeds)
-{
-    return static_cast<double>(seeds.positions.size());
-}
+double countOf(const Seeds& seeds) { return static_cast<double>(seeds.positions.size()); }
 
 double leastDistance(const std::vector<Vec3>& x, double reach)
 {
@@ -96,8 +93,7 @@ TEST(Seed, ReferenceKeepsThePublishedVolume)
 
 TEST(Seed, ALatticeIsAsLargeAsItsSource)
 {
-    for (const SeedPlan& plan :
-         {damBreak(Pattern::Lattice), planOf(Shape::ball({0.3, 0.1, 0.2}, 1.44), Pattern::Lattice)}) {
+    for (const SeedPlan& plan : {damBreak(Pattern::Lattice), planOf(Shape::ball({0.3, 0.1, 0.2}, 1.44), Pattern::Lattice)}) {
         const Seeds seeds = seedParticles(plan);
         const double region = boundedVolume(plan.source, plan.dx), count = countOf(seeds);
         EXPECT_NEAR(count * std::pow(0.4 * 0.288, 3) / region, 1.0, 0.02);
@@ -192,8 +188,7 @@ TEST(Seed, ParticlesKeepTheirDistanceFromLiquidThatIsThere)
 {
     const Shape ball = Shape::ball(Vec3::Zero(), 1.2);
     for (Pattern pattern : {Pattern::Reference, Pattern::Poisson}) {
-        const SeedPlan first = planOf(ball, pattern),
-                       second = planOf(Shape::ball({0.6, 0.0, 0.0}, 1.2), pattern, 0.0, 2);
+        const SeedPlan first = planOf(ball, pattern), second = planOf(Shape::ball({0.6, 0.0, 0.0}, 1.2), pattern, 0.0, 2);
         LiquidNearby nearby;
         nearby.positions = seedParticles(first).positions;
         std::vector<Vec3> all = nearby.positions;
@@ -219,8 +214,7 @@ TEST(Seed, AShiftedLatticeOfLiquidLeavesNoGaps)
 {
     SeedPlan plan = planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.152)), Pattern::Lattice);
     LiquidNearby nearby;
-    for (const Vec3& x :
-         seedParticles(planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.3824)), Pattern::Lattice)).positions)
+    for (const Vec3& x : seedParticles(planOf(Shape::box(Vec3::Zero(), Vec3::Constant(1.3824)), Pattern::Lattice)).positions)
         nearby.positions.push_back(x + 0.1152 * Vec3(0.49, 0.31, 0.44));
     EXPECT_TRUE(seedParticles(plan, nearby).positions.empty());
 }
@@ -245,8 +239,7 @@ TEST(Seed, GivesTheSameBitsForAnyNumberOfThreads)
 TEST(Seed, OtherSeedsAndSourcesDrawOtherNumbers)
 {
     for (Pattern pattern : {Pattern::Reference, Pattern::Jittered, Pattern::Poisson}) {
-        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.0), pattern),
-                       other = planOf(plan.source, pattern, 0.0, 2);
+        const SeedPlan plan = planOf(Shape::ball(Vec3::Zero(), 1.0), pattern), other = planOf(plan.source, pattern, 0.0, 2);
         SeedPlan stream = plan;
         stream.stream = 1;
         EXPECT_NE(seedParticles(plan).positions, seedParticles(other).positions);

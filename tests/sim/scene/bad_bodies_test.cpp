@@ -324,12 +324,8 @@ motion: [{t: [0, 1], translate: [0, 1, 0]}]
 
 class BadBodies : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadBodies, SayWhereWhatAndWhatWouldDo)
-{
-    expectItsMessage(GetParam());
-}
+TEST_P(BadBodies, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(LoadScene, BadBodies, testing::ValuesIn(kBadScenes),
-                         [](const auto& scene) { return std::string(scene.param.name); });
+INSTANTIATE_TEST_SUITE_P(LoadScene, BadBodies, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace

@@ -24,10 +24,7 @@ class SceneFiles : public testing::Test {
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    void write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
 
     /// The message of loading it, with file names relative to the folder; "" if it loads.
     std::string messageOf(const std::string& name) const
@@ -52,23 +49,16 @@ TEST_F(SceneFiles, OfTheFixtureLoad)
     EXPECT_EQ("", messageOf("good.yaml"));
 }
 
-TEST_F(SceneFiles, ThatAreMissingAreNamed)
-{
-    EXPECT_EQ("nowhere.yaml: there is no file \"nowhere.yaml\"", messageOf("nowhere.yaml"));
-}
+TEST_F(SceneFiles, ThatAreMissingAreNamed) { EXPECT_EQ("nowhere.yaml: there is no file \"nowhere.yaml\"", messageOf("nowhere.yaml")); }
 
-TEST_F(SceneFiles, ThatAreFoldersAreRefused)
-{
-    EXPECT_EQ("inner: \"inner\" is no file", messageOf("inner"));
-}
+TEST_F(SceneFiles, ThatAreFoldersAreRefused) { EXPECT_EQ("inner: \"inner\" is no file", messageOf("inner")); }
 
 TEST_F(SceneFiles, OfBinaryGarbageAreRefused)
 {
     std::string bytes;
     for (int i = 0; i < 4096; ++i) bytes += static_cast<char>((i * 197 + 13) % 256);
     write("garbage.yaml", bytes);
-    EXPECT_EQ("garbage.yaml:1: a byte that is no text (not UTF-8); a scene is a YAML text file",
-              messageOf("garbage.yaml"));
+    EXPECT_EQ("garbage.yaml:1: a byte that is no text (not UTF-8); a scene is a YAML text file", messageOf("garbage.yaml"));
 }
 
 TEST_F(SceneFiles, ThatAreHugeAreRefused)
@@ -119,8 +109,7 @@ TEST_F(SceneFiles, MistakesInIncludedFilesNameThatFile)
 {
     write("a.yaml", std::string("include: [inner/b.yaml]\n") + kScene);
     write("inner/b.yaml", "time:\n  dt: soon\n");
-    EXPECT_EQ("inner/b.yaml:2: time.dt: \"soon\" is no number; needs a time like 0.5 or \"0.5 s\"",
-              messageOf("a.yaml"));
+    EXPECT_EQ("inner/b.yaml:2: time.dt: \"soon\" is no number; needs a time like 0.5 or \"0.5 s\"", messageOf("a.yaml"));
 }
 
 TEST_F(SceneFiles, MistakesInMeshesNameSceneAndMesh)

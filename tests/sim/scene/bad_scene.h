@@ -17,10 +17,7 @@ struct BadScene {
     std::vector<std::string> set = {};
 };
 
-inline void PrintTo(const BadScene& bad, std::ostream* out)
-{
-    *out << bad.name;
-}
+inline void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
 
 /// Loads it as the program does, simulation and pictures.
 inline void expectItsMessage(const BadScene& bad)

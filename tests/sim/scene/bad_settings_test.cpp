@@ -5,16 +5,13 @@
 namespace {
 
 const BadScene kBadScenes[] = {
-    {"Empty", "",
-     "bad.yaml: the file is empty; a scene needs at least grid and one source"},
-    {"OnlyAComment", "# nothing\n",
-     "bad.yaml: the file is empty; a scene needs at least grid and one source"},
+    {"Empty", "", "bad.yaml: the file is empty; a scene needs at least grid and one source"},
+    {"OnlyAComment", "# nothing\n", "bad.yaml: the file is empty; a scene needs at least grid and one source"},
     {"NoMap", R"(- 1
 - 2
 )",
      "bad.yaml:1: a scene is a map of sections, not a list of 2"},
-    {"AWord", "hello\n",
-     "bad.yaml:1: a scene is a map of sections, not \"hello\""},
+    {"AWord", "hello\n", "bad.yaml:1: a scene is a map of sections, not \"hello\""},
     {"SecondDocument", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 ---
@@ -36,10 +33,8 @@ liquid:
  liquid: 1
 )",
      "bad.yaml:3: not valid YAML: end of map not found"},
-    {"Tab", "grid:\n\tcell: 0.1\n",
-     "bad.yaml:2: a tab in the indentation; YAML wants spaces there"},
-    {"ControlByte", "grid: {cell: 0.1}\nscene: {name: \x01}\n",
-     "bad.yaml:2: a byte that is no text (not UTF-8); a scene is a YAML text file"},
+    {"Tab", "grid:\n\tcell: 0.1\n", "bad.yaml:2: a tab in the indentation; YAML wants spaces there"},
+    {"ControlByte", "grid: {cell: 0.1}\nscene: {name: \x01}\n", "bad.yaml:2: a byte that is no text (not UTF-8); a scene is a YAML text file"},
     {"DuplicateKey", R"(grid: {cell: 0.1}
 time: {dt: 1, duration: 1}
 grid: {cell: 0.2}
@@ -62,8 +57,7 @@ time:
 gravity: *down
 )",
      "bad.yaml:2: not valid YAML: the referenced anchor is not defined"},
-    {"AliasInItself", "a: &x [*x]\n",
-     "bad.yaml:1: this alias stands inside its own anchor; write the value out"},
+    {"AliasInItself", "a: &x [*x]\n", "bad.yaml:1: this alias stands inside its own anchor; write the value out"},
     {"AliasBomb", R"(a: &a [x,x,x,x,x,x,x,x,x,x]
 b: &b [*a,*a,*a,*a,*a,*a,*a,*a,*a,*a]
 c: &c [*b,*b,*b,*b,*b,*b,*b,*b,*b,*b]
@@ -78,8 +72,7 @@ f: &f [*e,*e,*e,*e,*e,*e,*e,*e,*e,*e]
 future: 1
 )",
      "bad.yaml:1: this scene wants schema version 2, this program reads version 1; use a newer drench"},
-    {"NoSchemaVersion", "drench: one\n",
-     "bad.yaml:1: drench: \"one\" is no schema version; write drench: 1"},
+    {"NoSchemaVersion", "drench: one\n", "bad.yaml:1: drench: \"one\" is no schema version; write drench: 1"},
     {"UnknownUnits", R"(units: imperial
 grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
@@ -355,12 +348,8 @@ liquid: {particle_spacing: 0}
 
 class BadSettings : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadSettings, SayWhereWhatAndWhatWouldDo)
-{
-    expectItsMessage(GetParam());
-}
+TEST_P(BadSettings, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(LoadScene, BadSettings, testing::ValuesIn(kBadScenes),
-                         [](const auto& scene) { return std::string(scene.param.name); });
+INSTANTIATE_TEST_SUITE_P(LoadScene, BadSettings, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace

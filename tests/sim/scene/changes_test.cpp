@@ -14,10 +14,7 @@ materials: {wool: {young: 6.0e+7}}
 liquid: {preset: oil, sources: [{name: drop, shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )";
 
-sim::Scene sceneWith(const std::string& more)
-{
-    return sim::readScene(sim::sceneFileFromText(kScene + more, "scene.yaml"));
-}
+sim::Scene sceneWith(const std::string& more) { return sim::readScene(sim::sceneFileFromText(kScene + more, "scene.yaml")); }
 
 TEST(SceneChanges, HoldFromTheirStepOnTopOfThoseBefore)
 {
@@ -52,8 +49,7 @@ TEST(SceneChanges, ArePrintedInUnitsThatReadBackAlike)
         ASSERT_EQ(first.size(), second.size());
         for (std::size_t p = 0; p < first.size(); ++p) EXPECT_EQ(first[p].value, second[p].value) << first[p].path;
     }
-    EXPECT_EQ(sim::changeText(3, sim::changedSettings(scene, 1)),
-              "{step: 3, set: {transfer.method.fabric: apic, transfer.keep_dt: step}}");
+    EXPECT_EQ(sim::changeText(3, sim::changedSettings(scene, 1)), "{step: 3, set: {transfer.method.fabric: apic, transfer.keep_dt: step}}");
 }
 
 TEST(SceneChanges, AreNotTooMany)
@@ -117,14 +113,11 @@ TEST_P(BadChange, IsRefusedAtItsLine)
 }
 
 const BadScene kBadChanges[] = {
-    {"NoList", "  step: 3\n",
-     "bad.yaml:3: changes: needs a list like - {step: 100, set: {time.dt: 1.0e-3}}, not a map"},
-    {"NoStep", "  - {set: {time.dt: 1}}\n",
-     "bad.yaml:4: changes.0.step is missing; it is the first step with what is set, like step: 100"},
+    {"NoList", "  step: 3\n", "bad.yaml:3: changes: needs a list like - {step: 100, set: {time.dt: 1.0e-3}}, not a map"},
+    {"NoStep", "  - {set: {time.dt: 1}}\n", "bad.yaml:4: changes.0.step is missing; it is the first step with what is set, like step: 100"},
     {"Order", "  - {step: 5, set: {time.dt: 1}}\n  - {step: 4, set: {time.dt: 1}}\n",
      "bad.yaml:5: changes.1.step: 4 comes after step 5; write changes in their order"},
-    {"Fixed", "  - {step: 5, set: {grid: {cell: 0.2}}}\n",
-     "bad.yaml:4: changes: grid.cell holds for a whole run; give it its value at the start"},
+    {"Fixed", "  - {step: 5, set: {grid: {cell: 0.2}}}\n", "bad.yaml:4: changes: grid.cell holds for a whole run; give it its value at the start"},
     {"FixedByPreset", "  - {step: 5, set: {liquid.preset: honey}}\n",
      "bad.yaml:4: changes: liquid.density holds for a whole run; give it its value at the start"},
     {"Sources", "  - {step: 5, set: {liquid: {sources: []}}}\n",
@@ -137,7 +130,6 @@ const BadScene kBadChanges[] = {
      "fabric, materials, solver and gravity can"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Changes, BadChange, testing::ValuesIn(kBadChanges),
-                         [](const auto& bad) { return bad.param.name; });
+INSTANTIATE_TEST_SUITE_P(Changes, BadChange, testing::ValuesIn(kBadChanges), [](const auto& bad) { return bad.param.name; });
 
 }  // namespace

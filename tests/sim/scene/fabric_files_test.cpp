@@ -32,8 +32,7 @@ double massOf(const FabricPiece& piece)
 
 /// A file that is there as long as this object.
 struct ObjFile {
-    explicit ObjFile(const std::string& text)
-        : path(std::filesystem::temp_directory_path() / ("drench_fabric_" + std::to_string(getpid()) + ".obj"))
+    explicit ObjFile(const std::string& text) : path(std::filesystem::temp_directory_path() / ("drench_fabric_" + std::to_string(getpid()) + ".obj"))
     {
         std::ofstream(path) << text;
     }
@@ -136,8 +135,7 @@ TEST(FabricFiles, ASoupOfTrianglesIsOneSheet)
             const std::array<std::array<int, 2>, 3> ends = cell % 2 ? std::array<std::array<int, 2>, 3>{{{i, j}, {i + 1, j}, {i + 1, j + 1}}}
                                                                     : std::array<std::array<int, 2>, 3>{{{i + 1, j + 1}, {i, j + 1}, {i, j}}};
             for (const auto& [a, b] : ends)
-                text +=
-                    fmt::format("v {:.9g} {:.9g} {:.9g}\n", static_cast<float>(size * 0.3 * a), 0.0, static_cast<float>(size * 0.3 * b));
+                text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", static_cast<float>(size * 0.3 * a), 0.0, static_cast<float>(size * 0.3 * b));
             faces += fmt::format("f {} {} {}\n", corners + 1, corners + 2, corners + 3);
             corners += 3;
         }

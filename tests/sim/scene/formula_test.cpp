@@ -10,10 +10,9 @@ namespace {
 TEST(Formula, HasTheValueOfItsTextWithItsNames)
 {
     int calls = 0;
-    const FormulaNames names{
-        .variables = {"x", "t"},
-        .constants = {{"k", 2.0}},
-        .functions = {{"mass", 0, [&](auto) { return ++calls, 5.0; }}, {"at", 1, [](auto a) { return 10.0 * a[0]; }}}};
+    const FormulaNames names{.variables = {"x", "t"},
+                             .constants = {{"k", 2.0}},
+                             .functions = {{"mass", 0, [&](auto) { return ++calls, 5.0; }}, {"at", 1, [](auto a) { return 10.0 * a[0]; }}}};
     const Formula formula("k*x + sin(pi*t) + mass + at(3)", names);
     EXPECT_EQ(calls, 0);
     EXPECT_NEAR(formula(std::array{1.5, 0.5}), 3.0 + 1.0 + 5.0 + 30.0, 1.0e-12);

@@ -25,10 +25,7 @@ using sim::test::kBegin, sim::test::load, sim::test::piece;
 
 const std::string kSheet = "cloth_grid: {material: wool, nodes: [5, 4], spacing: 1, radius: 0.1}";
 
-std::vector<int> pinned(const std::string& pin, const std::string& shape = kSheet)
-{
-    return piece(shape + ", pin: " + pin).pins.at(0).vertices;
-}
+std::vector<int> pinned(const std::string& pin, const std::string& shape = kSheet) { return piece(shape + ", pin: " + pin).pins.at(0).vertices; }
 
 double massOf(const FabricPiece& piece)
 {
@@ -56,8 +53,7 @@ TEST(LoadFabric, PublishedYarnsHaveTheirCountsAndPins)
     EXPECT_EQ(19604u, cloth.points.size());
     EXPECT_EQ(200u, cloth.strands.size());
     // Both ends of the first and last yarn of each direction, and the corners.
-    EXPECT_EQ((std::vector<int>{0, 99, 9700, 9799, 9800, 9899, 19500, 19599, 19600, 19601, 19602, 19603}),
-              cloth.pins.at(0).vertices);
+    EXPECT_EQ((std::vector<int>{0, 99, 9700, 9799, 9800, 9899, 19500, 19599, 19600, 19601, 19602, 19603}), cloth.pins.at(0).vertices);
 }
 
 TEST(LoadFabric, MaterialTakesWhatTheSceneSaysAndThePorousFraction)
@@ -99,9 +95,7 @@ fabrics:
 
 TEST(LoadFabric, PorousFollowsFromAnyTwo)
 {
-    const auto porous = [](const std::string& text) {
-        return load(kBegin + "porous: " + text + "\nfabrics: [{" + kSheet + "}]\n").settings.porous;
-    };
+    const auto porous = [](const std::string& text) { return load(kBegin + "porous: " + text + "\nfabrics: [{" + kSheet + "}]\n").settings.porous; };
     const sim::PorousSettings reference = porous("{fibre_diameter: 0.01, volume_fraction: 0.4}");
     EXPECT_NEAR(0.005 * std::sqrt(1.5), reference.poreRadius(), 1.0e-15);
     EXPECT_NEAR(0.01, porous("{volume_fraction: 0.4, pore_radius: 0.006123724356957945}").fibreDiameter, 1.0e-14);
@@ -146,10 +140,8 @@ obstacles:
 
 TEST(LoadFabric, SizeAndCenterMeanTheSameAsSpacingAndOrigin)
 {
-    const FabricPiece a =
-        piece("cloth_grid: {material: wool, nodes: [5, 3], spacing: [0.5, 2], radius: 0.1, origin: [-1, 7, -2]}");
-    const FabricPiece b =
-        piece("cloth_grid: {material: wool, nodes: [5, 3], size: [2, 4], radius: 0.1, center: [0, 7, 0]}");
+    const FabricPiece a = piece("cloth_grid: {material: wool, nodes: [5, 3], spacing: [0.5, 2], radius: 0.1, origin: [-1, 7, -2]}");
+    const FabricPiece b = piece("cloth_grid: {material: wool, nodes: [5, 3], size: [2, 4], radius: 0.1, center: [0, 7, 0]}");
     ASSERT_EQ(a.points.size(), b.points.size());
     for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_TRUE(a.points[i].isApprox(b.points[i], 1.0e-14)) << i;
 }
@@ -157,8 +149,7 @@ TEST(LoadFabric, SizeAndCenterMeanTheSameAsSpacingAndOrigin)
 TEST(LoadFabric, TransformTurnsAboutTheMiddleThenMoves)
 {
     const FabricPiece still = piece(kSheet);
-    const FabricPiece moved =
-        piece(kSheet + ", transform: {translate: [10, 0, 0], rotate: {axis: [0, 0, 1], angle: 90}}");
+    const FabricPiece moved = piece(kSheet + ", transform: {translate: [10, 0, 0], rotate: {axis: [0, 0, 1], angle: 90}}");
     const Vec3 middle(2.0, 0.0, 1.5);
     for (std::size_t i = 0; i < still.points.size(); ++i) {
         const Vec3 d = still.points[i] - middle;
@@ -194,10 +185,9 @@ TEST(LoadFabric, CornersTravelWithThePieceAndShapesDoNot)
 
 TEST(LoadFabric, HangingSheetIsHeldByItsUpperRows)
 {
-    const std::vector<int> rows =
-        pinned("{edge: y+, patch: 2}",
-               "cloth_grid: {material: wool, nodes: [179, 9], spacing: 0.144, radius: 0.0165, "
-               "origin: [0, 2.88, 0], u: [0, 1, 0], v: [0, 0, 1]}");
+    const std::vector<int> rows = pinned("{edge: y+, patch: 2}",
+                                         "cloth_grid: {material: wool, nodes: [179, 9], spacing: 0.144, radius: 0.0165, "
+                                         "origin: [0, 2.88, 0], u: [0, 1, 0], v: [0, 0, 1]}");
     ASSERT_EQ(18u, rows.size());
     EXPECT_EQ(177, rows[0]);
     EXPECT_EQ(178, rows[1]);
@@ -214,25 +204,22 @@ TEST(LoadFabric, StrandsAreHeldByTheirEnds)
 
 TEST(LoadFabric, WeaveWithoutBordersIsHeldAtTheEndsOfYarns)
 {
-    const std::vector<int> held =
-        pinned("{corners: all, patch: 2, border_only: true}",
-               "woven_yarns: {material: wool, yarns: [6, 6], spacing: 1, radius: 0.1, borders: false}");
+    const std::vector<int> held = pinned("{corners: all, patch: 2, border_only: true}",
+                                         "woven_yarns: {material: wool, yarns: [6, 6], spacing: 1, radius: 0.1, borders: false}");
     EXPECT_EQ(8u, held.size());
-    const std::vector<int> side =
-        pinned("{edge: x-}", "woven_yarns: {material: wool, yarns: [6, 6], spacing: 1, radius: 0.1, borders: false}");
+    const std::vector<int> side = pinned("{edge: x-}", "woven_yarns: {material: wool, yarns: [6, 6], spacing: 1, radius: 0.1, borders: false}");
     EXPECT_EQ((std::vector<int>{0, 6, 12, 18}), side);
 }
 
 TEST(LoadFabric, MotionsFindPinsFabricsAndGroups)
 {
     const std::string two = kBegin + "fabrics:\n  - {name: a, group: both, " + kSheet +
-                            ", pin: [{name: left, edge: x-}, {name: right, edge: x+}]}\n" +
-                            "  - {name: b, group: both, " + kSheet + ", pin: {name: left, edge: x-}}\n";
+                            ", pin: [{name: left, edge: x-}, {name: right, edge: x+}]}\n" + "  - {name: b, group: both, " + kSheet +
+                            ", pin: {name: left, edge: x-}}\n";
     const auto moving = [&](const std::string& motion) {
         std::string found;
         for (const FabricPiece& p : load(two + "motion: " + motion + "\n").fabrics) {
-            for (const sim::PinGroup& pin : p.pins)
-                found += pin.motion.transform(1.0) * Vec3(0, 0, 0) == Vec3(0, 2, 0) ? '1' : '0';
+            for (const sim::PinGroup& pin : p.pins) found += pin.motion.transform(1.0) * Vec3(0, 0, 0) == Vec3(0, 2, 0) ? '1' : '0';
         }
         return found;
     };
@@ -254,9 +241,8 @@ TEST(LoadFabric, TwistOfPinsReachesTheEdges)
 
 TEST(LoadFabric, OverridesReachIntoPiecesAndMaterials)
 {
-    const Scene scene =
-        load(kBegin + "fabrics: [{name: it, " + kSheet + ", pin: {corners: all}}]\n",
-             {"fabrics.it.cloth_grid.nodes=[7, 7]", "materials.wool.young=5", "fabrics.it.pin.patch=2"});
+    const Scene scene = load(kBegin + "fabrics: [{name: it, " + kSheet + ", pin: {corners: all}}]\n",
+                             {"fabrics.it.cloth_grid.nodes=[7, 7]", "materials.wool.young=5", "fabrics.it.pin.patch=2"});
     EXPECT_EQ(49u, scene.fabrics.at(0).points.size());
     EXPECT_EQ(5.0, scene.fabrics[0].material.young);
     EXPECT_EQ(16u, scene.fabrics[0].pins.at(0).vertices.size());

@@ -71,7 +71,8 @@ TEST(MergeKeys, GiveAMapTheKeysThatItHasNot)
         for (const Map& base : bases) expected.insert(base.begin(), base.end());
         const Node root = parse(text);
         EXPECT_EQ(mapOf(*root.find("all")), expected) << text;
-        for (std::size_t b = 0; b < bases.size(); ++b) EXPECT_EQ(mapOf(*root.find(numbered("b", static_cast<int>(b)))), bases[b]) << "left as it is\n" << text;
+        for (std::size_t b = 0; b < bases.size(); ++b)
+            EXPECT_EQ(mapOf(*root.find(numbered("b", static_cast<int>(b)))), bases[b]) << "left as it is\n" << text;
     }
 }
 

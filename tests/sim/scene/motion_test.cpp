@@ -12,10 +12,7 @@ namespace {
 
 const Vec3 kPoint(0.4, -0.7, 1.3);
 
-Vec3 place(const Motion& m, double t, const Vec3& x = kPoint)
-{
-    return m.transform(t) * x;
-}
+Vec3 place(const Motion& m, double t, const Vec3& x = kPoint) { return m.transform(t) * x; }
 
 /// The velocity is the derivative of the position of one and the same point of the body.
 void expectVelocityIsDerivative(const Motion& m, double from, double to)
@@ -30,8 +27,7 @@ void expectVelocityIsDerivative(const Motion& m, double from, double to)
 
 TEST(Motion, TranslatesByExactlyWhatItWasGiven)
 {
-    for (const auto& [easeIn, easeOut] :
-         {std::pair(0.1, 0.3), std::pair(0.0, 0.0), std::pair(0.5, 0.5), std::pair(0.0, 1.0)}) {
+    for (const auto& [easeIn, easeOut] : {std::pair(0.1, 0.3), std::pair(0.0, 0.0), std::pair(0.5, 0.5), std::pair(0.0, 1.0)}) {
         Motion m;
         m.addTranslation(0.5, 1.5, {1.0, -2.0, 3.0}, easeIn, easeOut);
         EXPECT_LT((m.transform(0.5).translation()).norm(), 1e-14);
@@ -66,8 +62,7 @@ TEST(Motion, RestsOutsideOfItsSpan)
 TEST(Motion, AFullTurnComesHome)
 {
     Motion m;
-    m.addRotation(0.0, 2.0, Vec3(1.0, 1.0, 0.0).normalized(), 2.0 * kPi, {1.0, 2.0, 3.0}, Motion::Frame::World, 0.5,
-                  0.5);
+    m.addRotation(0.0, 2.0, Vec3(1.0, 1.0, 0.0).normalized(), 2.0 * kPi, {1.0, 2.0, 3.0}, Motion::Frame::World, 0.5, 0.5);
     EXPECT_LT((place(m, 2.0) - kPoint).norm(), 1e-13);
     EXPECT_LT((place(m, 10.0) - kPoint).norm(), 1e-13);
     EXPECT_GT((place(m, 1.0) - kPoint).norm(), 1.0);
@@ -111,13 +106,11 @@ TEST(Motion, SwingsAboutItsMiddle)
 TEST(Motion, APathPassesThroughItsKeysWithoutOvershoot)
 {
     const std::vector<double> times = {0.0, 1.0, 1.5, 3.0, 4.0, 5.0};
-    const std::vector<Vec3> offsets = {Vec3::Zero(),     {1.0, 0.0, 0.0},  {1.0, 2.0, 0.0},
-                                       {1.0, 2.0, -1.0}, {0.0, 2.0, -3.0}, {0.5, 0.0, -1.0}};
+    const std::vector<Vec3> offsets = {Vec3::Zero(), {1.0, 0.0, 0.0}, {1.0, 2.0, 0.0}, {1.0, 2.0, -1.0}, {0.0, 2.0, -3.0}, {0.5, 0.0, -1.0}};
     for (bool cubic : {true, false}) {
         Motion m;
         m.addPath(times, offsets, cubic);
-        for (std::size_t k = 0; k < times.size(); ++k)
-            EXPECT_LT((m.transform(times[k]).translation() - offsets[k]).norm(), 1e-13);
+        for (std::size_t k = 0; k < times.size(); ++k) EXPECT_LT((m.transform(times[k]).translation() - offsets[k]).norm(), 1e-13);
         for (std::size_t k = 0; k + 1 < times.size(); ++k)
             for (double u : {0.1, 0.5, 0.9}) {
                 const Vec3 x = m.transform((1.0 - u) * times[k] + u * times[k + 1]).translation();

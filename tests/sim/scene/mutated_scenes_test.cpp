@@ -26,21 +26,11 @@ std::string mutated(std::string text, std::mt19937& random)
         const std::size_t at = below(text.size());
         const char byte = below(10) == 0 ? static_cast<char>(below(256)) : kBytes[below(kBytes.size())];
         switch (below(5)) {
-            case 0:
-                text[at] = byte;
-                break;
-            case 1:
-                text.insert(at, 1, byte);
-                break;
-            case 2:
-                text.erase(at, 1 + below(20));
-                break;
-            case 3:
-                text.insert(below(text.size()), text.substr(at, below(60)));
-                break;
-            default:
-                text.insert(at, std::string(1 + below(4), byte));
-                break;
+            case 0: text[at] = byte; break;
+            case 1: text.insert(at, 1, byte); break;
+            case 2: text.erase(at, 1 + below(20)); break;
+            case 3: text.insert(below(text.size()), text.substr(at, below(60))); break;
+            default: text.insert(at, std::string(1 + below(4), byte)); break;
         }
     }
     return text;

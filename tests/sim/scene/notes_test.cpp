@@ -10,14 +10,15 @@
 namespace {
 
 constexpr const char* kPool = "liquid: {sources: [{name: pool, shape: {box: {min: [-1, 3, -1], max: [1, 4, 1]}}}]}\n";
-constexpr const char* kYarn = "materials: {thread: {young: 1.0e+6}}\n"
-                              "fabrics: [{name: yarn, strand: {material: thread, from: [-1, 5, 0], to: [1, 5, 0], segments: 4, radius: 0.05}}]\n";
+constexpr const char* kYarn =
+    "materials: {thread: {young: 1.0e+6}}\n"
+    "fabrics: [{name: yarn, strand: {material: thread, from: [-1, 5, 0], to: [1, 5, 0], segments: 4, radius: 0.05}}]\n";
 
 /// What a scene says of walls: a plate or a mesh of this thickness [cm], with or without liquid, in cells of 0.25 cm.
 std::vector<std::string> notesOf(const std::string& obstacles, bool hasLiquid = true)
 {
-    return sim::readScene(sim::sceneFileFromText("grid: {cell: 0.25}\n" + std::string(hasLiquid ? kPool : kYarn) + "obstacles:\n" + obstacles,
-                                                 "thin.yaml"))
+    return sim::readScene(
+               sim::sceneFileFromText("grid: {cell: 0.25}\n" + std::string(hasLiquid ? kPool : kYarn) + "obstacles:\n" + obstacles, "thin.yaml"))
         .notes;
 }
 
@@ -56,8 +57,8 @@ TEST(Notes, NameClothWhoseVerticesAreFartherApartThanCellsOfSolverGrid)
 {
     const auto notes = [](const std::string& solver, double spacing, double cell) {
         const std::string grid = fmt::format("grid: {{cell: {}}}\nfabric: {{solver: {}}}\n", cell, solver);
-        const std::string cloth = fmt::format("fabrics: [{{name: sheet, cloth_grid: {{material: thread, nodes: [9, 9], spacing: {}, radius: 0.02}}}}]\n",
-                                              spacing);
+        const std::string cloth =
+            fmt::format("fabrics: [{{name: sheet, cloth_grid: {{material: thread, nodes: [9, 9], spacing: {}, radius: 0.02}}}}]\n", spacing);
         return sim::readScene(sim::sceneFileFromText(grid + kPool + "materials: {thread: {young: 1.0e+6}}\n" + cloth, "wide.yaml")).notes;
     };
     const std::vector<std::string> wide = notes("grid", 0.25, 0.125);
@@ -97,15 +98,13 @@ TEST(Notes, NameSettingsThatNothingReadsAndWhatWould)
         ASSERT_EQ(1u, notes.size()) << text;
         EXPECT_EQ(note, notes[0]);
     };
-    expectOne("transfer: {flip_ratio: 0.5}\n",
-              "unread.yaml:3: transfer.flip_ratio: has no effect here; it goes with transfer.method flip");
+    expectOne("transfer: {flip_ratio: 0.5}\n", "unread.yaml:3: transfer.flip_ratio: has no effect here; it goes with transfer.method flip");
     expectOne("transfer: {method: apic, modes: 6}\n",
               "unread.yaml:3: transfer.modes.liquid: has no effect here; it goes with transfer.method polypic");
     expectOne("solver: {viscosity_tolerance: 1.0e-3}\n",
               "unread.yaml:3: solver.viscosity_tolerance: has no effect here; it goes with liquid.solve_viscosity true");
     expectOne("coupling: {drag: linear}\n", "unread.yaml:3: coupling.drag: has no effect here; it goes with fabrics");
-    expectOne("transfer: {modes: {fabric: 4}}\n",
-              "unread.yaml:3: transfer.modes.fabric: has no effect here; it goes with fabric.solver grid");
+    expectOne("transfer: {modes: {fabric: 4}}\n", "unread.yaml:3: transfer.modes.fabric: has no effect here; it goes with fabric.solver grid");
 }
 
 TEST(Notes, NameWhatBodiesAreGivenInVain)
@@ -115,7 +114,8 @@ TEST(Notes, NameWhatBodiesAreGivenInVain)
                                         "material or of porous below 1"}),
               notesOnSettings(yarn, {"fabrics.0.wetness=0.5"}));
     EXPECT_TRUE(notesOnSettings(yarn, {"fabrics.0.wetness=0.5", "materials.thread.volume_fraction=0.4"}).empty());
-    const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool), post = "obstacles: [{name: post, shape: {ball: {center: [0, 9, 0], radius: 1}}}]\n";
+    const std::string pool = "grid: {cell: 0.25}\n" + std::string(kPool),
+                      post = "obstacles: [{name: post, shape: {ball: {center: [0, 9, 0], radius: 1}}}]\n";
     EXPECT_EQ(1u, notesOnSettings(pool, {"liquid.sources.0.fill.seed=7"}).size());
     EXPECT_TRUE(notesOnSettings(pool, {"liquid.sources.0.fill.seed=7", "liquid.sources.0.fill.pattern=jittered"}).empty());
     EXPECT_EQ(1u, notesOnSettings(yarn + post, {"obstacles.0.cohesive=false"}).size());
@@ -126,8 +126,8 @@ TEST(Notes, NameWhatBodiesAreGivenInVain)
 
 TEST(Notes, LeaveToEachVariantWhatItReads)
 {
-    const std::string text = "grid: {cell: 0.25}\n" + std::string(kPool) +
-                             "transfer: {flip_ratio: 0.5}\ncompare: {variants: [{name: flip, transfer.method: flip}]}\n";
+    const std::string text =
+        "grid: {cell: 0.25}\n" + std::string(kPool) + "transfer: {flip_ratio: 0.5}\ncompare: {variants: [{name: flip, transfer.method: flip}]}\n";
     EXPECT_TRUE(notesOnSettings(text).empty());
     EXPECT_EQ(1u, notesOnSettings(text, {"transfer.flip_ratio=0.4"}).size()) << "but it was asked for now";
 }

@@ -41,8 +41,8 @@ liquid:
     - {name: pool, shape: {ball: {center: [5, 0, 0], radius: 1}}, fill: reference}
 )";
     const Scene scene = load(text, "",
-                             {"liquid.sources.pool.fill=lattice", "liquid.sources.0.fill=jittered",
-                              "liquid.sources.1.velocity=[1, 2, 3]", "liquid.sources.pool.shape.ball.radius=2"});
+                             {"liquid.sources.pool.fill=lattice", "liquid.sources.0.fill=jittered", "liquid.sources.1.velocity=[1, 2, 3]",
+                              "liquid.sources.pool.shape.ball.radius=2"});
     EXPECT_EQ(sim::FillSettings::Pattern::Jittered, scene.sources[0].fill.pattern);
     EXPECT_EQ(7u, scene.sources[0].fill.seed);
     EXPECT_EQ(sim::FillSettings::Pattern::Lattice, scene.sources[1].fill.pattern);
@@ -56,16 +56,12 @@ TEST(Overrides, OverridesMakeSectionsThatAreNotThere)
     EXPECT_EQ(0.5, load(kSmallest, "", {"transfer={keep: {liquid_affine: 0.5}}"}).settings.transfer.keepAffine);
 }
 
-TEST(Overrides, OverridesAreInTheUnitsOfTheFile)
-{
-    EXPECT_DOUBLE_EQ(20.0, load("units: si\n" + kSmallest, "", {"grid.cell=0.2"}).settings.cell);
-}
+TEST(Overrides, OverridesAreInTheUnitsOfTheFile) { EXPECT_DOUBLE_EQ(20.0, load("units: si\n" + kSmallest, "", {"grid.cell=0.2"}).settings.cell); }
 
 TEST(Overrides, VariantsOfAMapAreAProduct)
 {
-    const sim::SceneFile file = sim::sceneFileFromText(
-        kSmallest + "compare: {variants: {transfer.method: [pic, PolyPIC 8], time.dt: [1.0e-3, 2.0e-3]}}\n",
-        "good.yaml");
+    const sim::SceneFile file =
+        sim::sceneFileFromText(kSmallest + "compare: {variants: {transfer.method: [pic, PolyPIC 8], time.dt: [1.0e-3, 2.0e-3]}}\n", "good.yaml");
     ASSERT_EQ(4u, file.variants.size());
     EXPECT_EQ("pic_1_0e_3", file.variants[0].name);
     EXPECT_EQ("pic, 2.0e-3", file.variants[1].label);

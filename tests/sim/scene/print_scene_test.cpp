@@ -102,15 +102,9 @@ std::string everything()
     return text;
 }
 
-TEST(PrintScene, LoadsAgainToTheSame)
-{
-    expectRoundTrip(sim::sceneFileFromText(everything(), "everything.yaml"));
-}
+TEST(PrintScene, LoadsAgainToTheSame) { expectRoundTrip(sim::sceneFileFromText(everything(), "everything.yaml")); }
 
-TEST(PrintScene, FabricLoadsAgainToTheSame)
-{
-    expectRoundTrip(sim::sceneFileFromText(allFabric(), "fabric.yaml"));
-}
+TEST(PrintScene, FabricLoadsAgainToTheSame) { expectRoundTrip(sim::sceneFileFromText(allFabric(), "fabric.yaml")); }
 
 TEST(PrintScene, KeepsEveryBitOfTheFabric)
 {
@@ -144,16 +138,15 @@ TEST(PrintScene, KeepsEveryBitOfTheFabric)
             EXPECT_EQ(a.pins[k].name, b.pins[k].name);
             EXPECT_EQ(a.pins[k].vertices, b.pins[k].vertices);
             EXPECT_EQ(a.pins[k].twist, b.pins[k].twist);
-            EXPECT_EQ(a.pins[k].motion.transform(0.7) * sim::Vec3(1, 2, 3),
-                      b.pins[k].motion.transform(0.7) * sim::Vec3(1, 2, 3));
+            EXPECT_EQ(a.pins[k].motion.transform(0.7) * sim::Vec3(1, 2, 3), b.pins[k].motion.transform(0.7) * sim::Vec3(1, 2, 3));
         }
     }
 }
 
 TEST(PrintScene, SmallestSceneLoadsAgainToTheSame)
 {
-    expectRoundTrip(sim::sceneFileFromText(
-        "grid: {cell: 0.1}\nliquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}\n", "smallest.yaml"));
+    expectRoundTrip(
+        sim::sceneFileFromText("grid: {cell: 0.1}\nliquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}\n", "smallest.yaml"));
 }
 
 TEST(PrintScene, ShippedScenesLoadAgainToTheSame)
@@ -161,8 +154,7 @@ TEST(PrintScene, ShippedScenesLoadAgainToTheSame)
     for (const auto& entry : std::filesystem::recursive_directory_iterator(SCENES_DIR)) {
         if (entry.path().extension() != ".yaml") continue;
         expectRoundTrip(sim::loadSceneFile(entry.path()));
-        for (const std::string& variant : sim::variantNames(entry.path()))
-            expectRoundTrip(sim::loadSceneFile(entry.path(), {variant, {}}));
+        for (const std::string& variant : sim::variantNames(entry.path())) expectRoundTrip(sim::loadSceneFile(entry.path(), {variant, {}}));
     }
 }
 
@@ -181,8 +173,7 @@ TEST(PrintScene, KeepsEveryBitOfTheSettings)
     EXPECT_EQ(before.tags, after.tags);
     ASSERT_EQ(before.sources.size(), after.sources.size());
     for (const sim::Vec3& x : {sim::Vec3(1, 2, 3), sim::Vec3(30, 20, -11), sim::Vec3(-5, 47, 0.5)}) {
-        for (std::size_t i = 0; i < before.sources.size(); ++i)
-            EXPECT_EQ(before.sources[i].shape.distance(x), after.sources[i].shape.distance(x));
+        for (std::size_t i = 0; i < before.sources.size(); ++i) EXPECT_EQ(before.sources[i].shape.distance(x), after.sources[i].shape.distance(x));
         for (std::size_t i = 0; i < before.obstacles.size(); ++i) {
             EXPECT_EQ(before.obstacles[i].shape.distance(x), after.obstacles[i].shape.distance(x));
             EXPECT_EQ(before.obstacles[i].motion.transform(2.2) * x, after.obstacles[i].motion.transform(2.2) * x);

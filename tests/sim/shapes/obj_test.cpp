@@ -17,8 +17,8 @@ class Obj : public ::testing::Test {
  protected:
     std::filesystem::path write(const std::string& text)
     {
-        const auto file = std::filesystem::path(::testing::TempDir()) /
-                          (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".obj");
+        const auto file =
+            std::filesystem::path(::testing::TempDir()) / (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".obj");
         std::ofstream(file) << text;
         return file;
     }

@@ -22,10 +22,7 @@ std::vector<Vec3> somePoints(int count, double half, std::uint64_t seed = 7)
     return points;
 }
 
-Eigen::Isometry3d someMotion()
-{
-    return Eigen::Translation3d(0.3, -1.1, 0.7) * Eigen::AngleAxisd(0.8, Vec3(1.0, -2.0, 0.5).normalized());
-}
+Eigen::Isometry3d someMotion() { return Eigen::Translation3d(0.3, -1.1, 0.7) * Eigen::AngleAxisd(0.8, Vec3(1.0, -2.0, 0.5).normalized()); }
 
 struct Named {
     const char* name;
@@ -202,9 +199,7 @@ TEST(Shape, InvertedShapesAreUnboundedAndTurnBack)
     EXPECT_FALSE(ball.inverted().inverted().isInverted());
     EXPECT_EQ(ball.inverted().bounds().max()[1], std::numeric_limits<double>::infinity());
     EXPECT_EQ(ball.inverted().moved(someMotion()).bounds().min()[2], -std::numeric_limits<double>::infinity());
-    EXPECT_TRUE(Shape::intersect({ball, Shape::box(Vec3::Zero(), Vec3::Constant(0.1)).inverted()})
-                    .bounds()
-                    .isApprox(ball.bounds()));
+    EXPECT_TRUE(Shape::intersect({ball, Shape::box(Vec3::Zero(), Vec3::Constant(0.1)).inverted()}).bounds().isApprox(ball.bounds()));
     EXPECT_TRUE(Shape::intersect({ball, Shape::ball({5.0, 0.0, 0.0}, 1.0)}).bounds().isEmpty());
 }
 

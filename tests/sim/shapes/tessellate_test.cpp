@@ -12,10 +12,7 @@
 namespace sim::test {
 namespace {
 
-double signedVolume(const TriangleMesh& mesh)
-{
-    return TriangleTree(mesh).signedVolume();
-}
+double signedVolume(const TriangleMesh& mesh) { return TriangleTree(mesh).signedVolume(); }
 
 /// Every edge is passed once in each direction.
 bool isClosed(const TriangleMesh& mesh)
@@ -52,9 +49,8 @@ TEST(Tessellate, WhateverIsBoundedIsClosed)
 {
     const Shape ball = Shape::ball(Vec3::Zero(), 1.0), box = Shape::box({0.5, 0.5, 0.5}, Vec3::Constant(0.5));
     const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
-    for (const Shape& s :
-         {Shape::subtract({ball, box}), Shape::unite({ball, box}), Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.25),
-          box.moved(turn), Shape::cylinder(Vec3::Zero(), Vec3::UnitZ(), 1.0, 0.5, 0.0)}) {
+    for (const Shape& s : {Shape::subtract({ball, box}), Shape::unite({ball, box}), Shape::roundedBox(Vec3::Zero(), Vec3::Ones(), 0.25),
+                           box.moved(turn), Shape::cylinder(Vec3::Zero(), Vec3::UnitZ(), 1.0, 0.5, 0.0)}) {
         const TriangleMesh mesh = tessellate(s, 0.125);
         EXPECT_TRUE(isClosed(mesh));
         EXPECT_GT(signedVolume(mesh), 0.5);
@@ -77,10 +73,7 @@ TEST(Tessellate, ARoundedBoxIsClosedOnItsSurfaceAndFacesOutward)
 TEST(Tessellate, RefusesTheUnbounded)
 {
     EXPECT_THROW(tessellate(Shape::ball(Vec3::Zero(), 1.0).inverted(), 0.1), InputError);
-    EXPECT_THROW(
-        tessellate(Shape::unite({Shape::ball(Vec3::Zero(), 1.0), Shape::box(Vec3::Zero(), Vec3::Ones()).inverted()}),
-                   0.1),
-        InputError);
+    EXPECT_THROW(tessellate(Shape::unite({Shape::ball(Vec3::Zero(), 1.0), Shape::box(Vec3::Zero(), Vec3::Ones()).inverted()}), 0.1), InputError);
     EXPECT_TRUE(tessellate(Shape(), 0.1).triangles.empty());
 }
 

@@ -13,8 +13,7 @@ namespace {
 TEST(Volume, OfABoxIsItsProductWhateverTheCells)
 {
     const Shape box = Shape::box({0.1, 0.2, 0.3}, {0.5, 0.7, 1.1});
-    for (double cell : {0.05, 0.288, 1.0, 10.0})
-        EXPECT_NEAR(boundedVolume(box, cell) / (8 * 0.5 * 0.7 * 1.1), 1.0, 1e-12) << cell;
+    for (double cell : {0.05, 0.288, 1.0, 10.0}) EXPECT_NEAR(boundedVolume(box, cell) / (8 * 0.5 * 0.7 * 1.1), 1.0, 1e-12) << cell;
 }
 
 TEST(Volume, OfABallOfAFewCells)
@@ -41,8 +40,7 @@ TEST(Volume, OfADifferenceIsTheDifference)
 {
     const Shape shell = Shape::subtract({Shape::ball(Vec3::Zero(), 2.0), Shape::ball(Vec3::Zero(), 1.0)});
     EXPECT_NEAR(boundedVolume(shell, 0.2) / (4.0 / 3.0 * kPi * 7.0), 1.0, 1e-3);
-    EXPECT_EQ(boundedVolume(Shape::subtract({Shape::ball(Vec3::Zero(), 1.0), Shape::ball(Vec3::Zero(), 2.0)}), 0.2),
-              0.0);
+    EXPECT_EQ(boundedVolume(Shape::subtract({Shape::ball(Vec3::Zero(), 1.0), Shape::ball(Vec3::Zero(), 2.0)}), 0.2), 0.0);
 }
 
 TEST(Volume, OfNothingIsZeroAndOfAllRefused)

@@ -6,10 +6,7 @@ namespace sim::test {
 namespace {
 
 /// Along x: walls at 17, 30 and 49 cut a box into four; the last is open at the top.
-int roomOf(const Vec3i& c)
-{
-    return c.x() < 17 ? 0 : c.x() < 30 ? 1 : c.x() < 49 ? 2 : 3;
-}
+int roomOf(const Vec3i& c) { return c.x() < 17 ? 0 : c.x() < 30 ? 1 : c.x() < 49 ? 2 : 3; }
 
 PoissonScene rooms()
 {
@@ -19,7 +16,10 @@ PoissonScene rooms()
         if (axis == 0 && roomOf(c) != roomOf(c - Vec3i::Unit(0))) return 0.0;
         return roomOf(c) == 3 ? openTop(axis, c) : inBox(axis, c);
     };
-    return makeScene({{0, 0, 0}, size, [](const Vec3& x) { return x.y() < 20 ? -1.0 : 1.0; }, open,
+    return makeScene({{0, 0, 0},
+                      size,
+                      [](const Vec3& x) { return x.y() < 20 ? -1.0 : 1.0; },
+                      open,
                       [](const Vec3i& c) { return 0.2 + 0.1 * roomOf(c) + roughRhs(c); }});
 }
 
@@ -59,9 +59,7 @@ TEST(ConnectedComponents, LoseTheirMeansAndOthersKeepThem)
 TEST(ConnectedComponents, AreFoundAcrossBlocksAndInTheSameBlock)
 {
     // A closed pipe that winds through many blocks, and chequered lone pairs of cells, half of them closed.
-    const auto isPipe = [](const Vec3i& c) {
-        return c.z() == 0 && (c.y() % 4 == 0 || (c.x() == (c.y() / 4 % 2 == 0 ? 39 : 0)));
-    };
+    const auto isPipe = [](const Vec3i& c) { return c.z() == 0 && (c.y() % 4 == 0 || (c.x() == (c.y() / 4 % 2 == 0 ? 39 : 0))); };
     const auto isPair = [](const Vec3i& c) { return c.z() >= 2 && c.z() % 2 == 0 && c.y() % 2 == 0 && c.x() % 3 < 2 && c.x() < 39; };
     const Vec3i size(40, 33, 12);
     const auto phi = [=](const Vec3& x) {

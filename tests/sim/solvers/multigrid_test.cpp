@@ -26,8 +26,7 @@ class Preconditioner {
         std::vector<double> v(scene_.grid.count() * std::size_t{kBlockCells}, 0.0);
         for (int b = 0; b < scene_.grid.count(); ++b)
             for (int c = 0; c < kBlockCells; ++c)
-                if (scene_.isUnknown(b, c))
-                    v[b * kBlockCells + c] = static_cast<float>(std::uniform_real_distribution(-1.0, 1.0)(random));
+                if (scene_.isUnknown(b, c)) v[b * kBlockCells + c] = static_cast<float>(std::uniform_real_distribution(-1.0, 1.0)(random));
         return v;
     }
 
@@ -46,8 +45,8 @@ double dot(const std::vector<double>& a, const std::vector<double>& b)
 std::vector<PoissonScene> scenes()
 {
     std::mt19937 random(5);
-    return {boxWithSurface({40, 30, 20}), fullBox({20, 20, 20}), poolWithWaves(60),
-            randomScene(random, {30, 30, 30}, {-11, 0, 5}, 0.6), randomScene(random, {30, 30, 30}, {-11, 0, 5}, 0.95)};
+    return {boxWithSurface({40, 30, 20}), fullBox({20, 20, 20}), poolWithWaves(60), randomScene(random, {30, 30, 30}, {-11, 0, 5}, 0.6),
+            randomScene(random, {30, 30, 30}, {-11, 0, 5}, 0.95)};
 }
 
 TEST(Multigrid, IsSymmetric)

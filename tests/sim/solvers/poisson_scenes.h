@@ -36,17 +36,16 @@ struct PoissonScene {
     void forEachCell(Body&& body) const
     {
         for (int b = 0; b < grid.count(); ++b)
-            for (int c = 0; c < kBlockCells; ++c)
-                body(Vec3i(8 * grid.coords(b) + Vec3i(c % 8, c / 8 % 8, c / 64)), b, c);
+            for (int c = 0; c < kBlockCells; ++c) body(Vec3i(8 * grid.coords(b) + Vec3i(c % 8, c / 8 % 8, c / 64)), b, c);
     }
     bool isUnknown(int b, int c) const { return matrix.diagonal(b)[c] > 0.0; }
 };
 
 /// What a scene is made of, for cells of an axis-parallel range.
 struct PoissonShape {
-    Vec3i lower, upper;                                      ///< cells in [lower, upper)
-    std::function<double(const Vec3&)> phi;                  ///< liquid where negative; at cell centres, in cells
-    std::function<double(int axis, const Vec3i&)> open;      ///< share of the lower face of a cell that is not wall
+    Vec3i lower, upper;                                  ///< cells in [lower, upper)
+    std::function<double(const Vec3&)> phi;              ///< liquid where negative; at cell centres, in cells
+    std::function<double(int axis, const Vec3i&)> open;  ///< share of the lower face of a cell that is not wall
     std::function<double(const Vec3i&)> rhs;
     double smallestTheta = 0.01;
 };
@@ -56,10 +55,7 @@ inline std::function<double(int, const Vec3i&)> boxWalls(Vec3i lower, Vec3i uppe
 {
     return [=](int axis, const Vec3i& c) {
         const Vec3i below = c - Vec3i::Unit(axis);
-        return (c.array() >= lower.array()).all() && (c.array() < upper.array()).all() &&
-                       (below.array() >= lower.array()).all()
-                   ? 1.0
-                   : 0.0;
+        return (c.array() >= lower.array()).all() && (c.array() < upper.array()).all() && (below.array() >= lower.array()).all() ? 1.0 : 0.0;
     };
 }
 
@@ -72,9 +68,7 @@ inline PoissonScene makeScene(const PoissonShape& shape)
 {
     PoissonScene scene;
     const auto phiAt = [&](const Vec3i& c) { return shape.phi(c.cast<double>() + Vec3::Constant(0.5)); };
-    const auto inRange = [&](const Vec3i& c) {
-        return (c.array() >= shape.lower.array()).all() && (c.array() < shape.upper.array()).all();
-    };
+    const auto inRange = [&](const Vec3i& c) { return (c.array() >= shape.lower.array()).all() && (c.array() < shape.upper.array()).all(); };
     std::vector<Vec3i> blocks;
     const Vec3i first(shape.lower.x() >> 3, shape.lower.y() >> 3, shape.lower.z() >> 3);
     const Vec3i last((shape.upper.x() - 1) >> 3, (shape.upper.y() - 1) >> 3, (shape.upper.z() - 1) >> 3);
@@ -121,8 +115,8 @@ inline PoissonScene poolWithWaves(int length = 140)
         const double slope = x.x() < 50 ? 38 - 0.25 * x.x() : std::max(4.0, 25.5 - 0.35 * (x.x() - 50));
         return 0.8 * (x.y() - 1 - slope - 1.5 * std::sin(x.x() * 0.2 + x.z() * 0.25) - 0.8 * std::sin(x.z() * 0.7));
     };
-    return makeScene({lower, upper, phi, boxWalls(lower, {length - 1, 1000, 35}),
-                      [](const Vec3i& c) { return (c.y() == 1 ? 1.0 : 0.0) - roughRhs(c); }});
+    return makeScene(
+        {lower, upper, phi, boxWalls(lower, {length - 1, 1000, 35}), [](const Vec3i& c) { return (c.y() == 1 ? 1.0 : 0.0) - roughRhs(c); }});
 }
 
 /// A closed box of n³ cells, air above a wavy surface.
@@ -139,8 +133,7 @@ inline PoissonScene boxWithSurface(Vec3i n, Vec3i corner = Vec3i(0, 0, 0))
 /// A box full of liquid, walls on all sides: singular.
 inline PoissonScene fullBox(Vec3i n)
 {
-    return makeScene({Vec3i(0, 0, 0), n, [](const Vec3&) { return -1.0; }, boxWalls(Vec3i(0, 0, 0), n),
-                      [](const Vec3i& c) { return roughRhs(c); }});
+    return makeScene({Vec3i(0, 0, 0), n, [](const Vec3&) { return -1.0; }, boxWalls(Vec3i(0, 0, 0), n), [](const Vec3i& c) { return roughRhs(c); }});
 }
 
 }  // namespace sim::test

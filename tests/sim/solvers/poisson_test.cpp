@@ -64,8 +64,7 @@ TEST(Poisson, AgreesWithDenseFactorisation)
         BlockArray<double> p;
         ASSERT_TRUE(solveFromZero(scene, p, 1.0e-13).converged);
         ASSERT_GT(exact.norm(), 0.0);
-        for (int n = 0; n < a.rows(); ++n)
-            EXPECT_NEAR(scene.value(p, cells[n]), exact[n], 1.0e-8 * exact.lpNorm<Eigen::Infinity>());
+        for (int n = 0; n < a.rows(); ++n) EXPECT_NEAR(scene.value(p, cells[n]), exact[n], 1.0e-8 * exact.lpNorm<Eigen::Infinity>());
     }
 }
 
@@ -156,9 +155,7 @@ TEST(Poisson, WarmStartNeverNeedsMoreIterations)
         BlockArray<double> p = zeroPressure(scene);
         const int cold = solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p).iterations;
         EXPECT_EQ(solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p).iterations, 0);
-        scene.forEachCell([&](const Vec3i& cell, int b, int c) {
-            scene.rhs.block(b)[c] *= 1.0 + 0.01 * std::sin(0.3 * cell.x() + 0.2 * cell.y());
-        });
+        scene.forEachCell([&](const Vec3i& cell, int b, int c) { scene.rhs.block(b)[c] *= 1.0 + 0.01 * std::sin(0.3 * cell.x() + 0.2 * cell.y()); });
         const SolveReport warm = solver.solve(scene.grid, scene.matrix, scene.rhs, 1.0e-6, 200, p);
         EXPECT_LT(warm.iterations, cold);
         EXPECT_LE(relativeResidual(scene, p), 1.0e-6);

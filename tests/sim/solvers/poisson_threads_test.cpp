@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
@@ -32,10 +32,13 @@ namespace {
 int workersSeen(int threads)
 {
     std::atomic<int> met{0};
-    tbb::parallel_for(0, threads, [&](int) {
-        met.fetch_add(1);
-        for (int wait = 0; wait < 2000 && met.load() < threads; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        0, threads,
+        [&](int) {
+            met.fetch_add(1);
+            for (int wait = 0; wait < 2000 && met.load() < threads; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        },
+        tbb::simple_partitioner());
     return met.load();
 }
 

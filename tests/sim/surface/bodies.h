@@ -37,8 +37,7 @@ LiquidParticles latticeBody(const Vec3& low, const Vec3& high, double jitter, Co
 inline LiquidParticles ball(double radius, double jitter = 0.0, const Vec3& center = Vec3::Zero())
 {
     const Vec3 half = Vec3::Constant(kPitch * (std::ceil(radius / kPitch) + 0.5));
-    return latticeBody(center - half, center + half, jitter,
-                       [&](const Vec3& x) { return (x - center).norm() < radius; });
+    return latticeBody(center - half, center + half, jitter, [&](const Vec3& x) { return (x - center).norm() < radius; });
 }
 
 inline LiquidParticles box(const Vec3& size, double jitter = 0.0)

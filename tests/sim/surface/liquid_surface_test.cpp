@@ -137,8 +137,8 @@ TEST(LiquidSurface, OfABallIsItsSphere)
         turned += 1.0 - mesh.normals[v].dot(mesh.positions[v].normalized());
     }
     const auto count = static_cast<double>(mesh.positions.size());
-    std::printf("off the sphere by %.3f pitches (at most %.3f), normals by %.2f degrees\n", std::sqrt(squares / count),
-                largest, 180.0 / kPi * std::sqrt(2.0 * turned / count));
+    std::printf("off the sphere by %.3f pitches (at most %.3f), normals by %.2f degrees\n", std::sqrt(squares / count), largest,
+                180.0 / kPi * std::sqrt(2.0 * turned / count));
     // The volume is kept to 0.4 %, which is 0.013 pitches of the radius.
     EXPECT_LT(std::sqrt(squares / count), 0.02);
     EXPECT_LT(largest, 0.04);
@@ -219,8 +219,7 @@ void setVelocities(LiquidParticles& liquid, const Vec3& v0, const Mat3& gradient
 double worstVelocity(const SurfaceMesh& mesh, const Vec3& v0, const Mat3& gradient)
 {
     double worst = 0.0;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        worst = std::max(worst, (mesh.velocities[v] - v0 - gradient * mesh.positions[v]).norm());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) worst = std::max(worst, (mesh.velocities[v] - v0 - gradient * mesh.positions[v]).norm());
     return mesh.velocities.size() == mesh.positions.size() ? worst : 1.0e9;
 }
 
@@ -230,8 +229,7 @@ TEST(SurfaceVelocity, IsThatOfABodyInTranslation)
     LiquidSurface surface;
     for (Body& body : bodies()) {
         setVelocities(body.liquid, v0, Mat3::Zero());
-        EXPECT_LT(worstVelocity(surface.find(body.liquid, kDensity), v0, Mat3::Zero()), 1.0e-6 * v0.norm())
-            << body.name;
+        EXPECT_LT(worstVelocity(surface.find(body.liquid, kDensity), v0, Mat3::Zero()), 1.0e-6 * v0.norm()) << body.name;
     }
 }
 
@@ -271,8 +269,7 @@ TEST(SurfaceVelocity, IsLeftOutWhereItIsNotAskedFor)
 
 bool areSame(const SurfaceMesh& a, const SurfaceMesh& b)
 {
-    return a.positions == b.positions && a.normals == b.normals && a.velocities == b.velocities &&
-           a.triangles == b.triangles;
+    return a.positions == b.positions && a.normals == b.normals && a.velocities == b.velocities && a.triangles == b.triangles;
 }
 
 TEST(LiquidSurface, SameBitsForAnyThreadCount)
@@ -282,9 +279,7 @@ TEST(LiquidSurface, SameBitsForAnyThreadCount)
     LiquidParticles liquid = ball(1.2, 0.5);
     for (int p = 0; p < 2000; ++p) addAt(liquid, {1.0 + unit(random), unit(random), unit(random)});
     setVelocities(liquid, {1.0, 2.0, 3.0}, Mat3::Random());
-    const auto meshOn = [&](int threads) {
-        return onThreads(threads, [&] { return LiquidSurface().find(liquid, kDensity); });
-    };
+    const auto meshOn = [&](int threads) { return onThreads(threads, [&] { return LiquidSurface().find(liquid, kDensity); }); };
     const SurfaceMesh one = meshOn(1);
     EXPECT_GT(one.positions.size(), 10000u);
     for (const int threads : {2, 8}) EXPECT_TRUE(areSame(one, meshOn(threads))) << threads;
@@ -307,8 +302,7 @@ TEST(LiquidSurface, IsNothingWithoutLiquid)
     addAt(massless, Vec3::Zero(), 0.0);
     for (const LiquidParticles& liquid : {LiquidParticles(), massless}) {
         const SurfaceMesh& mesh = surface.find(liquid, kDensity);
-        EXPECT_TRUE(mesh.positions.empty() && mesh.normals.empty() && mesh.velocities.empty() &&
-                    mesh.triangles.empty());
+        EXPECT_TRUE(mesh.positions.empty() && mesh.normals.empty() && mesh.velocities.empty() && mesh.triangles.empty());
         EXPECT_EQ(0.0, enclosedVolume(mesh));
         EXPECT_EQ(0, surface.blocks());
     }
@@ -347,8 +341,7 @@ TEST(LiquidSurface, DustLeavesTheSpacing)
     EXPECT_NEAR(kPitch, before, 1.0e-9);
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(1.0, 4.0);
-    for (std::size_t p = 10 * liquid.count; p > 0; --p)
-        addAt(liquid, {unit(random), unit(random), unit(random)}, 1.0e-3 * std::pow(kPitch, 3));
+    for (std::size_t p = 10 * liquid.count; p > 0; --p) addAt(liquid, {unit(random), unit(random), unit(random)}, 1.0e-3 * std::pow(kPitch, 3));
     EXPECT_NEAR(before, surfaceSpacing(liquid, kDensity), 0.01 * before);
 }
 

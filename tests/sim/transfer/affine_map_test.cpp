@@ -27,8 +27,7 @@ double ballisticError(int modes, XiMap map, double dt)
     for (std::size_t s = 0; s < p.count; ++s) {
         const Vec3 v = gradient * (p.position(s) - center);
         for (int a = 0; a < kAxes; ++a) {
-            for (int r = 0; r < p.modeCount; ++r)
-                p.mode(a, r)[s] = r == 0 ? v[a] : r < 4 ? kCell * gradient(a, r - 1) : 0.0;
+            for (int r = 0; r < p.modeCount; ++r) p.mode(a, r)[s] = r == 0 ? v[a] : r < 4 ? kCell * gradient(a, r - 1) : 0.0;
             p.x[a][s] += dt * v[a];
         }
     }
@@ -79,12 +78,10 @@ TEST(AffineMap, EvaluatesThePolynomialWhereTheMaterialWas)
                 for (int n = 0; n < 27; ++n) {
                     const Vec3i node(n % 3, n / 3 % 3, n / 9);
                     const CellRef face = faceOfCell(t.grid(), stencil.first + node);
-                    const Vec3 z(stencil.basis[0].z[node.x()], stencil.basis[1].z[node.y()],
-                                 stencil.basis[2].z[node.z()]);
+                    const Vec3 z(stencil.basis[0].z[node.x()], stencil.basis[1].z[node.y()], stencil.basis[2].z[node.z()]);
                     const double share = p.mass[s] * stencil.weight(node.x(), node.y(), node.z());
                     expected.sums.block(face.block, FaceFields::kMass + a)[face.cell] += share;
-                    expected.sums.block(face.block, FaceFields::kMomentum + a)[face.cell] +=
-                        share * evaluateModes(Vec3(toOld * z), c[a]);
+                    expected.sums.block(face.block, FaceFields::kMomentum + a)[face.cell] += share * evaluateModes(Vec3(toOld * z), c[a]);
                 }
             }
         }
@@ -101,12 +98,10 @@ TEST(AffineMap, IsTranslationWhereTheMotionFoldsTheLiquid)
     for (LiquidParticles* liquid : {&p, &plain.liquid.particles})
         for (std::size_t s = 0; s < p.count; ++s)
             for (int a = 0; a < kAxes; ++a)
-                for (int b = 0; b < kAxes; ++b)
-                    liquid->mode(a, 1 + b)[s] = a == b && a < 1 ? -2.0 * t.grid().dx / dt : 0.0;
+                for (int b = 0; b < kAxes; ++b) liquid->mode(a, 1 + b)[s] = a == b && a < 1 ? -2.0 * t.grid().dx / dt : 0.0;
     t.toFaces(XiMap::Affine, dt);
     plain.toFaces();
-    for (std::size_t i = 0; i < t.faces.sums.size(); ++i)
-        ASSERT_NEAR(t.faces.sums.block(0)[i], plain.faces.sums.block(0)[i], 1e-11);
+    for (std::size_t i = 0; i < t.faces.sums.size(); ++i) ASSERT_NEAR(t.faces.sums.block(0)[i], plain.faces.sums.block(0)[i], 1e-11);
 }
 
 TEST(AffineMap, SameBitsForAnyThreadCount)
@@ -156,8 +151,7 @@ TEST(AffineMap, IsWhatTheStepUsesWhereItMatters)
         std::vector<Vec3> place(a.nextId);
         for (std::size_t p = 0; p < a.liquid.count; ++p) place[a.liquid.id[p]] = a.liquid.position(p);
         double largest = 0.0;
-        for (std::size_t p = 0; p < b.liquid.count; ++p)
-            largest = std::max(largest, (b.liquid.position(p) - place[b.liquid.id[p]]).norm());
+        for (std::size_t p = 0; p < b.liquid.count; ++p) largest = std::max(largest, (b.liquid.position(p) - place[b.liquid.id[p]]).norm());
         return largest;
     };
     // Of about 0.1 cm that they have moved; round-off would be 1e-15.

@@ -26,16 +26,14 @@ Change changeOfMomenta(int modes, XiMap map)
     t.toParticles(modes, kDt);
     t.liquid.sort();
     t.toFaces(map, kDt);
-    return {(t.faceMomentum() - linear).norm() / linearScale,
-            (t.faceAngularMomentum() - angular).norm() / angularScale};
+    return {(t.faceMomentum() - linear).norm() / linearScale, (t.faceAngularMomentum() - angular).norm() / angularScale};
 }
 
 }  // namespace
 
 TEST(Momentum, TranslationKeepsLinearMomentumForAnyModes)
 {
-    for (int modes : {1, 4, 6, 8, 10, 11, 15, 27})
-        EXPECT_LT(changeOfMomenta(modes, XiMap::Translation).linear, 1e-13) << modes << " modes";
+    for (int modes : {1, 4, 6, 8, 10, 11, 15, 27}) EXPECT_LT(changeOfMomenta(modes, XiMap::Translation).linear, 1e-13) << modes << " modes";
 }
 
 TEST(Momentum, TranslationKeepsAngularMomentumWithFourAndEightModes)
@@ -161,8 +159,7 @@ TEST_P(ParticleSet, EmittedParticlesBringTheirMomentum)
     t.liquid.particles = state.liquid;
     const Totals after = totals(t);
     EXPECT_GT(state.ledger.emittedMass, 0.5);
-    EXPECT_LT((after.momentum - before.momentum - state.ledger.emittedMass * emission.velocity).norm(),
-              1e-13 * after.scale);
+    EXPECT_LT((after.momentum - before.momentum - state.ledger.emittedMass * emission.velocity).norm(), 1e-13 * after.scale);
 }
 
 // Law 4 (transfer/README.md, Conservation).
@@ -181,10 +178,8 @@ TEST(Energy, NeverGrowsInATransfer)
         const double onFacesAgain = t.faceEnergy();
         EXPECT_LE(onParticles, onFaces * (1.0 + 1e-13));
         EXPECT_LE(onFacesAgain, onParticles * (1.0 + 1e-13));
-        if (modes == 27)
-            EXPECT_NEAR(onFacesAgain, onFaces, 1e-12 * onFaces);
-        else
-            EXPECT_LT(onFacesAgain, 0.95 * onFaces);
+        if (modes == 27) EXPECT_NEAR(onFacesAgain, onFaces, 1e-12 * onFaces);
+        else EXPECT_LT(onFacesAgain, 0.95 * onFaces);
     }
 }
 
@@ -199,8 +194,7 @@ TEST(Energy, GatherCountsWhatTheParticlesThenHave)
             std::array<AlignedArray<double>, kAxes> displacement;
             for (int a = 0; a < kAxes; ++a) {
                 displacement[a].resize(t.liquid.particles.mass.size());
-                for (std::size_t s = 0; s < displacement[a].size(); ++s)
-                    displacement[a][s] = 0.1 * std::sin(static_cast<double>(3 * s + a));
+                for (std::size_t s = 0; s < displacement[a].size(); ++s) displacement[a][s] = 0.1 * std::sin(static_cast<double>(3 * s + a));
             }
             GatherSettings settings;
             settings.modes = modes;

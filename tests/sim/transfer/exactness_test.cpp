@@ -14,16 +14,10 @@ namespace {
 constexpr double kCell = 0.288;
 
 /// 80 particles in 5³ cells, which is where the fields below are of order 1.
-Transfers fewParticles(int modes)
-{
-    return Transfers(randomLiquid(80, modes, {5, 5, 5}, {-2, 6, 3}, kCell));
-}
+Transfers fewParticles(int modes) { return Transfers(randomLiquid(80, modes, {5, 5, 5}, {-2, 6, 3}, kCell)); }
 
 /// Place relative to the middle of the particles' box, in cells.
-Vec3 inBox(const BlockGrid& grid, const Vec3& x)
-{
-    return (x - grid.origin) / grid.dx - Vec3(0.5, 8.5, 5.5);
-}
+Vec3 inBox(const BlockGrid& grid, const Vec3& x) { return (x - grid.origin) / grid.dx - Vec3(0.5, 8.5, 5.5); }
 
 /// Largest error of G2P → P2G at fixed positions, relative to the largest velocity.
 template <class F>
@@ -42,28 +36,15 @@ double roundTripError(int modes, F&& field)
     return t.largestError([&](int axis, const Vec3& x) { return field(axis, inBox(t.grid(), x)); }) / largest;
 }
 
-double constant(int axis, const Vec3&)
-{
-    return 1.0 - 0.7 * axis;
-}
-double linear(int axis, const Vec3& z)
-{
-    return constant(axis, z) + 0.3 * z.x() - (0.2 + 0.1 * axis) * z.y() + 0.15 * z.z();
-}
+double constant(int axis, const Vec3&) { return 1.0 - 0.7 * axis; }
+double linear(int axis, const Vec3& z) { return constant(axis, z) + 0.3 * z.x() - (0.2 + 0.1 * axis) * z.y() + 0.15 * z.z(); }
 double trilinear(int axis, const Vec3& z)
 {
-    return linear(axis, z) + 0.1 * z.x() * z.y() - 0.07 * (1 + axis) * z.x() * z.z() + 0.12 * z.y() * z.z() -
-           0.05 * z.prod();
+    return linear(axis, z) + 0.1 * z.x() * z.y() - 0.07 * (1 + axis) * z.x() * z.z() + 0.12 * z.y() * z.z() - 0.05 * z.prod();
 }
-double squares(int axis, const Vec3& z)
-{
-    return trilinear(axis, z) + 0.1 * z.x() * z.x() - 0.2 * z.y() * z.y() + 0.15 * (1 - axis) * z.z() * z.z();
-}
+double squares(int axis, const Vec3& z) { return trilinear(axis, z) + 0.1 * z.x() * z.x() - 0.2 * z.y() * z.y() + 0.15 * (1 - axis) * z.z() * z.z(); }
 /// As good as random, and the same for every call.
-double anything(int axis, const Vec3& z)
-{
-    return std::sin(1000.0 * (1 + axis) + 12.9898 * z.x() + 78.233 * z.y() + 37.719 * z.z());
-}
+double anything(int axis, const Vec3& z) { return std::sin(1000.0 * (1 + axis) + 12.9898 * z.x() + 78.233 * z.y() + 37.719 * z.z()); }
 
 }  // namespace
 
@@ -249,6 +230,5 @@ TEST(Damping, OfAWaveIsThePublishedOne)
 
 TEST(Damping, DoesNotDependOnTheUnitOfLength)
 {
-    for (int modes : {1, 4, 8, 11, 27})
-        EXPECT_NEAR(energyKept(modes, 1, 100.0), energyKept(modes, 1), 1e-12) << modes << " modes";
+    for (int modes : {1, 4, 8, 11, 27}) EXPECT_NEAR(energyKept(modes, 1, 100.0), energyKept(modes, 1), 1e-12) << modes << " modes";
 }

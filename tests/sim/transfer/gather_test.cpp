@@ -53,8 +53,7 @@ TEST(Flip, AddsTheChangeOfTheFaces)
     GatherSettings settings = flip(t, 1.0);
     settings.flipVelocity = &old;
     t.toParticles(settings);
-    for (std::size_t s = 0; s < before.size(); ++s)
-        EXPECT_LT((t.liquid.particles.velocity(s) - before[s] - kick).norm(), 1e-14);
+    for (std::size_t s = 0; s < before.size(); ++s) EXPECT_LT((t.liquid.particles.velocity(s) - before[s] - kick).norm(), 1e-14);
 }
 
 TEST(Flip, IsPicWithRatioZeroAndMovesAsPicWithAny)
@@ -74,10 +73,7 @@ TEST(Flip, IsPicWithRatioZeroAndMovesAsPicWithAny)
     EXPECT_GT(largest, 0.1);
 }
 
-Vec3 affine(const Vec3& x)
-{
-    return {0.3 - x.x() + 2.0 * x.y() + 0.5 * x.z(), 1.0 - 2.0 * x.x() - 0.4 * x.z(), -0.7 + 0.3 * x.y() + x.z()};
-}
+Vec3 affine(const Vec3& x) { return {0.3 - x.x() + 2.0 * x.y() + 0.5 * x.z(), 1.0 - 2.0 * x.x() - 0.4 * x.z(), -0.7 + 0.3 * x.y() + x.z()}; }
 
 /// x + dt u(x + dt/2 u(x)) in half of the cells, which linear modes know exactly; in the others particles move with what they get.
 TEST(Midpoint, IsExactInAffineFieldsWhereItIsAskedFor)
@@ -178,8 +174,7 @@ TEST(Gather, CellsWithoutManyModesGetEight)
         BlockBits<> none;
         none.resize(like.grid().count());
         for (int b = 0; b < like.grid().count(); ++b) std::fill_n(none.block(b), BlockBits<>::kWords, 0);
-        const LiquidParticles limited = gather(modes, &none), eight = gather(kModesAtSurface, nullptr),
-                              many = gather(modes, nullptr);
+        const LiquidParticles limited = gather(modes, &none), eight = gather(kModesAtSurface, nullptr), many = gather(modes, nullptr);
         double difference = 0.0;
         for (std::size_t s = 0; s < eight.count; ++s)
             for (int a = 0; a < kAxes; ++a)
@@ -193,9 +188,7 @@ TEST(Gather, CellsWithoutManyModesGetEight)
 
 TEST(Gather, FaceDisplacementsMoveParticlesBesideTheirVelocity)
 {
-    const auto displaced = [](int axis, const Vec3& x) {
-        return 0.01 * (1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z());
-    };
+    const auto displaced = [](int axis, const Vec3& x) { return 0.01 * (1.0 + axis + (2.0 - axis) * x.x() - 3.0 * x.y() + (0.5 + axis) * x.z()); };
     for (int modes : {1, 8, 27}) {
         SCOPED_TRACE(modes);
         Transfers still(randomLiquid(500, modes)), moved(randomLiquid(500, modes));
@@ -204,8 +197,7 @@ TEST(Gather, FaceDisplacementsMoveParticlesBesideTheirVelocity)
         field.resize(moved.grid().count());
         for (int b = 0; b < moved.grid().count(); ++b)
             for (int a = 0; a < kAxes; ++a)
-                for (int c = 0; c < kBlockCells; ++c)
-                    field.block(b, a)[c] = displaced(a, faceMiddle(moved.grid(), a, b, c));
+                for (int c = 0; c < kBlockCells; ++c) field.block(b, a)[c] = displaced(a, faceMiddle(moved.grid(), a, b, c));
         const LiquidParticles before = moved.liquid.particles;
         GatherSettings settings;
         settings.modes = modes;

@@ -64,8 +64,8 @@ TEST(PolyPicModes, BasisIsMassOrthogonal)
         forEachNode([&](int i, int j, int k) {
             std::array<double, kMaxModes> s;
             for (int r = 0; r < kMaxModes; ++r)
-                s[r] = orthogonalFactor(basis[0], i, kDegrees[r][0]) * orthogonalFactor(basis[1], j, kDegrees[r][1])
-                       * orthogonalFactor(basis[2], k, kDegrees[r][2]);
+                s[r] = orthogonalFactor(basis[0], i, kDegrees[r][0]) * orthogonalFactor(basis[1], j, kDegrees[r][1]) *
+                       orthogonalFactor(basis[2], k, kDegrees[r][2]);
             const double w = basis[0].weight[i] * basis[1].weight[j] * basis[2].weight[k];
             for (int r = 0; r < kMaxModes; ++r)
                 for (int q = 0; q < kMaxModes; ++q) gram[r][q] += w * s[r] * s[q];
@@ -136,8 +136,8 @@ TEST(PolyPicModes, GoldenGather)
     double value[3][3][3];
     forEachNode([&](int a, int b, int d) {
         const double i = a - 1, j = b - 1, k = d - 1;
-        value[a][b][d] = 1 + 2 * i - 3 * j + 4 * k + 5 * i * j - 6 * i * k + 7 * j * k - 8 * i * j * k + 9 * i * i - 10 * j * j + 11 * k * k
-                         + 12 * i * i * j;
+        value[a][b][d] =
+            1 + 2 * i - 3 * j + 4 * k + 5 * i * j - 6 * i * k + 7 * j * k - 8 * i * j * k + 9 * i * i - 10 * j * j + 11 * k * k + 12 * i * i * j;
         projectOntoModes(basis, a, b, d, value[a][b][d], kMaxModes, c);
     });
     EXPECT_NEAR(h * basis[0].skew, 0.055296, 1e-12);
@@ -146,8 +146,8 @@ TEST(PolyPicModes, GoldenGather)
     EXPECT_NEAR(basis[0].weight[0], 0.02, 1e-14);
     EXPECT_NEAR(basis[1].weight[1], 0.71, 1e-14);
     EXPECT_NEAR(basis[2].weight[2], 0.18, 1e-14);
-    const double golden[] = {4.232, 20.0944444444, 30.2777777778, 15.75, 165.219907407, -53.0478395062, 55.4591049383, -334.89797668,
-                             79.5717592593, -120.563271605, 132.619598765};
+    const double golden[] = {4.232,         20.0944444444, 30.2777777778, 15.75,          165.219907407, -53.0478395062,
+                             55.4591049383, -334.89797668, 79.5717592593, -120.563271605, 132.619598765};
     const double scale[] = {1, h, h, h, h * h, h * h, h * h, h * h * h, h * h, h * h, h * h};
     for (int r = 0; r < 11; ++r) EXPECT_NEAR(c[r] / scale[r], golden[r], 1e-8) << "mode " << r;
     EXPECT_NEAR(c[15] / (h * h * h), 502.346965021, 1e-6);

@@ -8,10 +8,7 @@
 
 namespace sim::test {
 
-inline Vec3 unitVector(int axis)
-{
-    return Vec3::Unit(axis);
-}
+inline Vec3 unitVector(int axis) { return Vec3::Unit(axis); }
 
 /// Middle of the face at the lower side of cell c of block b [cm].
 inline Vec3 faceMiddle(const BlockGrid& grid, int axis, int block, int c)
@@ -44,13 +41,9 @@ struct Transfers {
     /// P2G; faces with mass get a velocity, the others rest.
     void toFaces(XiMap map = XiMap::Translation, double dt = 0.0)
     {
-        if (map == XiMap::Translation)
-            particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
-        else
-            particlesToFacesAffine(liquid.particles, liquid.order, liquid.grid, map, dt, faces);
-        setVelocities([&](int axis, int b, int c) {
-            return mass(axis, b, c) > 0.0 ? momentum(axis, b, c) / mass(axis, b, c) : 0.0;
-        });
+        if (map == XiMap::Translation) particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
+        else particlesToFacesAffine(liquid.particles, liquid.order, liquid.grid, map, dt, faces);
+        setVelocities([&](int axis, int b, int c) { return mass(axis, b, c) > 0.0 ? momentum(axis, b, c) / mass(axis, b, c) : 0.0; });
     }
 
     /// u(axis, block, cell) on all faces; all of them are valid.
@@ -90,18 +83,14 @@ struct Transfers {
     Vec3 faceAngularMomentum() const
     {
         Vec3 sum = Vec3::Zero();
-        forEachFaceOf(grid(), [&](int axis, int b, int c) {
-            sum += faceMiddle(grid(), axis, b, c).cross(unitVector(axis)) * momentum(axis, b, c);
-        });
+        forEachFaceOf(grid(), [&](int axis, int b, int c) { sum += faceMiddle(grid(), axis, b, c).cross(unitVector(axis)) * momentum(axis, b, c); });
         return sum;
     }
     /// Of the faces' velocities, with the masses of the last P2G.
     double faceEnergy() const
     {
         double sum = 0.0;
-        forEachFaceOf(grid(), [&](int axis, int b, int c) {
-            sum += 0.5 * mass(axis, b, c) * velocity(axis, b, c) * velocity(axis, b, c);
-        });
+        forEachFaceOf(grid(), [&](int axis, int b, int c) { sum += 0.5 * mass(axis, b, c) * velocity(axis, b, c) * velocity(axis, b, c); });
         return sum;
     }
 
@@ -122,9 +111,7 @@ struct Transfers {
     double angularMomentumScale() const
     {
         double sum = 0.0;
-        forEachFaceOf(grid(), [&](int axis, int b, int c) {
-            sum += faceMiddle(grid(), axis, b, c).norm() * std::abs(momentum(axis, b, c));
-        });
+        forEachFaceOf(grid(), [&](int axis, int b, int c) { sum += faceMiddle(grid(), axis, b, c).norm() * std::abs(momentum(axis, b, c)); });
         return sum;
     }
 
@@ -134,9 +121,7 @@ struct Transfers {
     {
         double worst = 0.0;
         forEachFaceOf(grid(), [&](int axis, int b, int c) {
-            if (mass(axis, b, c) > 0.0)
-                worst =
-                    std::max(worst, std::abs(velocity(axis, b, c) - expected(axis, faceMiddle(grid(), axis, b, c))));
+            if (mass(axis, b, c) > 0.0) worst = std::max(worst, std::abs(velocity(axis, b, c) - expected(axis, faceMiddle(grid(), axis, b, c))));
         });
         return worst;
     }

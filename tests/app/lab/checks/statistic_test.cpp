@@ -41,9 +41,8 @@ TEST(Take, PeriodAndEnvelopeOfADampedSwing)
 {
     constexpr double kPeriod = 0.7, kRate = 0.1;
     // Whole periods, else their mean is not what they swing about; damping shifts it by as little as the figures say.
-    const auto all = readings(4000, 10.0 * kPeriod, [](double t) {
-        return 5.0 + std::exp(-kRate * t) * std::sin(2.0 * std::numbers::pi * t / kPeriod);
-    });
+    const auto all =
+        readings(4000, 10.0 * kPeriod, [](double t) { return 5.0 + std::exp(-kRate * t) * std::sin(2.0 * std::numbers::pi * t / kPeriod); });
     EXPECT_NEAR(take(Take::Period, all), kPeriod, 1.0e-3 * kPeriod);
     EXPECT_NEAR(take(Take::EnvelopeRate, all), kRate, 0.02 * kRate);
 }

@@ -10,7 +10,11 @@ namespace {
 /// A run's folder with its log and one picture.
 struct LeftBehind {
     test::TemporaryFolder folder;
-    LeftBehind() { log(R"({"step":1,"max_speed":2.0})"); test::writeFile(folder / "frame_00000.png", ""); }
+    LeftBehind()
+    {
+        log(R"({"step":1,"max_speed":2.0})");
+        test::writeFile(folder / "frame_00000.png", "");
+    }
     void log(const std::string& line) { test::writeFile(folder / "steps.jsonl", line + '\n'); }
     StressEnding ending(int code, const std::string& words, bool timedOut = false) const
     {

@@ -42,23 +42,15 @@ Parts flightParts(const std::string& text)
     };
     parts.startSimulation = [](const SceneSetup& setup) {
         const double speed = std::stod(setup.identity.substr(setup.identity.find("speed: ") + 7));
-        return test::toyParts({.dt = setup.scene.settings.time.dt,
-                               .speed = speed,
-                               .failAtStep = setup.scene.settings.cell < 0.0 ? 1 : 0})
+        return test::toyParts({.dt = setup.scene.settings.time.dt, .speed = speed, .failAtStep = setup.scene.settings.cell < 0.0 ? 1 : 0})
             .startSimulation(setup);
     };
     return parts;
 }
 
-bool never()
-{
-    return false;
-}
+bool never() { return false; }
 
-PrecisionRow measure(const PrecisionRun& run, const Parts& parts)
-{
-    return measurePrecision(run, {}, 1, 1, parts, never);
-}
+PrecisionRow measure(const PrecisionRun& run, const Parts& parts) { return measurePrecision(run, {}, 1, 1, parts, never); }
 
 TEST(Precision, RunsEveryCombinationOfItsChoices)
 {
@@ -175,11 +167,9 @@ PrecisionCase caseOf(const std::vector<Cost>& ours)
 
 TEST(Precision, SaysWhatPartOfTheRunTimeIsNeeded)
 {
-    EXPECT_NE(gainSentence(caseOf({{1.0, 1.0}, {4.0, 0.01}})).find("1/4.0 of the run time of the published scheme"),
-              std::string::npos);
+    EXPECT_NE(gainSentence(caseOf({{1.0, 1.0}, {4.0, 0.01}})).find("1/4.0 of the run time of the published scheme"), std::string::npos);
     EXPECT_NE(gainSentence(caseOf({{0.5, 0.05}})).find("1/16.0 of"), std::string::npos);
-    EXPECT_NE(gainSentence(caseOf({{9.0, 0.2}})).find("1/1.0 of"), std::string::npos)
-        << "no gain is no loss: it may be used itself";
+    EXPECT_NE(gainSentence(caseOf({{9.0, 0.2}})).find("1/1.0 of"), std::string::npos) << "no gain is no loss: it may be used itself";
     PrecisionCase without = caseOf({{1.0, 1.0}});
     without.precision.published = {};
     EXPECT_EQ(gainSentence(without), "");
@@ -206,8 +196,7 @@ TEST(Precision, MistakesNameTheirLine)
         {"methods: [fast]", "methods: [fats]", "flight.yaml:12: precision.quick.methods: there is no \"fats\""},
         {"step: short", "step: shirt", "flight.yaml:13: precision.published.step: there is no \"shirt\""},
         {"decay", "decoy", "unknown key \"decoy\""}};
-    for (const auto& [from, to, expected] : all)
-        EXPECT_NE(mistake(from, to).find(expected), std::string::npos) << mistake(from, to);
+    for (const auto& [from, to, expected] : all) EXPECT_NE(mistake(from, to).find(expected), std::string::npos) << mistake(from, to);
 }
 
 }  // namespace

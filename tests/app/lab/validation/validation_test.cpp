@@ -9,10 +9,7 @@
 namespace app {
 namespace {
 
-sim::SceneFile caseOf(const std::string& section)
-{
-    return sim::sceneFileFromText(fmt::format("drench: 1\nvalidate:\n{}", section), "case.yaml");
-}
+sim::SceneFile caseOf(const std::string& section) { return sim::sceneFileFromText(fmt::format("drench: 1\nvalidate:\n{}", section), "case.yaml"); }
 
 /// The toy's one particle of 2 g flies along x at 1 cm/s.
 CaseResult fly(const std::string& checks, const test::ToySettings& toy = {})
@@ -31,8 +28,7 @@ TEST(Validation, ComparesReadingsWithWhatIsKnown)
             "    - {read: liquid_x, against: 100*t, from: 1.5, to: 3.5, take: mean, expect: 0.025, tolerance: 1.0e-9}\n"
             "    - {read: liquid_x + 1, table: [[0, 1], [0.1, 1.1]], take: largest_error, at_most: 1.0e-9}\n");
     ASSERT_EQ(result.findings.size(), 5u);
-    for (const std::size_t right : {0u, 2u, 3u, 4u})
-        EXPECT_TRUE(result.findings[right].passes) << right << ": " << result.findings[right].value;
+    for (const std::size_t right : {0u, 2u, 3u, 4u}) EXPECT_TRUE(result.findings[right].passes) << right << ": " << result.findings[right].value;
     EXPECT_FALSE(result.findings[1].passes);
     EXPECT_FALSE(result.passes());
     EXPECT_EQ(result.readings[0].size(), 6u);
@@ -42,13 +38,14 @@ TEST(Validation, ComparesReadingsWithWhatIsKnown)
 /// Steps of 0.004, 0.004 and 0.002 s between two readings: the first three push by 1, 2 and 3 dyn.
 TEST(Validation, ForcesAreMeansSinceTheLastReading)
 {
-    const CaseResult result = fly("    - {read: 'force_x(\"wall\")', to: 0.015, take: last, expect: 1.8, tolerance: 1.0e-9}\n"
-                                  "    - {read: 'torque_z(\"wall\")', from: 0.015, to: 0.025, take: last, expect: -3*4.8, tolerance: 1.0e-9}\n"
-                                  "    - {read: 'contact_force_x(\"wall\") + liquid_force_x(\"sheet\")', take: last, expect: 0, within: 0}\n"
-                                  "    - {read: 'contact_force_x(\"sheet\")/force_x(\"wall\")', from: 0.005, expect: -1, tolerance: 1.0e-9}\n"
-                                  "    - {read: 'pin_force_x(\"left\")/force_x(\"wall\")', from: 0.005, expect: 2, tolerance: 1.0e-9}\n"
-                                  "    - {read: 'pin_torque_z(\"sheet\")/force_x(\"wall\")', from: 0.005, expect: -9, tolerance: 1.0e-9}\n",
-                                  {.push = 1.0});
+    const CaseResult result =
+        fly("    - {read: 'force_x(\"wall\")', to: 0.015, take: last, expect: 1.8, tolerance: 1.0e-9}\n"
+            "    - {read: 'torque_z(\"wall\")', from: 0.015, to: 0.025, take: last, expect: -3*4.8, tolerance: 1.0e-9}\n"
+            "    - {read: 'contact_force_x(\"wall\") + liquid_force_x(\"sheet\")', take: last, expect: 0, within: 0}\n"
+            "    - {read: 'contact_force_x(\"sheet\")/force_x(\"wall\")', from: 0.005, expect: -1, tolerance: 1.0e-9}\n"
+            "    - {read: 'pin_force_x(\"left\")/force_x(\"wall\")', from: 0.005, expect: 2, tolerance: 1.0e-9}\n"
+            "    - {read: 'pin_torque_z(\"sheet\")/force_x(\"wall\")', from: 0.005, expect: -9, tolerance: 1.0e-9}\n",
+            {.push = 1.0});
     ASSERT_EQ(result.findings.size(), 6u) << result.failure;
     for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(result.findings[i].passes) << i << ": " << result.findings[i].value;
 }
@@ -92,21 +89,16 @@ TEST(Validation, MistakesNameTheirLine)
          "case.yaml:5: validate.checks.0.read: \"force_y(\"bal\")\": there is no obstacle and no fabric \"bal\""},
         {"  every: 1\n  checks:\n    - {read: 'pin_force_y(\"bal\")', at_most: 1}\n",
          "case.yaml:5: validate.checks.0.read: \"pin_force_y(\"bal\")\": no pins and no fabric with pins are called \"bal\""},
-        {"  every: 1\n  checks:\n    - {read: speed}\n",
-         "case.yaml:5: validate.checks.0: needs expect with a tolerance"},
-        {"  every: 1\n  checks:\n    - {read: speed, expect: 1}\n",
-         "case.yaml:5: validate.checks.0: expect needs tolerance"},
+        {"  every: 1\n  checks:\n    - {read: speed}\n", "case.yaml:5: validate.checks.0: needs expect with a tolerance"},
+        {"  every: 1\n  checks:\n    - {read: speed, expect: 1}\n", "case.yaml:5: validate.checks.0: expect needs tolerance"},
         {"  every: 1\n  checks:\n    - {read: speed, take: mean_error, at_most: 1}\n",
          "case.yaml:5: validate.checks.0: an error needs expect or table"},
-        {"  every: 1\n  checks:\n    - {read: speed, take: middle, at_most: 1}\n",
-         "case.yaml:5: validate.checks.0.take"},
+        {"  every: 1\n  checks:\n    - {read: speed, take: middle, at_most: 1}\n", "case.yaml:5: validate.checks.0.take"},
         {"  every: 1\n  checks:\n    - {read: speed, at_most: 1, colour: 3}\n", "unknown key \"colour\""},
-        {"  every: 1\n  flow: [\"1\", \"2\"]\n  checks: [{read: 1, at_most: 1}]\n",
-         "case.yaml:4: validate.flow: needs three formulas"},
+        {"  every: 1\n  flow: [\"1\", \"2\"]\n  checks: [{read: 1, at_most: 1}]\n", "case.yaml:4: validate.flow: needs three formulas"},
         {"  every: 1\n  let: {k: pi/}\n  checks: [{read: 1, at_most: 1}]\n", "case.yaml:4: validate.let.k"},
     };
-    for (const auto& [section, message] : all)
-        EXPECT_NE(mistake(section).find(message), std::string::npos) << section << mistake(section);
+    for (const auto& [section, message] : all) EXPECT_NE(mistake(section).find(message), std::string::npos) << section << mistake(section);
 }
 
 }  // namespace
