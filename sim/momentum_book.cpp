@@ -9,6 +9,7 @@ void MomentumBook::prepare(const Scene& scene, const Fabric& fabric)
 {
     if (scene.obstacles.empty() && fabric.empty()) return;
     fabric_ = &fabric;
+    isLed_ = scene.settings.fabric.solver == FabricSolver::Off;
     forces_.obstacles.resize(scene.obstacles.size());
     forces_.fabrics.resize(fabric.pieces());
     forces_.hardest.resize(fabric.pieces());
@@ -76,17 +77,19 @@ void MomentumBook::exchanged(const State& state, std::span<const Vec3> toPins)
         forces_.fabrics[k].liquid += got;
         liquid_ -= got.linear;
     }
+    Vec3 toNobody = Vec3::Zero();
+    for (const Vec3& held : toPins) toNobody += held;
     for (std::size_t i = 0; i < fabric_->pins.vertex.size() && !toPins.empty(); ++i) {
         const int v = fabric_->pins.vertex[i];
         const Impulse held = Impulse::at(state.fabric.x[v], toPins[v]);
         forces_.pins[fabric_->pins.motion[i]] += held;
         forces_.fabrics[fabric_->pieceOf(v)].liquid += held;
         liquid_ -= held.linear;
+        toNobody -= held.linear;
     }
-    // Of fabric that is held as a whole (fabric.solver: off) the rest is nobody's.
-    for (std::size_t v = 0; v < toPins.size() && fabric_->pins.vertex.empty(); ++v) {
-        forces_.balance.unresolved -= toPins[v];
-        liquid_ -= toPins[v];
+    if (isLed_) {
+        forces_.balance.unresolved -= toNobody;
+        liquid_ -= toNobody;
     }
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         pieces_[k].byLiquid = forces_.fabrics[k].liquid.linear;
@@ -113,6 +116,10 @@ void MomentumBook::fabricMoved(double dt, const Vec3& gravity, const State& stat
         piece.missing = piece.momentum.linear - before_[k].linear - known;
         forces_.balance.weight += weight;
         liquid_ -= byLiquid;
+    }
+    if (isLed_) {
+        for (const Piece& piece : pieces_) forces_.balance.unresolved += piece.missing;
+        return;
     }
     if (pieces_.size() > 1) settleLoose();
     for (std::size_t k = 0; k < pieces_.size(); ++k) settleHeld(k, state.fabric);

@@ -64,6 +64,7 @@ class MomentumBook {
     Vec3 middleOfPins(int group, const FabricState& state) const;
 
     const Fabric* fabric_ = nullptr;
+    bool isLed_ = false;  ///< is all fabric held (fabric.solver: off)? What holds it beside its pins is nobody
     Forces forces_;
     Vec3 liquid_ = Vec3::Zero();            ///< momentum that the liquid should have by what has been booked; until it is on the faces the
                                             ///< change of it since the start of the step [g cm/s]

@@ -33,14 +33,6 @@ double relaxReach(const Scene& scene)
     return std::min(relax.range * radius, scene.settings.cell);
 }
 
-/// Of the source that is packed most tightly: sources of one scene should all be filled alike.
-double packingOfSources(const Scene& scene)
-{
-    double packing = 0.0;
-    for (const SourceSettings& source : scene.sources) packing = std::max(packing, packingOf(source.fill.pattern));
-    return packing > 0.0 ? packing : 1.0;
-}
-
 /// Of the source with the fewest particles, in cells; that of a lattice by default where there is none.
 double pitchOfSources(const Scene& scene)
 {
@@ -83,8 +75,8 @@ Simulation::Simulation(Scene scene) : scene_(std::move(scene)), fabric_(assemble
     state_.fabric = initialState(fabric_, scene_.fabrics, settings.liquid.density);
     if (settings.fabric.solver == FabricSolver::Off) std::ranges::fill(state_.fabric.v, Vec3::Zero());
     state_.ledger.emittedMass = std::accumulate(state_.fabric.absorbed.begin(), state_.fabric.absorbed.end(), 0.0);
-    prepareWorkspace();
     emitLiquid(scene_, state_, state_.time, state_.time, work_.emission);
+    prepareWorkspace();
     begin();
 }
 
@@ -147,7 +139,7 @@ void Simulation::prepareWorkspace()
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.momentum.prepare(scene_, fabric_);
     work_.relaxReach = relaxReach(scene_);
-    work_.packing = packingOfSources(scene_);
+    work_.packing = packingOfSources(scene_, state_);
     work_.grid.pitch = pitchOfSources(scene_);
     if (scene_.settings.fabric.solver == FabricSolver::Off) {
         std::ranges::fill(fabric_.pinned, 1);

@@ -49,13 +49,8 @@ class FabricIntegrator {
 
     /// From now on reports tell where energy goes, which takes about as long as an iteration of a solve.
     void bookEnergy() { booksEnergy_ = true; }
-    /// Can it tell the forces that act on the fabric?
-    virtual bool tellsForces() const { return true; }
     /// From now on steps add there what acts between the fabric and what it touches, hangs on and meets of the liquid.
-    void tellForces(Forces& forces)
-    {
-        if (tellsForces()) forces_ = &forces;
-    }
+    void tellForces(Forces& forces) { forces_ = &forces; }
 
  protected:
     bool booksEnergy_ = false;

@@ -2,6 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/fabric/pins.h"
+#include "sim/forces.h"
 
 #include <algorithm>
 
@@ -15,7 +16,7 @@ LedFabric::LedFabric(const Fabric& fabric, const FabricSettings& settings)
 FabricReport LedFabric::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock&, const FabricLoads& loads)
 {
     FabricReport report;
-    if (booksEnergy_) before_ = state.v;
+    if (booksEnergy_ || forces_) before_ = state.v;
     const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
@@ -27,8 +28,20 @@ FabricReport LedFabric::advance(double t, double h, const Vec3& gravity, FabricS
         for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
             if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t + h, state, static_cast<int>(e));
     }
+    if (forces_) tellForces(h, gravity, state, loads.onVertices);
     if (booksEnergy_) report.energyChanges = changes(h, gravity, state, loads.onVertices);
     return report;
+}
+
+Vec3 LedFabric::byLiquid(const LiquidLoads* loads, const FabricState& state, std::size_t v)
+{
+    return loads ? Vec3(loads->impulse[v] - loads->drag[v].cwiseProduct(state.v[v])) : Vec3::Zero().eval();
+}
+
+Vec3 LedFabric::byHolder(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const
+{
+    const double mass = fabric_.mass[v] + state.absorbed[v];
+    return mass * (state.v[v] - before_[v] - h * gravity) - byLiquid(loads, state, v);
 }
 
 /// All vertices are held: what holds them takes the liquid's impulse and gives them their motion.
@@ -37,13 +50,23 @@ EnergyChanges LedFabric::changes(double h, const Vec3& gravity, const FabricStat
     EnergyChanges sum;
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         const double mass = fabric_.mass[v] + state.absorbed[v];
-        const Vec3 faster = state.v[v] - before_[v];
-        const Vec3 byLiquid = loads ? Vec3(loads->impulse[v] - loads->drag[v].cwiseProduct(state.v[v])) : Vec3::Zero().eval();
-        sum[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
-        sum[EnergyChange::Implicit] -= 0.5 * mass * faster.squaredNorm();
-        sum[EnergyChange::Pins] += (mass * (faster - h * gravity) - byLiquid).dot(state.v[v]);
+        sum[EnergyChange::Drag] += byLiquid(loads, state, v).dot(state.v[v]);
+        sum[EnergyChange::Implicit] -= 0.5 * mass * (state.v[v] - before_[v]).squaredNorm();
+        sum[EnergyChange::Pins] += byHolder(h, gravity, state, loads, v).dot(state.v[v]);
     }
     return sum;
+}
+
+/// Pins hold their own vertices; what holds the others is nothing of the scene.
+void LedFabric::tellForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const
+{
+    if (loads)
+        for (std::size_t v = 0; v < state.v.size(); ++v)
+            forces_->fabrics[fabric_.pieceOf(static_cast<int>(v))].liquid += Impulse::at(state.x[v], byLiquid(loads, state, v));
+    for (std::size_t i = 0; i < fabric_.pins.vertex.size(); ++i) {
+        const int v = fabric_.pins.vertex[i];
+        forces_->pins[fabric_.pins.motion[i]] -= Impulse::at(state.x[v], byHolder(h, gravity, state, loads, v));
+    }
 }
 
 }  // namespace sim

@@ -15,10 +15,14 @@ class LedFabric final : public FabricIntegrator {
     FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) override;
     /// Of motion and weight: what its form holds is not known.
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override { return fabricEnergies(fabric_, state, {}, gravity); }
-    bool tellsForces() const override { return false; }
 
  private:
     EnergyChanges changes(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
+    void tellForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
+    /// Impulse that a vertex gets [g cm/s].
+    static Vec3 byLiquid(const LiquidLoads* loads, const FabricState& state, std::size_t v);
+    /// That what holds the vertex has to give it for its motion [g cm/s].
+    Vec3 byHolder(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const;
 
     const Fabric& fabric_;
     Rods rods_;                        ///< for the frames of yarns that are moved

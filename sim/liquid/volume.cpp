@@ -35,19 +35,22 @@ double leastFill(const BlockGrid& grid, const ObstacleField& obstacles, const Ve
     return liquid.deep.test(b, c) ? 1.0 : kFillBelowSurface;
 }
 
-/// Error of a cell's volume that is noise [-]. At each wall that does not mirror the liquid kernels are cut off.
+/// Error of a cell's volume that is noise [-]. Where solids take a part of the cell's room a few particles stand for what is left.
 double noiseOf(const BlockGrid& grid, const ObstacleField& obstacles, double pitch, int b, int c)
 {
-    if (!obstacles.nearSolid(b) || obstacles.mirrors()) return kVolumeNoise;
-    int closed = 0;
+    if (!obstacles.nearSolid(b)) return kVolumeNoise;
+    double room = 0.0;
+    int open = 0;
     for (int a = 0; a < kAxes; ++a)
         for (int side = 0; side < 2; ++side) {
             Vec3i at(c & 7, c >> 3 & 7, c >> 6);
             at[a] += side;
             const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
-            closed += obstacles.open(face.block, a)[face.cell] == 0.0;
+            if (obstacles.open(face.block, a)[face.cell] == 0.0) continue;
+            room += obstacles.room(face.block, a)[face.cell];
+            ++open;
         }
-    return kVolumeNoise + closed * kCutOffNoise * pitch * pitch;
+    return kVolumeNoise + std::min(kMostCutOffNoise, kCutOffNoise * pitch * pitch * pitch * std::max(0.0, open / room - 1.0));
 }
 
 /// Volume that a cell lacks (negative) or has too much, beyond noise, relative to its own.
@@ -55,7 +58,8 @@ double volumeError(const BlockGrid& grid, const ObstacleField& obstacles, const 
 {
     const double fill = liquid.fill.block(b)[c];
     if (fill > 1.0) return std::clamp(fill - 1.0 - noiseOf(grid, obstacles, liquid.pitch, b, c), 0.0, kLargestError);
-    return fill < 1.0 ? std::min(fill + kVolumeNoise - leastFill(grid, obstacles, gravity, liquid, b, c), 0.0) : 0.0;
+    const double least = leastFill(grid, obstacles, gravity, liquid, b, c);
+    return fill < least ? std::min(fill + noiseOf(grid, obstacles, liquid.pitch, b, c) - least, 0.0) : 0.0;
 }
 
 void findSources(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, double strength,

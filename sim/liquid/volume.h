@@ -13,9 +13,9 @@ struct VolumeWorkspace {
 /// would lift them for nothing, again and again [-].
 inline constexpr double kVolumeNoise = 0.005;
 
-/// So much more are cells too full at each side that a wall closes and does not mirror, times the square of the particles' pitch in cells: over a
-/// lattice a B-spline that the wall cuts off sums up to pitch^2/24 more than its integral, and the face has 5/6 of its room [-].
-inline constexpr double kCutOffNoise = 0.05;
+/// Where solids leave the open faces of a cell the share r of their room, noise is more by kCutOffNoise pitch^3 (1 / r - 1), with the particles' pitch in cells: twice the
+/// standard deviation over lattices that walls of any direction cut, at pitches from .3 to .5; kMostCutOffNoise at most [-].
+inline constexpr double kCutOffNoise = 0.6, kMostCutOffNoise = 0.25;
 
 /// Farthest that one correction moves anything [cells].
 inline constexpr double kLargestCorrection = 0.2;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace sim {
 
@@ -49,7 +50,8 @@ LiquidNearby liquidNear(const LiquidParticles& liquid, const SeedPlan& plan, dou
     return nearby;
 }
 
-void addParticles(std::span<const Vec3> positions, double mass, const Vec3& velocity, State& state)
+/// @param volumes  of each [cm³]; empty where all are as large as `volume`
+void addParticles(std::span<const Vec3> positions, double density, double volume, std::span<const double> volumes, const Vec3& velocity, State& state)
 {
     LiquidParticles& liquid = state.liquid;
     if (positions.size() > std::numeric_limits<std::uint32_t>::max() - state.nextId)
@@ -59,7 +61,7 @@ void addParticles(std::span<const Vec3> positions, double mass, const Vec3& velo
     liquid.resize(before + positions.size());
     parallelFor(positions.size(), 4096, [&](std::size_t n) {
         const std::size_t p = before + n;
-        liquid.mass[p] = mass;
+        liquid.mass[p] = density * (volumes.empty() ? volume : volumes[n]);
         liquid.id[p] = firstId + static_cast<std::uint32_t>(n);
         for (int axis = 0; axis < kAxes; ++axis) {
             liquid.x[axis][p] = positions[n][axis];
@@ -126,20 +128,22 @@ try {
 }
 
 /// Particles of a source, entered in its books.
-/// @param volume  of each [cm³]
-void lay(const Scene& scene, std::size_t source, const Emission& emission, std::span<const Vec3> positions, double volume, State& state)
+/// @param volume   of each [cm³]
+/// @param volumes  of each, where they are not alike [cm³]
+void lay(const Scene& scene, std::size_t source, const Emission& emission, std::span<const Vec3> positions, double volume, State& state,
+         std::span<const double> volumes = {})
 {
     const SourceSettings& settings = scene.sources[source];
     const double density = scene.settings.liquid.density;
     const std::size_t before = state.liquid.count;
-    addParticles(positions, density * volume, emission.velocity, state);
+    addParticles(positions, density, volume, volumes, emission.velocity, state);
     try {
         if (settings.velocityField) addField(*settings.velocityField, before, state);
     } catch (const VelocityField::Mistake& mistake) {
         throw InputError(
             fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formula(mistake.component), mistake.what));
     }
-    const double sum = static_cast<double>(positions.size()) * volume;
+    const double sum = volumes.empty() ? static_cast<double>(positions.size()) * volume : std::accumulate(volumes.begin(), volumes.end(), 0.0);
     state.emittedVolume[source] += sum;
     state.ledger.emittedMass += density * sum;
 }
@@ -155,7 +159,13 @@ void fillUp(const Scene& scene, std::size_t source, const Emission& emission, do
                          std::to_string(particleSpacing(plan.fill, plan.dx)) + " cm, inside an obstacle, or full already");
     }
     const double most = emission.maxVolume - state.emittedVolume[source];
-    lay(scene, source, emission, firstOf(seeds.positions, countUpTo(most, seeds.volume)), seeds.volume, state);
+    if (seeds.volumes.empty()) {
+        lay(scene, source, emission, firstOf(seeds.positions, countUpTo(most, seeds.volume)), seeds.volume, state);
+        return;
+    }
+    std::size_t count = 0;
+    for (double volume = 0.0; count < seeds.volumes.size() && volume < most; ++count) volume += seeds.volumes[count];
+    lay(scene, source, emission, firstOf(seeds.positions, count), seeds.volume, state, std::span(seeds.volumes).first(count));
 }
 
 /// One step of a source that flows. What it is asked for, its area times its speed times the step, it owes. Where its pattern finds the
@@ -360,6 +370,21 @@ bool gives(const Emission& emission, double emittedVolume, double timeFrom, doub
 }
 
 }  // namespace
+
+double packingOfSources(const Scene& scene, const State& state)
+{
+    double packing = 0.0;
+    for (std::size_t n = 0; n < scene.sources.size(); ++n) {
+        const SourceSettings& source = scene.sources[n];
+        double own = packingOf(source.fill.pattern);
+        const bool isBody = source.emissions.size() == 1 && isInstant(source.emissions[0]) && source.emissions[0].from <= scene.settings.time.start;
+        const bool isWhole = isBody && !(source.emissions[0].maxVolume < std::numeric_limits<double>::infinity());
+        if (own < 1.0 && isWhole)
+            own = state.emittedVolume[n] / boundedVolume(regionOf(planFor(scene, n, scene.settings.time.start, state)), scene.settings.cell);
+        packing = std::max(packing, own);
+    }
+    return packing > 0.0 ? packing : 1.0;
+}
 
 bool emits(const Scene& scene, const State& state, double timeFrom, double timeTo)
 {

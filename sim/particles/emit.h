@@ -41,6 +41,10 @@ struct EmissionWorkspace {
 void emitLiquid(const Scene& scene, State& state, double timeFrom, double timeTo, EmissionWorkspace& work);
 void emitLiquid(const Scene& scene, State& state, double timeFrom, double timeTo);
 
+/// Volume of the particles of a source relative to the region that they fill [-]: of the source that is packed most tightly, for sources of one scene
+/// should all be filled alike. Of a body that is there from the start it is its own, which depends on its size (packingOf).
+double packingOfSources(const Scene& scene, const State& state);
+
 /// Does any source give liquid in the step from timeFrom to timeTo?
 bool emits(const Scene& scene, const State& state, double timeFrom, double timeTo);
 

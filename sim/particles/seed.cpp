@@ -1,6 +1,7 @@
 #include "sim/particles/seed.h"
 
 #include "sim/core/units.h"
+#include "sim/particles/even_volumes.h"
 #include "sim/particles/seed_patterns.h"
 #include "sim/shapes/volume.h"
 
@@ -34,10 +35,21 @@ std::vector<Vec3> chooseSome(const std::vector<Vec3>& positions, std::size_t cou
     return chosen;
 }
 
+/// Is the region laid once, where there is no liquid?
+bool isNewBody(const SeedPlan& plan, const LiquidNearby& nearby) { return plan.velocity.isZero(0.0) && nearby.positions.empty(); }
+
+void fillEvenly(const SeedPlan& plan, const Shape& region, Seeds& seeds)
+{
+    const double volume = seeds.volume * static_cast<double>(seeds.positions.size());
+    seeds.volumes = evenVolumes(region, seeds.positions, volume, plan.dx, plan.gridOrigin);
+}
+
 Seeds seedReference(const SeedPlan& plan, const LiquidNearby& nearby)
 {
     const double radius = nominalRadius(plan.fill, plan.dx);
-    return {referencePlaces(plan, nearby.positions).free, 4.0 / 3.0 * kPi * radius * radius * radius};
+    Seeds seeds{referencePlaces(plan, nearby.positions).free, 4.0 / 3.0 * kPi * radius * radius * radius, {}};
+    if (isNewBody(plan, nearby) && !seeds.positions.empty()) fillEvenly(plan, regionOf(plan), seeds);
+    return seeds;
 }
 
 }  // namespace
@@ -168,14 +180,17 @@ Seeds seedParticles(const SeedPlan& plan, const LiquidNearby& nearby)
 
     PatternPlaces places = darts ? poissonPlaces(plan, region, nearby.positions) : latticePlaces(plan, region, nearby.positions);
     const double count = moves && !darts ? meanLatticePlaces(plan, region) : static_cast<double>(places.count);
-    if (!(count > 0.0)) return {{}, std::pow(particleSpacing(plan.fill, plan.dx), 3)};
-    const double volume = (plan.regionVolume > 0.0 ? plan.regionVolume : boundedVolume(region, plan.dx)) / count;
+    if (!(count > 0.0)) return {{}, std::pow(particleSpacing(plan.fill, plan.dx), 3), {}};
+    const double regionVolume = plan.regionVolume > 0.0 ? plan.regionVolume : boundedVolume(region, plan.dx), volume = regionVolume / count;
 
     // Liquid that is packed more tightly than the pattern leaves gaps, too; filling all of them would make too much.
     const double room = std::max(0.0, static_cast<double>(places.count) - nearby.volumeInside / volume);
     const auto most = static_cast<std::size_t>(std::lround(room));
     if (places.free.size() > most) places.free = chooseSome(places.free, most, CounterRandom(plan.fill.seed, plan.stream, 1));
-    return {std::move(places.free), volume};
+    Seeds seeds{std::move(places.free), volume, {}};
+    constexpr double kTiled = 2.0e-3;  // of the region's volume: as exactly as that is measured
+    if (isNewBody(plan, nearby) && std::abs(places.tiled - regionVolume) > kTiled * regionVolume) fillEvenly(plan, region, seeds);
+    return seeds;
 }
 
 }  // namespace sim

@@ -32,7 +32,8 @@ struct LiquidNearby {
 
 struct Seeds {
     std::vector<Vec3> positions;  ///< in the order of the pattern's places
-    double volume = 0.0;          ///< of each particle [cm^3]
+    double volume = 0.0;          ///< of each particle, or their mean [cm^3]
+    std::vector<double> volumes;  ///< of each, where they are not alike [cm^3]
 };
 
 /// Where particles may be laid: the source outside of the solids.
@@ -65,9 +66,9 @@ class Inlet {
 /// @param pitch  of the pattern that tells what is small [cm]
 double areaAcross(const Shape& region, const Vec3& direction, double pitch);
 
-/// Where new particles go, and how large they are. Every place of the pattern stands for an equal part of the source
-/// outside of solids, so that all of them together are as large as that region; of a moving pattern, on average over
-/// time. `reference` keeps its published volume, which is packingOf(Pattern::Reference) of that. Where there is liquid already, places that have
+/// Where new particles go, and how large they are: all of them together are as large as the source outside of solids; of a moving pattern, on average
+/// over time. A body that is laid once where no liquid is fills its region evenly (evenVolumes); otherwise particles are alike. Those of `reference`
+/// have the published volume on average, which is packingOf(Pattern::Reference) of that. Where there is liquid already, places that have
 /// a particle stay as they are, and the rest is filled no further than to the region's volume. The same bits for any
 /// number of threads. Throws InputError when the source is unbounded or has more than 4e8 places; the message ("is
 /// unbounded …") lacks the name of the source.

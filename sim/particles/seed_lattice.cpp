@@ -9,6 +9,7 @@ namespace sim {
 namespace {
 
 constexpr double kMostAlong = 1 << 20;  ///< places
+constexpr double kFlat = 0.02;          ///< how far from a plane what lies in it may be [pitches]
 
 /// Place (0, 0, 0) of a pattern that does not move: half a pitch inside the source's bounds; with two places per cell,
 /// a quarter cell inside of a cell of the grid.
@@ -42,7 +43,6 @@ double entry(const Shape& region, const Vec3& begin, const Vec3& direction, doub
 /// half of the region that is seen from there ends at a plane.
 double planeFrom(const Eigen::AlignedBox3d& box, const Shape& region, int axis, bool isUpper, double pitch)
 {
-    constexpr double kFlat = 0.02;         // [pitches]
     constexpr std::size_t kMostRays = 32;  // along each side
     const int u = (axis + 1) % kAxes, v = (axis + 2) % kAxes;
     const Vec3 size = box.sizes();
@@ -100,6 +100,26 @@ struct Sites {
     }
 };
 
+/// A place of a lattice in a region.
+struct Found {
+    Vec3 x;
+    bool taken;  ///< by a particle that was there before
+};
+
+/// Are all of the cubes around the places in the region?
+bool areInside(const Shape& region, const std::vector<Found>& places, const Vec3& half)
+{
+    const double radius = half.norm(), slack = kFlat * half.minCoeff();
+    return parallelSum(places.size(), [&](std::size_t n) {
+               if (region.distance(places[n].x) < -radius) return 0.0;
+               for (int corner = 0; corner < 8; ++corner) {
+                   const Vec3 side(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
+                   if (region.distance(places[n].x + half.cwiseProduct(side)) > slack) return 1.0;
+               }
+               return 0.0;
+           }) == 0.0;
+}
+
 }  // namespace
 
 PlaceLattice PlaceLattice::inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& pitch, double margin)
@@ -127,10 +147,6 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
     if (plan.velocity.isZero(0.0)) fitBetweenPlanes(plan.source.bounds(), region, spacing, first, pitch);
     const Sites sites(plan, first, pitch, plan.moved);
     const Vec3 half = 0.5 * pitch;
-    struct Found {
-        Vec3 x;
-        bool taken;
-    };
     // A place is taken when there is a particle in its cube: wherever liquid of the right density lies, that is one
     // per cube, however it is shifted against the pattern.
     const PointBins bins(existing, half.maxCoeff());
@@ -143,6 +159,7 @@ PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std
     });
     PatternPlaces places;
     places.count = found.size();
+    if (!sites.jittered && areInside(region, found, half)) places.tiled = pitch.prod() * static_cast<double>(places.count);
     for (const Found& f : found)
         if (!f.taken) places.free.push_back(f.x);
     return places;

@@ -10,6 +10,7 @@ namespace sim {
 struct PatternPlaces {
     std::vector<Vec3> free;  ///< places without a particle
     std::size_t count = 0;   ///< of all places of the pattern in the region, those with a particle included
+    double tiled = 0.0;      ///< volume of the cubes around a lattice's places; 0 if one sticks out of the region [cm³]
 };
 
 PatternPlaces latticePlaces(const SeedPlan& plan, const Shape& region, const std::vector<Vec3>& existing);

@@ -52,7 +52,7 @@ void separateMixture(StepContext& c)
 void bookSolution(StepContext& c)
 {
     const Vec3 gravity = c.gravityOnFabric();
-    if (c.work.fabric && c.work.fabric->tellsForces()) c.work.momentum.fabricMoved(c.dt, gravity, c.state);
+    if (c.work.fabric) c.work.momentum.fabricMoved(c.dt, gravity, c.state);
     c.energy.solved(c.plan.isMixed, c.dt, gravity, c.report.fabric);
 }
 
