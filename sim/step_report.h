@@ -67,6 +67,7 @@ struct StepReport : StageTimes {
     double cfl = 0.0;       ///< cflNumber (time_step.h), at the beginning of the step [-]
     double maxSpeed = 0.0;  ///< of the particles at the end of the step; where it reflects, along their paths [cm/s]
     SolveReport viscosity;  ///< if it was solved for
+    SolveReport withheld;   ///< of the pressure that viscosity does not feel, if it was
     SolveReport pressure;
     SolveReport reflection;
     SolveReport volume;  ///< of the correction of the volume, if it ran

@@ -96,7 +96,7 @@ void withholdPressure(StepContext& c)
     findPressureFaces(grid, work.obstacleField, c.settings().liquid, c.dt, work.grid, work.pressure);
     preparePressure(grid, work.grid, work.pressure);
     if (hasHeldWeight(c)) levelHeldWeight(c, nullptr);
-    solvePressure(grid, work.obstacleField, c.settings().solver, {}, work.pressure, work.grid, c.state.pressure);
+    c.report.withheld = solvePressure(grid, work.obstacleField, c.settings().solver, {}, work.pressure, work.grid, c.state.pressure);
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { work.viscosity.withheld.block(0)[i] -= velocity.block(0)[i]; });
 }
 

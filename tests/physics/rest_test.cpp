@@ -101,9 +101,10 @@ TEST(Rest, OfAPoolInVesselsOfAnyShapeLasts)
                     fastest = std::max(fastest, std::sqrt(2.0 * now.kinetic / mass));
                 }
                 const std::string what = vessel.name + ", friction " + std::to_string(friction) + ", pattern " + std::to_string(int(pattern));
-                // In the slivers between level and slanted walls a few particles settle; the published pattern has fewer there, and heavier ones.
+                // Where the level meets slanted walls within a cell it settles, alike for all patterns; the published one has fewer and heavier
+                // particles there.
                 const bool isReference = pattern == Pattern::Reference;
-                EXPECT_LT(fastest, isReference ? 0.5 : 0.3) << what;
+                EXPECT_LT(fastest, 0.5) << what;
                 EXPECT_NEAR((start - now.potential) / (0.5 * mass * 981.0 * vessel.depth), 0.0, isReference ? 3.0e-3 : 2.0e-3) << what;
             }
 }

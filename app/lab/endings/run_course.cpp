@@ -30,15 +30,25 @@ struct Energy {
     double gain = 0.0, largestKinetic = 0.0;  ///< [erg]
 };
 
-/// Kinetic energy [erg] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
-double unfeltEnergy(const std::filesystem::path& folder, double liquidMass, double time)
+/// Mass of all that a run has [g], and its cell [cm].
+struct Contents {
+    double mass = 0.0, cell = 0.0;
+};
+
+/// @param liquidMass  [g]
+Contents contentsOf(const std::filesystem::path& folder, double liquidMass)
 {
-    constexpr double kUnfelt = 1.0e-9;  // cells
     std::ifstream in(folder / "report.json");
     const json report = in ? json::parse(in, nullptr, false) : json();
-    if (!report.is_object() || !(time > 0.0)) return 0.0;
-    const double mass = liquidMass + report.at("fabric").value("mass", 0.0), speed = kUnfelt * report.value("cell", 0.0) / time;
-    return 0.5 * mass * speed * speed;
+    if (!report.is_object()) return {};
+    return {liquidMass + report.at("fabric").value("mass", 0.0), report.value("cell", 0.0)};
+}
+
+/// Speed [cm/s] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
+double unfeltSpeed(double cell, double time)
+{
+    constexpr double kUnfelt = 1.0e-9;  // cells
+    return time > 0.0 ? kUnfelt * cell / time : 0.0;
 }
 
 /// From energy_ledger.csv: what of the energy's rise nothing outside of liquid and fabric has paid for.
@@ -115,24 +125,29 @@ RunCourse courseOf(const std::filesystem::path& folder)
 {
     RunCourse course;
     std::ifstream in(folder / "steps.jsonl");
-    double mass = 0.0;  // of the liquid, at most [g]
+    double mass = 0.0, longest = 0.0;  // of the liquid, at most [g]; of a step [s]
     for (std::string line; std::getline(in, line);) {
         const json step = json::parse(line, nullptr, false);
         if (!step.is_object()) continue;
         ++course.steps;
         course.time += step.value("dt", 0.0);
+        longest = std::max(longest, step.value("dt", 0.0));
         course.largestSpeed = std::max(course.largestSpeed, step.value("max_speed", 0.0));
         if (mass == 0.0) mass = step.at("ledger").value("liquid_mass", 0.0);
     }
     const Energy energy = energyOf(folder / "energy_ledger.csv");
-    const double scale = std::max(energy.largestKinetic, unfeltEnergy(folder, mass, course.time));
-    if (scale > 0.0) course.energyGain = energy.gain / scale;
     if (mass > 0.0) course.commonSpeed = std::sqrt(2.0 * energy.largestKinetic / mass);
+    double weight = 0.0;
     if (const auto file = folder / "resolved.yaml"; std::filesystem::exists(file) && course.time > 0.0) {
         const sim::Scene scene = sim::loadScene(file);
         course.solidSpeed = fastestSolid(scene, course.time);
         course.drawnSpeed = fastestDrawn(scene);
+        weight = scene.settings.gravity.norm();
     }
+    const Contents contents = contentsOf(folder, mass);
+    const double least = std::max(unfeltSpeed(contents.cell, course.time), weight * longest);
+    const double scale = std::max(energy.largestKinetic, 0.5 * contents.mass * least * least);
+    if (scale > 0.0) course.energyGain = energy.gain / scale;
     return course;
 }
 

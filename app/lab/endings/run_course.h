@@ -9,7 +9,8 @@ namespace app {
 struct RunCourse {
     int steps = 0;
     double time = 0.0;  ///< sum of the lengths of the steps [s]
-    /// Largest rise of the energy over its start, less work done from outside, over the largest kinetic energy, or that of motion that is none [-].
+    /// Largest rise of the energy over its start, less work done from outside, over the largest kinetic energy [-]; of what rests over that which its
+    /// weight would give it in a step, for each step has to find anew what holds it.
     double energyGain = 0.0;
     double largestSpeed = 0.0;  ///< of a particle of the liquid [cm/s]
     double commonSpeed = 0.0;   ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid

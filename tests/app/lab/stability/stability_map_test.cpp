@@ -67,6 +67,21 @@ TEST(StabilityMap, MotionThatIsNoneGainsNothing)
     EXPECT_FALSE(judge(1e-9));  // 1e-30
 }
 
+/// What rests is held anew in each step: 2 g under 1e3 cm/s^2 would get 1 erg in a step of 1e-3 s.
+TEST(StabilityMap, WhatRestsMayGainAHundredthOfWhatWeightGivesInAStep)
+{
+    Logs logs;
+    logs.steps(1.0e-3, 0.0);
+    test::writeFile(logs.folder / "report.json", R"({"cell":0.1,"fabric":{"mass":1}})");
+    test::writeFile(logs.folder / "resolved.yaml", "drench: 1\nscene: {name: rest}\ntime: {duration: 0.1}\ngravity: [0, -1000, 0]\n");
+    const auto judge = [&](double total) {
+        test::writeFile(logs.folder / "energy_ledger.csv", fmt::format("time_s,total_erg,kinetic_erg\n0,1,0\n1e-3,{},1e-9\n", total));
+        return logs.judged().isStable;
+    };
+    EXPECT_TRUE(judge(1.009));
+    EXPECT_FALSE(judge(1.011));
+}
+
 TEST(StabilityMap, WhatObstaclesTookIsGone)
 {
     Logs logs;
