@@ -88,4 +88,17 @@ std::string printPictureSettings(const PictureSettings& settings)
     return w.take();
 }
 
+SceneContents contentsOf(const sim::Scene& scene)
+{
+    SceneContents contents;
+    for (const sim::FabricPiece& piece : scene.fabrics) {
+        contents.yarns = contents.yarns || !piece.strands.empty();
+        contents.cloth = contents.cloth || !piece.faces.empty();
+    }
+    contents.liquid = !scene.sources.empty() || !contents.fabric();
+    contents.obstacles = !scene.obstacles.empty();
+    contents.rooms = std::ranges::any_of(scene.obstacles, &sim::ObstacleSettings::inside);
+    return contents;
+}
+
 }  // namespace app

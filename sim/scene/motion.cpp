@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sim {
 
@@ -80,6 +81,7 @@ std::vector<Vec3> monotoneSlopes(const std::vector<double>& times, const std::ve
 /// The motion of one piece at one time, about the frame in which it is given.
 Eigen::Isometry3d pieceTransform(const Piece& p, double t)
 {
+    if (p.course == Piece::Course::Given) return p.given(t);
     Eigen::Isometry3d m = Eigen::Isometry3d::Identity();
     if (p.course == Piece::Course::Path) m.translation() = pathCourse(p, t).place;
     else if (!p.turns) m.translation() = course(p, t).place * p.axis;
@@ -92,8 +94,19 @@ struct Twist {
     Vec3 atOrigin = Vec3::Zero(), spin = Vec3::Zero();
 };
 
+/// Difference quotient over a span that is as short as rounding and the curvature of a motion of seconds allow.
+Twist givenTwist(const Piece& p, double t)
+{
+    constexpr double kSpan = 1.0e-5;  // [s]
+    const Eigen::Isometry3d from = p.given(t - 0.5 * kSpan), to = p.given(t + 0.5 * kSpan);
+    const Eigen::AngleAxisd turn(Mat3(to.linear() * from.linear().transpose()));
+    const Vec3 spin = turn.angle() / kSpan * turn.axis(), middle = 0.5 * (from.translation() + to.translation());
+    return {(to.translation() - from.translation()) / kSpan - spin.cross(middle), spin};
+}
+
 Twist pieceTwist(const Piece& p, double t)
 {
+    if (p.course == Piece::Course::Given) return givenTwist(p, t);
     if (p.course == Piece::Course::Path) return {pathCourse(p, t).rate, Vec3::Zero()};
     const Vec3 rate = course(p, t).rate * p.axis;
     if (!p.turns) return {rate, Vec3::Zero()};
@@ -204,6 +217,16 @@ void Motion::addPath(const std::vector<double>& times, const std::vector<Vec3>& 
     add(p);
 }
 
+void Motion::addGiven(std::function<Eigen::Isometry3d(double t)> place)
+{
+    Piece p;
+    p.course = Piece::Course::Given;
+    p.begin = std::numeric_limits<double>::lowest();
+    p.end = std::numeric_limits<double>::max();
+    p.given = std::move(place);
+    add(std::move(p));
+}
+
 Eigen::Isometry3d Motion::transform(double t) const
 {
     Eigen::Isometry3d all = Eigen::Isometry3d::Identity();
@@ -231,6 +254,7 @@ bool Motion::moves(double t0, double t1) const
     const auto overlaps = [&](double begin, double end) { return t0 < t1 ? begin < t1 && end > t0 : begin <= t0 && t0 < end; };
     for (const Piece& p : pieces_) {
         if (!overlaps(p.begin, p.end)) continue;
+        if (p.course == Piece::Course::Given) return true;
         if (p.course == Piece::Course::Eased && p.amount != 0.0) return true;
         if (p.course == Piece::Course::Sine && p.amount != 0.0 && p.frequency != 0.0) return true;
         for (std::size_t i = 0; i + 1 < p.times.size(); ++i)

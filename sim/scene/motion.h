@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <functional>
 #include <vector>
 
 namespace sim {
@@ -30,19 +31,21 @@ class Motion {
     /// rest at both ends, and never beyond the positions on either side (Fritsch and Butland 1984); else along straight
     /// lines.
     void addPath(const std::vector<double>& times, const std::vector<Vec3>& offsets, bool cubic);
+    /// Goes at all times where a program says, which knows where at any time, and of one step says the same whenever it is asked.
+    void addGiven(std::function<Eigen::Isometry3d(double t)> place);
 
     bool isStatic() const { return pieces_.empty(); }
     /// Position at time t relative to the one given in the scene.
     Eigen::Isometry3d transform(double t) const;
     /// Velocity at time t of the body's point that is now at x [cm/s]: the exact derivative of transform(), from the
-    /// right where it jumps.
+    /// right where it jumps; of a motion that a program gives a difference quotient.
     Vec3 velocity(double t, const Vec3& x) const;
-    /// Does anything move in [t0, t1]?
+    /// Does anything move in [t0, t1]? What a program gives may, also where it ends where it began.
     bool moves(double t0, double t1) const;
 
-    /// One of the motions above: along or about an axis by a distance or angle that depends on time, or along a path.
+    /// One of the motions above: along or about an axis by a distance or angle that depends on time, along a path, or as given.
     struct Piece {
-        enum class Course { Eased, Sine, Path };
+        enum class Course { Eased, Sine, Path, Given };
         Course course = Course::Eased;
         bool turns = false;  ///< about the axis, else along it
         Frame frame = Frame::World;
@@ -55,6 +58,7 @@ class Motion {
         std::vector<double> times;           ///< of a path [s]
         std::vector<Vec3> offsets, slopes;   ///< at these times [cm], [cm/s]
         bool cubic = false;
+        std::function<Eigen::Isometry3d(double t)> given;
     };
 
  private:

@@ -155,5 +155,19 @@ TEST(Motion, RefusesWhatMakesNoSense)
     EXPECT_TRUE(m.isStatic());
 }
 
+TEST(Motion, OfAProgramGoesWhereItSays)
+{
+    Motion m;
+    m.addGiven([](double t) { return Eigen::Translation3d(std::sin(t), 0.0, t * t) * Eigen::AngleAxisd(3.0 * t, Vec3(1.0, 2.0, 2.0) / 3.0); });
+    const Vec3 expected = Vec3(std::sin(0.7), 0.0, 0.49) + Eigen::AngleAxisd(2.1, Vec3(1.0, 2.0, 2.0) / 3.0) * kPoint;
+    EXPECT_LT((place(m, 0.7) - expected).norm(), 1e-14);
+    expectVelocityIsDerivative(m, -1.0, 2.0);
+    EXPECT_FALSE(m.isStatic());
+    EXPECT_TRUE(m.moves(0.0, 1.0e-3));
+    // Pieces that begin act on it.
+    m.addTranslation(1.0, 2.0, {0.0, 5.0, 0.0}, 0.0, 0.0);
+    expectVelocityIsDerivative(m, 1.0, 2.0);
+}
+
 }  // namespace
 }  // namespace sim
