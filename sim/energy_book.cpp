@@ -162,8 +162,7 @@ double EnergyBook::workAgainst(const BlockArray<double>& pressure, double dt) co
                     Vec3i at(c & 7, c >> 3 & 7, c >> 6);
                     at[a] += side;
                     const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
-                    const double swept = (1.0 - field.open(face.block, a)[face.cell]) * field.wallVelocity(face.block, a)[face.cell];
-                    work += (side == 0 ? 1.0 : -1.0) * swept * dt * area * pressure.block(b)[c];
+                    work += (side == 0 ? 1.0 : -1.0) * field.swept(face.block, a)[face.cell] * dt * area * pressure.block(b)[c];
                 }
         }
         return work;

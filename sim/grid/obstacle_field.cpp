@@ -12,7 +12,15 @@ namespace sim {
 void ObstacleField::resizeSlots(int count)
 {
     open_.resize(count);
-    if (anyMoved_ || count == 1) wallVelocity_.resize(count);
+    if (anyMoved_ || count == 1) {
+        wallVelocity_.resize(count);
+        swept_.resize(count);
+    }
+    if (areSeveral_) {
+        closer_.resize(count);
+        ofSecond_.resize(count);
+    }
+    shared_.resize(count, 0);
     room_.resize(count);
     closed_.resize(count);
     blocked_.resize(count);
@@ -31,7 +39,7 @@ void ObstacleField::makeOpenSlot(double dx)
         blocked_.block(kOpenSlot)[c / 64] = 0;
         for (int a = 0; a < kAxes; ++a) {
             open_.block(kOpenSlot, a)[c] = room_.block(kOpenSlot, a)[c] = 1.0;
-            wallVelocity_.block(kOpenSlot, a)[c] = 0.0;
+            wallVelocity_.block(kOpenSlot, a)[c] = swept_.block(kOpenSlot, a)[c] = 0.0;
             closed_.block(kOpenSlot, a)[c / 64] = 0;
         }
     }
@@ -45,7 +53,7 @@ int ObstacleField::takeSlot()
     }
     const int slot = freeSlots_.back();
     freeSlots_.pop_back();
-    touchedByMoving_[slot] = 0;
+    touchedByMoving_[slot] = shared_[slot] = 0;
     return slot;
 }
 
@@ -59,16 +67,20 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
 {
     isFolded_ = false;
     mirrors_ = mirrors;
+    areSeveral_ = obstacles.count() > 1;
     if (slotCount_ == 0) makeOpenSlot(grid.dx);
+    else resizeSlots(slotCount_);
     oldSlot_.swap(slot_);
     slot_.assign(grid.count() + 1, kOpenSlot);
     nearSolid_.clear();
     if (obstacles.empty()) return;
     if (obstacles.anyDisplaced() && !anyMoved_) {
         anyMoved_ = true;
-        wallVelocity_.resize(slotCount_);
         // Slots that were computed while everything rested are not computed again before something that moves reaches them.
-        std::fill_n(wallVelocity_.block(0), static_cast<std::size_t>(slotCount_) * BlockArray<double, 3>::kStride, 0.0);
+        for (BlockArray<double, 3>* velocity : {&wallVelocity_, &swept_}) {
+            velocity->resize(slotCount_);
+            std::fill_n(velocity->block(0), static_cast<std::size_t>(slotCount_) * BlockArray<double, 3>::kStride, 0.0);
+        }
     }
 
     toCompute_.clear();
@@ -120,6 +132,7 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
 {
     const OpenFaces faces(grid, block, obstacles);
     computeFaces(grid, block, slot, obstacles, faces);
+    if (areSeveral_) computeClosed(grid, block, slot, obstacles);
     findBlocked(grid, block, slot, obstacles, faces);
     roomOfFaces(grid, block, obstacles, mirrors, scratch, room_.block(slot));
 }
@@ -152,11 +165,47 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
                     if (open > 0.0 && isWallBetween(grid, obstacles, center, distance, a)) open = 0.0;
                     open_.block(slot, a)[cell] = open;
                     if (open == 0.0) closed_.set(slot, cell, a);
-                    if (anyMoved_)
-                        wallVelocity_.block(slot, a)[cell] =
-                            touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
+                    if (!anyMoved_) continue;
+                    const double wall = touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
+                    wallVelocity_.block(slot, a)[cell] = wall;
+                    swept_.block(slot, a)[cell] = (1.0 - open) * wall;
                 }
             }
+}
+
+/// What several solids close is divided among them.
+void ObstacleField::computeClosed(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles)
+{
+    const ClosedAreas areas(grid, block, obstacles);
+    shared_[slot] = areas.areShared();
+    if (!areas.areShared()) return;
+    const Vec3 corner = grid.lowerCorner(block);
+    for (int c = 0; c < kBlockCells; ++c) {
+        const Vec3i cell(c & 7, c >> 3 & 7, c >> 6);
+        for (int a = 0; a < kAxes; ++a) {
+            ofSecond_.block(slot, a)[c] = 0.0;
+            const double closed = 1.0 - open_.block(slot, a)[c];
+            closer_.block(slot, a)[c] = owner_.block(slot)[c];
+            if (closed == 0.0) continue;
+            const Vec3 middle = corner + grid.dx * (cell.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
+            const Closing by = areas.closing(a, cell, closed, obstacles.nearest(middle));
+            closer_.block(slot, a)[c] = static_cast<std::uint16_t>(by.first);
+            if (by.second != Closing::kNone) closer_.block(slot, kAxes + a)[c] = static_cast<std::uint16_t>(by.second);
+            ofSecond_.block(slot, a)[c] = by.ofSecond;
+            if (!anyMoved_ || !touchedByMoving_[slot]) continue;
+            double& swept = swept_.block(slot, a)[c];
+            swept = by.ofFirst * obstacles.velocity(middle, by.first)[a];
+            if (by.ofSecond > 0.0) swept += by.ofSecond * obstacles.velocity(middle, by.second)[a];
+        }
+    }
+}
+
+Closing ObstacleField::closing(int block, int axis, int face) const
+{
+    const int slot = slot_[block];
+    const double ofSecond = ofSecond_.block(slot, axis)[face], ofFirst = 1.0 - open_.block(slot, axis)[face] - ofSecond;
+    const int second = ofSecond > 0.0 ? closer_.block(slot, kAxes + axis)[face] : Closing::kNone;
+    return {closer_.block(slot, axis)[face], second, ofFirst, ofSecond};
 }
 
 void ObstacleField::findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces)

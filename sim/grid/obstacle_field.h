@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/grid/closed_areas.h"
 #include "sim/grid/face_fields.h"
 #include "sim/grid/obstacles.h"
 #include "sim/grid/room.h"
@@ -43,6 +44,13 @@ class ObstacleField {
     const std::uint64_t* blocked(int block) const { return blocked_.block(slot_[block]); }
     /// Velocity of the obstacle at each lower face along `axis` [cm/s].
     const double* wallVelocity(int block, int axis) const { return wallVelocity_.block(anyMoved_ ? slot_[block] : kOpenSlot, axis); }
+    /// What flows with the solids through what they close of each lower face: their velocities times the areas that they close, over that of the face
+    /// [cm/s].
+    const double* swept(int block, int axis) const { return swept_.block(anyMoved_ ? slot_[block] : kOpenSlot, axis); }
+    /// Are two solids or more so near that they may close a face together?
+    bool isShared(int block) const { return shared_[slot_[block]] != 0; }
+    /// Of such a block: who closes the face.
+    Closing closing(int block, int axis, int face) const;
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
     /// Number of the solid that is nearest to the middle of each cell, where that is nearer than kExactDistance cells.
@@ -58,6 +66,7 @@ class ObstacleField {
     void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors, RoomScratch& scratch);
     static bool isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis);
     void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
+    void computeClosed(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
     void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
 
     std::vector<int> slot_, oldSlot_;  ///< per block, the empty block included
@@ -68,12 +77,15 @@ class ObstacleField {
     std::vector<int> toCompute_;                 ///< blocks
     std::vector<RoomScratch> roomScratch_;       ///< of each worker
     int slotCount_ = 0;
-    bool isFolded_ = false, mirrors_ = false;
-    BlockArray<double, 3> open_, room_, folded_, wallVelocity_;
+    bool isFolded_ = false, mirrors_ = false, areSeveral_ = false;
+    BlockArray<double, 3> open_, room_, folded_, wallVelocity_, swept_;
     BlockBits<3> closed_;
     BlockBits<> blocked_;
     BlockArray<double> centerDistance_;
     BlockArray<std::uint16_t> owner_;
+    std::vector<std::uint8_t> shared_;     ///< per slot
+    BlockArray<std::uint16_t, 6> closer_;  ///< of shared slots: first and second solid of each face, where there is a second …
+    BlockArray<double, 3> ofSecond_;       ///< … and what that closes
 };
 
 }  // namespace sim

@@ -172,12 +172,29 @@ double Obstacles::farthestMove(const Vec3& x, double halfEdge) const
     return farthest;
 }
 
+Vec3 Obstacles::velocityOf(const Body& body, const Vec3& x) const
+{
+    if (!body.moving || interval_ == 0.0) return Vec3::Zero();
+    return (x - body.other * (body.toShape * x)) / interval_;
+}
+
 Vec3 Obstacles::velocity(const Vec3& x) const
 {
     const Body* body = nearestBody(x);
-    if (body == nullptr || !body->moving || interval_ == 0.0) return Vec3::Zero();
-    return (x - body->other * (body->toShape * x)) / interval_;
+    return body == nullptr ? Vec3::Zero() : velocityOf(*body, x);
 }
+
+double Obstacles::distance(const Vec3& x, int solid) const
+{
+    return solid == kAll ? distance(x) : bodies_[solid].shape.distance(bodies_[solid].toShape * x);
+}
+
+Vec3 Obstacles::normal(const Vec3& x, int solid) const
+{
+    return bodies_[solid].now.linear() * bodies_[solid].shape.normal(bodies_[solid].toShape * x);
+}
+
+Vec3 Obstacles::velocity(const Vec3& x, int solid) const { return velocityOf(bodies_[solid], x); }
 
 std::optional<int> planeOfFaces(const BlockGrid& grid, const Obstacles::Wall& wall)
 {

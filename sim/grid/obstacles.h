@@ -35,6 +35,12 @@ class Obstacles {
     Vec3 normal(const Vec3& x) const;    ///< out of the nearest solid
     Vec3 velocity(const Vec3& x) const;  ///< of the nearest solid's material point at x [cm/s]
 
+    // The same of one solid.
+    static constexpr int kAll = -1;
+    double distance(const Vec3& x, int solid) const;  ///< of all for kAll
+    Vec3 normal(const Vec3& x, int solid) const;
+    Vec3 velocity(const Vec3& x, int solid) const;
+
     /// Where a path first meets a solid, and on which side.
     struct Contact {
         Vec3 x;        ///< on the solid's surface, or up to `resolution` in front of it, where it is at the end of the step [cm]
@@ -88,6 +94,7 @@ class Obstacles {
         bool displaced = false;   ///< in this step or the one before
     };
     const Body* nearestBody(const Vec3& x) const;
+    Vec3 velocityOf(const Body& body, const Vec3& x) const;
     template <class Start>
     std::optional<Contact> meet(const Vec3& to, double resolution, Start&& start) const;
 

@@ -46,8 +46,8 @@ double openFraction(const std::array<double, 4>& distance, const std::array<doub
     return solidMiddle ? cut : 1.0 - cut;
 }
 
-OpenFaces::OpenFaces(const BlockGrid& grid, int block, const Obstacles& obstacles)
-    : grid_(grid), obstacles_(obstacles), corner_(grid.lowerCorner(block))
+OpenFaces::OpenFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, int solid)
+    : grid_(grid), obstacles_(obstacles), solid_(solid), corner_(grid.lowerCorner(block))
 {
     for (int k = 0; k < kEdge; ++k)
         for (int j = 0; j < kEdge; ++j)
@@ -56,7 +56,7 @@ OpenFaces::OpenFaces(const BlockGrid& grid, int block, const Obstacles& obstacle
 
 double OpenFaces::distanceAt(const Vec3& x) const
 {
-    const double d = obstacles_.distance(x);
+    const double d = obstacles_.distance(x, solid_);
     return std::abs(d) < kOnSurface * grid_.dx ? 0.0 : d;
 }
 
@@ -116,11 +116,11 @@ double OpenFaces::crossing(const Vec3& from, const Vec3& to, double first, doubl
     constexpr int kBisections = 20;
     constexpr double kOnPlane = 1.0e-6;  // [cells]
     const double guess = first / (first - last);
-    if (std::abs(obstacles_.distance(from + guess * (to - from))) < kOnPlane * grid_.dx) return guess;
+    if (std::abs(obstacles_.distance(from + guess * (to - from), solid_)) < kOnPlane * grid_.dx) return guess;
     double low = 0.0, high = 1.0;
     for (int n = 0; n < kBisections; ++n) {
         const double middle = 0.5 * (low + high);
-        ((obstacles_.distance(from + middle * (to - from)) < 0.0) == (first < 0.0) ? low : high) = middle;
+        ((obstacles_.distance(from + middle * (to - from), solid_) < 0.0) == (first < 0.0) ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }

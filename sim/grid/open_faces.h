@@ -13,7 +13,8 @@ double openFraction(const std::array<double, 4>& distance, const std::array<doub
 /// a face, those at the corners of ever smaller parts of it.
 class OpenFaces {
  public:
-    OpenFaces(const BlockGrid& grid, int block, const Obstacles& obstacles);
+    /// @param solid  the only one that counts, or all
+    OpenFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, int solid = Obstacles::kAll);
 
     /// Open fraction of the face normal to `axis` at the lower side of cell (i, j, k), one of which may be 8.
     double open(int axis, int i, int j, int k) const;
@@ -34,8 +35,9 @@ class OpenFaces {
 
     const BlockGrid& grid_;
     const Obstacles& obstacles_;
+    int solid_;
     Vec3 corner_;
-    std::array<double, kEdge * kEdge * kEdge> distance_;  ///< to the nearest solid, at the 9³ nodes [cm]
+    std::array<double, kEdge * kEdge * kEdge> distance_;  ///< to the nearest of those that count, at the 9³ nodes [cm]
 };
 
 }  // namespace sim

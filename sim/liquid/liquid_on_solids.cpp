@@ -150,7 +150,27 @@ LiquidOnSolids::Row LiquidOnSolids::onRow(const BlockGrid& grid, const ObstacleF
     if (hasOthers_) before += loadPack(others_.block(n, axis) + row);
     const Pack after = mass * (loadPack(outcome.velocity.block(b, axis) + row) - outcome.fall[axis]);
     return {after - before + stepOf(grid, field, outcome, place, axis, row) * (above - under),
-            outcome.perPressure * (1.0 - loadPack(field.open(b, axis) + row)) * (absPack(above) + absPack(under))};
+            outcome.perPressure * (1.0 - loadPack(field.open(b, axis) + row)) * (absPack(above) + absPack(under)),
+            outcome.perPressure * (above - under)};
+}
+
+/// Where several solids are near, pressure is on those that close the face, by their areas; what else the face got is from the one that is nearest.
+void LiquidOnSolids::addShared(const BlockGrid& grid, const ObstacleField& field, const CellRef& face, int axis, const Vec3& at, const Row& on,
+                               std::span<OnSolid> sums) const
+{
+    const int b = face.block, c = face.cell, lane = c & 7;
+    const CellRef below = cellBeside(grid, b, c, axis, -1);
+    const bool isOwn = field.centerDistance(b)[c] <= field.centerDistance(below.block)[below.cell];
+    const int nearest = isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell];
+    const Closing closing = field.closing(b, axis, c);
+    const double closed = closing.ofFirst + closing.ofSecond, rest = on.got[lane] - closed * on.push[lane];
+    const auto add = [&](int solid, double got, double share, double work) {
+        sums[solid] += {{-got * Vec3::Unit(axis), -got * at.cross(Vec3::Unit(axis))}, share * on.pressed[lane], share * on.pressed[lane] * at, work};
+    };
+    add(nearest, rest, 0.0, rest * field.wallVelocity(b, axis)[c]);
+    if (!(closed > 0.0)) return;
+    add(closing.first, closing.ofFirst * on.push[lane], closing.ofFirst / closed, on.push[lane] * field.swept(b, axis)[c]);
+    if (closing.second != Closing::kNone) add(closing.second, closing.ofSecond * on.push[lane], closing.ofSecond / closed, 0.0);
 }
 
 /// To the solids that the faces of a row are nearest to.
@@ -174,9 +194,13 @@ void LiquidOnSolids::addRow(const BlockGrid& grid, const ObstacleField& field, s
     }
     for (; faces != 0; faces &= faces - 1) {
         const int i = std::countr_zero(faces), c = row + i;
+        const Vec3 at = x + grid.dx * i * Vec3::UnitX();
+        if (field.isShared(b)) {
+            addShared(grid, field, {b, c}, axis, at, on, sums);
+            continue;
+        }
         const CellRef below = cellBeside(grid, b, c, axis, -1);
         const bool isOwn = field.centerDistance(b)[c] <= field.centerDistance(below.block)[below.cell];
-        const Vec3 at = x + grid.dx * i * Vec3::UnitX();
         add(isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at, work[i]);
     }
 }

@@ -71,15 +71,17 @@ class LiquidOnSolids {
 
  private:
     static constexpr int kMass = 0, kMomentum = 3;  ///< kinds of brought_
-    /// What the faces of a row got of solids, and how hard these press on what they close.
+    /// What the faces of a row got of solids, how hard these press on what they close, and what the pressure would give to a closed face.
     struct Row {
-        Pack got, pressed;  ///< [g cm/s]
+        Pack got, pressed, push;  ///< [g cm/s]
     };
     void clearOthers();
     std::uint64_t facesNear(const BitAccess& bits, int block, int axis, int k) const { return near_.block(block)[k] | bits.below(near_, 0, axis, k); }
     std::uint64_t wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const;
     Pack stepOf(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
     Row onRow(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
+    void addShared(const BlockGrid& grid, const ObstacleField& field, const CellRef& face, int axis, const Vec3& at, const Row& on,
+                   std::span<OnSolid> sums) const;
     void addRow(const BlockGrid& grid, const ObstacleField& field, std::size_t place, int axis, int row, unsigned faces, const Row& on,
                 std::span<OnSolid> sums) const;
     void finishBlock(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;

@@ -49,7 +49,7 @@ void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, 
     });
 }
 
-/// ω u + (1 − ω) v_S through the faces of a row that lie below or above its cells.
+/// ω u and what solids sweep through the faces of a row that lie below or above its cells.
 struct RowFlux {
     const ObstacleField& obstacles;
     const BlockArray<double, 3>& velocity;
@@ -58,9 +58,8 @@ struct RowFlux {
 
     Pack through(int block, int row) const
     {
-        const Pack open = loadPack(obstacles.open(block, axis) + row), wall = loadPack(obstacles.wallVelocity(block, axis) + row);
-        const Pack u = loadPack(velocity.block(block, axis) + row);
-        return open * u + (1.0 - open) * wall;
+        const Pack open = loadPack(obstacles.open(block, axis) + row), u = loadPack(velocity.block(block, axis) + row);
+        return open * u + loadPack(obstacles.swept(block, axis) + row);
     }
     Pack below(int j, int k) const { return through(rows.neighbours[13], cellInBlock(0, j, k)); }
     Pack above(int j, int k) const

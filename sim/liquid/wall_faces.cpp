@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/grid/rows.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -39,6 +40,14 @@ std::array<std::uint64_t, kBlockEdge> freshBits(const BlockBits<3>& known, const
     std::array<std::uint64_t, kBlockEdge> fresh;
     for (int k = 0; k < kBlockEdge; ++k) fresh[k] = known.block(block, axis)[k] & ~before.block(block, axis)[k];
     return fresh;
+}
+
+/// Is a face in a plane wall that is normal to its axis? Other solids may reach behind that, but nothing gets through it.
+bool isInPlaneWall(const Obstacles& obstacles, const Vec3& x, int axis, double dx)
+{
+    constexpr double kInPlane = 1.0e-6;  // [cells]
+    return std::ranges::any_of(obstacles.planeWalls(),
+                               [&](const Obstacles::Wall& wall) { return wall.axis == axis && std::abs(x[axis] - wall.at) < kInPlane * dx; });
 }
 
 }  // namespace
@@ -96,7 +105,8 @@ void WallFaces::findFollowers(const BlockGrid& grid, const Obstacles& obstacles,
                 if (!(faces.sums.block(b, FaceFields::kMass + a)[face] > 0.0)) return;
                 Vec3 x = grid.lowerCorner(b) + grid.dx * Vec3((face & 7) + 0.5, (face >> 3 & 7) + 0.5, (face >> 6) + 0.5);
                 x[a] -= 0.5 * grid.dx;
-                const double share = std::abs(obstacles.normal(x)[a]) > kAlong ? 0.0 : 1.0 - friction;
+                const bool isAcross = std::abs(obstacles.normal(x)[a]) > kAlong || isInPlaneWall(obstacles, x, a, grid.dx);
+                const double share = isAcross ? 0.0 : 1.0 - friction;
                 followers_[n].push_back({static_cast<std::uint16_t>(face), static_cast<std::uint8_t>(a), share});
             });
     });
