@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/fabric/friction.h"
-#include "sim/fabric/piece.h"
+#include "sim/fabric/pieces/piece.h"
 #include "sim/grid/block_grid.h"
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 
 #include "sim/liquid/viscous_multigrid.h"
 #include "sim/settings.h"
-#include "sim/step_report.h"
+#include "sim/solvers/solve_report.h"
 
 namespace sim {
 

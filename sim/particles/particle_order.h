@@ -2,9 +2,9 @@
 
 #include "sim/core/aligned_array.h"
 #include "sim/grid/block_grid.h"
+#include "sim/particles/ledger.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/shapes/shape.h"
-#include "sim/step_report.h"
 
 #include <array>
 #include <vector>

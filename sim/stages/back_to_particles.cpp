@@ -130,7 +130,7 @@ void gridToParticles(StepContext& c)
     Workspace& work = c.work;
     LiquidParticles& particles = c.state.liquid;
     const BlockGrid& grid = c.state.grid;
-    if (work.kept) work.kept->keepModes(particles, c.isFlip());
+    if (work.backup) work.backup->keepModes(particles, c.isFlip());
     if (c.hasObstacles()) keepPlaces(particles, work.places);
     GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gatherSettings(c), work.gather, particles);
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
@@ -138,7 +138,7 @@ void gridToParticles(StepContext& c)
     sums.kinetic -= pushed.lost;
     const WeightSums weights = weightSums(particles, c.settings().gravity);
     c.report.maxSpeed = c.plan.reflects ? along : held;
-    c.report.energies = {sums.kinetic, c.isFlip() ? 0.0 : sums.modal, weights.potential, {}};
+    c.report.energies = {{.kinetic = sums.kinetic, .modal = c.isFlip() ? 0.0 : sums.modal, .potential = weights.potential}, {}};
     c.report.liquidMass = weights.mass;
     c.report.blocks = grid.count();
     c.report.liquidCells = countLiquidCells(grid, work.grid);

@@ -37,7 +37,7 @@ void advanceFabric(StepContext& c)
         else loads.onVertices = &work.coupling->mixture.loads(work.grid);
     }
     c.report.fabric = work.fabric->advance(c.state.time, c.dt, c.gravityOnFabric(), state, c.clock, loads);
-    if (work.kept) c.report.fabric.deepest = work.fabric->deepestInObstacles(state);
+    if (work.backup) c.report.fabric.deepest = work.fabric->deepestInObstacles(state);
 }
 
 void separateMixture(StepContext& c)

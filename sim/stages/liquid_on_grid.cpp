@@ -23,7 +23,7 @@ void particlesToGrid(StepContext& c)
     const TransferSettings& transfer = c.settings().transfer;
     Workspace& work = c.work;
     if (differsFromTranslation(transfer.xi, transfer.modeCount())) {
-        const Energies own = liquidEnergies(c.state.liquid, grid, c.settings().gravity, &work.order);
+        const LiquidEnergies own = liquidEnergies(c.state.liquid, grid, c.settings().gravity, &work.order);
         particlesToFacesBounded(c.state.liquid, work.order, grid, transfer.xi, c.state.lastDt, own.kinetic + own.modal, work.bounded,
                                 work.grid.faces);
     } else particlesToFaces(c.state.liquid, work.order, grid, work.scatter, work.grid.faces);

@@ -1,6 +1,6 @@
 #include "sim/core/parallel.h"
 #include "sim/liquid/relax_at_walls.h"
-#include "sim/particles/emit.h"
+#include "sim/sources/emit.h"
 #include "sim/stages/correction.h"
 #include "sim/stages/stages.h"
 

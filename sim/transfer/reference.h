@@ -3,7 +3,7 @@
 #include "sim/grid/face_fields.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 namespace sim {
 

@@ -1,5 +1,5 @@
 #include "sim/energy_changes.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/sim/fabric/pieces.h"
 

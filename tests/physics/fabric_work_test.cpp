@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-// What holds and drives fabric gives it what the book says, and what is far from it nothing.
+// What holds and drives fabric gives it what the budget says, and what is far from it nothing.
 
 namespace sim::test {
 namespace {

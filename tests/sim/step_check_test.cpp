@@ -1,6 +1,6 @@
 #include "sim/step_check.h"
 
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/physics/runs.h"
 #include "tests/sim/fabric/pieces.h"

@@ -2,7 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/liquid/energy.h"
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     vertices_.find(particles_, order_, grid_, 0, vertices);
     elements_.find(particles_, order_, grid_, vertices, vertices + static_cast<std::uint32_t>(elements.size()));
     if (differsFromTranslation(transfer_.xi, modes_)) {
-        const Energies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
+        const LiquidEnergies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
         particlesToFacesBounded(particles_, order_, grid_, transfer_.xi, state.sinceGather, own.kinetic + own.modal, bounded_, faces_);
     } else particlesToFaces(particles_, order_, grid_, scatter_, faces_);
     faces_.velocity.resize(grid_.count());

@@ -2,7 +2,7 @@
 
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/solids/sweep.h"
-#include "sim/scene/scene.h"
+#include "sim/obstacle_settings.h"
 
 #include <span>
 #include <string>

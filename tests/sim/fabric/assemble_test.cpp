@@ -1,5 +1,5 @@
 #include "sim/core/check.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 
 #include <gtest/gtest.h>
 

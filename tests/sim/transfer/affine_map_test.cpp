@@ -182,7 +182,7 @@ TEST(AffineMap, GivesTheFacesNoEnergyBeyondTheParticles)
                 const double steepness = std::pow(10.0, -3.0 + 0.1 * seed);  // dt |C| of random modes
                 SortedLiquid liquid = randomLiquid(seed % 3 == 0 ? 3 : 400, modes, {6, 5, 7}, {-2, 6, 3}, kCell, seed);
                 const double dt = steepness * kCell;
-                const Energies own = liquidEnergies(liquid.particles, liquid.grid, Vec3::Zero(), &liquid.order);
+                const LiquidEnergies own = liquidEnergies(liquid.particles, liquid.grid, Vec3::Zero(), &liquid.order);
                 BoundedScratch scratch;
                 FaceFields faces;
                 const double share =
