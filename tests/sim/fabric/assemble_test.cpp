@@ -1,4 +1,5 @@
 #include "sim/core/check.h"
+#include "sim/fabric/fabric.h"
 #include "sim/fabric/pieces/generators.h"
 
 #include <gtest/gtest.h>
