@@ -3,14 +3,11 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/shapes/volume.h"
-#include "sim/sources/seed.h"
-
-#include <fmt/format.h>
+#include "sim/sources/lay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace sim {
 
@@ -25,68 +22,6 @@ bool isActive(const Emission& e, double timeFrom, double timeTo)
     const bool isShort = timeFrom < e.from && e.to <= timeTo;  // no step begins in it
     return runs || isShort;
 }
-
-std::vector<Shape> solidsAt(const Scene& scene, double time)
-{
-    std::vector<Shape> solids;
-    for (const ObstacleSettings& o : scene.obstacles) solids.push_back(o.motion.isStatic() ? o.shape : o.shape.moved(o.motion.transform(time)));
-    return solids;
-}
-
-LiquidNearby liquidNear(const LiquidParticles& liquid, const SeedPlan& plan, double density)
-{
-    LiquidNearby nearby;
-    Eigen::AlignedBox3d box = plan.source.bounds();
-    if (box.isEmpty()) return nearby;
-    const Vec3 reach = Vec3::Constant(particleSpacing(plan.fill, plan.dx));
-    box.extend(Eigen::AlignedBox3d(box.min() + plan.moved, box.max() + plan.moved));
-    box = {box.min() - reach, box.max() + reach};
-    for (std::size_t p = 0; p < liquid.count; ++p) {
-        const Vec3 x = liquid.position(p);
-        if (!box.contains(x)) continue;
-        nearby.positions.push_back(x);
-        if (plan.source.distance(x) < 0.0) nearby.volumeInside += liquid.mass[p] / density;
-    }
-    return nearby;
-}
-
-/// @param volumes  of each [cm³]; empty where all are as large as `volume`
-void addParticles(std::span<const Vec3> positions, double density, double volume, std::span<const double> volumes, const Vec3& velocity, State& state)
-{
-    LiquidParticles& liquid = state.liquid;
-    if (positions.size() > std::numeric_limits<std::uint32_t>::max() - state.nextId)
-        throw RunError("the sources have given more particles than can be numbered (2^32)");
-    const std::size_t before = liquid.count;
-    const std::uint32_t firstId = state.nextId;
-    liquid.resize(before + positions.size());
-    parallelFor(positions.size(), 4096, [&](std::size_t n) {
-        const std::size_t p = before + n;
-        liquid.mass[p] = density * (volumes.empty() ? volume : volumes[n]);
-        liquid.id[p] = firstId + static_cast<std::uint32_t>(n);
-        for (int axis = 0; axis < kAxes; ++axis) {
-            liquid.x[axis][p] = positions[n][axis];
-            liquid.mode(axis, 0)[p] = velocity[axis];
-        }
-    });
-    state.nextId += static_cast<std::uint32_t>(positions.size());
-}
-
-/// Gives the particles from `first` on the velocities of the field, and what modes they have its gradient.
-void addField(const VelocityField& field, std::size_t first, State& state)
-{
-    LiquidParticles& liquid = state.liquid;
-    const double dx = state.grid.dx;
-    for (std::size_t p = first; p < liquid.count; ++p) {
-        const Vec3 x = liquid.position(p), velocity = field.at(x);
-        for (int a = 0; a < kAxes; ++a) liquid.mode(a, 0)[p] += velocity[a];
-        if (liquid.modeCount < 4) continue;
-        const Mat3 gradient = field.gradient(x, 1.0e-4 * dx);
-        for (int a = 0; a < kAxes; ++a)
-            for (int b = 0; b < kAxes; ++b) liquid.mode(a, 1 + b)[p] += dx * gradient(a, b);
-    }
-}
-
-std::span<const Vec3> firstOf(std::span<const Vec3> positions, std::size_t count) { return positions.first(std::min(count, positions.size())); }
 
 /// How many particles of a volume there are until a volume is reached: the last one may pass it.
 std::size_t countUpTo(double volume, double perParticle)
@@ -103,51 +38,6 @@ std::size_t wholeParticles(double volume, double perParticle)
     return static_cast<std::size_t>(std::max(0.0, std::floor(volume / perParticle + kRoundOff)));
 }
 
-std::string nameOf(const Scene& scene, std::size_t source)
-{
-    return scene.file + ": source " + std::to_string(source + 1) + " \"" + scene.sources[source].name + "\" ";
-}
-
-SeedPlan planFor(const Scene& scene, std::size_t source, double time, const State& state)
-{
-    SeedPlan plan;
-    plan.source = scene.sources[source].shape;
-    plan.solids = solidsAt(scene, time);
-    plan.fill = scene.sources[source].fill;
-    plan.dx = scene.settings.cell;
-    plan.gridOrigin = state.grid.origin;
-    plan.stream = source;
-    return plan;
-}
-
-Seeds seedsFor(const Scene& scene, std::size_t source, const SeedPlan& plan, const LiquidNearby& nearby)
-try {
-    return seedParticles(plan, nearby);
-} catch (const InputError& e) {
-    throw InputError(nameOf(scene, source) + e.what());
-}
-
-/// Particles of a source, entered in what it has given and in the ledger.
-/// @param volume   of each [cm³]
-/// @param volumes  of each, where they are not alike [cm³]
-void lay(const Scene& scene, std::size_t source, const Emission& emission, std::span<const Vec3> positions, double volume, State& state,
-         std::span<const double> volumes = {})
-{
-    const SourceSettings& settings = scene.sources[source];
-    const double density = scene.settings.liquid.density;
-    const std::size_t before = state.liquid.count;
-    addParticles(positions, density, volume, volumes, emission.velocity, state);
-    try {
-        if (settings.velocityField) addField(*settings.velocityField, before, state);
-    } catch (const VelocityField::Mistake& mistake) {
-        throw InputError(
-            fmt::format("{}velocity_field: \"{}\": {}", nameOf(scene, source), settings.velocityField->formula(mistake.component), mistake.what));
-    }
-    const double sum = volumes.empty() ? static_cast<double>(positions.size()) * volume : std::accumulate(volumes.begin(), volumes.end(), 0.0);
-    state.emittedVolume[source] += sum;
-    state.ledger.emittedMass += density * sum;
-}
-
 /// A body that is laid once, or liquid at rest that fills its source up again as it leaves.
 void fillUp(const Scene& scene, std::size_t source, const Emission& emission, double time, State& state)
 {
@@ -160,12 +50,12 @@ void fillUp(const Scene& scene, std::size_t source, const Emission& emission, do
     }
     const double most = emission.maxVolume - state.emittedVolume[source];
     if (seeds.volumes.empty()) {
-        lay(scene, source, emission, firstOf(seeds.positions, countUpTo(most, seeds.volume)), seeds.volume, state);
+        lay(scene, source, emission, firstOf(seeds, countUpTo(most, seeds.volume)), state);
         return;
     }
     std::size_t count = 0;
     for (double volume = 0.0; count < seeds.volumes.size() && volume < most; ++count) volume += seeds.volumes[count];
-    lay(scene, source, emission, firstOf(seeds.positions, count), seeds.volume, state, std::span(seeds.volumes).first(count));
+    lay(scene, source, emission, firstOf(seeds, count), state);
 }
 
 /// One step of a source that flows. What it is asked for, its area times its speed times the step, it owes. Where its pattern finds the
@@ -278,11 +168,11 @@ class Flow {
             const double owed = memory_.owed - memory_.toPress;
             keepAllowed(wholeParticles(owed + (1.0 - coveredShare()) * layer(), seeds.volume), owed, seeds);
         }
-        const std::span<const Vec3> positions = firstOf(seeds.positions, most);
-        lay(scene_, source_, emission_, positions, seeds.volume, state_);
+        const NewParticles particles = firstOf(seeds, most);
+        lay(scene_, source_, emission_, particles, state_);
         if (isFirst_) return;
-        memory_.owed -= static_cast<double>(positions.size()) * seeds.volume;
-        memory_.freely += static_cast<double>(positions.size()) * seeds.volume;
+        memory_.owed -= static_cast<double>(particles.positions.size()) * seeds.volume;
+        memory_.freely += static_cast<double>(particles.positions.size()) * seeds.volume;
     }
     void keepAllowed(std::size_t mostEntered, double owed, Seeds& seeds) const
     {
@@ -306,7 +196,7 @@ class Flow {
     {
         const std::size_t count = std::min(wholeParticles(memory_.toPress, particle), countUpTo(left(), particle));
         const std::vector<Vec3> positions = spread(count);
-        lay(scene_, source_, emission_, positions, particle, state_);
+        lay(scene_, source_, emission_, {positions, particle}, state_);
         const double volume = static_cast<double>(positions.size()) * particle;
         memory_.owed -= volume;
         memory_.toPress -= volume;
@@ -359,10 +249,6 @@ void prepare(const Scene& scene, double time, const State& state, EmissionWorksp
     const bool isStill = std::ranges::all_of(scene.obstacles, [&](const ObstacleSettings& o) { return !o.motion.moves(time - state.lastDt, time); });
     if (!isStill) work.sizes.assign(count, std::nullopt);
 }
-
-}  // namespace
-
-namespace {
 
 bool gives(const Emission& emission, double emittedVolume, double timeFrom, double timeTo)
 {
