@@ -14,7 +14,7 @@ namespace sim {
 ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const
 {
     ContactEnergy stored;
-    if (contacts_) stored = contact_->storedEnergy(x, held.onFabric);
+    if (contacts_) stored = contact_->storedEnergy(x, held.vertexSolver.onFabric);
     stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
     stored.bridges += obstacles_.bridgeEnergy(fabric_, x);
     return stored;
@@ -53,7 +53,7 @@ double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& stat
 EnergyChanges VertexSolver::payForGain(double h, const Vec3& gravity, FabricState& state) const
 {
     EnergyChanges changes = energyChanges(h, gravity, state);
-    const double due = start_.owed + energies(state, gravity).total() - startEnergies_.total() - workFromOutside(changes);
+    const double due = start_.vertexSolver.owed + energies(state, gravity).total() - startEnergies_.total() - workFromOutside(changes);
     changes[EnergyChange::Implicit] -= payOwed(due, fabric_, groups_, mass_, state);
     return changes;
 }
@@ -75,15 +75,15 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
     std::vector<double> turn(state.theta.size());
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
     for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
-    const double lastFraction = state.lastFraction;
+    const double lastFraction = state.vertexSolver.lastFraction;
     // Where all of the motion does not pay for it, only a part of the way can be.
     for (const double part : {0.5, 0.25, 0.125, 0.0}) {
         if (resting() <= allowed) break;
         state = start_;
-        state.lastFraction = lastFraction;
+        state.vertexSolver.lastFraction = lastFraction;
         state.springStep = springStep_;
         guard_.moveTo(t, t + h);
-        if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
+        if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
         for (std::size_t v = 0; v < way.size(); ++v) move_[v] = part * way[v];
         limit(state, report, clock);
         commit(state, clock);

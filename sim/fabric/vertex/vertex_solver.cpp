@@ -91,7 +91,7 @@ void VertexSolver::advanceInParts(double t, double h, int level, const Vec3& gra
 {
     if (attempt(t, h, level, gravity, state, report, clock)) return;
     ++report.halvings;
-    start_.lastFraction = state.lastFraction;
+    start_.vertexSolver.lastFraction = state.vertexSolver.lastFraction;
     state = start_;
     advanceInParts(t, 0.5 * h, level + 1, gravity, state, report, clock);
     advanceInParts(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
@@ -179,7 +179,7 @@ bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, F
     state.springStep = springStep_;
     limits_ = {};
     guarded_ = {};
-    if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.onFabric);
+    if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
 
     if (!followSolids(t, h, isLast, state, report, clock)) return false;
     parallelFor(freeAngle_.size(), 4096,
@@ -264,8 +264,8 @@ void VertexSolver::findRates(double h, FabricState& state) const
 void VertexSolver::finish(double h, FabricState& state)
 {
     findRates(h, state);
-    if (contacts_) contact_->keepFriction(state.x, state.onFabric);
-    else state.onFabric.clear();
+    if (contacts_) contact_->keepFriction(state.x, state.vertexSolver.onFabric);
+    else state.vertexSolver.onFabric.clear();
     obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
     state.stored = contactEnergy(h, state.x, state);
 }
@@ -302,10 +302,10 @@ bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, F
     iterate(t, h, gravity, newton, state, report, clock);
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
-    const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.lastFraction < kFractionTwice) ||
+    const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
                          limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled ||
                          (newton.gain > kMuchGain && (isDriven_ || !newton.isQuiet));
-    state.lastFraction = fraction;
+    state.vertexSolver.lastFraction = fraction;
     // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
     if (isDriven_) isLast = isLast && level >= kDrivenHalvings;
     if (isShort && !isLast) return false;
@@ -316,8 +316,8 @@ bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, F
     const bool mayHaveGained = startIsLookedAt_ || isShort;
     if (mayHaveGained && !isDriven_) giveNoEnergy(t, h, gravity, state, report, clock);
     std::optional<EnergyChanges> changes;
-    if ((mayHaveGained && isDriven_) || start_.owed > 0.0) changes = payForGain(h, gravity, state);
-    if (state.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, gravity).kinetic, h));
+    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = payForGain(h, gravity, state);
+    if (state.vertexSolver.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, gravity).kinetic, h));
     if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, gravity, state);
     if (forces_) tellForces(h, gravity, state);
     return true;

@@ -203,14 +203,14 @@ TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
     const Fabric fabric = fabricOf(piece);
     FabricState state = restState(fabric);
     ElementContact contact(fabric);
-    state.across = contact.unstrained(state);
+    state.gridSolver.across = contact.unstrained(state);
     const double r33 = 0.8;
-    for (Vec3& d : state.across) d *= r33;
+    for (Vec3& d : state.gridSolver.across) d *= r33;
     contact.assemble(state);
     const ContactModuli m(piece.material);
     const double volume = 0.5 * 0.144 * 0.144 * 0.034;
     for (std::size_t e = 0; e < contact.size(); ++e) {
-        const Vec3 n = state.across[e] / r33;
+        const Vec3 n = state.gridSolver.across[e] / r33;
         const double pressure = -n.dot(gradientOf(contact, e).onGrid * n) / (volume * r33);
         EXPECT_NEAR(pressure, piece.material.packing() * m.normal() * 0.2 * 0.2, 1e-9 * pressure);
     }
@@ -226,8 +226,8 @@ struct Pressed {
           state(restState(fabric)),
           contact(fabric)
     {
-        state.across = contact.unstrained(state);
-        for (Vec3& d : state.across) d *= share;
+        state.gridSolver.across = contact.unstrained(state);
+        for (Vec3& d : state.gridSolver.across) d *= share;
         motion.gradient.assign(contact.size(), gradient);
         motion.velocity.assign(state.x.size(), Vec3::Zero());
     }
@@ -344,10 +344,10 @@ TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
     const Fabric fabric = assembleFabric(pieces);
     FabricState rest = restState(fabric);
     ElementContact contact(fabric);
-    rest.across = contact.unstrained(rest);
+    rest.gridSolver.across = contact.unstrained(rest);
     Noise noise(6);
     for (Vec3& x : rest.x) x += 0.02 * noise.vector();
-    for (Vec3& d : rest.across) d = 0.8 * (d + 0.1 * noise.vector());
+    for (Vec3& d : rest.gridSolver.across) d = 0.8 * (d + 0.1 * noise.vector());
     contact.assemble(rest);
     ASSERT_EQ(contact.active().size(), contact.size());
     std::vector<Vec3> move;
@@ -364,7 +364,7 @@ TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
     const auto energyAt = [&](double step) {
         FabricState moved = rest;
         for (std::size_t v = 0; v < move.size(); ++v) moved.x[v] += step * move[v];
-        for (Vec3& d : moved.across) d += step * (g * d);
+        for (Vec3& d : moved.gridSolver.across) d += step * (g * d);
         contact.assemble(moved);
         return contact.energy();
     };

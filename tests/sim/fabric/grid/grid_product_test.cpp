@@ -113,7 +113,7 @@ void assemble(GridParts& parts)
     Noise noise(4);
     for (Vec3& x : parts.state.x) x += 0.03 * noise.vector();
     parts.stiffness.rods().transportFrames(parts.state);
-    parts.state.across = parts.contact.unstrained(parts.state);
+    parts.state.gridSolver.across = parts.contact.unstrained(parts.state);
     press(parts.state, 0.05, 1, 0.1);
     parts.assemble(kStep);
 }
@@ -223,7 +223,7 @@ TEST(GridFabricProduct, CrumpledClothIsSolvedAsFastAsItsMassesAllow)
     GridParts parts({cloth(12)}, gridSettings(TransferMethod::PolyPic));
     Noise noise(4);
     for (Vec3& x : parts.state.x) x += 0.05 * noise.vector();
-    parts.state.across = parts.contact.unstrained(parts.state);
+    parts.state.gridSolver.across = parts.contact.unstrained(parts.state);
     parts.assemble(kStep);
     const FaceVector start = parts.randomVector(6);
     FaceVector exact = start;

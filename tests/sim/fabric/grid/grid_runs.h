@@ -76,7 +76,7 @@ struct GridParts {
           particles(fabric, settings),
           system(fabric, stiffness, contact)
     {
-        state.across = contact.unstrained(state);
+        state.gridSolver.across = contact.unstrained(state);
     }
     void toFaces()
     {
@@ -189,7 +189,7 @@ inline PlainPush changeOf(const ElementContact& contact, std::size_t e, const Ma
 inline void press(FabricState& state, double by, unsigned seed, double noise)
 {
     Noise random(seed);
-    for (Vec3& d : state.across) d = (1.0 - by) * (d + noise * random.vector());
+    for (Vec3& d : state.gridSolver.across) d = (1.0 - by) * (d + noise * random.vector());
 }
 
 }  // namespace sim::testing

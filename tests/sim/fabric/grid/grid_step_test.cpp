@@ -83,8 +83,8 @@ TEST(GridFabric, EnergyGoesWhereTheBudgetSays)
 /// Of the vertices and of their affine parts.
 Vec3 angularMomentum(const GridRun& run)
 {
-    const std::size_t n = run.state.x.size(), rows = run.state.modes.size() / (3 * n);
-    const auto slope = [&](int a, int b, std::size_t v) { return run.state.modes[(a * rows + 1 + b) * n + v]; };
+    const std::size_t n = run.state.x.size(), rows = run.state.gridSolver.modes.size() / (3 * n);
+    const auto slope = [&](int a, int b, std::size_t v) { return run.state.gridSolver.modes[(a * rows + 1 + b) * n + v]; };
     Vec3 sum = Vec3::Zero();
     for (std::size_t v = 0; v < n; ++v) {
         sum += run.fabric.mass[v] * run.state.x[v].cross(run.state.v[v]);
@@ -104,9 +104,9 @@ TEST(GridFabric, KeepsAngularMomentumWithApic)
     settings.fabric.tolerance = 1.0e-10;
     GridRun run({cloth(8)}, settings);
     giveNoise(run.state, 30.0);
-    run.state.modes.assign(3 * 4 * run.state.x.size(), 0.0);
+    run.state.gridSolver.modes.assign(3 * 4 * run.state.x.size(), 0.0);
     for (std::size_t v = 0; v < run.state.x.size(); ++v)
-        for (int a = 0; a < 3; ++a) run.state.modes[a * 4 * run.state.x.size() + v] = run.state.v[v][a];
+        for (int a = 0; a < 3; ++a) run.state.gridSolver.modes[a * 4 * run.state.x.size() + v] = run.state.v[v][a];
     const Vec3 before = angularMomentum(run);
     run.step(kStep);
     EXPECT_LT((angularMomentum(run) - before).norm(), 1e-8 * before.norm());
@@ -171,7 +171,7 @@ TEST(GridFabric, SheetsSlideWithoutFriction)
         Settings settings = gridSettings(TransferMethod::PolyPic);
         settings.fabric.contact = contact;
         GridRun run({lower, upper}, settings);
-        run.state.across = ElementContact(run.fabric).unstrained(run.state);
+        run.state.gridSolver.across = ElementContact(run.fabric).unstrained(run.state);
         press(run.state, 1.0e-3, 1, 0.0);
         EXPECT_EQ(run.step(kStep).contacts > 0, contact);
         const std::size_t half = run.state.x.size() / 2;
@@ -239,8 +239,8 @@ TEST(GridFabric, SameBitsForAnyThreadCount)
         EXPECT_EQ(one.x, other.x);
         EXPECT_EQ(one.v, other.v);
         EXPECT_EQ(one.omega, other.omega);
-        EXPECT_EQ(one.across, other.across);
-        EXPECT_EQ(one.modes, other.modes);
+        EXPECT_EQ(one.gridSolver.across, other.gridSolver.across);
+        EXPECT_EQ(one.gridSolver.modes, other.gridSolver.modes);
     }
 }
 
@@ -258,8 +258,8 @@ TEST(GridFabric, GoesOnFromItsStateAlone)
         other.step(kStep);
     }
     EXPECT_EQ(run.state.x, other.state.x);
-    EXPECT_EQ(run.state.modes, other.state.modes);
-    EXPECT_EQ(run.state.across, other.state.across);
+    EXPECT_EQ(run.state.gridSolver.modes, other.state.gridSolver.modes);
+    EXPECT_EQ(run.state.gridSolver.across, other.state.gridSolver.across);
 }
 
 /// What forces did in the last step is found again on the grid of this one, whose blocks may be others.
@@ -275,14 +275,14 @@ TEST(GridFabric, ForcesGoOnAsTheyWere)
     for (Vec3& v : run.state.v) v = Vec3(0.0, -40.0, 0.0);
     int blocksChanged = 0;
     for (int i = 0; i < 40; ++i) {
-        const std::vector<Vec3i> before = run.state.faceBlocks.coords();
+        const std::vector<Vec3i> before = run.state.gridSolver.faceBlocks.coords();
         GridRun forgetful({sheet}, settings);
         forgetful.state = run.state;
-        forgetful.state.faceBlocks = BlockGrid();
+        forgetful.state.gridSolver.faceBlocks = BlockGrid();
         const int without = forgetful.step(kStep).iterations, with = run.step(kStep).iterations;
         if (i < 3) continue;  // the corners' jolt
         EXPECT_LT(with, without) << "step " << i;
-        if (before != run.state.faceBlocks.coords()) ++blocksChanged;
+        if (before != run.state.gridSolver.faceBlocks.coords()) ++blocksChanged;
     }
     EXPECT_GT(blocksChanged, 0);
 }

@@ -51,8 +51,8 @@ double relativeErrorOfSystem(std::vector<FabricPiece> pieces, double pressed)
         for (std::size_t v = 0; v < u.size(); ++v) parts.state.x[v] += step * kStep * u[v];
         for (std::size_t e = 0; e < parts.system.edges(); ++e) parts.state.theta[e] += step * kStep * p.twist[e];
         const std::size_t edges = parts.system.edges();
-        for (std::size_t d = 0; d < start.across.size(); ++d)
-            parts.state.across[d] += step * kStep * (g[d < 2 * edges ? d / 2 : d - edges] * start.across[d]);
+        for (std::size_t d = 0; d < start.gridSolver.across.size(); ++d)
+            parts.state.gridSolver.across[d] += step * kStep * (g[d < 2 * edges ? d / 2 : d - edges] * start.gridSolver.across[d]);
         parts.stiffness.rods().transportFrames(parts.state);
         parts.assembleForces(kStep);
         parts.system.impulses(out);
@@ -138,7 +138,7 @@ TEST(GridFabricTransfer, HasNoMoreModesThanTheLiquidAtItsSurface)
     for (const auto& [asked, kept] : {std::pair(1, 1), std::pair(8, 8), std::pair(11, 8), std::pair(27, 8)}) {
         GridParts parts(allKinds(), gridSettings(TransferMethod::PolyPic, asked));
         parts.toFaces();
-        EXPECT_EQ(parts.state.modes.size(), 3 * kept * parts.state.x.size()) << asked;
+        EXPECT_EQ(parts.state.gridSolver.modes.size(), 3 * kept * parts.state.x.size()) << asked;
     }
 }
 
