@@ -60,8 +60,11 @@ EnergyChanges VertexSolver::payForGain(double h, const Vec3& gravity, FabricStat
 
 /// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of
 /// fabric that nothing drives.
-void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::giveNoEnergy(const Part& part)
 {
+    const double h = part.h;
+    const Vec3& gravity = part.gravity;
+    FabricState& state = part.state;
     const double allowed = allowedEnergy(h, gravity, state);
     const auto resting = [&] {
         const FabricEnergies now = energies(state, gravity);
@@ -77,18 +80,18 @@ void VertexSolver::giveNoEnergy(double t, double h, const Vec3& gravity, FabricS
     for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
     const double lastFraction = state.vertexSolver.lastFraction;
     // Where all of the motion does not pay for it, only a part of the way can be.
-    for (const double part : {0.5, 0.25, 0.125, 0.0}) {
+    for (const double share : {0.5, 0.25, 0.125, 0.0}) {
         if (resting() <= allowed) break;
         state = start_;
         state.vertexSolver.lastFraction = lastFraction;
         state.springStep = springStep_;
-        guard_.moveTo(t, t + h);
+        guard_.moveTo(part.t, part.t + h);
         if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
-        for (std::size_t v = 0; v < way.size(); ++v) move_[v] = part * way[v];
-        limit(state, report, clock);
-        commit(state, clock);
+        for (std::size_t v = 0; v < way.size(); ++v) move_[v] = share * way[v];
+        limit(state, part.report, part.clock);
+        commit(state, part.clock);
         guard_.rest();
-        for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += part * turn[e];
+        for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += share * turn[e];
         finish(h, state);
     }
     slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);

@@ -61,19 +61,20 @@ bool VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
     return true;
 }
 
-/// Moves the fabric by move_ while solids go on for h from t, in halves of the time where it has no safe way in one; false if it should
+/// Moves the fabric by move_ while solids go on, in halves of the time where it has no safe way in one; false if it should
 /// be redone in halves of the whole step.
-bool VertexSolver::followSolids(double t, double h, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
+bool VertexSolver::followSolids(const Part& part, bool isLast)
 {
+    const double h = part.h;
     wholeMove_ = move_;
     const auto go = [&](double begin, double length) {
         guard_.moveTo(begin, begin + length);
         parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] = length / h * wholeMove_[v]; });
-        if (!limit(state, report, clock)) return false;
-        commit(state, clock);
+        if (!limit(part.state, part.report, part.clock)) return false;
+        commit(part.state, part.clock);
         return true;
     };
-    const bool hasGot = solids::inHalves(t, h, isLast ? SolidGuard::kMostHalvings : 0, go);
+    const bool hasGot = solids::inHalves(part.t, h, isLast ? SolidGuard::kMostHalvings : 0, go);
     if (!hasGot && isLast) guard_.refuse();
     guard_.rest();
     return hasGot;

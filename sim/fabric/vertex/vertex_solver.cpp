@@ -80,29 +80,31 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
     if (cohesion_) cohesion_->takeUp(state.absorbed);
     groups_.begin();
     findMomenta(state);
-    advanceInParts(t, h, 0, gravity, state, report, clock);
+    advanceInParts({t, h, 0, gravity, state, report, clock});
     keepMomentum(h, gravity, state);
     if (forces_ && loads_) tellLiquid(state);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
 }
 
-void VertexSolver::advanceInParts(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::advanceInParts(const Part& part)
 {
-    if (attempt(t, h, level, gravity, state, report, clock)) return;
-    ++report.halvings;
-    start_.vertexSolver.lastFraction = state.vertexSolver.lastFraction;
-    state = start_;
-    advanceInParts(t, 0.5 * h, level + 1, gravity, state, report, clock);
-    advanceInParts(t + 0.5 * h, 0.5 * h, level + 1, gravity, state, report, clock);
+    if (attempt(part)) return;
+    ++part.report.halvings;
+    start_.vertexSolver.lastFraction = part.state.vertexSolver.lastFraction;
+    part.state = start_;
+    advanceInParts(part.half(part.t));
+    advanceInParts(part.half(part.t + 0.5 * part.h));
 }
 
 /// Where vertices and angles go without forces of the fabric's own, and in move_ where forces like those of the last step take the
 /// vertices, where there is contact by no more than it is sure to notice; pins go where their motion has them. Newton begins there: quiet
 /// fabric finds its forces in balance and its friction at the speed that it has, instead of after a fall for one step.
-void VertexSolver::predict(double t, double h, const Vec3& gravity, const FabricState& state)
+void VertexSolver::predict(const Part& step)
 {
-    const Vec3 fall = h * h * gravity;
+    const FabricState& state = step.state;
+    const double h = step.h;
+    const Vec3 fall = h * h * step.gravity;
     const double part = h / wholeStep_;
     const double expectedMove = contact_ ? kExpectedMove : std::numeric_limits<double>::infinity();  // radii
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
@@ -121,7 +123,7 @@ void VertexSolver::predict(double t, double h, const Vec3& gravity, const Fabric
         const bool stays = expected_[v].squaredNorm() <= most * most;  // and so feels what it feels where it is
         move_[v] += (size > most && !stays ? most / size : 1.0) * byForces;
     });
-    const std::vector<Vec3> targets = pinTargets(fabric_, t + h);
+    const std::vector<Vec3> targets = pinTargets(fabric_, step.t + h);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
         free_[v] = targets[i];
@@ -157,18 +159,20 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
 /// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin next to where they are:
 /// twist is so stiff and light that its rate tells little of where it will be, that of a halved step nothing; from there Newton wound up
 /// the free ends of yarns, a little in every step. False if the attempt should be redone in halves.
-bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock)
+bool VertexSolver::begin(const Part& part, bool isLast)
 {
+    const double t = part.t, h = part.h;
+    FabricState& state = part.state;
     start_ = state;
     startTime_ = t;
-    startEnergies_ = energies(start_, gravity);
+    startEnergies_ = energies(start_, part.gravity);
     start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
     startIsLookedAt_ = false;
     unseenAtStart_ = 0.0;
-    clock.start(Stage::FabricElastic);
+    part.clock.start(Stage::FabricElastic);
     system_.rods().startStep(state);
     system_.shells().startStep(state.x);
-    predict(t, h, gravity, state);
+    predict(part);
     obstacles_.moveTo(t, t + h);
     guard_.moveTo(t, t + h);
     solidsMove_ = guard_.movesNear(state.x, move_);
@@ -181,7 +185,7 @@ bool VertexSolver::begin(double t, double h, const Vec3& gravity, bool isLast, F
     guarded_ = {};
     if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
 
-    if (!followSolids(t, h, isLast, state, report, clock)) return false;
+    if (!followSolids(part, isLast)) return false;
     parallelFor(freeAngle_.size(), 4096,
                 [&](std::size_t e) { state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn); });
     turnHeldEdges(t + h, state);
@@ -202,13 +206,16 @@ void VertexSolver::look(double h, std::span<const Vec3> x, std::span<const Vec3>
 }
 
 /// Newton's move from where the state is, into move_.
-void VertexSolver::solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::solve(const Part& part, Newton& newton)
 {
-    look(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), clock);
+    const double h = part.h;
+    const FabricState& state = part.state;
+    FabricReport& report = part.report;
+    look(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
     hasMovedSinceLook_ = true;
-    clock.start(Stage::FabricElastic);
+    part.clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
-    clock.start(Stage::FabricSolve);
+    part.clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
     const double fall = feltAcceleration_ * h;
     const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
@@ -238,15 +245,16 @@ void VertexSolver::judge(double h, Newton& newton) const
 }
 
 /// Makes the move as far as the limiter lets it.
-void VertexSolver::take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::take(const Part& part, Newton& newton)
 {
-    limit(state, report, clock);
+    FabricState& state = part.state;
+    limit(state, part.report, part.clock);
     const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return mass_[v] * of(v); }); };
     newton.wanted += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).squaredNorm(); });
     newton.taken += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).dot(move_[v]); });
-    commit(state, clock);
+    commit(state, part.clock);
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
-    turnHeldEdges(t, state);
+    turnHeldEdges(part.t + part.h, state);
 }
 
 /// Velocities by which the state came from that at the start, and what the fabric's own forces did.
@@ -271,14 +279,16 @@ void VertexSolver::finish(double h, FabricState& state)
 }
 
 /// Newton's iterations until nothing moves that matters, and no energy comes from what is left.
-void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock)
+void VertexSolver::iterate(const Part& part, Newton& newton)
 {
+    const double h = part.h;
+    FabricState& state = part.state;
     const int most = std::max(settings_.newton, kMostNewton);
     std::optional<Newton> settled;  // before iterations for the energy's sake, which tell nothing of how far a step could be taken
     for (;;) {
-        solve(h, newton, state, report, clock);
+        solve(part, newton);
         judge(h, newton);
-        take(t + h, newton, state, report, clock);
+        take(part, newton);
         const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
         if (!isLastMove) continue;
         const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
@@ -287,19 +297,22 @@ void VertexSolver::iterate(double t, double h, const Vec3& gravity, Newton& newt
         finish(h, state);
         if (!settled) settled = newton;
         newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
-        if (gain(h, gravity, state) <= kNoGain) return;
-        lookAgain(h, state, clock);
-        newton.gain = gain(h, gravity, state);
+        if (gain(h, part.gravity, state) <= kNoGain) return;
+        lookAgain(h, state, part.clock);
+        newton.gain = gain(h, part.gravity, state);
         if (newton.gain <= kNoGain || newton.count >= most) return;
     }
 }
 
-bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock)
+bool VertexSolver::attempt(const Part& part)
 {
-    bool isLast = level >= settings_.maxHalvings;
-    if (!begin(t, h, gravity, isLast, state, report, clock)) return false;
+    const double h = part.h;
+    FabricState& state = part.state;
+    FabricReport& report = part.report;
+    bool isLast = part.level >= settings_.maxHalvings;
+    if (!begin(part, isLast)) return false;
     Newton newton;
-    iterate(t, h, gravity, newton, state, report, clock);
+    iterate(part, newton);
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
@@ -307,19 +320,19 @@ bool VertexSolver::attempt(double t, double h, int level, const Vec3& gravity, F
                          (newton.gain > kMuchGain && (isDriven_ || !newton.isQuiet));
     state.vertexSolver.lastFraction = fraction;
     // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
-    if (isDriven_) isLast = isLast && level >= kDrivenHalvings;
+    if (isDriven_) isLast = isLast && part.level >= kDrivenHalvings;
     if (isShort && !isLast) return false;
     report.takenFraction = std::min(report.takenFraction, fraction);
 
     if (isShort) ++report.shortened;
     findGroups();
     const bool mayHaveGained = startIsLookedAt_ || isShort;
-    if (mayHaveGained && !isDriven_) giveNoEnergy(t, h, gravity, state, report, clock);
+    if (mayHaveGained && !isDriven_) giveNoEnergy(part);
     std::optional<EnergyChanges> changes;
-    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = payForGain(h, gravity, state);
-    if (state.vertexSolver.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, gravity).kinetic, h));
-    if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, gravity, state);
-    if (forces_) tellForces(h, gravity, state);
+    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = payForGain(h, part.gravity, state);
+    if (state.vertexSolver.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, part.gravity).kinetic, h));
+    if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, part.gravity, state);
+    if (forces_) tellForces(h, part.gravity, state);
     return true;
 }
 

@@ -48,19 +48,30 @@ class VertexSolver final : public FabricIntegrator {
         bool isSettled = false, isNear = false, isQuiet = false;
     };
 
-    /// One attempt at a step; false if it should be redone in halves.
-    bool attempt(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
-    void advanceInParts(double t, double h, int level, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
-    bool begin(double t, double h, const Vec3& gravity, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
-    void predict(double t, double h, const Vec3& gravity, const FabricState& state);
+    /// A step or a part of one, and what it works on.
+    struct Part {
+        double t, h;  ///< it leads from t to t + h [s]
+        int level;    ///< how often the step was halved for it
+        const Vec3& gravity;
+        FabricState& state;
+        FabricReport& report;
+        StageClock& clock;
+        /// Its half that begins at a time.
+        Part half(double from) const { return {from, 0.5 * h, level + 1, gravity, state, report, clock}; }
+    };
+    /// One attempt at a part; false if it should be redone in halves.
+    bool attempt(const Part& part);
+    void advanceInParts(const Part& part);
+    bool begin(const Part& part, bool isLast);
+    void predict(const Part& part);
     void look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
     void lookAgain(double h, FabricState& state, StageClock& clock);
-    void solve(double h, Newton& newton, const FabricState& state, FabricReport& report, StageClock& clock);
+    void solve(const Part& part, Newton& newton);
     void judge(double h, Newton& newton) const;
-    void take(double t, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
+    void take(const Part& part, Newton& newton);
     void commit(FabricState& state, StageClock& clock);
     double rmsInRadii(std::span<const Vec3> move) const;
-    bool followSolids(double t, double h, bool isLast, FabricState& state, FabricReport& report, StageClock& clock);
+    bool followSolids(const Part& part, bool isLast);
     bool limit(const FabricState& state, FabricReport& report, StageClock& clock);
     bool limitInTurn(const FabricState& state, StageClock& clock);
     SolidGuard::Limited keepFromSolids(const FabricState& state);
@@ -70,10 +81,10 @@ class VertexSolver final : public FabricIntegrator {
     ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
     double felt(double kinetic, double h) const;
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
-    void iterate(double t, double h, const Vec3& gravity, Newton& newton, FabricState& state, FabricReport& report, StageClock& clock);
+    void iterate(const Part& part, Newton& newton);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
     EnergyChanges payForGain(double h, const Vec3& gravity, FabricState& state) const;
-    void giveNoEnergy(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report, StageClock& clock);
+    void giveNoEnergy(const Part& part);
     void findGroups();
     void findMomenta(const FabricState& state);
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);
