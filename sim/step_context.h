@@ -31,6 +31,7 @@ struct StepContext {
     StepPlan plan{};
 
     const Settings& settings() const { return scene.settings; }
+    CutGrid cut() const { return {state.grid, work.obstacleField, work.obstacles}; }
     bool hasObstacles() const { return !work.obstacles.empty(); }
     bool isFlip() const { return settings().transfer.method == TransferMethod::Flip; }
     bool isViscous() const { return plan.isWet && settings().liquid.solveViscosity && settings().liquid.viscosity > 0.0; }

@@ -51,6 +51,13 @@ struct ParticleOrder {
     std::vector<int> renumbered;             ///< per block before fitBlocks: its number now; empty if unchanged
 };
 
+/// Particles in the order of the last sort, with the grid whose blocks it goes by.
+struct SortedParticles {
+    const LiquidParticles& particles;
+    const ParticleOrder& order;
+    const BlockGrid& grid;
+};
+
 /// Half sizes of the neighbourhood of a particle's cell in which blocks must exist [cells]: what its stencils, the cells that can be
 /// liquid because of it (its own and those around) and their faces reach.
 inline constexpr int kReachBelow = 1, kReachAbove = 2;

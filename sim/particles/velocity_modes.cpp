@@ -36,15 +36,15 @@ double evaluateModes(const Vec3& z, const Modes& c)
     return u;
 }
 
-double evaluateModes(const Basis& basis, int i, int j, int k, const Modes& c)
+double evaluateModes(const Basis& basis, const Vec3i& node, const Modes& c)
 {
-    return evaluateModes(Vec3(basis[0].z[i], basis[1].z[j], basis[2].z[k]), c);
+    return evaluateModes(Vec3(basis[0].z[node.x()], basis[1].z[node.y()], basis[2].z[node.z()]), c);
 }
 
-void projectOntoModes(const Basis& basis, int i, int j, int k, double u, int modes, Modes& c)
+void projectOntoModes(const Basis& basis, const Vec3i& node, double u, int modes, Modes& c)
 {
-    for (int r = 0; r < modes; ++r)
-        c[r] += u * basis[0].project[i][kDegrees[r][0]] * basis[1].project[j][kDegrees[r][1]] * basis[2].project[k][kDegrees[r][2]];
+    const auto &x = basis[0].project[node.x()], &y = basis[1].project[node.y()], &z = basis[2].project[node.z()];
+    for (int r = 0; r < modes; ++r) c[r] += u * x[kDegrees[r][0]] * y[kDegrees[r][1]] * z[kDegrees[r][2]];
 }
 
 Modes toMonomials(const Basis& basis, const Modes& orthogonal)

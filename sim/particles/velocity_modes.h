@@ -82,14 +82,14 @@ using Basis = std::array<Basis1D, 3>;
 /// The coefficients of one velocity component, orthogonal or monomial; unused ones are 0.
 using Modes = std::array<double, kMaxModes>;
 
-/// u at stencil node (i, j, k), each 0..2, from monomial modes.
-double evaluateModes(const Basis& basis, int i, int j, int k, const Modes& c);
+/// u at a node of the stencil, each coordinate 0..2, from monomial modes.
+double evaluateModes(const Basis& basis, const Vec3i& node, const Modes& c);
 
 /// u at z [cells] from the particle, from monomial modes.
 double evaluateModes(const Vec3& z, const Modes& c);
 
-/// Add the share of stencil node (i, j, k), moving with u, to the first `modes` orthogonal coefficients.
-void projectOntoModes(const Basis& basis, int i, int j, int k, double u, int modes, Modes& c);
+/// Add the share of a node of the stencil, moving with u, to the first `modes` orthogonal coefficients.
+void projectOntoModes(const Basis& basis, const Vec3i& node, double u, int modes, Modes& c);
 
 /// Orthogonal coefficients to monomial ones: per axis (c0, c1, c2) → (c0 − c2/4, c1 − A c2, c2). Modes that a truncated set
 /// does not hold are filled in where a held one needs them.

@@ -114,6 +114,18 @@ void require(bool condition, const char* what)
 
 bool isUnit(const Vec3& v) { return std::abs(v.norm() - 1.0) < 1.0e-6; }
 
+/// A piece that turns about an axis.
+Piece turning(const Motion::Axis& axis)
+{
+    require(isUnit(axis.direction), "axis must be a unit vector");
+    Piece p;
+    p.turns = true;
+    p.frame = axis.frame;
+    p.axis = axis.direction.normalized();
+    p.origin = axis.through;
+    return p;
+}
+
 }  // namespace
 
 void Motion::add(Piece piece)
@@ -141,16 +153,11 @@ void Motion::addTranslation(double t0, double t1, const Vec3& by, double easeIn,
     add(p);
 }
 
-void Motion::addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame, double easeIn, double easeOut)
+void Motion::addRotation(double t0, double t1, const Axis& axis, double angle, double easeIn, double easeOut)
 {
-    require(isUnit(axis), "axis must be a unit vector");
-    Piece p;
-    p.turns = true;
-    p.frame = frame;
+    Piece p = turning(axis);
     p.begin = t0;
     p.end = t1;
-    p.axis = axis.normalized();
-    p.origin = origin;
     p.amount = angle;
     p.easeIn = easeIn;
     p.easeOut = easeOut;
@@ -170,17 +177,12 @@ void Motion::addOscillation(double t0, double t1, const Vec3& direction, double 
     add(p);
 }
 
-void Motion::addSwing(double t0, double t1, const Vec3& axis, double amplitude, double frequency, const Vec3& origin, Frame frame)
+void Motion::addSwing(double t0, double t1, const Axis& axis, double amplitude, double frequency)
 {
-    require(isUnit(axis), "axis must be a unit vector");
-    Piece p;
+    Piece p = turning(axis);
     p.course = Piece::Course::Sine;
-    p.turns = true;
-    p.frame = frame;
     p.begin = t0;
     p.end = t1;
-    p.axis = axis.normalized();
-    p.origin = origin;
     p.amount = amplitude;
     p.frequency = frequency;
     add(p);

@@ -18,14 +18,21 @@ class Motion {
     /// in the scene.
     enum class Frame { World, Local };
 
+    /// A line about which a body turns: along a unit vector, through a point.
+    struct Axis {
+        Vec3 direction;
+        Vec3 through;  ///< [cm]
+        Frame frame = Frame::World;
+    };
+
     /// Moves by `by` between t0 and t1, speeding up over easeIn and slowing down over easeOut [s].
     void addTranslation(double t0, double t1, const Vec3& by, double easeIn, double easeOut);
-    /// Turns by `angle` [rad] about a unit axis through `origin`.
-    void addRotation(double t0, double t1, const Vec3& axis, double angle, const Vec3& origin, Frame frame, double easeIn, double easeOut);
+    /// Turns by `angle` [rad] about an axis.
+    void addRotation(double t0, double t1, const Axis& axis, double angle, double easeIn, double easeOut);
     /// Swings along a unit direction: amplitude [cm] times sin(2π frequency (t − t0)).
     void addOscillation(double t0, double t1, const Vec3& direction, double amplitude, double frequency);
-    /// Swings about a unit axis through `origin`: amplitude [rad] times sin(2π frequency (t − t0)).
-    void addSwing(double t0, double t1, const Vec3& axis, double amplitude, double frequency, const Vec3& origin, Frame frame);
+    /// Swings about an axis: amplitude [rad] times sin(2π frequency (t − t0)).
+    void addSwing(double t0, double t1, const Axis& axis, double amplitude, double frequency);
     /// Passes through positions (offsets from the scene's) at given times, ascending, two or more. Cubic: smooth, at
     /// rest at both ends, and never beyond the positions on either side (Fritsch and Butland 1984); else along straight
     /// lines.

@@ -72,9 +72,8 @@ void relax(StepContext& c)
     c.plan.relaxes = work.relaxReach > 0.0 && isDue(rate, state.unrelaxed, c.dt);
     if (!c.plan.relaxes) return;
     const StageScope scope(c.clock, Stage::Relax);
-    relaxationDisplacements(state.liquid, work.order, state.grid, rate, work.relaxReach, state.unrelaxed, work.relax, work.displacement);
-    keepRelaxationFromLifting(work.order, state.grid, work.obstacleField, work.obstacles, c.settings().gravity, work.relaxReach, state.liquid,
-                              work.displacement);
+    relaxationDisplacements({state.liquid, work.order, state.grid}, rate, work.relaxReach, state.unrelaxed, work.relax, work.displacement);
+    keepRelaxationFromLifting(work.order, c.cut(), c.settings().gravity, work.relaxReach, state.liquid, work.displacement);
     state.unrelaxed = 0.0;
 }
 

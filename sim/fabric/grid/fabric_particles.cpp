@@ -55,10 +55,11 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     const auto vertices = static_cast<std::uint32_t>(state.x.size());
     vertices_.find(particles_, order_, grid_, 0, vertices);
     elements_.find(particles_, order_, grid_, vertices, vertices + static_cast<std::uint32_t>(elements.size()));
+    const SortedParticles sorted{particles_, order_, grid_};
     if (differsFromTranslation(transfer_.xi, modes_)) {
         const LiquidEnergies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
-        particlesToFacesBounded(particles_, order_, grid_, transfer_.xi, state.gridSolver.sinceGather, own.kinetic + own.modal, bounded_, faces_);
-    } else particlesToFaces(particles_, order_, grid_, scatter_, faces_);
+        particlesToFacesBounded(sorted, transfer_.xi, state.gridSolver.sinceGather, own.kinetic + own.modal, bounded_, faces_);
+    } else particlesToFaces(sorted, scatter_, faces_);
     faces_.velocity.resize(grid_.count());
     parallelFor(grid_.count(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);

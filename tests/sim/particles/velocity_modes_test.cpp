@@ -81,7 +81,7 @@ TEST(PolyPicModes, QuadraticCoefficientIsTheSecondDifference)
     const Basis basis = basisAt(offsets.next());
     const double row[3] = {1.7, -0.4, 3.1};
     Modes c{};
-    forEachNode([&](int i, int j, int k) { projectOntoModes(basis, i, j, k, row[i], kMaxModes, c); });
+    forEachNode([&](int i, int j, int k) { projectOntoModes(basis, {i, j, k}, row[i], kMaxModes, c); });
     EXPECT_NEAR(c[8], 0.5 * (row[0] - 2.0 * row[1] + row[2]), 1e-12);
 }
 
@@ -97,10 +97,10 @@ TEST(PolyPicModes, TwentySevenModesReproduceAnyStencil)
         Modes c{};
         forEachNode([&](int i, int j, int k) {
             value[i][j][k] = unit(random);
-            projectOntoModes(basis, i, j, k, value[i][j][k], kMaxModes, c);
+            projectOntoModes(basis, {i, j, k}, value[i][j][k], kMaxModes, c);
         });
         const Modes monomial = toMonomials(basis, c);
-        forEachNode([&](int i, int j, int k) { EXPECT_NEAR(evaluateModes(basis, i, j, k, monomial), value[i][j][k], 1e-12); });
+        forEachNode([&](int i, int j, int k) { EXPECT_NEAR(evaluateModes(basis, {i, j, k}, monomial), value[i][j][k], 1e-12); });
     }
 }
 
@@ -138,7 +138,7 @@ TEST(PolyPicModes, GoldenGather)
         const double i = a - 1, j = b - 1, k = d - 1;
         value[a][b][d] =
             1 + 2 * i - 3 * j + 4 * k + 5 * i * j - 6 * i * k + 7 * j * k - 8 * i * j * k + 9 * i * i - 10 * j * j + 11 * k * k + 12 * i * i * j;
-        projectOntoModes(basis, a, b, d, value[a][b][d], kMaxModes, c);
+        projectOntoModes(basis, {a, b, d}, value[a][b][d], kMaxModes, c);
     });
     EXPECT_NEAR(h * basis[0].skew, 0.055296, 1e-12);
     EXPECT_NEAR(h * basis[1].skew, -0.048384, 1e-12);
@@ -159,7 +159,7 @@ TEST(PolyPicModes, GoldenGather)
         Modes truncated = c;
         std::fill(truncated.begin() + modes[n], truncated.end(), 0.0);
         const Modes monomial = toMonomials(basis, truncated);
-        EXPECT_NEAR(evaluateModes(basis, 1, 1, 1, monomial), atMiddle[n], 1e-10);
-        EXPECT_NEAR(evaluateModes(basis, 2, 2, 2, monomial), atCorner[n], 1e-10);
+        EXPECT_NEAR(evaluateModes(basis, {1, 1, 1}, monomial), atMiddle[n], 1e-10);
+        EXPECT_NEAR(evaluateModes(basis, {2, 2, 2}, monomial), atCorner[n], 1e-10);
     }
 }

@@ -62,7 +62,7 @@ TEST(Motion, RestsOutsideOfItsSpan)
 TEST(Motion, AFullTurnComesHome)
 {
     Motion m;
-    m.addRotation(0.0, 2.0, Vec3(1.0, 1.0, 0.0).normalized(), 2.0 * kPi, {1.0, 2.0, 3.0}, Motion::Frame::World, 0.5, 0.5);
+    m.addRotation(0.0, 2.0, {Vec3(1.0, 1.0, 0.0).normalized(), {1.0, 2.0, 3.0}}, 2.0 * kPi, 0.5, 0.5);
     EXPECT_LT((place(m, 2.0) - kPoint).norm(), 1e-13);
     EXPECT_LT((place(m, 10.0) - kPoint).norm(), 1e-13);
     EXPECT_GT((place(m, 1.0) - kPoint).norm(), 1.0);
@@ -73,9 +73,9 @@ TEST(Motion, VelocityIsTheDerivativeOfThePosition)
 {
     Motion m;
     m.addTranslation(0.0, 1.0, {1.0, 2.0, 0.5}, 0.3, 0.2);
-    m.addRotation(0.2, 1.4, Vec3(1.0, 0.5, -1.0).normalized(), 2.5, {0.3, 0.0, 1.0}, Motion::Frame::World, 0.4, 0.4);
-    m.addRotation(0.5, 1.5, Vec3::UnitY(), -1.5, {1.0, 0.2, 0.0}, Motion::Frame::Local, 0.1, 0.1);
-    m.addSwing(0.1, 1.6, Vec3::UnitX(), 0.4, 2.0, {0.0, 1.0, 0.0}, Motion::Frame::Local);
+    m.addRotation(0.2, 1.4, {Vec3(1.0, 0.5, -1.0).normalized(), {0.3, 0.0, 1.0}}, 2.5, 0.4, 0.4);
+    m.addRotation(0.5, 1.5, {Vec3::UnitY(), {1.0, 0.2, 0.0}, Motion::Frame::Local}, -1.5, 0.1, 0.1);
+    m.addSwing(0.1, 1.6, {Vec3::UnitX(), {0.0, 1.0, 0.0}, Motion::Frame::Local}, 0.4, 2.0);
     m.addOscillation(0.0, 2.0, Vec3::UnitZ(), 0.5, 1.5);
     m.addPath({0.0, 0.7, 1.0, 1.9}, {Vec3::Zero(), Vec3::Ones(), {2.0, 0.0, 1.0}, {0.0, 1.0, 0.0}}, true);
     expectVelocityIsDerivative(m, 0.0, 1.9);
@@ -86,7 +86,7 @@ TEST(Motion, AnAxisStandsInTheWorldOrGoesWithTheBody)
     for (const auto frame : {Motion::Frame::World, Motion::Frame::Local}) {
         Motion m;
         // Given in the wrong order: what begins first acts first.
-        m.addRotation(1.0, 2.0, Vec3::UnitZ(), kPi, Vec3::Zero(), frame, 0.0, 0.0);
+        m.addRotation(1.0, 2.0, {Vec3::UnitZ(), Vec3::Zero(), frame}, kPi, 0.0, 0.0);
         m.addTranslation(0.0, 1.0, {3.0, 0.0, 0.0}, 0.0, 0.0);
         const Vec3 expected = frame == Motion::Frame::World ? Vec3(-4.0, 0.0, 0.0) : Vec3(2.0, 0.0, 0.0);
         EXPECT_LT((m.transform(2.0) * Vec3(1.0, 0.0, 0.0) - expected).norm(), 1e-13);
@@ -127,7 +127,7 @@ TEST(Motion, TellsWhenItMoves)
 {
     Motion m;
     m.addTranslation(1.0, 2.0, {1.0, 0.0, 0.0}, 0.2, 0.2);
-    m.addRotation(4.0, 5.0, Vec3::UnitX(), 0.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
+    m.addRotation(4.0, 5.0, {Vec3::UnitX(), Vec3::Zero()}, 0.0, 0.0, 0.0);
     m.addPath({6.0, 7.0, 8.0}, {Vec3::Zero(), Vec3::Zero(), Vec3::Ones()}, true);
     EXPECT_FALSE(m.moves(0.0, 1.0));
     EXPECT_TRUE(m.moves(0.9, 1.1));
@@ -148,7 +148,7 @@ TEST(Motion, RefusesWhatMakesNoSense)
     EXPECT_THROW(m.addTranslation(0.0, 1.0, Vec3::Ones(), 0.6, 0.6), InputError);
     EXPECT_THROW(m.addTranslation(0.0, 1.0, Vec3::Ones(), -0.1, 0.0), InputError);
     EXPECT_THROW(m.addTranslation(0.0, 1.0, Vec3::Constant(std::nan("")), 0.0, 0.0), InputError);
-    EXPECT_THROW(m.addRotation(0.0, 1.0, Vec3::Ones(), 1.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0), InputError);
+    EXPECT_THROW(m.addRotation(0.0, 1.0, {Vec3::Ones(), Vec3::Zero()}, 1.0, 0.0, 0.0), InputError);
     EXPECT_THROW(m.addOscillation(0.0, 1.0, Vec3::Zero(), 1.0, 1.0), InputError);
     EXPECT_THROW(m.addPath({0.0}, {Vec3::Zero()}, true), InputError);
     EXPECT_THROW(m.addPath({0.0, 0.0}, {Vec3::Zero(), Vec3::Ones()}, true), InputError);

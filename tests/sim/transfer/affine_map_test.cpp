@@ -79,7 +79,7 @@ TEST(AffineMap, EvaluatesThePolynomialWhereTheMaterialWas)
                     const Vec3i node(n % 3, n / 3 % 3, n / 9);
                     const CellRef face = faceOfCell(t.grid(), stencil.first + node);
                     const Vec3 z(stencil.basis[0].z[node.x()], stencil.basis[1].z[node.y()], stencil.basis[2].z[node.z()]);
-                    const double share = p.mass[s] * stencil.weight(node.x(), node.y(), node.z());
+                    const double share = p.mass[s] * stencil.weight(node);
                     expected.sums.block(face.block, FaceFields::kMass + a)[face.cell] += share;
                     expected.sums.block(face.block, FaceFields::kMomentum + a)[face.cell] += share * evaluateModes(Vec3(toOld * z), c[a]);
                 }
@@ -186,7 +186,7 @@ TEST(AffineMap, GivesTheFacesNoEnergyBeyondTheParticles)
                 BoundedScratch scratch;
                 FaceFields faces;
                 const double share =
-                    particlesToFacesBounded(liquid.particles, liquid.order, liquid.grid, map, dt, own.kinetic + own.modal, scratch, faces);
+                    particlesToFacesBounded({liquid.particles, liquid.order, liquid.grid}, map, dt, own.kinetic + own.modal, scratch, faces);
                 (share < 1.0 ? cut : whole) += 1;
                 double energy = 0.0;
                 Vec3 momentum = Vec3::Zero(), expected = Vec3::Zero();

@@ -60,7 +60,7 @@ struct Encounter {
         for (double ahead = 0.0; clearance(assembleFabric({&piece, 1}), piece.points, solid.shape) < 0.1; ahead += 0.05)
             moveTo(piece, ahead * way, turn);
         solid.motion.addTranslation(0.0, 1.0, 0.5 * speed * way + 0.1 * speed * noise.vector(), 0.0, 0.0);
-        solid.motion.addRotation(0.0, 1.0, noise.vector().normalized(), 20.0 * noise(), Vec3::Zero(), Motion::Frame::Local, 0.0, 0.0);
+        solid.motion.addRotation(0.0, 1.0, {noise.vector().normalized(), Vec3::Zero(), Motion::Frame::Local}, 20.0 * noise(), 0.0, 0.0);
         piece.velocity = -0.5 * speed * way;
         pieces = {piece};
     }

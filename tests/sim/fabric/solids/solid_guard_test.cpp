@@ -47,7 +47,7 @@ struct Winding {
         fabric = assembleFabric({&piece, 1});
         ObstacleSettings plate, room;
         plate.shape = Shape::box(Vec3::Zero(), {0.4 + 0.05 * noise(), 0.006 + 0.004 * noise(), 0.3});
-        plate.motion.addRotation(0.0, 1.0, noise.vector().normalized(), 30.0 + 15.0 * noise(), Vec3::Zero(), Motion::Frame::Local, 0.0, 0.0);
+        plate.motion.addRotation(0.0, 1.0, {noise.vector().normalized(), Vec3::Zero(), Motion::Frame::Local}, 30.0 + 15.0 * noise(), 0.0, 0.0);
         room.shape = Shape::box(Vec3::Zero(), Vec3::Constant(0.62 + 0.05 * noise())).inverted();
         solids = {plate, room};
         for (std::size_t v = 0; v < fabric.vertexCount(); ++v) drawnTo.push_back(0.8 * noise.vector());

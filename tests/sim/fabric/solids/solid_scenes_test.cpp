@@ -116,7 +116,7 @@ TEST(FabricAtSolids, APinnedSheetIsNotPiercedByWhatSweepsThroughIt)
                                      : Shape::box(Vec3::Zero(), {0.4, 0.4, 0.4})
                                            .moved(Eigen::Translation3d(0.1, -1.3, 0.0) * Eigen::AngleAxisd(0.9, Vec3(1.0, 0.3, 0.8).normalized())));
             solid.motion.addTranslation(0.0, 0.01, Vec3(0.1, 1.2, 0.1), 0.0, 0.0);
-            solid.motion.addRotation(0.0, 0.01, Vec3::UnitY(), 1.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
+            solid.motion.addRotation(0.0, 0.01, {Vec3::UnitY(), Vec3::Zero()}, 1.0, 0.0, 0.0);
             FabricPiece piece = sheet(9, 2.0, Vec3::Zero());
             PinGroup pins;
             pins.vertices = {0, 8, 72, 80};
@@ -147,7 +147,7 @@ TEST(FabricAtSolids, ATurningDrumKeepsWhatIsInIt)
 {
     for (const FabricSolver kind : kSolvers) {
         ObstacleSettings drum = solidOf(Shape::box(Vec3::Zero(), {1.0, 1.0, 1.0}).inverted());
-        drum.motion.addRotation(0.0, 1.0, Vec3::UnitZ(), 60.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
+        drum.motion.addRotation(0.0, 1.0, {Vec3::UnitZ(), Vec3::Zero()}, 60.0, 0.0, 0.0);
         SolidRun run({sheet(9, 1.2, {0.0, -0.3, 0.0})}, {drum}, kind);
         for (int i = 0; i < 100; ++i) {
             run.step(1.0e-3);
