@@ -6,6 +6,7 @@
 #include "sim/forces.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/state.h"
+#include "sim/step_report.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -43,7 +43,7 @@ struct MomentumBalance {
     Vec3 weight = Vec3::Zero();
     Vec3 entered = Vec3::Zero();     ///< with liquid from sources
     Vec3 left = Vec3::Zero();        ///< with liquid that left the domain
-    Vec3 borne = Vec3::Zero();       ///< of what solids and pins got: what no force explains (MomentumBook), taken from liquid and fabric
+    Vec3 borne = Vec3::Zero();       ///< of what solids and pins got: what no force explains (MomentumBudget), taken from liquid and fabric
     Vec3 unresolved = Vec3::Zero();  ///< the same where nothing bears it, given to liquid and fabric
 };
 

@@ -94,7 +94,7 @@ enum class BendingModel { ShapeOperator, Hinge };
 enum class HingeMeasure { Angle, Sin, Tan };
 enum class TorsionModel { Ellipse, Polar };
 
-/// How fabric is solved for (fabric/README.md, The step in vertices); what it is made of stands in FabricMaterial (fabric/piece.h).
+/// How fabric is solved for (fabric/vertex/README.md, The step in vertices); what it is made of stands in FabricMaterial (fabric/pieces/piece.h).
 struct FabricSettings {
     FabricSolver solver = FabricSolver::Vertex;  ///< Off: pins follow their motions, all else stays
     MembraneModel membrane = MembraneModel::StVk;

@@ -4,13 +4,13 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/grid/grid_solver.h"
 #include "sim/fabric/led_fabric.h"
-#include "sim/fabric/vertex_solver.h"
+#include "sim/fabric/vertex/vertex_solver.h"
 #include "sim/liquid/energy.h"
-#include "sim/particles/emit.h"
-#include "sim/particles/seed.h"
+#include "sim/particles/velocity_modes.h"
+#include "sim/sources/emit.h"
+#include "sim/sources/seed.h"
 #include "sim/step.h"
 #include "sim/time_step.h"
-#include "sim/transfer/modes.h"
 
 #include <fmt/format.h>
 
@@ -134,7 +134,7 @@ void Simulation::setChanges(std::vector<SettingsChange> changes)
 void Simulation::prepareWorkspace()
 {
     check_.emplace(scene_, fabric_);
-    if (scene_.settings.time.mode == TimeMode::Adaptive) work_.kept = std::make_unique<KeptState>();
+    if (scene_.settings.time.mode == TimeMode::Adaptive) work_.backup = std::make_unique<StateBackup>();
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.momentum.prepare(scene_, fabric_);
@@ -186,7 +186,7 @@ void Simulation::bookEnergy()
 
 Energies Simulation::energies() const
 {
-    Energies energies = liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity);
+    Energies energies{liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity), {}};
     energies.potential += potentialLag(state_, scene_.settings);
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
@@ -240,7 +240,7 @@ std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
         return Fault{work_.failedStage, error.what(), ""};
     }
     if (auto fault = check_->broken(state_, report)) return fault;
-    return work_.kept ? check_->rash(state_, report) : std::nullopt;
+    return work_.backup ? check_->rash(state_, report) : std::nullopt;
 }
 
 /// The step is good.
@@ -262,7 +262,7 @@ StepReport Simulation::step(double until)
         const double left = until - state_.time, dt = chooseLength(until);
         const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, state_.memory.maxSpeed, dt) : 0.0;
         const auto begin = Clock::now();
-        if (work_.kept) work_.kept->keep(state_);
+        if (work_.backup) work_.backup->keep(state_);
         const auto kept = Clock::now();
         keeping += seconds(kept - begin);
 
@@ -272,13 +272,13 @@ StepReport Simulation::step(double until)
             if (dt == left) state_.time = until;
             report.cfl = cfl;
             report.takenBack = takenBack;
-            if (work_.kept) report.charge(Stage::Keep, keeping);
+            if (work_.backup) report.charge(Stage::Keep, keeping);
             if (takenBack > 0) report.charge(Stage::TakenBack, lost);
             accept(report);
             return report;
         }
-        if (!work_.kept) throw failure(*fault, 0, dt);
-        work_.kept->restore(state_);
+        if (!work_.backup) throw failure(*fault, 0, dt);
+        work_.backup->restore(state_);
         work_.obstacleField = ObstacleField();  // it is that of the blocks that the bad step had
         state_.memory.longest = 0.5 * dt;
         if (takenBack == kMostTakenBack || state_.memory.longest < scene_.settings.time.dtMin) throw failure(*fault, takenBack, dt);

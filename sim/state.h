@@ -2,8 +2,8 @@
 
 #include "sim/fabric/fabric.h"
 #include "sim/grid/block_grid.h"
+#include "sim/particles/ledger.h"
 #include "sim/particles/liquid_particles.h"
-#include "sim/step_report.h"
 
 #include <array>
 #include <limits>

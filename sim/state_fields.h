@@ -80,15 +80,15 @@ void visitFabric(V& v, Fabric& fabric)
     v.number("fabric/energy_at_obstacles", "erg", fabric.stored.solids);
     v.number("fabric/energy_of_bridges", "erg", fabric.stored.bridges);
     v.number("fabric/spring_step", "s", fabric.springStep);
-    v.number("fabric/taken_fraction", "-", fabric.lastFraction);
-    v.number("fabric/owed_energy", "erg", fabric.owed);
+    v.number("fabric/taken_fraction", "-", fabric.vertexSolver.lastFraction);
+    v.number("fabric/owed_energy", "erg", fabric.vertexSolver.owed);
     v.number("fabric/most_kinetic_energy", "erg", fabric.mostKinetic);
-    visitGrips(v, "fabric/friction_on_fabric", fabric.onFabric);
-    v.list("fabric/across", "-", fabric.across);
-    v.list("fabric/velocity_modes", "cm/s", fabric.modes);
-    v.number("fabric/since_gather", "s", fabric.sinceGather);
-    visitGrid(v, "fabric/grid", fabric.faceBlocks);
-    visitCells(v, "fabric/grid/face_change", "cm/s", fabric.faceBlocks, kAxes, fabric.faceChange);
+    visitGrips(v, "fabric/friction_on_fabric", fabric.vertexSolver.onFabric);
+    v.list("fabric/across", "-", fabric.gridSolver.across);
+    v.list("fabric/velocity_modes", "cm/s", fabric.gridSolver.modes);
+    v.number("fabric/since_gather", "s", fabric.gridSolver.sinceGather);
+    visitGrid(v, "fabric/grid", fabric.gridSolver.faceBlocks);
+    visitCells(v, "fabric/grid/face_change", "cm/s", fabric.gridSolver.faceBlocks, kAxes, fabric.gridSolver.faceChange);
 }
 
 template <class V, class Memory>

@@ -2,6 +2,7 @@
 
 #include "sim/scene/scene.h"
 #include "sim/state.h"
+#include "sim/step_report.h"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/energy_book.h"
+#include "sim/energy_budget.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/step_report.h"
@@ -27,10 +27,11 @@ struct StepContext {
     double dt;  ///< [s]
     StepReport& report;
     StageClock& clock;
-    EnergyBook energy{state, scene.settings, work, report};
+    EnergyBudget energy{state, scene.settings, work, report};
     StepPlan plan{};
 
     const Settings& settings() const { return scene.settings; }
+    CutGrid cut() const { return {state.grid, work.obstacleField, work.obstacles}; }
     bool hasObstacles() const { return !work.obstacles.empty(); }
     bool isFlip() const { return settings().transfer.method == TransferMethod::Flip; }
     bool isViscous() const { return plan.isWet && settings().liquid.solveViscosity && settings().liquid.viscosity > 0.0; }

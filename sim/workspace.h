@@ -2,7 +2,6 @@
 
 #include "sim/coupling/coupling.h"
 #include "sim/fabric/integrator.h"
-#include "sim/kept_state.h"
 #include "sim/liquid/free_liquid.h"
 #include "sim/liquid/gain_at_walls.h"
 #include "sim/liquid/liquid_grid.h"
@@ -13,9 +12,10 @@
 #include "sim/liquid/viscosity.h"
 #include "sim/liquid/volume.h"
 #include "sim/liquid/walls.h"
-#include "sim/momentum_book.h"
-#include "sim/particles/emit.h"
+#include "sim/momentum_budget.h"
 #include "sim/particles/relax.h"
+#include "sim/sources/emit.h"
+#include "sim/state_backup.h"
 #include "sim/transfer/gather.h"
 #include "sim/transfer/scatter_bounded.h"
 
@@ -45,13 +45,13 @@ struct Workspace {
     std::array<AlignedArray<double>, kAxes> places;        ///< of the particles before they move, where there are obstacles [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;
-    double packing = 1.0;             ///< mass of a full cell relative to the density of the liquid times its volume [-]
-    double relaxReach = 0.0;          ///< [cm]; 0 = relaxation is off
-    std::unique_ptr<KeptState> kept;  ///< mode adaptive: the state before the step
+    double packing = 1.0;                 ///< mass of a full cell relative to the density of the liquid times its volume [-]
+    double relaxReach = 0.0;              ///< [cm]; 0 = relaxation is off
+    std::unique_ptr<StateBackup> backup;  ///< mode adaptive: the state before the step
     GainAtWalls gainAtWalls;
     LiquidOnSolids onSolids;          ///< by the faces of the liquid …
     ChunkSums<Impulse> pushedSolids;  ///< … and by particles kept out of solids [g cm/s]
-    MomentumBook momentum;
+    MomentumBudget momentum;
     Stage failedStage = Stage::Emit;           ///< of the last step that threw
     bool booksEnergy = false;                  ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;        ///< where there are liquid and fabric

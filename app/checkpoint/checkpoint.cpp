@@ -4,9 +4,9 @@
 #include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
+#include "sim/particles/velocity_modes.h"
 #include "sim/scene/load_scene.h"
 #include "sim/state_fields.h"
-#include "sim/transfer/modes.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>

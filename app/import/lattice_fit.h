@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/core/types.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 
 #include <span>
 

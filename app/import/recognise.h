@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 
 #include <optional>
 #include <span>

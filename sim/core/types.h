@@ -8,6 +8,7 @@
 namespace sim {
 
 using Vec3 = Eigen::Vector3d;
+using Vec2i = Eigen::Vector2i;
 using Vec3i = Eigen::Vector3i;
 using Mat3 = Eigen::Matrix3d;
 

@@ -142,7 +142,7 @@ void FabricOnFaces::spread(const FabricState& state)
         double* mode = particles.mode(a, 0);
         parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
     }
-    particlesToFaces(particles, vertices_.order, grid(), scatter_, sums_);
+    particlesToFaces({particles, vertices_.order, grid()}, scatter_, sums_);
     for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &narrowing, &solid, &shape, &squares})
         u->resize(grid().count());
     parallelFor(grid().count(), 8, [&](std::size_t i) {

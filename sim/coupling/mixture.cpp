@@ -37,20 +37,19 @@ bool Mixture::findShared(const BlockGrid& grid)
     return std::ranges::any_of(liquidBlock_, [](int b) { return b != BlockGrid::kNone; });
 }
 
-bool Mixture::find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state,
-                   const FabricFaces* faces, LiquidGrid& liquid)
+bool Mixture::find(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces, LiquidGrid& liquid)
 {
-    if (!findShared(grid)) return false;
+    if (!findShared(cut.grid)) return false;
     dt_ = dt;
     onFaces_.spread(state);
     if (faces) onFaces_.takeVelocity(*faces);
     for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_,
                      &push_, &unpressed_})
         u->resize(onFaces_.grid().count());
-    findRelative(gravity, obstacles, liquid);
-    if (settings_.capillary) suck(grid, obstacles, state, liquid);
+    findRelative(gravity, cut.field, liquid);
+    if (settings_.capillary) suck(cut, state, liquid);
     if (reacts()) react();
-    mix(gravity, obstacles, liquid);
+    mix(gravity, cut.field, liquid);
     addDisplaced(liquid);
     return true;
 }
@@ -77,9 +76,9 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
 }
 
 /// Fabric draws liquid to where its pores are empty (coupling/README.md, Suction).
-void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid)
+void Mixture::suck(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid)
 {
-    suction_.find(vertices_, state, grid, liquidBlock_, liquid);
+    suction_.find(vertices_, state, cut.grid, liquidBlock_, liquid);
     Faces& perSlope = reaction_;  // until it is known
     parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(perSlope.block(static_cast<int>(b)), Faces::kStride, 0.0); });
     const double cell = std::pow(onFaces_.grid().dx, 3);
@@ -88,7 +87,7 @@ void Mixture::suck(const BlockGrid& grid, const ObstacleField& obstacles, const 
         const double fibres = onFaces_.fibres.block(b, a)[c], held = onFaces_.solid.block(b, a)[c] - fibres;
         const double saturation = fibres < cell ? std::clamp((volume + held) / (cell - fibres), 0.0, 1.0) : 0.0;
         const double along = suctionAlongAxis(onFaces_.shape.block(b, a)[c], onFaces_.squares.block(b, a)[c]);
-        const double factor = dt_ * volume * saturation * obstacles.open(m, a)[c] * along;
+        const double factor = dt_ * volume * saturation * cut.field.open(m, a)[c] * along;
         const double impulse = factor * suction_.slope(onFaces_.grid(), b, a, c);
         perSlope.block(b, a)[c] = factor;
         sucked_.block(b, a)[c] = impulse;

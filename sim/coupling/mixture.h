@@ -23,8 +23,7 @@ class Mixture {
     /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing
     /// else is to be called then.
     /// @param faces  the fabric's velocities, of a solver that has its unknowns on faces; else null
-    bool find(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, double dt, const FabricState& state,
-              const FabricFaces* faces, LiquidGrid& liquid);
+    bool find(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces, LiquidGrid& liquid);
     /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
     void blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
@@ -72,7 +71,7 @@ class Mixture {
     using Faces = BlockArray<double, 3>;
     bool findShared(const BlockGrid& grid);
     void findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
-    void suck(const BlockGrid& grid, const ObstacleField& obstacles, const FabricState& state, const LiquidGrid& liquid);
+    void suck(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid);
     void mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
     void addDisplaced(LiquidGrid& liquid) const;
     void applyPressure(const LiquidGrid& liquid);

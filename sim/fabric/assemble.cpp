@@ -1,6 +1,6 @@
 #include "sim/core/check.h"
 #include "sim/fabric/fabric.h"
-#include "sim/fabric/rods/rod_kernel.h"
+#include "sim/fabric/parallel_transport.h"
 
 #include <Eigen/Geometry>
 

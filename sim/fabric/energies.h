@@ -1,9 +1,9 @@
 #pragma once
 
+#include "sim/fabric/fabric_energies.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
 #include "sim/fabric/vertex_unknowns.h"
-#include "sim/step_report.h"
 
 #include <vector>
 

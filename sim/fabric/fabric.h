@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/fabric/friction.h"
-#include "sim/fabric/piece.h"
+#include "sim/fabric/pieces/piece.h"
 #include "sim/grid/block_grid.h"
 
 #include <Eigen/Core>
@@ -96,19 +96,24 @@ struct FabricState {
     Grips onObstacles;               ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
     ContactEnergy stored;            ///< at the end of the last step, with the stiffnesses that contact had in it …
     double springStep = 0.0;         ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
-    double owed = 0.0;         ///< solver vertex: energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
-    double mostKinetic = 0.0;  ///< largest kinetic energy of all steps' starts [erg]
+    double mostKinetic = 0.0;        ///< largest kinetic energy of all steps' starts [erg]
 
-    // Of solver vertex only.
-    double lastFraction = 1.0;  ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
-    Grips onFabric;             ///< friction between primitives, as contact/primitives.h counts them
-
-    // Of solver grid only; empty until its first step.
-    std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
-    std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
-    double sinceGather = 0.0;          ///< for how long the vertices have moved since their modes were gathered [s]
-    BlockGrid faceBlocks;              ///< of the grid in the last step, and …
-    BlockArray<double, 3> faceChange;  ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
+    /// Of solver vertex only.
+    struct VertexSolverPart {
+        double owed = 0.0;          ///< energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
+        double lastFraction = 1.0;  ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
+        Grips onFabric;             ///< friction between primitives, as contact/primitives.h counts them
+    };
+    /// Of solver grid only; empty until its first step.
+    struct GridSolverPart {
+        std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
+        std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
+        double sinceGather = 0.0;          ///< for how long the vertices have moved since their modes were gathered [s]
+        BlockGrid faceBlocks;              ///< of the grid in the last step, and …
+        BlockArray<double, 3> faceChange;  ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
+    };
+    VertexSolverPart vertexSolver;
+    GridSolverPart gridSolver;
 };
 
 /// Inertia of the twist of a yarn edge, with the water in it [g cm^2].

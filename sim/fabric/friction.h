@@ -9,8 +9,6 @@
 
 namespace sim {
 
-using Vec2i = Eigen::Vector2i;
-
 /// Forces of friction that were held at the end of a step, by the numbers of the two that touch there: ascending, no two alike.
 struct Grips {
     std::vector<Vec2i> between;

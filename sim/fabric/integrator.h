@@ -1,8 +1,10 @@
 #pragma once
 
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/fabric_energies.h"
+#include "sim/fabric/fabric_report.h"
 #include "sim/fabric/liquid_loads.h"
-#include "sim/step_report.h"
+#include "sim/stage.h"
 
 #include <limits>
 #include <optional>

@@ -44,13 +44,13 @@ double slowDown(double energy, const Fabric& fabric, const FabricGroups& groups,
 double payOwed(double due, const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, FabricState& state)
 {
     const double paid = slowDown(due, fabric, groups, mass, state);
-    state.owed = std::max(0.0, due - paid);
+    state.vertexSolver.owed = std::max(0.0, due - paid);
     return paid;
 }
 
 void refuseJam(const Fabric& fabric, const FabricState& state, double kinetic)
 {
-    if (state.owed <= std::max(kinetic, kMostOwed * state.mostKinetic)) return;
+    if (state.vertexSolver.owed <= std::max(kinetic, kMostOwed * state.mostKinetic)) return;
     Vec3 place = state.x[0];
     double longest = 0.0;
     const auto look = [&](int a, int b) {
@@ -66,7 +66,7 @@ void refuseJam(const Fabric& fabric, const FabricState& state, double kinetic)
     throw RunError(fmt::format(
         "fabric is jammed: pins or solids lead it where it cannot follow in steps of this length, and it has come to hold {:.3g} erg that "
         "nothing gave to it{}; other or slower motions, more room or shorter steps would do",
-        state.owed, stretched));
+        state.vertexSolver.owed, stretched));
 }
 
 }  // namespace sim

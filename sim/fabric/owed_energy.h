@@ -1,8 +1,8 @@
 #pragma once
 
+#include "sim/energy_changes.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/groups.h"
-#include "sim/step_report.h"
 
 #include <span>
 

@@ -16,8 +16,12 @@ inline constexpr int kBlockCells = kBlockEdge * kBlockEdge * kBlockEdge;  ///< 5
 /// Index of cell (i, j, k), each 0..7, in the arrays of a block: x fastest. Nodes and lower faces share it.
 constexpr int cellInBlock(int i, int j, int k) { return (k * kBlockEdge + j) * kBlockEdge + i; }
 
-/// Index into BlockGrid::neighbours for the block at (dx, dy, dz), each −1..1; 13 is the block itself.
+/// Index into BlockGrid::neighbours for the block at (dx, dy, dz), each −1..1.
 constexpr int neighbourIndex(int dx, int dy, int dz) { return (dz + 1) * 9 + (dy + 1) * 3 + (dx + 1); }
+inline constexpr int kBlockItself = neighbourIndex(0, 0, 0);
+/// Of the neighbours below and above along each axis.
+inline constexpr std::array<int, kAxes> kBlockBelow = {neighbourIndex(-1, 0, 0), neighbourIndex(0, -1, 0), neighbourIndex(0, 0, -1)};
+inline constexpr std::array<int, kAxes> kBlockAbove = {neighbourIndex(1, 0, 0), neighbourIndex(0, 1, 0), neighbourIndex(0, 0, 1)};
 
 /// The blocks of 8³ cells that exist: a sparse grid without bounds. Cell (i, j, k) has its lower corner at
 /// origin + (i, j, k) dx and belongs to block floor((i, j, k) / 8). Blocks are kept sorted by their
@@ -37,6 +41,17 @@ class BlockGrid {
     /// Numbers of the 27 blocks around a block, itself in the middle; count() where there is none. Fields keep
     /// an empty block of zeros at number count() for that purpose (see BlockArray).
     const std::array<int, 27>& neighbours(int block) const { return neighbours_[block]; }
+
+    /// Those of them that share a side with it: below and above along x, then y, then z.
+    std::array<int, 2 * kAxes> neighboursAtSides(int block) const
+    {
+        std::array<int, 2 * kAxes> sides;
+        for (int a = 0; a < kAxes; ++a) {
+            sides[2 * a] = neighbours_[block][kBlockBelow[a]];
+            sides[2 * a + 1] = neighbours_[block][kBlockAbove[a]];
+        }
+        return sides;
+    }
 
     /// Number of the block at these coordinates, or kNone.
     int find(const Vec3i& coords) const;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/grid/block_grid.h"
-#include "sim/scene/motion.h"
+#include "sim/shapes/motion.h"
 #include "sim/shapes/shape.h"
 
 #include <array>

@@ -49,19 +49,19 @@ struct BitAccess {
     std::uint64_t below(const BlockBits<kKinds>& bits, int kind, int axis, int k) const
     {
         constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
-        const std::uint64_t* own = bits.block(neighbours[13], kind);
-        if (axis == 0) return (own[k] & ~(kFirstColumn << 7)) << 1 | (bits.block(neighbours[12], kind)[k] >> 7 & kFirstColumn);
-        if (axis == 1) return own[k] << 8 | bits.block(neighbours[10], kind)[k] >> 56;
-        return k > 0 ? own[k - 1] : bits.block(neighbours[4], kind)[kBlockEdge - 1];
+        const std::uint64_t* own = bits.block(neighbours[kBlockItself], kind);
+        if (axis == 0) return (own[k] & ~(kFirstColumn << 7)) << 1 | (bits.block(neighbours[kBlockBelow[0]], kind)[k] >> 7 & kFirstColumn);
+        if (axis == 1) return own[k] << 8 | bits.block(neighbours[kBlockBelow[1]], kind)[k] >> 56;
+        return k > 0 ? own[k - 1] : bits.block(neighbours[kBlockBelow[2]], kind)[kBlockEdge - 1];
     }
     template <int kKinds>
     std::uint64_t above(const BlockBits<kKinds>& bits, int kind, int axis, int k) const
     {
         constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
-        const std::uint64_t* own = bits.block(neighbours[13], kind);
-        if (axis == 0) return (own[k] & ~kFirstColumn) >> 1 | (bits.block(neighbours[14], kind)[k] & kFirstColumn) << 7;
-        if (axis == 1) return own[k] >> 8 | bits.block(neighbours[16], kind)[k] << 56;
-        return k < kBlockEdge - 1 ? own[k + 1] : bits.block(neighbours[22], kind)[0];
+        const std::uint64_t* own = bits.block(neighbours[kBlockItself], kind);
+        if (axis == 0) return (own[k] & ~kFirstColumn) >> 1 | (bits.block(neighbours[kBlockAbove[0]], kind)[k] & kFirstColumn) << 7;
+        if (axis == 1) return own[k] >> 8 | bits.block(neighbours[kBlockAbove[1]], kind)[k] << 56;
+        return k < kBlockEdge - 1 ? own[k + 1] : bits.block(neighbours[kBlockAbove[2]], kind)[0];
     }
 
     const int* neighbours;

@@ -12,18 +12,15 @@ namespace {
 /// Mass and room of the lower faces of all cells, summed over the axes and over both sides of a cell.
 class FaceSums {
  public:
-    FaceSums(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, int block)
-        : rows_(grid, block), obstacles_(obstacles), liquid_(liquid)
-    {
-    }
+    FaceSums(const CutGrid& cut, const LiquidGrid& liquid, int block) : rows_(cut.grid, block), obstacles_(cut.field), liquid_(liquid) {}
 
     /// Σ mass / Σ room over the open faces of the cells of row (j, k); 0 where there is no room.
     Pack fill(int j, int k) const
     {
         Pack mass = broadcast(0.0), room = broadcast(0.0);
         unroll<3>([&](auto a) {
-            add<a>(rows_.neighbours[13], j, k, false, mass, room);
-            add<a>(rows_.neighbours[13], j, k, true, mass, room);
+            add<a>(rows_.neighbours[kBlockItself], j, k, false, mass, room);
+            add<a>(rows_.neighbours[kBlockItself], j, k, true, mass, room);
         });
         return select(room > 0.0, mass / room, broadcast(0.0));
     }
@@ -72,12 +69,12 @@ std::uint64_t besideAny(const BitAccess& access, const BlockBits<>& bits, int k)
 
 }  // namespace
 
-void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, bool noAir, LiquidGrid& liquid)
+void findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid)
 {
     const double perCell = 1.0 / liquid.fullMass;
-    parallelFor(grid.count(), 2, [&](std::size_t n) {
+    parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const FaceSums faces(grid, obstacles, liquid, b);
+        const FaceSums faces(cut, liquid, b);
         for (int k = 0; k < kBlockEdge; ++k) {
             std::uint64_t inside = 0;
             for (int j = 0; j < kBlockEdge; ++j) {
@@ -85,29 +82,27 @@ void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, bool
                 std::memcpy(liquid.fill.block(b) + cellInBlock(0, j, k), &fill, sizeof fill);
                 inside |= static_cast<std::uint64_t>(maskBits(fill >= kLiquidFill)) << (j * kBlockEdge);
             }
-            liquid.inside.block(b)[k] = (noAir ? ~std::uint64_t{0} : inside) & ~obstacles.blocked(b)[k];
+            liquid.inside.block(b)[k] = (noAir ? ~std::uint64_t{0} : inside) & ~cut.field.blocked(b)[k];
         }
     });
 }
 
-void findSurface(const BlockGrid& grid, const ObstacleField& obstacles, LiquidGrid& liquid)
+void findSurface(const CutGrid& cut, LiquidGrid& liquid)
 {
-    // A cell is dry if it is neither liquid nor blocked by walls.
-    BlockBits<>& dry = liquid.deep;
-    parallelFor(grid.count(), 16, [&](std::size_t n) {
+    BlockBits<>& dry = liquid.dry;
+    parallelFor(cut.grid.count(), 16, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        for (int k = 0; k < kBlockEdge; ++k) dry.block(b)[k] = ~(liquid.inside.block(b)[k] | obstacles.blocked(b)[k]);
+        for (int k = 0; k < kBlockEdge; ++k) dry.block(b)[k] = ~(liquid.inside.block(b)[k] | cut.field.blocked(b)[k]);
     });
-    std::fill_n(dry.block(grid.count()), BlockBits<>::kWords, ~std::uint64_t{0});
-    parallelFor(grid.count(), 16, [&](std::size_t n) {
+    std::fill_n(dry.block(cut.grid.count()), BlockBits<>::kWords, ~std::uint64_t{0});
+    parallelFor(cut.grid.count(), 16, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const BitAccess access(grid, b);
+        const BitAccess access(cut.grid, b);
         for (int k = 0; k < kBlockEdge; ++k) liquid.surface.block(b)[k] = liquid.inside.block(b)[k] & besideAny(access, dry, k);
     });
-    std::fill_n(dry.block(grid.count()), BlockBits<>::kWords, 0);
-    parallelFor(grid.count(), 16, [&](std::size_t n) {
+    parallelFor(cut.grid.count(), 16, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const BitAccess access(grid, b);
+        const BitAccess access(cut.grid, b);
         for (int k = 0; k < kBlockEdge; ++k)
             liquid.deep.block(b)[k] = liquid.inside.block(b)[k] & ~(liquid.surface.block(b)[k] | besideAny(access, liquid.surface, k));
     });

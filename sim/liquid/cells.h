@@ -10,10 +10,10 @@ inline constexpr double kLiquidFill = 0.2;
 
 /// Fill of every cell, from the masses on its open faces and their room; cells that are full enough get a pressure.
 /// @param noAir  every cell with an open face has a pressure
-void findLiquidCells(const BlockGrid& grid, const ObstacleField& obstacles, bool noAir, LiquidGrid& liquid);
+void findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid);
 
 /// Which liquid cells are beside air, and which are deep: neither that nor beside such a cell. Walls are no air.
-void findSurface(const BlockGrid& grid, const ObstacleField& obstacles, LiquidGrid& liquid);
+void findSurface(const CutGrid& cut, LiquidGrid& liquid);
 
 std::size_t countLiquidCells(const BlockGrid& grid, const LiquidGrid& liquid);
 

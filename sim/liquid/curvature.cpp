@@ -24,36 +24,53 @@ constexpr double kDifferenceVariance = 2.0 / 3.0;
 /// ∇c is at least ten times as large.
 constexpr double kLeastSlope = 0.01;
 
-/// Row (j, k) of a block, j and k in −1..8.
+/// Rows of one kind of a field in a block and around it.
 template <int kKinds>
-Pack rowAt(const BlockArray<double, kKinds>& field, int kind, const int* neighbours, int j, int k)
-{
-    return loadPack(field.block(neighbours[neighbourIndex(0, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
-}
+struct RowsAround {
+    const BlockArray<double, kKinds>& field;
+    int kind;
+    const int* neighbours;  ///< of the block
 
-/// The same one cell to the left (side −1) or right (+1).
-template <int kKinds>
-Pack rowBeside(const BlockArray<double, kKinds>& field, int kind, const int* neighbours, int side, int j, int k, Pack row)
-{
-    const Pack next = loadPack(field.block(neighbours[neighbourIndex(side, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
-    return side < 0 ? shiftRight(next, row) : shiftLeft(row, next);
-}
+    /// Row (j, k), j and k in −1..8; with a side that of the block to the left (−1) or right (+1).
+    Pack at(int j, int k, int side = 0) const
+    {
+        return loadPack(field.block(neighbours[neighbourIndex(side, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
+    }
+    /// The same one cell to the left or right, from the row itself.
+    Pack leftOf(int j, int k, Pack row) const { return shiftRight(at(j, k, -1), row); }
+    Pack rightOf(int j, int k, Pack row) const { return shiftLeft(row, at(j, k, 1)); }
+};
 
 PackMask rowBits(std::uint64_t word, int j) { return maskOfBits(word >> (j * kBlockEdge)); }
 
-/// Values below and above the cells of a row; a wall in the way mirrors.
+/// Values of a field below and above the cells of a row of a block; a wall in the way mirrors.
 struct Sides {
     Pack below, above;
 };
-Sides sidesOf(const BlockArray<double>& field, const BlockBits<>* wall, const RowAccess& rows, const BitAccess& bits, int axis, int j, int k,
-              Pack own)
-{
-    Sides sides{rows.below(field, 0, axis, j, k), rows.above(field, 0, axis, j, k)};
-    if (!wall) return sides;
-    sides.below = select(rowBits(bits.below(*wall, 0, axis, k), j), own, sides.below);
-    sides.above = select(rowBits(bits.above(*wall, 0, axis, k), j), own, sides.above);
-    return sides;
-}
+class SidesInBlock {
+ public:
+    /// @param wall  null where there is none
+    SidesInBlock(const BlockGrid& grid, int block, const BlockArray<double>& field, const BlockBits<>* wall)
+        : rows_(grid, block), bits_(grid, block), field_(field), wall_(wall)
+    {
+    }
+
+    Pack own(int j, int k) const { return rows_.row(field_, 0, j, k); }
+    Sides along(int axis, int j, int k, Pack own) const
+    {
+        Sides sides{rows_.below(field_, 0, axis, j, k), rows_.above(field_, 0, axis, j, k)};
+        if (!wall_) return sides;
+        sides.below = select(rowBits(bits_.below(*wall_, 0, axis, k), j), own, sides.below);
+        sides.above = select(rowBits(bits_.above(*wall_, 0, axis, k), j), own, sides.above);
+        return sides;
+    }
+
+ private:
+    RowAccess rows_;
+    BitAccess bits_;
+    const BlockArray<double>& field_;
+    const BlockBits<>* wall_;
+};
 
 /// Bits of a block and their neighbours along some axes.
 void dilate(const BlockGrid& grid, int block, int firstAxis, int endAxis, const BlockBits<>& from, BlockBits<>& to)
@@ -71,14 +88,14 @@ struct Slope {
     Pack x, y, z;
 };
 template <int kKinds>
-Slope slopeOfRow(const BlockArray<double, kKinds>& field, int kind, const int* neighbours, int j, int k)
+Slope slopeOfRow(const RowsAround<kKinds>& rows, int j, int k)
 {
     Slope slope{};
     for (int dk = -1; dk <= 1; ++dk)
         for (int dj = -1; dj <= 1; ++dj) {
-            const Pack row = rowAt(field, kind, neighbours, j + dj, k + dk);
-            const Pack left = rowBeside(field, kind, neighbours, -1, j + dj, k + dk, row);
-            const Pack right = rowBeside(field, kind, neighbours, 1, j + dj, k + dk, row);
+            const Pack row = rows.at(j + dj, k + dk);
+            const Pack left = rows.leftOf(j + dj, k + dk, row);
+            const Pack right = rows.rightOf(j + dj, k + dk, row);
             const Pack across = kSide * (left + right) + kMiddle * row;
             const double wj = dj == 0 ? kMiddle : kSide, wk = dk == 0 ? kMiddle : kSide;
             slope.x += (0.5 * wj * wk) * (right - left);
@@ -178,12 +195,11 @@ void Curvature::smoothOnce()
     const BlockBits<>* wall = hasWalls_ ? &wall_ : nullptr;
     for (int a = 0; a < kAxes; ++a) {
         forEachActive([&](int b) {
-            const RowAccess rows(band_, b);
-            const BitAccess bits(band_, b);
+            const SidesInBlock block(band_, b, colour_, wall);
             for (int k = 0; k < kBlockEdge; ++k)
                 for (int j = 0; j < kBlockEdge; ++j) {
-                    const Pack own = rows.row(colour_, 0, j, k);
-                    const Sides sides = sidesOf(colour_, wall, rows, bits, a, j, k, own);
+                    const Pack own = block.own(j, k);
+                    const Sides sides = block.along(a, j, k, own);
                     storePack(other_.block(b) + cellInBlock(0, j, k), kSide * (sides.below + sides.above) + kMiddle * own);
                 }
         });
@@ -260,7 +276,7 @@ void Curvature::findNormals()
             for (int j = 0; j < kBlockEdge; ++j) {
                 if ((around_.block(b)[k] >> (j * kBlockEdge) & 0xff) == 0) continue;
                 const int row = cellInBlock(0, j, k);
-                const Slope slope = slopeOfRow(colour_, 0, neighbours, j, k);
+                const Slope slope = slopeOfRow(RowsAround{colour_, 0, neighbours}, j, k);
                 const Pack square = slope.x * slope.x + slope.y * slope.y + slope.z * slope.z;
                 const Pack scale = -1.0 / sqrtPack(square + kLeastSlope * kLeastSlope);
                 storePack(normal_.block(b, 0) + row, scale * slope.x);
@@ -284,17 +300,17 @@ void Curvature::findDivergence()
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
                 if ((beside_.block(b)[k] >> (j * kBlockEdge) & 0xff) == 0) continue;
-                const Slope x = slopeOfRow(normal_, 0, neighbours, j, k), y = slopeOfRow(normal_, 1, neighbours, j, k),
-                            z = slopeOfRow(normal_, 2, neighbours, j, k);
+                const Slope x = slopeOfRow(RowsAround{normal_, 0, neighbours}, j, k), y = slopeOfRow(RowsAround{normal_, 1, neighbours}, j, k),
+                            z = slopeOfRow(RowsAround{normal_, 2, neighbours}, j, k);
                 storePack(curvature_.block(b) + cellInBlock(0, j, k), x.x + y.y + z.z);
             }
     });
 }
 
-void Curvature::find(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, int passes)
+void Curvature::find(const CutGrid& cut, const LiquidGrid& liquid, int passes)
 {
-    fitTo(grid);
-    takeFill(obstacles, liquid);
+    fitTo(cut.grid);
+    takeFill(cut.field, liquid);
     findActive();
     for (int pass = 0; pass < passes; ++pass) smoothOnce();
     sharpen(kFillVariance + kDifferenceVariance + kPassVariance * passes);

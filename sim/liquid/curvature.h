@@ -1,7 +1,7 @@
 #pragma once
 
+#include "sim/grid/cut_grid.h"
 #include "sim/grid/face_fields.h"
-#include "sim/grid/obstacle_field.h"
 #include "sim/liquid/liquid_grid.h"
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Curvature {
  public:
     /// Curvature around all cells at the surface. Needs findSurface.
     /// @param passes  of smoothing; each adds a third of a cell squared to the kernel's variance
-    void find(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, int passes);
+    void find(const CutGrid& cut, const LiquidGrid& liquid, int passes);
 
     /// Where the surface, c = ½, crosses the line between the middles of a liquid cell and of an air cell beside it,
     /// both relative to `block` of the liquid's grid [1/cm]. At most that of a ball of one cell's radius.

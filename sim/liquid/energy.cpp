@@ -1,7 +1,7 @@
 #include "sim/liquid/energy.h"
 
 #include "sim/core/parallel.h"
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 #include "sim/transfer/reference.h"
 
 namespace sim {
@@ -45,10 +45,10 @@ double squareNorm(const Basis1D& basis, int degree)
 
 }  // namespace
 
-Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order)
+LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order)
 {
     const auto rowOf = [&](std::size_t p) { return order ? static_cast<std::size_t>(order->source[p]) : p; };
-    Energies total;
+    LiquidEnergies total;
     total.potential = weightSums(particles, gravity).potential;
     total.kinetic = parallelSum(particles.count, [&](std::size_t p) { return 0.5 * particles.mass[p] * particles.velocity(rowOf(p)).squaredNorm(); });
     if (particles.modeCount == 1) return total;

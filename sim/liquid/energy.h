@@ -3,7 +3,6 @@
 #include "sim/grid/block_grid.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
-#include "sim/step_report.h"
 
 namespace sim {
 
@@ -16,9 +15,17 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity);
 /// What weight does to particles that go on with their velocities for `duration` [s]: [erg].
 double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration);
 
+/// Energies of the liquid (liquid/README.md, Energy) [erg].
+struct LiquidEnergies {
+    double kinetic = 0.0;    ///< of the particles' velocities, ½ m v²
+    double modal = 0.0;      ///< of the higher modes around them
+    double potential = 0.0;  ///< −m g·x
+    double total() const { return kinetic + modal + potential; }
+};
+
 /// All energies of the liquid at the present positions, from the modes in the particles' own rows (liquid/README.md, Energy). The step itself
 /// takes kinetic and modal energy from G2P, where they cost nothing; this is for the initial state and for tests.
 /// @param order  of particles whose modes are not sorted yet; else null
-Energies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);
+LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);
 
 }  // namespace sim

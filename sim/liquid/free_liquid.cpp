@@ -206,19 +206,19 @@ void shiftBlock(const Fields& fields, int b)
 
 }  // namespace
 
-void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, FreeLiquid& work)
+void findUnheldFaces(const CutGrid& cut, FreeLiquid& work)
 {
-    work.unheld.resize(grid.count());
-    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
+    work.unheld.resize(cut.grid.count());
+    parallelFor(cut.grid.count(), kBlocksPerTask, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         std::fill_n(work.unheld.block(b), kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-        if (!obstacles.nearSolid(b)) return;
+        if (!cut.field.nearSolid(b)) return;
         for (int a = 0; a < kAxes; ++a)
             for (int k = 0; k < kBlockEdge; ++k) {
                 std::uint64_t& word = work.unheld.block(b, a)[k];
                 word = 0;
                 for (int j = 0; j < kBlockEdge; ++j)
-                    word |= std::uint64_t{maskBits(loadPack(obstacles.open(b, a) + cellInBlock(0, j, k)) >= 1.0)} << (j * kBlockEdge);
+                    word |= std::uint64_t{maskBits(loadPack(cut.field.open(b, a) + cellInBlock(0, j, k)) >= 1.0)} << (j * kBlockEdge);
             }
     });
 }
@@ -238,19 +238,18 @@ void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const L
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t b) { shiftBlock(fields, static_cast<int>(b)); });
 }
 
-void findFrames(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const LiquidGrid& liquid,
-                const Vec3& otherwise, FreeLiquid& work)
+void findFrames(const CutGrid& cut, const PressureWorkspace& pressure, const LiquidGrid& liquid, const Vec3& otherwise, FreeLiquid& work)
 {
-    const Fields fields{grid, pressure, liquid, liquid.faces.velocity, work, work.change};
+    const Fields fields{cut.grid, pressure, liquid, liquid.faces.velocity, work, work.change};
     work.holders.assign(fields.components().count(), {});
-    for (int b : obstacles.blocksNearSolid()) addHolders(fields, obstacles, b, work.holders);
+    for (int b : cut.field.blocksNearSolid()) addHolders(fields, cut.field, b, work.holders);
     for (FreeLiquid::Holder& holder : work.holders) holder.velocity = holder.faces > 0 ? Vec3(holder.velocity / holder.faces) : otherwise;
-    work.frames.resize(grid.count());
-    parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
+    work.frames.resize(cut.grid.count());
+    parallelFor(cut.grid.count(), kBlocksPerTask, [&](std::size_t n) {
         FreeLiquid::Holder sum = holderIn(fields, static_cast<int>(n));
         if (sum.faces == 0)
-            for (int neighbour : grid.neighbours(static_cast<int>(n))) {
-                const FreeLiquid::Holder beside = neighbour == grid.count() ? FreeLiquid::Holder{} : holderIn(fields, neighbour);
+            for (int neighbour : cut.grid.neighbours(static_cast<int>(n))) {
+                const FreeLiquid::Holder beside = neighbour == cut.grid.count() ? FreeLiquid::Holder{} : holderIn(fields, neighbour);
                 if (beside.faces == 0) continue;
                 sum.velocity += (beside.velocity - sum.velocity) / ++sum.faces;
             }

@@ -15,7 +15,8 @@ struct FreeLiquid {
         bool isHeld = false;       ///< a solid is on one of its faces, or what else was told
     };
     BlockBits<3> unheld;        ///< faces on which there is nothing that holds liquid
-    BlockBits<3> bare;          ///< faces without fabric, of steps with fabric in liquid
+    bool hasFabric = false;     ///< there is fabric on some faces …
+    BlockBits<3> bare;          ///< … and these are the others
     std::vector<Body> bodies;   ///< by their number among all components
     std::vector<Body> ofBlock;  ///< sums over blocks that belong to one body
     /// What holds a body.
@@ -31,7 +32,7 @@ struct FreeLiquid {
 };
 
 /// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.
-void findUnheldFaces(const BlockGrid& grid, const ObstacleField& obstacles, FreeLiquid& work);
+void findUnheldFaces(const CutGrid& cut, FreeLiquid& work);
 
 /// Which bodies something holds, by `unheld`. Needs preparePressure.
 void findHeldBodies(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);
@@ -46,8 +47,7 @@ void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const L
 /// Once it is known which bodies are held: how fast that moves which holds them, by blocks. What flows past a solid that moves does so as
 /// it would past the same solid at rest.
 /// @param otherwise  velocity of what else holds bodies on which there is no solid [cm/s]
-void findFrames(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const LiquidGrid& liquid,
-                const Vec3& otherwise, FreeLiquid& work);
+void findFrames(const CutGrid& cut, const PressureWorkspace& pressure, const LiquidGrid& liquid, const Vec3& otherwise, FreeLiquid& work);
 
 /// Once it is known what holds which body: the cells of those that are held.
 void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);

@@ -1,9 +1,16 @@
 #pragma once
 
 #include "sim/liquid/pressure.h"
-#include "sim/particles/emit.h"
+#include "sim/shapes/shape.h"
 
 namespace sim {
+
+/// Where a source has pressed liquid into liquid, which the projection is to move aside.
+struct Inflow {
+    std::size_t source = 0;
+    Shape mouth;          ///< its part outside of obstacles
+    double volume = 0.0;  ///< that came in this step, spread evenly [cm^3]
+};
 
 /// The cells of the pressure system in which sources have pressed liquid into liquid, in the order of the inflows: the volume of each is spread over
 /// the cells of its mouth that have a pressure, by their shares of it. Needs findLiquidCells.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "sim/grid/cut_grid.h"
 #include "sim/grid/face_fields.h"
-#include "sim/grid/obstacle_field.h"
 
 namespace sim {
 
@@ -19,6 +19,7 @@ struct LiquidGrid {
     BlockBits<> inside;                ///< cells with a pressure
     BlockBits<> surface;               ///< those of them beside air
     BlockBits<> deep;                  ///< those that are neither at the surface nor beside it
+    BlockBits<> dry;                   ///< cells that are neither inside nor blocked by walls, also in blocks that do not exist
 
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.
     double* scratch(int block, int kind = 0) { return faces.sums.block(block, FaceFields::kMomentum + kind); }
@@ -32,6 +33,7 @@ struct LiquidGrid {
         inside.resize(blocks);
         surface.resize(blocks);
         deep.resize(blocks);
+        dry.resize(blocks);
         if (keepsAdvected) advected.resize(blocks);
     }
 };

@@ -17,11 +17,11 @@ namespace sim {
 class LiquidOnSolids {
  public:
     /// After P2G: what particles have brought to faces near solids, before weight, walls and forces act there.
-    void begin(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, const FaceFields& faces);
+    void begin(const CutGrid& cut, const FaceFields& faces);
     /// Around the solve for viscosity, of whose stresses solids get those on closed faces and on walls that stick.
     void beforeViscosity(const BlockArray<double, 3>& velocity);
     /// @return  work that those of them which move did on the liquid by it [erg]
-    double afterViscosity(const BlockGrid& grid, const ObstacleField& field, const ViscousSystem& system, const LiquidGrid& liquid);
+    double afterViscosity(const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid);
     /// Weight is moved between faces: then tell by how much that of each grew [g cm/s].
     void meetLevelling() { clearOthers(); }
     void weightGrew(int block, int axis, int cell, double impulse)
@@ -50,7 +50,7 @@ class LiquidOnSolids {
         double perPressure;                         ///< K: of a face amid liquid by the step of the pressure [cm^2 s]
         Vec3 fall;                                  ///< what weight made of velocities [cm/s]
     };
-    void finish(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome);
+    void finish(const CutGrid& cut, const Outcome& outcome);
 
     /// What a solid got, and of that what pressed on the closed part of its faces, regardless of direction, and where that is.
     struct OnSolid {
@@ -71,20 +71,23 @@ class LiquidOnSolids {
 
  private:
     static constexpr int kMass = 0, kMomentum = 3;  ///< kinds of brought_
+    /// Eight faces in a row along x, of a block near solids.
+    struct FaceRow {
+        std::size_t place;  ///< of the block
+        int axis, first;    ///< to which they are normal; the first of them in the block
+    };
     /// What the faces of a row got of solids, how hard these press on what they close, and what the pressure would give to a closed face.
-    struct Row {
+    struct GotByRow {
         Pack got, pressed, push;  ///< [g cm/s]
     };
     void clearOthers();
     std::uint64_t facesNear(const BitAccess& bits, int block, int axis, int k) const { return near_.block(block)[k] | bits.below(near_, 0, axis, k); }
     std::uint64_t wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const;
-    Pack stepOf(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
-    Row onRow(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, int axis, int row) const;
-    void addShared(const BlockGrid& grid, const ObstacleField& field, const CellRef& face, int axis, const Vec3& at, const Row& on,
-                   std::span<OnSolid> sums) const;
-    void addRow(const BlockGrid& grid, const ObstacleField& field, std::size_t place, int axis, int row, unsigned faces, const Row& on,
-                std::span<OnSolid> sums) const;
-    void finishBlock(const BlockGrid& grid, const ObstacleField& field, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;
+    Pack stepOf(const CutGrid& cut, const Outcome& outcome, const FaceRow& row) const;
+    GotByRow onRow(const CutGrid& cut, const Outcome& outcome, const FaceRow& row) const;
+    void addShared(const CutGrid& cut, const FaceRow& row, int lane, const Vec3& at, const GotByRow& on, std::span<OnSolid> sums) const;
+    void addRow(const CutGrid& cut, const FaceRow& row, unsigned faces, const GotByRow& on, std::span<OnSolid> sums) const;
+    void finishBlock(const CutGrid& cut, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;
 
     int solids_ = 0;
     std::vector<int> blocks_, place_;  ///< those near solids; of each block its place among them, or BlockGrid::kNone

@@ -26,18 +26,17 @@ struct NeighbourBits {
 /// k_f of every lower face beside a liquid cell: zero where it is closed or carries no liquid. Faces between deep cells are full: what P2G
 /// found there differs from that by the noise of the particles' places only.
 /// @param full  so are faces without particles
-void computeCoefficients(const BlockGrid& grid, const ObstacleField& obstacles, double scale, bool full, const LiquidGrid& liquid,
-                         PressureWorkspace& work)
+void computeCoefficients(const CutGrid& cut, double scale, bool full, const LiquidGrid& liquid, PressureWorkspace& work)
 {
-    work.coefficient.resize(grid.count());
-    parallelFor(grid.count(), 4, [&](std::size_t n) {
+    work.coefficient.resize(cut.grid.count());
+    parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const NeighbourBits inside(grid, liquid.inside, b), deep(grid, liquid.deep, b);
+        const NeighbourBits inside(cut.grid, liquid.inside, b), deep(cut.grid, liquid.deep, b);
         for (int a = 0; a < kAxes; ++a)
             for (int k = 0; k < kBlockEdge; ++k)
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
-                    const Pack open = loadPack(obstacles.open(b, a) + row), room = liquid.fullMass * loadPack(obstacles.room(b, a) + row);
+                    const Pack open = loadPack(cut.field.open(b, a) + row), room = liquid.fullMass * loadPack(cut.field.room(b, a) + row);
                     const PackMask wet = rowOf(liquid.wet.block(b, a), j, k);
                     const PackMask isFull = (rowOf(deep.own, j, k) & rowOf(deep.below[a], j, k)) | (full ? ~wet : PackMask{});
                     const Pack mass = select(isFull, room, loadPack(liquid.faces.sums.block(b, FaceFields::kMass + a) + row));
@@ -61,7 +60,7 @@ struct RowFlux {
         const Pack open = loadPack(obstacles.open(block, axis) + row), u = loadPack(velocity.block(block, axis) + row);
         return open * u + loadPack(obstacles.swept(block, axis) + row);
     }
-    Pack below(int j, int k) const { return through(rows.neighbours[13], cellInBlock(0, j, k)); }
+    Pack below(int j, int k) const { return through(rows.neighbours[kBlockItself], cellInBlock(0, j, k)); }
     Pack above(int j, int k) const
     {
         if (axis == 0) return shiftLeft(below(j, k), through(rows.neighbours[neighbourIndex(1, 0, 0)], cellInBlock(0, j, k)));
@@ -107,15 +106,14 @@ void assembleBlock(const BlockGrid& grid, int b, const LiquidGrid& liquid, Press
 }
 
 /// u −= dt grad p / (ρ fill) on the faces of the system; they and all others that are open and wet become valid.
-void subtractGradient(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& work, const BlockArray<double>& pressure,
-                      LiquidGrid& liquid)
+void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const BlockArray<double>& pressure, LiquidGrid& liquid)
 {
-    parallelFor(grid.count(), 2, [&](std::size_t n) {
+    parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a) {
             std::uint64_t* valid = liquid.faces.valid.block(b, a);
-            for (int k = 0; k < kBlockEdge; ++k) valid[k] = liquid.wet.block(b, a)[k] & ~obstacles.closed(b, a)[k];
-            forEachPressureFace(grid, obstacles, work, pressure, b, a, [&](int row, PackMask known, Pack change) {
+            for (int k = 0; k < kBlockEdge; ++k) valid[k] = liquid.wet.block(b, a)[k] & ~cut.field.closed(b, a)[k];
+            forEachPressureFace(cut, work, pressure, b, a, [&](int row, PackMask known, Pack change) {
                 valid[row >> 6] |= static_cast<std::uint64_t>(maskBits(known)) << (row & 63);
                 double* velocity = liquid.faces.velocity.block(b, a) + row;
                 const Pack moved = loadPack(velocity) + change;
@@ -132,10 +130,9 @@ void addInflow(std::span<const InflowCell> inflow, BlockArray<double>& rhs)
 
 }  // namespace
 
-void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, double dt, const LiquidGrid& liquid,
-                       PressureWorkspace& work)
+void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work)
 {
-    computeCoefficients(grid, obstacles, dt / (settings.density * grid.dx * grid.dx), settings.full, liquid, work);
+    computeCoefficients(cut, dt / (settings.density * cut.grid.dx * cut.grid.dx), settings.full, liquid, work);
 }
 
 void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
@@ -145,43 +142,43 @@ void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWo
     work.solver.prepare(grid, work.matrix);
 }
 
-SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
-                          PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure)
+SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& work,
+                          LiquidGrid& liquid, BlockArray<double>& pressure)
 {
-    findRightHandSide(grid, obstacles, liquid, liquid.faces.velocity, inflow, work.rhs);
-    const SolveReport report = work.solver.solveAgain(grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
-    subtractGradient(grid, obstacles, work, pressure, liquid);
+    findRightHandSide(cut, liquid, liquid.faces.velocity, inflow, work.rhs);
+    const SolveReport report = work.solver.solveAgain(cut.grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
+    subtractGradient(cut, work, pressure, liquid);
     return report;
 }
 
-void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
-                       std::span<const InflowCell> inflow, BlockArray<double>& rhs)
+void findRightHandSide(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity, std::span<const InflowCell> inflow,
+                       BlockArray<double>& rhs)
 {
-    rhs.resize(grid.count());
-    parallelFor(grid.count(), 2, [&](std::size_t n) {
+    rhs.resize(cut.grid.count());
+    parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const RowAccess rows(grid, b);
+        const RowAccess rows(cut.grid, b);
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
                 const PackMask own = rowOf(liquid.inside.block(b), j, k);
                 Pack out = broadcast(0.0);
-                if (maskBits(own) != 0) out = select(own, rowOutflow(obstacles, velocity, rows, j, k) * (-1.0 / grid.dx), out);
+                if (maskBits(own) != 0) out = select(own, rowOutflow(cut.field, velocity, rows, j, k) * (-1.0 / cut.grid.dx), out);
                 storePack(rhs.block(b) + cellInBlock(0, j, k), out);
             }
     });
     addInflow(inflow, rhs);
 }
 
-double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid)
+double largestDivergence(const CutGrid& cut, const LiquidGrid& liquid)
 {
-    return parallelMax(grid.count(), [&](std::size_t n) {
-        const RowAccess rows(grid, static_cast<int>(n));
+    return parallelMax(cut.grid.count(), [&](std::size_t n) {
+        const RowAccess rows(cut.grid, static_cast<int>(n));
         double largest = 0.0;
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
                 const PackMask inside = rowOf(liquid.inside.block(static_cast<int>(n)), j, k);
-                const Pack out = absPack(select(inside, rowOutflow(obstacles, liquid.faces.velocity, rows, j, k), broadcast(0.0)));
-                for (int l = 0; l < kLanes; ++l) largest = std::max(largest, out[l] / grid.dx);
+                const Pack out = absPack(select(inside, rowOutflow(cut.field, liquid.faces.velocity, rows, j, k), broadcast(0.0)));
+                for (int l = 0; l < kLanes; ++l) largest = std::max(largest, out[l] / cut.grid.dx);
             }
         return largest;
     });

@@ -29,8 +29,7 @@ struct PressureWorkspace {
 /// The fill of a face is the mass that P2G put there relative to a face amid liquid. At the surface it takes the place of the ghost fluid's
 /// fraction: both are the share of liquid between two cell middles. Only the mass makes this the projection that is orthogonal
 /// in the kinetic energy of the particles, so that it gains no energy and conserves momentum and angular momentum. Needs findSurface.
-void findPressureFaces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, double dt, const LiquidGrid& liquid,
-                       PressureWorkspace& work);
+void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work);
 
 /// The matrix of these faces, ready to be solved, and its components. Needs findPressureFaces.
 void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work);
@@ -40,12 +39,12 @@ void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWo
 /// afterwards.
 /// @param inflow    cells whose divergence is to be their rates instead; where a cell is named more than once, the sum
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
-SolveReport solvePressure(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
-                          PressureWorkspace& work, LiquidGrid& liquid, BlockArray<double>& pressure);
+SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& work,
+                          LiquidGrid& liquid, BlockArray<double>& pressure);
 
 /// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S), and the inflow [1/s].
-void findRightHandSide(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity,
-                       std::span<const InflowCell> inflow, BlockArray<double>& rhs);
+void findRightHandSide(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity, std::span<const InflowCell> inflow,
+                       BlockArray<double>& rhs);
 
 /// Faces are taken to be at least this full, for the sake of the conditioning.
 inline constexpr double kLeastFill = 0.01;
@@ -53,10 +52,9 @@ inline constexpr double kLeastFill = 0.01;
 /// For the faces of the pressure system normal to one axis in one block: call f(row, known, change) with the change of velocity [cm/s]
 /// that the potential p, in dyn/cm², makes: −dt grad p / (ρ fill), 0 where `known` is false.
 template <class F>
-void forEachPressureFace(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& work, const BlockArray<double>& p, int block,
-                         int axis, F&& f)
+void forEachPressureFace(const CutGrid& cut, const PressureWorkspace& work, const BlockArray<double>& p, int block, int axis, F&& f)
 {
-    const RowAccess rows(grid, block);
+    const RowAccess rows(cut.grid, block);
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j) {
             const int row = cellInBlock(0, j, k);
@@ -64,12 +62,12 @@ void forEachPressureFace(const BlockGrid& grid, const ObstacleField& obstacles, 
             const PackMask known = coefficient > 0.0;
             if (maskBits(known) == 0) continue;
             const Pack step = rows.row(p, 0, j, k) - rows.below(p, 0, axis, j, k);
-            const Pack change = -grid.dx * coefficient / loadPack(obstacles.open(block, axis) + row) * step;
+            const Pack change = -cut.grid.dx * coefficient / loadPack(cut.field.open(block, axis) + row) * step;
             f(row, known, select(known, change, broadcast(0.0)));
         }
 }
 
 /// Largest |div(ω u + (1 − ω) v_S)| over the cells with a pressure [1/s].
-double largestDivergence(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid);
+double largestDivergence(const CutGrid& cut, const LiquidGrid& liquid);
 
 }  // namespace sim

@@ -137,29 +137,28 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
 
 }  // namespace
 
-PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                             double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
-                             ChunkSums<Impulse>& onSolids)
+PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest, const std::array<AlignedArray<double>, kAxes>* before,
+                             LiquidParticles& particles, ChunkSums<Impulse>& onSolids)
 {
     const auto ofBlock = [&](std::size_t n, std::span<Impulse> impulses) {
         const int b = order.occupied[n];
         PushedOut pushed;
         // Solids are known where they are now: on its way a particle has been no nearer to them than this.
-        const double half = 0.5 * kBlockEdge * grid.dx;
-        const double sweep = obstacles.anyMoving() ? obstacles.farthestMove(grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
-        const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * grid.dx + reach;
-        if (!field.nearSolid(b) && reach < ObstacleField::kExactDistance * grid.dx) return pushed;
+        const double half = 0.5 * kBlockEdge * cut.grid.dx;
+        const double sweep = cut.obstacles.anyMoving() ? cut.obstacles.farthestMove(cut.grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
+        const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * cut.grid.dx + reach;
+        if (!cut.field.nearSolid(b) && reach < ObstacleField::kExactDistance * cut.grid.dx) return pushed;
         for (int c = 0; c < kBlockCells; ++c) {
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);
-            if (start[0] == start[1] || (field.nearSolid(b) && field.centerDistance(b)[c] > safe)) continue;
-            for (int s = start[0]; s < start[1]; ++s) pushed = pushed + keepOut(obstacles, grid.dx, before, s, particles, impulses);
+            if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
+            for (int s = start[0]; s < start[1]; ++s) pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, s, particles, impulses);
         }
         return pushed;
     };
     const Chunks chunks(order.occupied.size());
     std::array<PushedOut, kMaxChunks> partial;
-    onSolids.begin(chunks.count(), obstacles.count());
+    onSolids.begin(chunks.count(), cut.obstacles.count());
     parallelFor(chunks.count(), [&](std::size_t c) {
         for (std::size_t n = chunks.begin(c); n < chunks.end(c); ++n) partial[c] = partial[c] + ofBlock(n, onSolids.of(c));
     });

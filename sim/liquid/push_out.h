@@ -2,7 +2,7 @@
 
 #include "sim/core/chunk_sums.h"
 #include "sim/forces.h"
-#include "sim/grid/obstacle_field.h"
+#include "sim/grid/cut_grid.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
 
@@ -29,8 +29,7 @@ struct PushedOut {
 /// @param before     those positions, in that order; null: particles inside solids are moved out, paths are not looked at
 /// @param farthest   how far a particle can have moved since the sort [cm]
 /// @param onSolids   what each solid gets of the particles' momentum; begun anew
-PushedOut pushOutOfObstacles(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                             double farthest, const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles,
-                             ChunkSums<Impulse>& onSolids);
+PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest, const std::array<AlignedArray<double>, kAxes>* before,
+                             LiquidParticles& particles, ChunkSums<Impulse>& onSolids);
 
 }  // namespace sim

@@ -15,7 +15,7 @@ struct ReflectionWorkspace {
 /// after P2G. Only the divergence that advection made is reflected: what gravity and its pressure do to u stays as it
 /// is. Particles that gather r and move with u make of this step and the next, a plain one of the same length, a
 /// method of second order.
-SolveReport reflect(const BlockGrid& grid, const ObstacleField& obstacles, const SolverSettings& solver, std::span<const InflowCell> inflow,
-                    PressureWorkspace& pressure, const LiquidGrid& liquid, ReflectionWorkspace& work);
+SolveReport reflect(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& pressure,
+                    const LiquidGrid& liquid, ReflectionWorkspace& work);
 
 }  // namespace sim

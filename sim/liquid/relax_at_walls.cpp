@@ -38,18 +38,18 @@ struct Weighed {
 
 }  // namespace
 
-void keepRelaxationFromLifting(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                               const Vec3& gravity, double farthest, const LiquidParticles& particles, Displacements& displacement)
+void keepRelaxationFromLifting(const ParticleOrder& order, const CutGrid& cut, const Vec3& gravity, double farthest, const LiquidParticles& particles,
+                               Displacements& displacement)
 {
-    const double safe = 0.5 * std::sqrt(3.0) * grid.dx + farthest;
+    const double safe = 0.5 * std::sqrt(3.0) * cut.grid.dx + farthest;
     const auto ofBlock = [&](std::size_t n) {
         const int b = order.occupied[n];
         Weighed weighed;
-        const bool isNear = !obstacles.empty() && (field.nearSolid(b) || farthest >= ObstacleField::kExactDistance * grid.dx);
+        const bool isNear = !cut.obstacles.empty() && (cut.field.nearSolid(b) || farthest >= ObstacleField::kExactDistance * cut.grid.dx);
         for (int c = 0; isNear && c < kBlockCells; ++c) {
             const int* start = order.cells(b) + cellRank(c & 7, c >> 3 & 7, c >> 6);
-            if (start[0] == start[1] || (field.nearSolid(b) && field.centerDistance(b)[c] > safe)) continue;
-            for (int s = start[0]; s < start[1]; ++s) stopAtSurface(obstacles, particles.position(s), s, displacement);
+            if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
+            for (int s = start[0]; s < start[1]; ++s) stopAtSurface(cut.obstacles, particles.position(s), s, displacement);
         }
         for (int s = order.begin(b); s < order.end(b); ++s) {
             const double work = particles.mass[s] * gravity.dot(at(displacement, s));

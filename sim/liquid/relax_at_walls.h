@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/grid/obstacle_field.h"
+#include "sim/grid/cut_grid.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
 
@@ -11,8 +11,7 @@ namespace sim {
 /// nearest; then, if Σ m g·d < 0, the same share of each that goes up is left out, so that the sum is 0.
 /// @param farthest      how far a displacement may go [cm]
 /// @param displacement  of each particle, sorted [cm]
-void keepRelaxationFromLifting(const ParticleOrder& order, const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles,
-                               const Vec3& gravity, double farthest, const LiquidParticles& particles,
+void keepRelaxationFromLifting(const ParticleOrder& order, const CutGrid& cut, const Vec3& gravity, double farthest, const LiquidParticles& particles,
                                std::array<AlignedArray<double>, kAxes>& displacement);
 
 }  // namespace sim

@@ -8,20 +8,19 @@
 
 namespace sim {
 
-void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const LiquidGrid& liquid,
-                      SurfaceTensionWorkspace& work)
+void findSurfaceSteps(const CutGrid& cut, const LiquidSettings& settings, const LiquidGrid& liquid, SurfaceTensionWorkspace& work)
 {
-    work.curvature.find(grid, obstacles, liquid, settings.curvatureSmoothing);
-    work.step.resize(grid.count());
-    parallelFor(static_cast<std::size_t>(grid.count()), 2, [&](std::size_t n) {
+    work.curvature.find(cut, liquid, settings.curvatureSmoothing);
+    work.step.resize(cut.grid.count());
+    parallelFor(static_cast<std::size_t>(cut.grid.count()), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        const BitAccess bits(grid, b);
+        const BitAccess bits(cut.grid, b);
         for (int a = 0; a < kAxes; ++a) {
             double* step = work.step.block(b, a);
             std::fill_n(step, kBlockCells, 0.0);
             for (int k = 0; k < kBlockEdge; ++k) {
                 const std::uint64_t above = liquid.inside.block(b)[k];
-                std::uint64_t crossed = (above ^ bits.below(liquid.inside, 0, a, k)) & liquid.wet.block(b, a)[k] & ~obstacles.closed(b, a)[k];
+                std::uint64_t crossed = (above ^ bits.below(liquid.inside, 0, a, k)) & liquid.wet.block(b, a)[k] & ~cut.field.closed(b, a)[k];
                 for (; crossed != 0; crossed &= crossed - 1) {
                     const int bit = std::countr_zero(crossed);
                     const Vec3i cell(bit & 7, bit >> 3, k), below = cell - Vec3i::Unit(a);
@@ -34,17 +33,16 @@ void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, con
     });
 }
 
-void applySurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, double share,
-                       const SurfaceTensionWorkspace& work, LiquidGrid& liquid)
+void applySurfaceSteps(const CutGrid& cut, const PressureWorkspace& pressure, double share, const SurfaceTensionWorkspace& work, LiquidGrid& liquid)
 {
-    parallelFor(static_cast<std::size_t>(grid.count()), 2, [&](std::size_t n) {
+    parallelFor(static_cast<std::size_t>(cut.grid.count()), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a)
             for (int row = 0; row < kBlockCells; row += kLanes) {
                 const Pack step = loadPack(work.step.block(b, a) + row), coefficient = loadPack(pressure.coefficient.block(b, a) + row);
                 const PackMask acts = (step != 0.0) & (coefficient > 0.0);
                 if (maskBits(acts) == 0) continue;
-                const Pack change = -grid.dx * share * coefficient / loadPack(obstacles.open(b, a) + row) * step;
+                const Pack change = -cut.grid.dx * share * coefficient / loadPack(cut.field.open(b, a) + row) * step;
                 double* velocity = liquid.faces.velocity.block(b, a) + row;
                 storePack(velocity, loadPack(velocity) + select(acts, change, broadcast(0.0)));
             }

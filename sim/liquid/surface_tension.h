@@ -12,8 +12,7 @@ struct SurfaceTensionWorkspace {
 };
 
 /// The step of the pressure, σ κ, across every face between liquid and air (liquid/README.md, Surface tension). Needs findSurface.
-void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const LiquidGrid& liquid,
-                      SurfaceTensionWorkspace& work);
+void findSurfaceSteps(const CutGrid& cut, const LiquidSettings& settings, const LiquidGrid& liquid, SurfaceTensionWorkspace& work);
 
 /// Air presses with σ κ instead of nothing (ghost fluid: Kang, Fedkiw and Liu 2000). This is the part of the pressure's
 /// gradient that is known before the solve: u −= dt β step / dx. The projection that follows then finds the pressure
@@ -24,8 +23,7 @@ void findSurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, con
 /// to nothing there, too: to be called after Mixture::blend. What reflection reflects knows nothing of it, as of weight:
 /// its pressure is 0 in the air, and tension is in the velocities that it starts from.
 /// @param share  of the step for which tension acts [-]
-void applySurfaceSteps(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, double share,
-                       const SurfaceTensionWorkspace& work, LiquidGrid& liquid);
+void applySurfaceSteps(const CutGrid& cut, const PressureWorkspace& pressure, double share, const SurfaceTensionWorkspace& work, LiquidGrid& liquid);
 
 /// Does surface tension move this liquid? Without air it has no surface.
 inline bool feelsSurfaceTension(const LiquidSettings& settings)

@@ -23,9 +23,8 @@ struct Column {
 class SurfaceColumns {
  public:
     /// @param up  direction along the axis against gravity, 1 or -1
-    SurfaceColumns(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
-                   const BlockBits<3>* bare, const LiquidGrid& liquid, int axis, int up)
-        : grid_(grid), obstacles_(obstacles), pressure_(pressure), bodies_(bodies), bare_(bare), liquid_(liquid), axis_(axis), up_(up)
+    SurfaceColumns(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const LiquidGrid& liquid, int axis, int up)
+        : grid_(cut.grid), obstacles_(cut.field), pressure_(pressure), bodies_(bodies), liquid_(liquid), axis_(axis), up_(up)
     {
     }
 
@@ -50,7 +49,7 @@ class SurfaceColumns {
         for (CellRef at = lowest;; at = beside(at, up_)) {
             const bool known = isKnown(at);
             if (!known && (!isWet(at) || isSolid(at))) break;
-            if (column.size == kSurfaceColumn || isDeep(at) || (bare_ != nullptr && !bare_->test(at.block, at.cell, axis_))) return {};
+            if (column.size == kSurfaceColumn || isDeep(at) || (bodies_.hasFabric && !bodies_.bare.test(at.block, at.cell, axis_))) return {};
             column.face[column.size++] = at;
             if (!known) break;
         }
@@ -89,7 +88,6 @@ class SurfaceColumns {
     const ObstacleField& obstacles_;
     const PressureWorkspace& pressure_;
     const FreeLiquid& bodies_;
-    const BlockBits<3>* bare_;
     const LiquidGrid& liquid_;
     int axis_, up_;
 };
@@ -117,21 +115,21 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
 
 }  // namespace
 
-void levelWeight(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
-                 const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
+void levelWeight(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const Vec3& gravityStep, LiquidGrid& liquid,
+                 LiquidOnSolids* onSolids)
 {
     if (std::ranges::none_of(bodies.bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
     if (onSolids != nullptr) onSolids->meetLevelling();
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
-        const SurfaceColumns columns(grid, obstacles, pressure, bodies, bare, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
-        parallelFor(grid.count(), 4, [&](std::size_t n) {
+        const SurfaceColumns columns(cut, pressure, bodies, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
+        parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
             const int b = static_cast<int>(n);
-            const BitAccess access(grid, b);
+            const BitAccess access(cut.grid, b);
             for (int k = 0; k < kBlockEdge; ++k)
                 for (std::uint64_t left = columns.shallow(access, b, k); left != 0; left &= left - 1) {
                     const Column column = columns.from({b, 64 * k + std::countr_zero(left)});
-                    if (column.size > 1) level(column, obstacles, a, gravityStep[a], liquid, onSolids);
+                    if (column.size > 1) level(column, cut.field, a, gravityStep[a], liquid, onSolids);
                 }
         });
     }

@@ -16,12 +16,11 @@ namespace sim {
 ///
 /// It acts only in bodies that solids hold (FreeLiquid::bodies, by findHeldBodies): in others nothing presses. Columns with fabric in them, thicker
 /// than kSurfaceColumn, or on nothing deep or solid stay as they are.
-/// @param bare         faces without fabric; null where there is none
 /// @param gravityStep  velocity that weight has given to all faces in this step [cm/s]
 /// @param liquid       velocity and unpressed are changed
 /// @param onSolids     is told, if not null, for what weight gives is not from solids
-void levelWeight(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, const FreeLiquid& bodies,
-                 const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids);
+void levelWeight(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const Vec3& gravityStep, LiquidGrid& liquid,
+                 LiquidOnSolids* onSolids);
 
 /// Faces that a column of the surface layer may have. A plane surface has at most four: two cells that are not deep, and the surface's own.
 inline constexpr int kSurfaceColumn = 5;

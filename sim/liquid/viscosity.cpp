@@ -153,16 +153,16 @@ class ConjugateGradients {
 
 }  // namespace
 
-SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
-                           double dt, ViscosityWorkspace& work, LiquidGrid& liquid)
+SolveReport solveViscosity(const CutGrid& cut, const LiquidSettings& settings, const SolverSettings& solver, double dt, ViscosityWorkspace& work,
+                           LiquidGrid& liquid)
 {
     const double part = dt / settings.viscositySubsteps;
-    work.system.assemble(grid, obstacles, liquid, part * settings.viscosity, settings.wallFriction);
-    work.multigrid.build(grid, work.system, part * settings.viscosity / (settings.density * grid.dx * grid.dx));
-    ConjugateGradients solve(grid, work, liquid);
-    SolveReport all = solve.solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
+    work.system.assemble(cut, liquid, part * settings.viscosity, settings.wallFriction);
+    work.multigrid.build(cut.grid, work.system, part * settings.viscosity / (settings.density * cut.grid.dx * cut.grid.dx));
+    ConjugateGradients solve(cut.grid, work, liquid);
+    SolveReport all = solve.solve(cut.field, solver.viscosityTolerance, solver.maxIterations);
     for (int n = 1; n < settings.viscositySubsteps; ++n) {
-        const SolveReport next = solve.solve(obstacles, solver.viscosityTolerance, solver.maxIterations);
+        const SolveReport next = solve.solve(cut.field, solver.viscosityTolerance, solver.maxIterations);
         all.iterations += next.iterations;
         all.residual = std::max(all.residual, next.residual);
         all.converged = all.converged && next.converged;

@@ -2,7 +2,7 @@
 
 #include "sim/liquid/viscous_multigrid.h"
 #include "sim/settings.h"
-#include "sim/step_report.h"
+#include "sim/solvers/solve_report.h"
 
 namespace sim {
 
@@ -20,7 +20,7 @@ struct ViscosityWorkspace {
 /// pressure makes them divergence-free (liquid/README.md, Viscosity): first order in time and stable for any viscosity. Conjugate gradients from the
 /// velocities as they are, preconditioned by multigrid; the residual is relative to the largest momentum of a
 /// face. Not converged after solver.maxIterations: told by the report, and the velocities are the last iterate's.
-SolveReport solveViscosity(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidSettings& settings, const SolverSettings& solver,
-                           double dt, ViscosityWorkspace& work, LiquidGrid& liquid);
+SolveReport solveViscosity(const CutGrid& cut, const LiquidSettings& settings, const SolverSettings& solver, double dt, ViscosityWorkspace& work,
+                           LiquidGrid& liquid);
 
 }  // namespace sim

@@ -16,14 +16,20 @@ constexpr double kLeastMass = 1.0e-12;
 
 [[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
 
+/// Mass and room of a row of faces, and which of them are unknown.
+struct FaceRow {
+    Pack mass, room;
+    PackMask unknown;
+};
+
 /// Mass and room of the unknown faces that a strain is made of.
 struct Liquid {
     Pack mass = broadcast(0.0), room = broadcast(0.0);
 
-    void add(PackMask unknown, Pack m, Pack r)
+    void add(const FaceRow& row)
     {
-        mass += select(unknown, m, broadcast(0.0));
-        room += select(unknown, r, broadcast(0.0));
+        mass += select(row.unknown, row.mass, broadcast(0.0));
+        room += select(row.unknown, row.room, broadcast(0.0));
     }
     /// Share of the room that liquid fills.
     Pack fill() const { return select(room > 0.0, mass / room, broadcast(0.0)); }
@@ -32,44 +38,33 @@ struct Liquid {
 /// One block with what it takes from its neighbours, faces of one axis at a time.
 class Faces {
  public:
-    Faces(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, const BlockBits<3>& unknown, int block)
-        : bits(grid, block), rows_(grid, block), obstacles_(obstacles), liquid_(liquid), unknown_(unknown)
+    Faces(const CutGrid& cut, const LiquidGrid& liquid, const BlockBits<3>& unknown, int block)
+        : bits(cut.grid, block), rows_(cut.grid, block), obstacles_(cut.field), liquid_(liquid), unknown_(unknown)
     {
     }
 
-    /// Add the faces of row (j, k) of the neighbour at the given steps down (−1) or up (1) along one axis, if any.
-    void addTo(Liquid& sum, int axis, int along, int step, int j, int k) const
+    /// Faces normal to an axis of row (j, k) of the neighbour at the given steps down (−1) or up (1) along another axis, if any.
+    FaceRow at(int axis, int along, int step, int j, int k) const
     {
-        Pack mass, room;
-        PackMask unknown;
-        load(axis, along, step, j, k, mass, room, unknown);
-        sum.add(unknown, mass, room);
+        const int dj = along == 1 ? step : 0, dk = along == 2 ? step : 0;
+        const int b = rows_.neighbours[neighbourIndex(0, (j + dj) >> 3, (k + dk) >> 3)];
+        const FaceRow own = read(b, axis, (j + dj) & 7, (k + dk) & 7);
+        if (along != 0 || step == 0) return own;
+        const FaceRow other = read(rows_.neighbours[neighbourIndex(step, 0, 0)], axis, j, k);
+        const auto shift = [&](auto here, auto there) { return step < 0 ? shiftRight(there, here) : shiftLeft(here, there); };
+        const Pack one = broadcast(1.0), zero = broadcast(0.0);
+        return {shift(own.mass, other.mass), shift(own.room, other.room),
+                shift(select(own.unknown, one, zero), select(other.unknown, one, zero)) > 0.0};
     }
 
     BitAccess bits;
 
  private:
-    void load(int axis, int along, int step, int j, int k, Pack& mass, Pack& room, PackMask& unknown) const
-    {
-        const int dj = along == 1 ? step : 0, dk = along == 2 ? step : 0;
-        const int b = rows_.neighbours[neighbourIndex(0, (j + dj) >> 3, (k + dk) >> 3)];
-        read(b, axis, (j + dj) & 7, (k + dk) & 7, mass, room, unknown);
-        if (along != 0 || step == 0) return;
-        Pack m, r;
-        PackMask u;
-        read(rows_.neighbours[neighbourIndex(step, 0, 0)], axis, j, k, m, r, u);
-        const auto shift = [&](auto own, auto other) { return step < 0 ? shiftRight(other, own) : shiftLeft(own, other); };
-        mass = shift(mass, m);
-        room = shift(room, r);
-        const Pack one = broadcast(1.0), zero = broadcast(0.0);
-        unknown = shift(select(unknown, one, zero), select(u, one, zero)) > 0.0;
-    }
-    void read(int b, int axis, int j, int k, Pack& mass, Pack& room, PackMask& unknown) const
+    FaceRow read(int b, int axis, int j, int k) const
     {
         const int row = cellInBlock(0, j, k);
-        mass = loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + axis) + row);
-        room = loadPack(obstacles_.room(b, axis) + row);
-        unknown = rowOf(unknown_.block(b, axis), j, k);
+        return {loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + axis) + row), loadPack(obstacles_.room(b, axis) + row),
+                rowOf(unknown_.block(b, axis), j, k)};
     }
 
     RowAccess rows_;
@@ -99,22 +94,22 @@ void findUnknowns(const ObstacleField& obstacles, const LiquidGrid& liquid, int 
 }
 
 /// @param sticks  so do walls that pass between a face's open part and its middle
-void findBehind(const BlockGrid& grid, const ObstacleField& obstacles, bool sticks, int b, ViscousSystem& system)
+void findBehind(const CutGrid& cut, bool sticks, int b, ViscousSystem& system)
 {
     for (int a = 0; a < kAxes; ++a) {
-        std::copy_n(obstacles.closed(b, a), BlockBits<3>::kWords, system.behind.block(b, a));
-        if (!sticks || !obstacles.nearSolid(b)) continue;
+        std::copy_n(cut.field.closed(b, a), BlockBits<3>::kWords, system.behind.block(b, a));
+        if (!sticks || !cut.field.nearSolid(b)) continue;
         for (int k = 0; k < kBlockEdge; ++k)
             for (std::uint64_t bits = system.unknown.block(b, a)[k]; bits != 0; bits &= bits - 1) {
                 const int face = k * 64 + std::countr_zero(bits);
-                if (faceDistance(grid, obstacles, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0) system.behind.set(b, face, a);
+                if (faceDistance(cut, b, a, Vec3i(face & 7, face >> 3 & 7, k)) <= 0.0) system.behind.set(b, face, a);
             }
     }
 }
 
-void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b, ViscousSystem& system)
+void findStrains(const CutGrid& cut, const LiquidGrid& liquid, double weight, int b, ViscousSystem& system)
 {
-    const Faces faces(grid, obstacles, liquid, system.unknown, b);
+    const Faces faces(cut, liquid, system.unknown, b);
     const BlockBits<3>& unknown = system.unknown;
     for (int k = 0; k < kBlockEdge; ++k)
         for (int a = 0; a < kAxes; ++a) {
@@ -132,16 +127,16 @@ void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const Li
                 Pack normal = broadcast(0.0), shear = broadcast(0.0);
                 if (const PackMask is = maskOfBits(strained >> (j * kBlockEdge)); maskBits(is) != 0) {
                     Liquid sum;
-                    faces.addTo(sum, a, a, 0, j, k);
-                    faces.addTo(sum, a, a, 1, j, k);
+                    sum.add(faces.at(a, a, 0, j, k));
+                    sum.add(faces.at(a, a, 1, j, k));
                     normal = select(is, 2.0 * weight * sum.fill(), normal);
                 }
                 if (const PackMask is = maskOfBits(sheared >> (j * kBlockEdge)); maskBits(is) != 0) {
                     Liquid sum;
-                    faces.addTo(sum, c, d, 0, j, k);
-                    faces.addTo(sum, c, d, -1, j, k);
-                    faces.addTo(sum, d, c, 0, j, k);
-                    faces.addTo(sum, d, c, -1, j, k);
+                    sum.add(faces.at(c, d, 0, j, k));
+                    sum.add(faces.at(c, d, -1, j, k));
+                    sum.add(faces.at(d, c, 0, j, k));
+                    sum.add(faces.at(d, c, -1, j, k));
                     shear = select(is, weight * sum.fill(), shear);
                 }
                 storePack(system.normal.block(b, a) + row, normal);
@@ -151,7 +146,7 @@ void findStrains(const BlockGrid& grid, const ObstacleField& obstacles, const Li
 }
 
 /// dt μ times area over distance for each wall beside a face.
-void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double weight, int b, ViscousSystem& system)
+void findWalls(const CutGrid& cut, const LiquidGrid& liquid, double weight, int b, ViscousSystem& system)
 {
     for (int a = 0; a < kAxes; ++a) {
         double* wall = system.wall.block(b, a);
@@ -160,15 +155,15 @@ void findWalls(const BlockGrid& grid, const ObstacleField& obstacles, const Liqu
             for (std::uint64_t bits = system.unknown.block(b, a)[k]; bits != 0; bits &= bits - 1) {
                 const int face = k * 64 + std::countr_zero(bits);
                 const Vec3i cell(face & 7, face >> 3 & 7, k);
-                const double room = obstacles.room(b, a)[face] * liquid.fullMass;
+                const double room = cut.field.room(b, a)[face] * liquid.fullMass;
                 if (!(room > 0.0)) continue;
                 const double fill = liquid.faces.sums.block(b, FaceFields::kMass + a)[face] / room;
                 for (int side = 0; side < 4; ++side) {
                     Vec3i beside = cell;
                     beside[(a + 1 + side / 2) % 3] += side % 2 == 0 ? 1 : -1;
-                    const CellRef ref = cellNear(grid, b, beside.x(), beside.y(), beside.z());
+                    const CellRef ref = cellNear(cut.grid, b, beside.x(), beside.y(), beside.z());
                     if (!system.behind.test(ref.block, ref.cell, a)) continue;
-                    wall[face] += weight * fill / wallReach(grid, obstacles, b, a, cell, beside);
+                    wall[face] += weight * fill / wallReach(cut, b, a, cell, beside);
                 }
             }
     }
@@ -219,20 +214,20 @@ struct Tile {
 
 }  // namespace
 
-void ViscousSystem::assemble(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double impulse, double friction)
+void ViscousSystem::assemble(const CutGrid& cut, const LiquidGrid& liquid, double impulse, double friction)
 {
-    const int blocks = grid.count();
-    const double weight = impulse * grid.dx / liquid.fullMass;  // dt μ V / dx² of a volume is this times its mass
+    const int blocks = cut.grid.count();
+    const double weight = impulse * cut.grid.dx / liquid.fullMass;  // dt μ V / dx² of a volume is this times its mass
     unknown.resize(blocks);
     behind.resize(blocks);
     rows.resize(static_cast<std::size_t>(blocks) * kAxes);
     for (BlockArray<double, 3>* field : {&diagonal, &normal, &shear}) field->resize(blocks);
     if (friction > 0.0) wall.resize(blocks);
-    forEachBlock(blocks, [&](int b) { findUnknowns(obstacles, liquid, b, *this); });
-    forEachBlock(blocks, [&](int b) { findBehind(grid, obstacles, friction > 0.0, b, *this); });
-    forEachBlock(blocks, [&](int b) { findStrains(grid, obstacles, liquid, weight, b, *this); });
-    if (friction > 0.0) forEachBlock(blocks, [&](int b) { findWalls(grid, obstacles, liquid, friction * impulse * grid.dx, b, *this); });
-    forEachBlock(blocks, [&](int b) { findDiagonal(grid, liquid, b, *this); });
+    forEachBlock(blocks, [&](int b) { findUnknowns(cut.field, liquid, b, *this); });
+    forEachBlock(blocks, [&](int b) { findBehind(cut, friction > 0.0, b, *this); });
+    forEachBlock(blocks, [&](int b) { findStrains(cut, liquid, weight, b, *this); });
+    if (friction > 0.0) forEachBlock(blocks, [&](int b) { findWalls(cut, liquid, friction * impulse * cut.grid.dx, b, *this); });
+    forEachBlock(blocks, [&](int b) { findDiagonal(cut.grid, liquid, b, *this); });
 }
 
 void ViscousSystem::multiply(const BlockGrid& grid, const BlockArray<double, 3>& v, int block, BlockArray<double, 3>& out) const

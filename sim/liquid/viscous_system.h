@@ -31,7 +31,7 @@ struct ViscousSystem {
 
     /// @param impulse   dt μ [g/cm]
     /// @param friction  0: walls slip … 1: they stick [-]
-    void assemble(const BlockGrid& grid, const ObstacleField& obstacles, const LiquidGrid& liquid, double impulse, double friction);
+    void assemble(const CutGrid& cut, const LiquidGrid& liquid, double impulse, double friction);
 
     /// out = A v on the unknowns of one block, out untouched elsewhere. v must be finite everywhere and 0 where it is
     /// neither unknown nor a given velocity.

@@ -15,72 +15,71 @@ constexpr double kFillBelowSurface = 0.8;  ///< of cells beside surface cells, a
 constexpr double kLargestError = 1.0;      ///< a cell that holds more than twice its volume expands like one that holds twice
 
 /// Does a solid close a face of the cell, if only in part, on a side that is up?
-bool isUnderSolid(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, int b, int c)
+bool isUnderSolid(const CutGrid& cut, const Vec3& gravity, int b, int c)
 {
     for (int a = 0; a < kAxes; ++a) {
         if (gravity[a] == 0.0) continue;
         Vec3i at(c & 7, c >> 3 & 7, c >> 6);
         if (gravity[a] < 0.0) ++at[a];
-        const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
-        if (obstacles.open(face.block, a)[face.cell] < 1.0) return true;
+        const CellRef face = cellNear(cut.grid, b, at.x(), at.y(), at.z());
+        if (cut.field.open(face.block, a)[face.cell] < 1.0) return true;
     }
     return false;
 }
 
 /// Least that a cell holds where there is no hole. Cells at the surface may hold as little as they like, and so may those under a solid: what falls
 /// off a ceiling is not pulled back to it, for nothing would pay for that.
-double leastFill(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
+double leastFill(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
-    if (liquid.surface.test(b, c) || (obstacles.nearSolid(b) && isUnderSolid(grid, obstacles, gravity, b, c))) return 0.0;
+    if (liquid.surface.test(b, c) || (cut.field.nearSolid(b) && isUnderSolid(cut, gravity, b, c))) return 0.0;
     return liquid.deep.test(b, c) ? 1.0 : kFillBelowSurface;
 }
 
 /// Error of a cell's volume that is noise [-]. Where solids take a part of the cell's room a few particles stand for what is left.
-double noiseOf(const BlockGrid& grid, const ObstacleField& obstacles, double pitch, int b, int c)
+double noiseOf(const CutGrid& cut, double pitch, int b, int c)
 {
-    if (!obstacles.nearSolid(b)) return kVolumeNoise;
+    if (!cut.field.nearSolid(b)) return kVolumeNoise;
     double room = 0.0;
     int open = 0;
     for (int a = 0; a < kAxes; ++a)
         for (int side = 0; side < 2; ++side) {
             Vec3i at(c & 7, c >> 3 & 7, c >> 6);
             at[a] += side;
-            const CellRef face = cellNear(grid, b, at.x(), at.y(), at.z());
-            if (obstacles.open(face.block, a)[face.cell] == 0.0) continue;
-            room += obstacles.room(face.block, a)[face.cell];
+            const CellRef face = cellNear(cut.grid, b, at.x(), at.y(), at.z());
+            if (cut.field.open(face.block, a)[face.cell] == 0.0) continue;
+            room += cut.field.room(face.block, a)[face.cell];
             ++open;
         }
     return kVolumeNoise + std::min(kMostCutOffNoise, kCutOffNoise * pitch * pitch * pitch * std::max(0.0, open / room - 1.0));
 }
 
 /// Volume that a cell lacks (negative) or has too much, beyond noise, relative to its own.
-double volumeError(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
+double volumeError(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
     const double fill = liquid.fill.block(b)[c];
-    if (fill > 1.0) return std::clamp(fill - 1.0 - noiseOf(grid, obstacles, liquid.pitch, b, c), 0.0, kLargestError);
-    const double least = leastFill(grid, obstacles, gravity, liquid, b, c);
-    return fill < least ? std::min(fill + noiseOf(grid, obstacles, liquid.pitch, b, c) - least, 0.0) : 0.0;
+    if (fill > 1.0) return std::clamp(fill - 1.0 - noiseOf(cut, liquid.pitch, b, c), 0.0, kLargestError);
+    const double least = leastFill(cut, gravity, liquid, b, c);
+    return fill < least ? std::min(fill + noiseOf(cut, liquid.pitch, b, c) - least, 0.0) : 0.0;
 }
 
-void findSources(const BlockGrid& grid, const ObstacleField& obstacles, const Vec3& gravity, const LiquidGrid& liquid, double strength,
-                 BlockArray<double>& source)
+void findSources(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, double strength, BlockArray<double>& source)
 {
-    parallelFor(grid.count(), 4, [&](std::size_t n) {
+    parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int c = 0; c < kBlockCells; ++c)
-            source.block(b)[c] = liquid.inside.test(b, c) ? strength * volumeError(grid, obstacles, gravity, liquid, b, c) : 0.0;
+            source.block(b)[c] = liquid.inside.test(b, c) ? strength * volumeError(cut, gravity, liquid, b, c) : 0.0;
     });
 }
 
-void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const PressureWorkspace& pressure, VolumeWorkspace& work)
+void displaceFaces(const CutGrid& cut, const PressureWorkspace& pressure, VolumeWorkspace& work)
 {
-    const Pack largest = broadcast(kLargestCorrection * grid.dx);
-    parallelFor(grid.count(), 2, [&](std::size_t n) {
+    const Pack largest = broadcast(kLargestCorrection * cut.grid.dx);
+    parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a) {
             double* displacement = work.displacement.block(b, a);
             std::fill_n(displacement, kBlockCells, 0.0);
-            forEachPressureFace(grid, obstacles, pressure, work.potential, b, a, [&](int row, PackMask, Pack change) {
+            forEachPressureFace(cut, pressure, work.potential, b, a, [&](int row, PackMask, Pack change) {
                 const Pack bounded = maxPack(-largest, -maxPack(-largest, -change));
                 std::memcpy(displacement + row, &bounded, sizeof bounded);
             });
@@ -90,16 +89,17 @@ void displaceFaces(const BlockGrid& grid, const ObstacleField& obstacles, const 
 
 }  // namespace
 
-SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const Vec3& gravity,
-                          const LiquidGrid& liquid, double strength, const SolverSettings& solver, VolumeWorkspace& work)
+SolveReport correctVolume(const CutGrid& cut, const Settings& settings, double strength, const LiquidGrid& liquid, PressureWorkspace& pressure,
+                          VolumeWorkspace& work)
 {
-    work.potential.resize(grid.count());
-    work.displacement.resize(grid.count());
-    parallelFor(grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
-    findSources(grid, obstacles, gravity, liquid, strength, pressure.rhs);
+    const SolverSettings& solver = settings.solver;
+    work.potential.resize(cut.grid.count());
+    work.displacement.resize(cut.grid.count());
+    parallelFor(cut.grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
+    findSources(cut, settings.gravity, liquid, strength, pressure.rhs);
     const SolveReport report =
-        pressure.solver.solveAgain(grid, pressure.matrix, pressure.rhs, volumeTolerance(solver), solver.maxIterations, work.potential);
-    displaceFaces(grid, obstacles, pressure, work);
+        pressure.solver.solveAgain(cut.grid, pressure.matrix, pressure.rhs, volumeTolerance(solver), solver.maxIterations, work.potential);
+    displaceFaces(cut, pressure, work);
     return report;
 }
 

@@ -24,9 +24,9 @@ inline constexpr double kLargestCorrection = 0.2;
 /// (implicit density projection after Kugelstadt et al. 2019, for the errors that advection leaves behind). They are
 /// the gradient of a potential in the matrix of the pressure just solved, left in work.displacement; velocities, and so
 /// all momenta and the kinetic energy, stay as they are. Needs findSurface.
-/// @param gravity   whose direction tells ceilings, from which liquid may come off
+/// @param settings  of which the direction of gravity tells ceilings, from which liquid may come off
 /// @param strength  share of the error that is corrected at once [0..1]
-SolveReport correctVolume(const BlockGrid& grid, const ObstacleField& obstacles, PressureWorkspace& pressure, const Vec3& gravity,
-                          const LiquidGrid& liquid, double strength, const SolverSettings& solver, VolumeWorkspace& work);
+SolveReport correctVolume(const CutGrid& cut, const Settings& settings, double strength, const LiquidGrid& liquid, PressureWorkspace& pressure,
+                          VolumeWorkspace& work);
 
 }  // namespace sim

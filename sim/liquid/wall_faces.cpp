@@ -60,13 +60,13 @@ void WallFaces::inColors(F&& f) const
     for (const std::vector<int>& color : colors_) parallelFor(color.size(), [&](std::size_t n) { f(color[n], blocks_[color[n]]); });
 }
 
-void WallFaces::findLayers(const BlockGrid& grid, const ObstacleField& field, const FaceFields& faces)
+void WallFaces::findLayers(const CutGrid& cut, const FaceFields& faces)
 {
     for (BlockBits<3>& known : known_) {
-        known.resize(grid.count());
-        std::fill_n(known.block(0), (static_cast<std::size_t>(grid.count()) + 1) * kAxes * BlockBits<3>::kWords, 0);
+        known.resize(cut.grid.count());
+        std::fill_n(known.block(0), (static_cast<std::size_t>(cut.grid.count()) + 1) * kAxes * BlockBits<3>::kWords, 0);
     }
-    const std::vector<int>& blocks = field.blocksNearSolid();
+    const std::vector<int>& blocks = cut.field.blocksNearSolid();
     const auto hasMass = [&](int b, int a, int k) {
         const double* mass = faces.sums.block(b, FaceFields::kMass + a) + k * 64;
         std::uint64_t bits = 0;
@@ -77,18 +77,18 @@ void WallFaces::findLayers(const BlockGrid& grid, const ObstacleField& field, co
     parallelFor(blocks.size(), [&](std::size_t n) {
         const int b = blocks[n];
         for (int a = 0; a < kAxes; ++a)
-            for (int k = 0; k < kBlockEdge; ++k) known_[0].block(b, a)[k] = hasMass(b, a, k) & ~field.closed(b, a)[k];
+            for (int k = 0; k < kBlockEdge; ++k) known_[0].block(b, a)[k] = hasMass(b, a, k) & ~cut.field.closed(b, a)[k];
     });
     for (int layer = 1; layer <= kLayers; ++layer)
         parallelFor(blocks.size(), [&](std::size_t n) {
             const int b = blocks[n];
-            const BitAccess bits(grid, b);
+            const BitAccess bits(cut.grid, b);
             const BlockBits<3>& known = known_[layer - 1];
             for (int a = 0; a < kAxes; ++a)
                 for (int k = 0; k < kBlockEdge; ++k) {
                     std::uint64_t beside = 0;
                     for (int axis = 0; axis < kAxes; ++axis) beside |= bits.below(known, a, axis, k) | bits.above(known, a, axis, k);
-                    const std::uint64_t fresh = beside & field.closed(b, a)[k] & ~known.block(b, a)[k];
+                    const std::uint64_t fresh = beside & cut.field.closed(b, a)[k] & ~known.block(b, a)[k];
                     known_[layer].block(b, a)[k] = known.block(b, a)[k] | fresh;
                 }
         });
@@ -114,24 +114,24 @@ void WallFaces::findFollowers(const BlockGrid& grid, const Obstacles& obstacles,
     for (std::size_t n = 0; n < blocks_.size(); ++n) count_ += followers_[n].size();
 }
 
-void WallFaces::find(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const FaceFields& faces)
+void WallFaces::find(const CutGrid& cut, double friction, const FaceFields& faces)
 {
-    blocks_ = field.blocksNearSolid();
-    place_.assign(grid.count() + 1, BlockGrid::kNone);
+    blocks_ = cut.field.blocksNearSolid();
+    place_.assign(cut.grid.count() + 1, BlockGrid::kNone);
     for (auto& color : colors_) color.clear();
     if (followers_.size() < blocks_.size()) followers_.resize(blocks_.size());
     for (std::size_t n = 0; n < blocks_.size(); ++n) {
-        const Vec3i& at = grid.coords(blocks_[n]);
+        const Vec3i& at = cut.grid.coords(blocks_[n]);
         place_[blocks_[n]] = static_cast<int>(n);
         colors_[(at.x() & 1) + 2 * (at.y() & 1) + 4 * (at.z() & 1)].push_back(static_cast<int>(n));
     }
-    mirrored.resize(grid.count());
+    mirrored.resize(cut.grid.count());
     if (blocks_.empty()) {
         count_ = 0;
         return;
     }
-    findLayers(grid, field, faces);
-    findFollowers(grid, obstacles, friction, faces);
+    findLayers(cut, faces);
+    findFollowers(cut.grid, cut.obstacles, friction, faces);
 }
 
 WallFaces::Led WallFaces::ledByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const
@@ -203,7 +203,7 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
     });
 }
 
-void WallFaces::extend(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+void WallFaces::extend(const CutGrid& cut, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
     for (int layer = 1; layer <= kLayers && !empty(); ++layer)
         parallelFor(blocks_.size(), [&](std::size_t n) {
@@ -212,7 +212,7 @@ void WallFaces::extend(const BlockGrid& grid, const ObstacleField& field, BlockB
                 forEachBit(freshBits(known_[layer], known_[layer - 1], b, a).data(), [&](int face) {
                     double sum = 0.0;
                     int count = 0;
-                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef from) {
+                    forEachKnownBeside(cut.grid, b, a, face, known_[layer - 1], [&](CellRef from) {
                         sum += velocity.block(from.block, a)[from.cell];
                         ++count;
                     });
@@ -223,13 +223,13 @@ void WallFaces::extend(const BlockGrid& grid, const ObstacleField& field, BlockB
     parallelFor(blocks_.size(), [&](std::size_t n) {
         const int b = blocks_[n];
         for (int a = 0; a < kAxes; ++a)
-            forEachBit(field.closed(b, a), [&](int face) {
+            forEachBit(cut.field.closed(b, a), [&](int face) {
                 if (known_[kLayers].test(b, face, a)) valid.set(b, face, a);
-                else velocity.block(b, a)[face] = field.wallVelocity(b, a)[face];
+                else velocity.block(b, a)[face] = cut.field.wallVelocity(b, a)[face];
             });
         for (const Follower& f : followers_[n]) {
             double& u = velocity.block(b, f.axis)[f.face];
-            u = f.share * u + (1.0 - f.share) * field.wallVelocity(b, f.axis)[f.face];
+            u = f.share * u + (1.0 - f.share) * cut.field.wallVelocity(b, f.axis)[f.face];
         }
     });
 }

@@ -16,7 +16,7 @@ namespace sim {
 class WallFaces {
  public:
     /// Find the closed faces with mass and their E, from the masses after P2G.
-    void find(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, const FaceFields& faces);
+    void find(const CutGrid& cut, double friction, const FaceFields& faces);
     bool empty() const { return count_ == 0; }
 
     /// Moving walls and the part of the closed faces' liquid that follows them while the rest follows open faces: it gets their velocity.
@@ -36,7 +36,7 @@ class WallFaces {
     BlockBits<3> mirrored;  ///< faces that plane walls give a velocity to, one wall after another
 
     /// Give the closed faces their velocities [cm/s]; `valid` gets those that follow an open face.
-    void extend(const BlockGrid& grid, const ObstacleField& field, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
+    void extend(const CutGrid& cut, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
 
  private:
     /// A face is at most three neighbours behind the last one in front of a wall in the stencil of a particle.
@@ -50,7 +50,7 @@ class WallFaces {
     /// Mass [g], momentum [g cm/s] and room [-] of the faces of one block that come from behind walls.
     static constexpr int kMass = 0, kMomentum = 3, kRoom = 6;
 
-    void findLayers(const BlockGrid& grid, const ObstacleField& field, const FaceFields& faces);
+    void findLayers(const CutGrid& cut, const FaceFields& faces);
     void findFollowers(const BlockGrid& grid, const Obstacles& obstacles, double friction, const FaceFields& faces);
     template <class F>
     void inColors(F&& f) const;

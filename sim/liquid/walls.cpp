@@ -23,8 +23,7 @@ void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
 }
 
 /// The velocity of a closed face that goes on straight from those of the open ones beside it; the wall's own where there are none.
-double straightOn(const BlockGrid& grid, const ObstacleField& field, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b,
-                  int axis, int face)
+double straightOn(const CutGrid& cut, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b, int axis, int face)
 {
     constexpr double kFarthest = 1.0;  // the mirror image's speed: more would blow up rounding next to walls that almost touch a face
     const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);
@@ -33,23 +32,23 @@ double straightOn(const BlockGrid& grid, const ObstacleField& field, const Block
     for (int side = 0; side < 4; ++side) {
         Vec3i front = cell;
         front[(axis + 1 + side / 2) % 3] += side % 2 == 0 ? 1 : -1;
-        const CellRef ref = cellNear(grid, b, front.x(), front.y(), front.z());
-        if (!valid.test(ref.block, ref.cell, axis) || !(field.open(ref.block, axis)[ref.cell] > 0.0)) continue;
-        const double reach = wallReach(grid, field, b, axis, front, cell);
-        const double relative = velocity.block(ref.block, axis)[ref.cell] - field.wallVelocity(ref.block, axis)[ref.cell];
+        const CellRef ref = cellNear(cut.grid, b, front.x(), front.y(), front.z());
+        if (!valid.test(ref.block, ref.cell, axis) || !(cut.field.open(ref.block, axis)[ref.cell] > 0.0)) continue;
+        const double reach = wallReach(cut, b, axis, front, cell);
+        const double relative = velocity.block(ref.block, axis)[ref.cell] - cut.field.wallVelocity(ref.block, axis)[ref.cell];
         sum -= std::min((1.0 - reach) / reach, kFarthest) * relative;
         ++count;
     }
-    return field.wallVelocity(b, axis)[face] + (count > 0 ? sum / count : 0.0);
+    return cut.field.wallVelocity(b, axis)[face] + (count > 0 ? sum / count : 0.0);
 }
 
-void stick(const BlockGrid& grid, const ObstacleField& field, bool goesStraight, const BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+void stick(const CutGrid& cut, bool goesStraight, const BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
-    parallelFor(field.blocksNearSolid().size(), 4, [&](std::size_t n) {
-        const int b = field.blocksNearSolid()[n];
+    parallelFor(cut.field.blocksNearSolid().size(), 4, [&](std::size_t n) {
+        const int b = cut.field.blocksNearSolid()[n];
         for (int a = 0; a < kAxes; ++a)
-            forEachClosedFace(field, b, a, [&](int face) {
-                velocity.block(b, a)[face] = goesStraight ? straightOn(grid, field, valid, velocity, b, a, face) : field.wallVelocity(b, a)[face];
+            forEachClosedFace(cut.field, b, a, [&](int face) {
+                velocity.block(b, a)[face] = goesStraight ? straightOn(cut, valid, velocity, b, a, face) : cut.field.wallVelocity(b, a)[face];
             });
     });
 }
@@ -121,29 +120,28 @@ void mirror(const BlockGrid& grid, const Obstacles& obstacles, double friction, 
 
 }  // namespace
 
-double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell)
+double faceDistance(const CutGrid& cut, int block, int axis, Vec3i cell)
 {
-    const CellRef upper = cellNear(grid, block, cell.x(), cell.y(), cell.z());
+    const CellRef upper = cellNear(cut.grid, block, cell.x(), cell.y(), cell.z());
     cell[axis] -= 1;
-    const CellRef lower = cellNear(grid, block, cell.x(), cell.y(), cell.z());
-    return 0.5 * (field.centerDistance(upper.block)[upper.cell] + field.centerDistance(lower.block)[lower.cell]);
+    const CellRef lower = cellNear(cut.grid, block, cell.x(), cell.y(), cell.z());
+    return 0.5 * (cut.field.centerDistance(upper.block)[upper.cell] + cut.field.centerDistance(lower.block)[lower.cell]);
 }
 
-double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, int axis, const Vec3i& cell, const Vec3i& beside)
+double wallReach(const CutGrid& cut, int block, int axis, const Vec3i& cell, const Vec3i& beside)
 {
-    const double own = faceDistance(grid, field, block, axis, cell), other = faceDistance(grid, field, block, axis, beside);
+    const double own = faceDistance(cut, block, axis, cell), other = faceDistance(cut, block, axis, beside);
     return own > other ? std::clamp(own / (own - other), kNearestWall, 1.0) : 1.0;
 }
 
-void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
-                WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
+void applyWalls(const CutGrid& cut, double friction, bool goesStraight, WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
     if (!wallsMirror(friction)) {
-        stick(grid, field, goesStraight, valid, velocity);
+        stick(cut, goesStraight, valid, velocity);
         return;
     }
-    followers.extend(grid, field, valid, velocity);
-    mirror(grid, obstacles, friction, valid, followers.mirrored, velocity);
+    followers.extend(cut, valid, velocity);
+    mirror(cut.grid, cut.obstacles, friction, valid, followers.mirrored, velocity);
 }
 
 void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless)
@@ -184,7 +182,7 @@ void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double frict
                     [&](std::size_t n) { std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0); });
     }
     foldAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
-    followers.find(grid, field, obstacles, friction, liquid.faces);
+    followers.find({grid, field, obstacles}, friction, liquid.faces);
     followers.led = moves ? followers.ledByWalls(field, liquid.faces, liquid.weightless) : WallFaces::Led{};
     followers.fold(grid, field, liquid.faces);
 }

@@ -10,15 +10,14 @@ namespace sim {
 /// @param goesStraight  at walls that liquid sticks to its velocity along them goes on behind them as in front, through that of the wall where
 ///               the wall is: what particles near it read is then a straight profile, not one bent towards the face behind
 /// @param valid  in: the faces in front with a velocity; out: those behind that got one, too
-void applyWalls(const BlockGrid& grid, const ObstacleField& field, const Obstacles& obstacles, double friction, bool goesStraight,
-                WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
+void applyWalls(const CutGrid& cut, double friction, bool goesStraight, WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity);
 
 /// Distance of the lower face of a cell from the obstacles, at most 1.5 cells [cm].
-double faceDistance(const BlockGrid& grid, const ObstacleField& field, int block, int axis, Vec3i cell);
+double faceDistance(const CutGrid& cut, int block, int axis, Vec3i cell);
 
 /// Where a wall stands between the open lower face of a cell and the closed one of the cell beside it: share of the way from the open one, (0, 1].
 /// No nearer than a tenth: less only hurts the conditioning.
-double wallReach(const BlockGrid& grid, const ObstacleField& field, int block, int axis, const Vec3i& cell, const Vec3i& beside);
+double wallReach(const CutGrid& cut, int block, int axis, const Vec3i& cell, const Vec3i& beside);
 
 /// Do plane walls in planes of faces mirror the liquid? Only where it slips along them.
 inline bool wallsMirror(double friction) { return friction < 1.0; }

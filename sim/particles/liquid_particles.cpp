@@ -1,6 +1,6 @@
 #include "sim/particles/liquid_particles.h"
 
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 #include <algorithm>
 #include <cstring>

@@ -11,11 +11,11 @@ namespace sim {
 /// Bulk liquid: one array per quantity, kept in the order of the last sort (particle_order.h).
 ///
 /// A particle's velocity is a polynomial around it, one per component (transfer/README.md, Modes): modes[axis][r] are its
-/// monomial coefficients in the canonical order of transfer/modes.h, in units of the cell: lengths in dx, so that every mode is a velocity
+/// monomial coefficients in the canonical order of velocity_modes.h, in units of the cell: lengths in dx, so that every mode is a velocity
 /// [cm/s] whatever its degree. There is no other record of the velocity.
 struct LiquidParticles {
     std::size_t count = 0;
-    int modeCount = 1;  ///< modes stored per component: 1, 4, 8, 11 or 27 (storedModes in modes.h)
+    int modeCount = 1;  ///< modes stored per component: 1, 4, 8, 11 or 27 (storedModes in velocity_modes.h)
 
     std::array<AlignedArray<double>, kAxes> x;      ///< position [cm]
     AlignedArray<double> mass;                      ///< [g]; the volume is mass / liquid density

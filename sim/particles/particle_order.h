@@ -2,9 +2,9 @@
 
 #include "sim/core/aligned_array.h"
 #include "sim/grid/block_grid.h"
+#include "sim/particles/ledger.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/shapes/shape.h"
-#include "sim/step_report.h"
 
 #include <array>
 #include <vector>
@@ -49,6 +49,13 @@ struct ParticleOrder {
     std::vector<std::uint8_t> needed;        ///< per block: must it exist?
     std::vector<Vec3i> before, missing;      ///< blocks before the sort; blocks to be added
     std::vector<int> renumbered;             ///< per block before fitBlocks: its number now; empty if unchanged
+};
+
+/// Particles in the order of the last sort, with the grid whose blocks it goes by.
+struct SortedParticles {
+    const LiquidParticles& particles;
+    const ParticleOrder& order;
+    const BlockGrid& grid;
 };
 
 /// Half sizes of the neighbourhood of a particle's cell in which blocks must exist [cells]: what its stencils, the cells that can be

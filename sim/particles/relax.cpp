@@ -104,53 +104,67 @@ struct Neighbourhood {
     }
 }
 
-/// The displacements of the particles of one cell.
-/// @param scale  displacement per push [cm]
-void pushOnCell(const LiquidParticles& particles, const LocalPositions& local, const ParticleOrder& order, const BlockGrid& grid, int block,
-                const Vec3i& cell, double scale, float cellsPerReach, std::array<AlignedArray<double>, kAxes>& displacement)
-{
-    const int* start = order.cells(block) + cellRank(cell.x(), cell.y(), cell.z());
-    if (start[0] == start[1]) return;
-    const Neighbourhood around(order, grid, block, cell, kBlockEdge / cellsPerReach);
-    const Eigen::Vector3f lower = cell.cast<float>() / cellsPerReach, upper = (cell + Vec3i::Ones()).cast<float>() / cellsPerReach;
-    for (int s = start[0]; s < start[1]; ++s) {
-        const Eigen::Vector3f at(local.x[s], local.y[s], local.z[s]);
-        int low[3], high[3];  // of the three cells along each axis, those within reach
-        for (int a = 0; a < kAxes; ++a) {
-            low[a] = at[a] - lower[a] < 1.0f ? 0 : 1;
-            high[a] = upper[a] - at[a] < 1.0f ? 2 : 1;
-        }
-        Push push;
-        for (int j = low[1]; j <= high[1]; ++j)
-            for (int i = low[0]; i <= high[0]; ++i) addColumn(local, around.columns[3 * j + i], at, low[2], high[2], push);
-        Vec3 sum = push.sum();
-        if (sumFloatLanes(push.same) != -1) sum += leaveCoincident(particles, local, s, start[0], start[1]);
-        for (int a = 0; a < kAxes; ++a) displacement[a][s] = scale * sum[a];
+/// Pushes the particles of one cell after another.
+class Crowd {
+ public:
+    /// @param reach  of a push [cm]
+    /// @param scale  displacement per push [cm]
+    Crowd(const SortedParticles& sorted, const LocalPositions& local, double reach, double scale)
+        : sorted_(sorted), local_(local), cellsPerReach_(static_cast<float>(reach / sorted.grid.dx)), scale_(scale)
+    {
     }
-}
+
+    void push(int block, const Vec3i& cell, std::array<AlignedArray<double>, kAxes>& displacement) const
+    {
+        const int* start = sorted_.order.cells(block) + cellRank(cell.x(), cell.y(), cell.z());
+        if (start[0] == start[1]) return;
+        const Neighbourhood around(sorted_.order, sorted_.grid, block, cell, kBlockEdge / cellsPerReach_);
+        const Eigen::Vector3f lower = cell.cast<float>() / cellsPerReach_, upper = (cell + Vec3i::Ones()).cast<float>() / cellsPerReach_;
+        for (int s = start[0]; s < start[1]; ++s) {
+            const Eigen::Vector3f at(local_.x[s], local_.y[s], local_.z[s]);
+            int low[3], high[3];  // of the three cells along each axis, those within reach
+            for (int a = 0; a < kAxes; ++a) {
+                low[a] = at[a] - lower[a] < 1.0f ? 0 : 1;
+                high[a] = upper[a] - at[a] < 1.0f ? 2 : 1;
+            }
+            Push push;
+            for (int j = low[1]; j <= high[1]; ++j)
+                for (int i = low[0]; i <= high[0]; ++i) addColumn(local_, around.columns[3 * j + i], at, low[2], high[2], push);
+            Vec3 sum = push.sum();
+            if (sumFloatLanes(push.same) != -1) sum += leaveCoincident(sorted_.particles, local_, s, start[0], start[1]);
+            for (int a = 0; a < kAxes; ++a) displacement[a][s] = scale_ * sum[a];
+        }
+    }
+
+ private:
+    const SortedParticles& sorted_;
+    LocalPositions local_;
+    float cellsPerReach_;
+    double scale_;
+};
 
 }  // namespace
 
-void relaxationDisplacements(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, double rate, double reach,
-                             double interval, RelaxScratch& scratch, std::array<AlignedArray<double>, kAxes>& displacement)
+void relaxationDisplacements(const SortedParticles& sorted, double rate, double reach, double interval, RelaxScratch& scratch,
+                             std::array<AlignedArray<double>, kAxes>& displacement)
 {
+    const LiquidParticles& particles = sorted.particles;
+    const ParticleOrder& order = sorted.order;
     for (int a = 0; a < kAxes; ++a) {
         displacement[a].resize(particles.mass.size());
         scratch.local[a].resize(particles.mass.size());
     }
     parallelFor(order.occupied.size(), [&](std::size_t n) {
         const int b = order.occupied[n];
-        const Vec3 corner = grid.lowerCorner(b);
+        const Vec3 corner = sorted.grid.lowerCorner(b);
         for (int a = 0; a < kAxes; ++a)
             for (int s = order.begin(b); s < order.end(b); ++s)
                 scratch.local[a][s] = static_cast<float>((particles.x[a][s] - corner[a]) * (1.0 / reach));
     });
     const LocalPositions local{scratch.local[0].data(), scratch.local[1].data(), scratch.local[2].data()};
-    const double scale = std::min(1.0, rate * interval) * reach;
+    const Crowd crowd(sorted, local, reach, std::min(1.0, rate * interval) * reach);
     parallelFor(order.occupied.size(), [&](std::size_t n) {
-        for (int c = 0; c < kBlockCells; ++c)
-            pushOnCell(particles, local, order, grid, order.occupied[n], {c >> 6, c >> 3 & 7, c & 7}, scale, static_cast<float>(reach / grid.dx),
-                       displacement);
+        for (int c = 0; c < kBlockCells; ++c) crowd.push(order.occupied[n], {c >> 6, c >> 3 & 7, c & 7}, displacement);
     });
 }
 

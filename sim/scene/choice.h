@@ -12,6 +12,13 @@ struct Choice {
     E value;
 };
 
+/// A number in whose place a scene may say a word.
+struct NumberOrWord {
+    double& number;
+    const char* word;
+    bool& isWord;  ///< the word stands there
+};
+
 /// One word of a list that switches something on.
 struct NamedFlag {
     const char* word;

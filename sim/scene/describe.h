@@ -90,7 +90,7 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
         w.number("fabric_rotation", fabric.keepRotation, Quantity::None, share, "On the fabric's rotation rate");
         w.number("fabric_velocity", fabric.keepVelocity, Quantity::None, share, "On the fabric's velocity");
     });
-    v.numberOrWord("keep_dt", liquid.keepDt, "step", liquid.keepPerStep, Quantity::Time, Range::above(0.0),
+    v.numberOrWord("keep_dt", {liquid.keepDt, "step", liquid.keepPerStep}, Quantity::Time, Range::above(0.0),
                    "The step that the factors refer to, or: step = taken per step as they are");
     v.flag("damp_modes", liquid.dampModes, "keep acts on PolyPIC modes too");
     v.whenReading([&](auto&) {

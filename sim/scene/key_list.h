@@ -72,11 +72,11 @@ class KeyList {
         number(key, x, quantity, range, help);
         if (x == unset) keys.back().values[0] = std::numeric_limits<double>::quiet_NaN();
     }
-    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity quantity, Range range, const char* help)
+    void numberOrWord(const char* key, const NumberOrWord& x, Quantity quantity, Range range, const char* help)
     {
-        number(key, x, quantity, range, help);
-        keys.back().words = {word};
-        if (isWord) keys.back().word = word;
+        number(key, x.number, quantity, range, help);
+        keys.back().words = {x.word};
+        if (x.isWord) keys.back().word = x.word;
     }
     void integer(const char* key, int& x, int low, int high, const char* help)
     {

@@ -29,10 +29,10 @@ class ParameterList {
         number(key, x, q, range, help);
         if (x == unset) all_.back().value.clear();
     }
-    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity q, Range range, const char* help)
+    void numberOrWord(const char* key, const NumberOrWord& x, Quantity q, Range range, const char* help)
     {
-        number(key, x, q, range, help);
-        if (isWord) all_.back().value = word;
+        number(key, x.number, q, range, help);
+        if (x.isWord) all_.back().value = x.word;
     }
     void integer(const char* key, int& x, int low, int high, const char* help)
     {

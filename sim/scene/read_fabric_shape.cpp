@@ -1,4 +1,4 @@
-#include "sim/fabric/orient.h"
+#include "sim/fabric/pieces/orient.h"
 #include "sim/scene/choice.h"
 #include "sim/scene/read_fabrics.h"
 #include "sim/scene/read_place.h"

@@ -1,5 +1,6 @@
 #include "sim/scene/read_fabrics.h"
 
+#include "sim/fabric/fabric.h"
 #include "sim/scene/read_list.h"
 #include "sim/scene/read_place.h"
 #include "sim/scene/section_reader.h"

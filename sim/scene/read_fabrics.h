@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/scene/node.h"
 #include "sim/scene/scene.h"
 

@@ -137,8 +137,8 @@ class PieceReader {
             v.number("angle", piece_.angle, Quantity::Angle, Range::between(-1.0e6, 1.0e6), "");
         };
         SectionReader::read(&node, path, fields);
-        motion.addRotation(piece_.t[0], piece_.t[1], unit(piece_.axis, node, path + ".axis"), piece_.angle, piece_.origin, piece_.frame,
-                           piece_.ease[0], piece_.ease[1]);
+        const Motion::Axis axis{unit(piece_.axis, node, path + ".axis"), piece_.origin, piece_.frame};
+        motion.addRotation(piece_.t[0], piece_.t[1], axis, piece_.angle, piece_.ease[0], piece_.ease[1]);
         SectionWriter writer;
         fields(writer);
         return ", rotate: " + writer.flow();
@@ -160,8 +160,8 @@ class PieceReader {
         };
         SectionReader::read(&node, path, fields);
         if (kind_.swings) {
-            motion.addSwing(piece_.t[0], piece_.t[1], unit(piece_.axis, node, path + ".axis"), piece_.swing, piece_.frequency, piece_.origin,
-                            piece_.frame);
+            const Motion::Axis axis{unit(piece_.axis, node, path + ".axis"), piece_.origin, piece_.frame};
+            motion.addSwing(piece_.t[0], piece_.t[1], axis, piece_.swing, piece_.frequency);
         } else {
             motion.addOscillation(piece_.t[0], piece_.t[1], unit(piece_.direction, node, path + ".direction"), piece_.amplitude, piece_.frequency);
         }

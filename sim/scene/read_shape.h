@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/scene/motion.h"
 #include "sim/scene/node.h"
+#include "sim/shapes/motion.h"
 #include "sim/shapes/shape.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/fabric/piece.h"
-#include "sim/scene/motion.h"
+#include "sim/fabric/pieces/piece.h"
+#include "sim/obstacle_settings.h"
 #include "sim/scene/velocity_field.h"
 #include "sim/settings.h"
 #include "sim/shapes/shape.h"
@@ -14,7 +14,7 @@
 
 namespace sim {
 
-/// How particles are laid out in a source (particles/README.md, Filling).
+/// How particles are laid out in a source (sources/README.md, Filling).
 struct FillSettings {
     enum class Pattern { Lattice, Reference, Jittered, Poisson };
     Pattern pattern = Pattern::Lattice;
@@ -39,20 +39,6 @@ struct SourceSettings {
     std::string shapeText;                       ///< the shape as a scene says it, in cgs, on one line
     std::vector<std::string> notes;              ///< about its meshes
     std::optional<VelocityField> velocityField;  ///< of the initial body, beside the emission's velocity
-};
-
-struct ObstacleSettings {
-    std::string name;
-    Shape shape;  ///< the solid itself: already inverted where the scene says `inside: true`
-    Motion motion;
-    bool inside = false;                  ///< the scene said `inside: true`
-    bool collide = true;                  ///< fabric feels it
-    bool cohesive = true;                 ///< and sticks to it where it is wet, if there is cohesion
-    std::optional<double> frictionAngle;  ///< of fabric on it; without: the fabric's own [rad]
-    std::string where;                    ///< "drop.yaml:14", for messages
-    std::string shapeText;                ///< the shape (before inverting) as a scene says it, in cgs, on one line
-    std::vector<std::string> notes;       ///< about its meshes
-    std::string motionText;               ///< the motion likewise; empty if static
 };
 
 struct NamedMaterial {

@@ -134,12 +134,12 @@ Place SectionReader::placeOf(const char* key) const
     return node_.place;
 }
 
-void SectionReader::numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range, const char*)
+void SectionReader::numberOrWord(const char* key, const NumberOrWord& out, Quantity quantity, Range range, const char*)
 {
     const Node* n = find(key);
     if (!n) return;
-    isWord = n->isScalar() && n->text == word;
-    if (!isWord) out = readNumber(*n, pathOf(key), quantity, range);
+    out.isWord = n->isScalar() && n->text == out.word;
+    if (!out.isWord) out.number = readNumber(*n, pathOf(key), quantity, range);
 }
 
 void SectionReader::numberOrPair(const char* key, std::array<double, 2>& out, Quantity quantity, Range range, const char*)

@@ -50,7 +50,7 @@ class SectionReader {
     /// A number that may be left out, in which case it has a value of its own, `unset`.
     void numberOr(const char* key, double& out, double, Quantity quantity, Range range, const char* help) { number(key, out, quantity, range, help); }
     /// Either a number, or the word that sets the flag.
-    void numberOrWord(const char* key, double& out, const char* word, bool& isWord, Quantity quantity, Range range, const char* help);
+    void numberOrWord(const char* key, const NumberOrWord& out, Quantity quantity, Range range, const char* help);
     void integer(const char* key, int& out, int low, int high, const char*)
     {
         if (const Node* n = find(key)) out = static_cast<int>(readInteger(*n, pathOf(key), low, high));

@@ -48,9 +48,9 @@ class SectionWriter {
     {
         if (x != unset) number(key, x, q, range, help);
     }
-    void numberOrWord(const char* key, double& x, const char* word, bool& isWord, Quantity q, Range, const char* help)
+    void numberOrWord(const char* key, const NumberOrWord& x, Quantity q, Range, const char* help)
     {
-        line(key, isWord ? word : formatNumber(x, q), comment(q, help));
+        line(key, x.isWord ? x.word : formatNumber(x.number, q), comment(q, help));
     }
     void integer(const char* key, int& x, int, int, const char* help) { line(key, std::to_string(x), help); }
     void seed(const char* key, std::uint64_t& x, const char* help) { line(key, std::to_string(x), help); }

@@ -20,9 +20,9 @@ struct BlockBonds {
 BlockBonds bondsOf(int b, const BlockGrid& grid, const PoissonMatrix& matrix)
 {
     const auto& around = grid.neighbours(b);
-    const double *diagonal = matrix.diagonal(b), *x = matrix.coupling(0, b), *beyondX = matrix.coupling(0, around[14]);
-    const double *y = matrix.coupling(1, b), *beyondY = matrix.coupling(1, around[16]);
-    const double *z = matrix.coupling(2, b), *beyondZ = matrix.coupling(2, around[22]);
+    const double *diagonal = matrix.diagonal(b), *x = matrix.coupling(0, b), *beyondX = matrix.coupling(0, around[kBlockAbove[0]]);
+    const double *y = matrix.coupling(1, b), *beyondY = matrix.coupling(1, around[kBlockAbove[1]]);
+    const double *z = matrix.coupling(2, b), *beyondZ = matrix.coupling(2, around[kBlockAbove[2]]);
     BlockBonds bonds;
     for (int r = 0; r < kBlockRows; ++r) {
         const int c = r * kBlockEdge, j = r % kBlockEdge, k = r / kBlockEdge;

@@ -23,8 +23,7 @@ void finishShape(MultigridLevel& level)
     level.neighbours[n].fill(n);
     for (auto& list : level.colour) list.clear();
     for (int b = 0; b < n; ++b) {
-        const auto& around = level.grid.neighbours(b);
-        level.neighbours[b] = {around[12], around[14], around[10], around[16], around[4], around[22]};
+        level.neighbours[b] = level.grid.neighboursAtSides(b);
         level.colour[level.grid.coords(b).sum() & 1].push_back(b);
     }
     level.rows.resize(n + 1);

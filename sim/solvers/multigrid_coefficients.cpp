@@ -101,7 +101,7 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
     forEachBlock(level.blocks(), [&](int b) {
         const auto lower = [&](int axis, int block, int r) { return loadRow(matrix.coupling(axis, block) + r * kBlockEdge); };
         const auto& around = grid.neighbours(b);
-        const std::array<int, kAxes> near = {around[14], around[16], around[22]};
+        const std::array<int, kAxes> near = {around[kBlockAbove[0]], around[kBlockAbove[1]], around[kBlockAbove[2]]};
         CellSet unknown = {};
         for (int r = 0; r < kBlockRows; ++r) {
             const int c = r * kBlockEdge;

@@ -9,12 +9,6 @@ namespace sim {
 
 namespace {
 
-std::array<int, 6> faceNeighbours(const BlockGrid& grid, int b)
-{
-    const auto& around = grid.neighbours(b);
-    return {around[12], around[14], around[10], around[16], around[4], around[22]};
-}
-
 /// a or b, whichever is larger; not a number if one of them is not.
 double larger(double a, double b) { return b > a || b != b ? b : a; }
 
@@ -78,7 +72,7 @@ void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, 
         tile.fill(rows, [&](int r) { return loadRow(p + r * kBlockEdge); });
         tile.clearSum();
         addNeighbours(
-            tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplings(problem, n); },
+            tile, b, problem.grid.neighboursAtSides(b), [&](int n) { return couplings(problem, n); },
             [&](int n, int r) { return loadRow(problem.p.block(n) + r * kBlockEdge); }, [&](int n, int c) { return problem.p.block(n)[c]; });
     }
     Row<double> largest = {};
@@ -150,7 +144,7 @@ double PoissonSolver::applyToDirection(const Problem& problem, bool isFirst, dou
         tile.fill(rows, [&](int r) { return row(b, r); });
         tile.clearSum();
         addNeighbours(
-            tile, b, faceNeighbours(problem.grid, b), [&](int n) { return couplings(problem, n); }, row, cell);
+            tile, b, problem.grid.neighboursAtSides(b), [&](int n) { return couplings(problem, n); }, row, cell);
         Row<double> sum = {};
         forEachRow(rows, [&](int r) {
             const Row<double> v = loadRow(tile.row(r)), a = matrixTimes(own, diagonal, tile, r);

@@ -4,7 +4,7 @@
 #include "sim/solvers/framed_tile.h"
 #include "sim/solvers/multigrid.h"
 #include "sim/solvers/poisson_matrix.h"
-#include "sim/step_report.h"
+#include "sim/solvers/solve_report.h"
 
 #include <cstdint>
 #include <vector>

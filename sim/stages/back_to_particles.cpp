@@ -65,8 +65,7 @@ PushedOut pushOut(StepContext& c, double fastest)
     work.obstacles.moveTo(c.state.time, c.state.time + c.dt);
     const double farthest =
         fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) + (c.plan.corrects ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
-    return pushOutOfObstacles(work.order, c.state.grid, work.obstacleField, work.obstacles, farthest, &work.places, c.state.liquid,
-                              work.pushedSolids);
+    return pushOutOfObstacles(work.order, c.cut(), farthest, &work.places, c.state.liquid, work.pushedSolids);
 }
 
 }  // namespace
@@ -79,7 +78,7 @@ void findHeld(StepContext& c)
     findHeldCells(c.state.grid, work.pressure, work.grid, work.free);
     if (!isFrameMoving(c)) return;
     const Vec3 ofFabric = c.plan.isMixed ? meanVelocity(work.coupling->fabric, c.state.fabric) : Vec3(Vec3::Zero());
-    findFrames(c.state.grid, work.obstacleField, work.pressure, work.grid, ofFabric, work.free);
+    findFrames(c.cut(), work.pressure, work.grid, ofFabric, work.free);
 }
 
 void applyWalls(StepContext& c)
@@ -90,7 +89,7 @@ void applyWalls(StepContext& c)
     LiquidGrid& liquid = work.grid;
     const LiquidSettings& settings = c.settings().liquid;
     const auto apply = [&](BlockBits<3>& valid, BlockArray<double, 3>& velocity) {
-        applyWalls(c.state.grid, work.obstacleField, work.obstacles, settings.wallFriction, settings.solveViscosity, work.wallFaces, valid, velocity);
+        applyWalls(c.cut(), settings.wallFriction, settings.solveViscosity, work.wallFaces, valid, velocity);
     };
     if (c.isFlip()) {
         liquid.advectedValid = liquid.faces.valid;
@@ -120,7 +119,7 @@ void pushSolids(StepContext& c)
                                           .flipRatio = flipRatio(c),
                                           .perPressure = c.dt * work.grid.fullMass / (c.settings().liquid.density * c.state.grid.dx),
                                           .fall = c.fallTime() * c.settings().gravity};
-    work.onSolids.finish(c.state.grid, work.obstacleField, outcome);
+    work.onSolids.finish(c.cut(), outcome);
 }
 
 void gridToParticles(StepContext& c)
@@ -130,7 +129,7 @@ void gridToParticles(StepContext& c)
     Workspace& work = c.work;
     LiquidParticles& particles = c.state.liquid;
     const BlockGrid& grid = c.state.grid;
-    if (work.kept) work.kept->keepModes(particles, c.isFlip());
+    if (work.backup) work.backup->keepModes(particles, c.isFlip());
     if (c.hasObstacles()) keepPlaces(particles, work.places);
     GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gatherSettings(c), work.gather, particles);
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
@@ -138,7 +137,7 @@ void gridToParticles(StepContext& c)
     sums.kinetic -= pushed.lost;
     const WeightSums weights = weightSums(particles, c.settings().gravity);
     c.report.maxSpeed = c.plan.reflects ? along : held;
-    c.report.energies = {sums.kinetic, c.isFlip() ? 0.0 : sums.modal, weights.potential, {}};
+    c.report.energies = {{.kinetic = sums.kinetic, .modal = c.isFlip() ? 0.0 : sums.modal, .potential = weights.potential}, {}};
     c.report.liquidMass = weights.mass;
     c.report.blocks = grid.count();
     c.report.liquidCells = countLiquidCells(grid, work.grid);

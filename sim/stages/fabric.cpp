@@ -18,8 +18,7 @@ void findMixture(StepContext& c)
     const std::optional<FabricFaces> faces = c.work.fabric->faces();
     // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (liquid/README.md, Reflection).
     c.plan.reflects = false;
-    c.plan.isMixed = c.work.coupling->mixture.find(c.state.grid, c.work.obstacleField, c.gravityOnFabric(), c.dt, c.state.fabric,
-                                                   faces ? &*faces : nullptr, c.work.grid);
+    c.plan.isMixed = c.work.coupling->mixture.find(c.cut(), c.gravityOnFabric(), c.dt, c.state.fabric, faces ? &*faces : nullptr, c.work.grid);
 }
 
 void advanceFabric(StepContext& c)
@@ -37,7 +36,7 @@ void advanceFabric(StepContext& c)
         else loads.onVertices = &work.coupling->mixture.loads(work.grid);
     }
     c.report.fabric = work.fabric->advance(c.state.time, c.dt, c.gravityOnFabric(), state, c.clock, loads);
-    if (work.kept) c.report.fabric.deepest = work.fabric->deepestInObstacles(state);
+    if (work.backup) c.report.fabric.deepest = work.fabric->deepestInObstacles(state);
 }
 
 void separateMixture(StepContext& c)

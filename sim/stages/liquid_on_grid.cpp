@@ -22,13 +22,13 @@ void particlesToGrid(StepContext& c)
     const BlockGrid& grid = c.state.grid;
     const TransferSettings& transfer = c.settings().transfer;
     Workspace& work = c.work;
+    const SortedParticles sorted{c.state.liquid, work.order, grid};
     if (differsFromTranslation(transfer.xi, transfer.modeCount())) {
-        const Energies own = liquidEnergies(c.state.liquid, grid, c.settings().gravity, &work.order);
-        particlesToFacesBounded(c.state.liquid, work.order, grid, transfer.xi, c.state.lastDt, own.kinetic + own.modal, work.bounded,
-                                work.grid.faces);
-    } else particlesToFaces(c.state.liquid, work.order, grid, work.scatter, work.grid.faces);
+        const LiquidEnergies own = liquidEnergies(c.state.liquid, grid, c.settings().gravity, &work.order);
+        particlesToFacesBounded(sorted, transfer.xi, c.state.lastDt, own.kinetic + own.modal, work.bounded, work.grid.faces);
+    } else particlesToFaces(sorted, work.scatter, work.grid.faces);
     work.momentum.liquidOnFaces(work.grid.faces, grid.count());
-    if (c.hasObstacles()) work.onSolids.begin(grid, work.obstacleField, work.obstacles, work.grid.faces);
+    if (c.hasObstacles()) work.onSolids.begin(c.cut(), work.grid.faces);
     if (hasImages(c)) foldAtWalls(grid, work.obstacles, c.settings().liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
     c.energy.toGrid();
 }
@@ -49,11 +49,10 @@ void applyViscosity(StepContext& c)
 {
     if (!c.isViscous()) return;
     const StageScope scope(c.clock, Stage::Viscosity);
-    const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
     if (c.hasObstacles()) work.onSolids.beforeViscosity(work.grid.faces.velocity);
-    c.report.viscosity = solveViscosity(grid, work.obstacleField, c.settings().liquid, c.settings().solver, c.fallTime(), work.viscosity, work.grid);
-    const double bySolids = c.hasObstacles() ? work.onSolids.afterViscosity(grid, work.obstacleField, work.viscosity.system, work.grid) : 0.0;
+    c.report.viscosity = solveViscosity(c.cut(), c.settings().liquid, c.settings().solver, c.fallTime(), work.viscosity, work.grid);
+    const double bySolids = c.hasObstacles() ? work.onSolids.afterViscosity(c.cut(), work.viscosity.system, work.grid) : 0.0;
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { velocity.block(0)[i] += work.viscosity.withheld.block(0)[i]; });
     work.grid.unpressed = velocity;
@@ -64,8 +63,8 @@ void findCells(StepContext& c)
 {
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Cells);
-    findLiquidCells(c.state.grid, c.work.obstacleField, c.settings().liquid.full, c.work.grid);
-    findSurface(c.state.grid, c.work.obstacleField, c.work.grid);
+    findLiquidCells(c.cut(), c.settings().liquid.full, c.work.grid);
+    findSurface(c.cut(), c.work.grid);
 }
 
 }  // namespace sim

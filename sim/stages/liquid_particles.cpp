@@ -1,6 +1,6 @@
 #include "sim/core/parallel.h"
 #include "sim/liquid/relax_at_walls.h"
-#include "sim/particles/emit.h"
+#include "sim/sources/emit.h"
 #include "sim/stages/correction.h"
 #include "sim/stages/stages.h"
 
@@ -72,9 +72,8 @@ void relax(StepContext& c)
     c.plan.relaxes = work.relaxReach > 0.0 && isDue(rate, state.unrelaxed, c.dt);
     if (!c.plan.relaxes) return;
     const StageScope scope(c.clock, Stage::Relax);
-    relaxationDisplacements(state.liquid, work.order, state.grid, rate, work.relaxReach, state.unrelaxed, work.relax, work.displacement);
-    keepRelaxationFromLifting(work.order, state.grid, work.obstacleField, work.obstacles, c.settings().gravity, work.relaxReach, state.liquid,
-                              work.displacement);
+    relaxationDisplacements({state.liquid, work.order, state.grid}, rate, work.relaxReach, state.unrelaxed, work.relax, work.displacement);
+    keepRelaxationFromLifting(work.order, c.cut(), c.settings().gravity, work.relaxReach, state.liquid, work.displacement);
     state.unrelaxed = 0.0;
 }
 

@@ -31,7 +31,7 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
     findChange(velocity, grid.count(), work);
-    findUnheldFaces(grid, work.obstacleField, work.free);
+    findUnheldFaces(c.cut(), work.free);
     const bool carries = c.plan.isMixed && c.settings().coupling.pressureOnFabric;
     if (carries) work.coupling->mixture.toPairs(work.grid, work.free.change);
     else if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
@@ -63,15 +63,15 @@ void levelHeldWeight(StepContext& c, LiquidOnSolids* onSolids)
 {
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    findUnheldFaces(grid, work.obstacleField, work.free);
+    findUnheldFaces(c.cut(), work.free);
     findHeldBodies(grid, work.pressure, work.grid, work.free);
-    if (c.plan.isMixed) {
+    work.free.hasFabric = c.plan.isMixed;
+    if (work.free.hasFabric) {
         work.free.bare.resize(grid.count());
         std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
         work.coupling->mixture.clearShared(work.free.bare);
     }
-    levelWeight(grid, work.obstacleField, work.pressure, work.free, c.plan.isMixed ? &work.free.bare : nullptr, c.fallTime() * c.settings().gravity,
-                work.grid, onSolids);
+    levelWeight(c.cut(), work.pressure, work.free, c.fallTime() * c.settings().gravity, work.grid, onSolids);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void findSurfaceTension(StepContext& c)
 {
     if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
     const StageScope scope(c.clock, Stage::SurfaceTension);
-    findSurfaceSteps(c.state.grid, c.work.obstacleField, c.settings().liquid, c.work.grid, c.work.surfaceTension);
+    findSurfaceSteps(c.cut(), c.settings().liquid, c.work.grid, c.work.surfaceTension);
 }
 
 void withholdPressure(StepContext& c)
@@ -91,12 +91,12 @@ void withholdPressure(StepContext& c)
     Workspace& work = c.work;
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     work.viscosity.withheld = velocity;
-    findLiquidCells(grid, work.obstacleField, c.settings().liquid.full, work.grid);
-    findSurface(grid, work.obstacleField, work.grid);
-    findPressureFaces(grid, work.obstacleField, c.settings().liquid, c.dt, work.grid, work.pressure);
+    findLiquidCells(c.cut(), c.settings().liquid.full, work.grid);
+    findSurface(c.cut(), work.grid);
+    findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
     preparePressure(grid, work.grid, work.pressure);
     if (hasHeldWeight(c)) levelHeldWeight(c, nullptr);
-    c.report.withheld = solvePressure(grid, work.obstacleField, c.settings().solver, {}, work.pressure, work.grid, c.state.pressure);
+    c.report.withheld = solvePressure(c.cut(), c.settings().solver, {}, work.pressure, work.grid, c.state.pressure);
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { work.viscosity.withheld.block(0)[i] -= velocity.block(0)[i]; });
 }
 
@@ -105,7 +105,7 @@ void assemblePressure(StepContext& c)
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
-    findPressureFaces(c.state.grid, work.obstacleField, c.settings().liquid, c.dt, work.grid, work.pressure);
+    findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
     if (c.plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
     preparePressure(c.state.grid, work.grid, work.pressure);
 }
@@ -124,7 +124,7 @@ void applySurfaceTension(StepContext& c)
     if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
     const StageScope scope(c.clock, Stage::SurfaceTension);
     c.energy.remember();
-    applySurfaceSteps(c.state.grid, c.work.obstacleField, c.work.pressure, c.fallTime() / c.dt, c.work.surfaceTension, c.work.grid);
+    applySurfaceSteps(c.cut(), c.work.pressure, c.fallTime() / c.dt, c.work.surfaceTension, c.work.grid);
     c.energy.surfaceTension(c.plan.isMixed);
 }
 
@@ -136,7 +136,7 @@ void project(StepContext& c)
     Workspace& work = c.work;
     if (c.hasObstacles()) work.gainAtWalls.begin(work.obstacleField, work.grid.faces.velocity);
     findInflowCells(grid, work.grid, work.emission.inflows, work.packing, c.dt, work.inflow);
-    c.report.pressure = solvePressure(grid, work.obstacleField, c.settings().solver, work.inflow, work.pressure, work.grid, c.state.pressure);
+    c.report.pressure = solvePressure(c.cut(), c.settings().solver, work.inflow, work.pressure, work.grid, c.state.pressure);
     pressIn(c);
 }
 
@@ -151,10 +151,9 @@ void correctVolume(StepContext& c)
     if (!c.plan.corrects) return;
     const StageScope scope(c.clock, Stage::Volume);
     const double strength = std::min(kLargestShare, rate * state.uncorrected);
-    c.report.volume =
-        correctVolume(state.grid, work.obstacleField, work.pressure, c.settings().gravity, work.grid, strength, c.settings().solver, work.volume);
+    c.report.volume = correctVolume(c.cut(), c.settings(), strength, work.grid, work.pressure, work.volume);
     state.uncorrected = 0.0;
-    findUnheldFaces(state.grid, work.obstacleField, work.free);
+    findUnheldFaces(c.cut(), work.free);
     if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
     takeMeans(state.grid, work.pressure, work.grid, work.volume.displacement, work.free, work.volume.displacement);
 }
@@ -171,7 +170,7 @@ void reflect(StepContext& c)
     if (!c.plan.reflects) return;
     const StageScope scope(c.clock, Stage::Reflection);
     Workspace& work = c.work;
-    c.report.reflection = reflect(c.state.grid, work.obstacleField, c.settings().solver, work.inflow, work.pressure, work.grid, work.reflection);
+    c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, work.pressure, work.grid, work.reflection);
     restoreMomentum(c, work.reflection.velocity);
     c.energy.reflected(c.dt);
 }

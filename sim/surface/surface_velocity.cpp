@@ -80,21 +80,42 @@ std::array<int, 2> binsInReach(float place, float reach)
     return {bin(place - reach), bin(place + reach)};
 }
 
-/// Particles in the bins x … of one row of bins, which are runs as long as they are in one block.
-void addRow(const BlockGrid& grid, const SurfaceParticles& particles, const Crossing& crossing, float reach, const std::array<int, 2>& x, int y,
-            int z, Moments& moments)
-{
-    for (int i = x[0]; i <= x[1];) {
-        const Vec3i step(i >> 1, y >> 1, z >> 1);
-        const int block = grid.neighbours(crossing.block)[neighbourIndex(step.x(), step.y(), step.z())];
-        const int last = std::min(x[1], i | 1);
-        if (block != grid.count()) {
-            const int* bins = particles.binStart.data() + SurfaceParticles::kBins * block + 4 * (z & 1) + 2 * (y & 1);
-            moments.addRun(particles, crossing.place() - (kBlockEdge * step).cast<float>(), reach, bins[i & 1], bins[(last & 1) + 1]);
-        }
-        i = last + 1;
+/// Sums over the particles around one crossing.
+class Around {
+ public:
+    Around(const BlockGrid& grid, const SurfaceParticles& particles, const Crossing& crossing, float reach)
+        : grid_(grid), particles_(particles), block_(crossing.block), place_(crossing.place()), reach_(reach)
+    {
+        const auto x = binsInReach(place_.x(), reach), y = binsInReach(place_.y(), reach), z = binsInReach(place_.z(), reach);
+        for (int k = z[0]; k <= z[1]; ++k)
+            for (int j = y[0]; j <= y[1]; ++j) addRow(x, j, k);
     }
-}
+
+    const Moments& moments() const { return moments_; }
+
+ private:
+    /// Particles in the bins x … of one row of bins, which are runs as long as they are in one block.
+    void addRow(const std::array<int, 2>& x, int y, int z)
+    {
+        for (int i = x[0]; i <= x[1];) {
+            const Vec3i step(i >> 1, y >> 1, z >> 1);
+            const int block = grid_.neighbours(block_)[neighbourIndex(step.x(), step.y(), step.z())];
+            const int last = std::min(x[1], i | 1);
+            if (block != grid_.count()) {
+                const int* bins = particles_.binStart.data() + SurfaceParticles::kBins * block + 4 * (z & 1) + 2 * (y & 1);
+                moments_.addRun(particles_, place_ - (kBlockEdge * step).cast<float>(), reach_, bins[i & 1], bins[(last & 1) + 1]);
+            }
+            i = last + 1;
+        }
+    }
+
+    const BlockGrid& grid_;
+    const SurfaceParticles& particles_;
+    int block_;
+    Eigen::Vector3f place_;
+    float reach_;  ///< [cells]
+    Moments moments_;
+};
 
 }  // namespace
 
@@ -102,15 +123,8 @@ void surfaceVelocities(const BlockGrid& grid, const SurfaceParticles& particles,
                        std::vector<Vec3>& velocities)
 {
     velocities.resize(crossings.size());
-    parallelFor(crossings.size(), kVerticesPerTask, [&](std::size_t c) {
-        const Crossing& crossing = crossings[c];
-        const Eigen::Vector3f place = crossing.place();
-        const auto x = binsInReach(place.x(), reach), y = binsInReach(place.y(), reach), z = binsInReach(place.z(), reach);
-        Moments moments;
-        for (int k = z[0]; k <= z[1]; ++k)
-            for (int j = y[0]; j <= y[1]; ++j) addRow(grid, particles, crossing, reach, x, j, k, moments);
-        velocities[c] = moments.fit();
-    });
+    parallelFor(crossings.size(), kVerticesPerTask,
+                [&](std::size_t c) { velocities[c] = Around(grid, particles, crossings[c], reach).moments().fit(); });
 }
 
 }  // namespace sim

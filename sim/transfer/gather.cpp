@@ -44,11 +44,19 @@ struct LaneSums {
     Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
 };
 
-/// Gather one component of n ≤ 8 particles starting at s: monomials, in c and in the particles' rows.
+/// Up to 8 particles of one cell.
+struct Batch {
+    int first, count;
+    int node;         ///< of the tiles, where their stencils begin
+    bool atMidpoint;  ///< they move by the midpoint rule
+};
+
+/// Gather one component of a batch: monomials, in c and in the particles' rows.
 template <int kAxis, class Set, int kModes, bool kFold, class Rows>
-[[gnu::always_inline]] inline void gatherAxis(const Context& ctx, int node, const Operators<Set::kFactors>* op, int s, int n, Rows& rows,
+[[gnu::always_inline]] inline void gatherAxis(const Context& ctx, const Batch& batch, const Operators<Set::kFactors>* op, Rows& rows,
                                               Coefficients<Set::kFactors>& c)
 {
+    const int s = batch.first, n = batch.count, node = batch.node;
     contract<kAxis, Set>(ctx.tile.v[kAxis] + node, op, c);
     if (ctx.modes < kModes) truncate<kModes, Set::kFactors>(ctx.modes, c);
     if constexpr (kModes == 1) {
@@ -119,8 +127,9 @@ constexpr int kMostDirect = 8;  ///< modes; more leave through a window
 constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (transfer/README.md, Kernels)
 
 template <class Set, int kModes, bool kFold, class Rows>
-[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, int node, bool atMidpoint, int s, int n, Rows& rows, LaneSums& sums)
+[[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, const Batch& batch, Rows& rows, LaneSums& sums)
 {
+    const int s = batch.first, n = batch.count, node = batch.node;
     LiquidParticles& particles = ctx.particles;
     if constexpr (std::is_same_v<Rows, DirectModes>)
         for (int a = 0; a < kAxes; ++a)
@@ -134,14 +143,14 @@ template <class Set, int kModes, bool kFold, class Rows>
         setOperators<Set::kFactors, kFold>(inCells - floorPack(inCells), op[a]);
     }
     Coefficients<Set::kFactors> c[3];
-    gatherAxis<0, Set, kModes, kFold>(ctx, node, op, s, n, rows, c[0]);
-    gatherAxis<1, Set, kModes, kFold>(ctx, node, op, s, n, rows, c[1]);
-    gatherAxis<2, Set, kModes, kFold>(ctx, node, op, s, n, rows, c[2]);
+    gatherAxis<0, Set, kModes, kFold>(ctx, batch, op, rows, c[0]);
+    gatherAxis<1, Set, kModes, kFold>(ctx, batch, op, rows, c[1]);
+    gatherAxis<2, Set, kModes, kFold>(ctx, batch, op, rows, c[2]);
 
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
     Pack path[3];
-    if (atMidpoint) findPaths(ctx, node, x, path);
+    if (batch.atMidpoint) findPaths(ctx, node, x, path);
     else
         for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
     if (ctx.settings.atMidpoint != nullptr) {
@@ -202,7 +211,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
                         for (int s = start[0]; s < start[1]; s += kLanes) {
                             const int n = std::min(kLanes, start[1] - s);
                             rows.advanceTo(s);
-                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, node, atMidpoint, s, n, rows, lanes);
+                            gatherPack<ModeSet<kModesAtSurface>, kModesAtSurface, false>(ctx, {s, n, node, atMidpoint}, rows, lanes);
                             for (int a = 0; a < kAxes; ++a)
                                 for (int r = kModesAtSurface; r < kModes; ++r) storeFirst(rows.at(a, r, s), broadcast(0.0), n);
                         }
@@ -210,7 +219,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
                     }
                 for (int s = start[0]; s < start[1]; s += kLanes) {
                     rows.advanceTo(s);
-                    gatherPack<Set, kModes, kFold>(ctx, node, atMidpoint, s, std::min(kLanes, start[1] - s), rows, lanes);
+                    gatherPack<Set, kModes, kFold>(ctx, {s, std::min(kLanes, start[1] - s), node, atMidpoint}, rows, lanes);
                 }
             }
     rows.finish(order.end(block));

@@ -3,7 +3,6 @@
 #include "sim/grid/face_fields.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
-#include "sim/step_report.h"
 
 #include <vector>
 

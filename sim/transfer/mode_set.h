@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 namespace sim {
 

@@ -25,31 +25,33 @@ CellRef faceOfCell(const BlockGrid& grid, const Vec3i& cell)
 
 namespace {
 
-/// Call f(face, i, j, k) for the 27 faces of a stencil.
+/// Call f(face, node) for the 27 faces of a stencil.
 template <class F>
 void forEachFace(const BlockGrid& grid, const Stencil& stencil, F&& f)
 {
     for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j)
-            for (int i = 0; i < 3; ++i) f(faceOfCell(grid, stencil.first + Vec3i(i, j, k)), i, j, k);
+            for (int i = 0; i < 3; ++i) f(faceOfCell(grid, stencil.first + Vec3i(i, j, k)), Vec3i(i, j, k));
 }
 
 }  // namespace
 
-void particlesToFacesReference(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, FaceFields& faces)
+void particlesToFacesReference(const SortedParticles& sorted, FaceFields& faces)
 {
+    const LiquidParticles& particles = sorted.particles;
+    const BlockGrid& grid = sorted.grid;
     faces.sums.resize(grid.count());
     std::fill_n(faces.sums.block(0), faces.sums.size(), 0.0);
     for (std::size_t p = 0; p < particles.count; ++p)
         for (int axis = 0; axis < kAxes; ++axis) {
             const Stencil stencil(grid, axis, particles.position(p));
             Modes c{};
-            for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[order.source[p]];
-            forEachFace(grid, stencil, [&](CellRef face, int i, int j, int k) {
-                const double mass = particles.mass[p] * stencil.weight(i, j, k);
+            for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[sorted.order.source[p]];
+            forEachFace(grid, stencil, [&](CellRef face, const Vec3i& node) {
+                const double mass = particles.mass[p] * stencil.weight(node);
                 SIM_CHECK(face.block < grid.count());
                 faces.sums.block(face.block, FaceFields::kMass + axis)[face.cell] += mass;
-                faces.sums.block(face.block, FaceFields::kMomentum + axis)[face.cell] += mass * evaluateModes(stencil.basis, i, j, k, c);
+                faces.sums.block(face.block, FaceFields::kMomentum + axis)[face.cell] += mass * evaluateModes(stencil.basis, node, c);
             });
         }
 }
@@ -57,8 +59,8 @@ void particlesToFacesReference(const LiquidParticles& particles, const ParticleO
 Modes gatherModes(const BlockArray<double, 3>& velocity, const BlockGrid& grid, int axis, const Stencil& stencil, int modes)
 {
     Modes c{};
-    forEachFace(grid, stencil, [&](CellRef face, int i, int j, int k) {
-        projectOntoModes(stencil.basis, i, j, k, velocity.block(face.block, axis)[face.cell], modes, c);
+    forEachFace(grid, stencil, [&](CellRef face, const Vec3i& node) {
+        projectOntoModes(stencil.basis, node, velocity.block(face.block, axis)[face.cell], modes, c);
     });
     return c;
 }

@@ -3,7 +3,7 @@
 #include "sim/grid/face_fields.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 namespace sim {
 
@@ -17,14 +17,14 @@ struct Stencil {
     Basis basis;
     Vec3i first;  ///< cell coordinates of face (0, 0, 0) of the stencil: the face at the lower side of that cell
 
-    double weight(int i, int j, int k) const { return basis[0].weight[i] * basis[1].weight[j] * basis[2].weight[k]; }
+    double weight(const Vec3i& node) const { return basis[0].weight[node.x()] * basis[1].weight[node.y()] * basis[2].weight[node.z()]; }
 };
 
 /// The face at the lower side of a cell given by global coordinates.
 CellRef faceOfCell(const BlockGrid& grid, const Vec3i& cell);
 
 /// P2G: mass and momentum of every face, from sorted particles whose modes stand in the rows order.source tells.
-void particlesToFacesReference(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, FaceFields& faces);
+void particlesToFacesReference(const SortedParticles& sorted, FaceFields& faces);
 
 /// G2P: the modes of every particle, in its own row, from the face velocities. All faces are taken as valid.
 /// @param modes  N_r, at most the rows that the particles store

@@ -138,15 +138,31 @@ template <int kModes>
     if (row != source[kPrefetchAhead - 1] + 1 || (row & 7) == 0) unroll<kModes>([&](auto r) { __builtin_prefetch(mode[r] + row); });
 }
 
-/// All particles of one column of 8 cells, onto the faces normal to kAxis. A window of planes slides up the column: the sums of a
+/// The particles of a block, with the modes of one component.
+template <int kFactors, int kModes>
+struct BlockParticles {
+    int first;
+    const Prepared<kFactors>* prepared;
+    const int* source;  ///< ParticleOrder::source
+    const double* mode[kModes];
+};
+
+/// A column of 8 cells.
+struct Column {
+    const int* start;  ///< cellStart of its cells
+    int low, high;     ///< the cells to visit
+};
+
+/// All particles of a column, onto the faces normal to kAxis: mass and momentum in the tile. A window of planes slides up the column: the sums of a
 /// cell stay in registers, and a plane goes to the tile when no further cell reaches it.
-/// @param start      cellStart of the column's cells
-/// @param low, high  the cells of the column to visit
 template <int kAxis, class Set, int kModes>
-[[gnu::noinline, gnu::flatten]] void scatterColumn(const PlaneTables& tables, const int* start, int low, int high, int blockFirst,
-                                                   const Prepared<Set::kFactors>* prepared, const double* const* mode, const int* source,
-                                                   double* mass, double* momentum)
+[[gnu::noinline, gnu::flatten]] void scatterColumn(const PlaneTables& tables, const Column& column,
+                                                   const BlockParticles<Set::kFactors, kModes>& particles, double* mass, double* momentum)
 {
+    const auto [start, low, high] = column;
+    const auto* const prepared = particles.prepared;
+    const int *const source = particles.source, blockFirst = particles.first;
+    const double* const* mode = particles.mode;
     constexpr int kPlanes = kAxis == 2 ? 4 : 3, kRows = kAxis == 1 ? 4 : 3;
     Pack m[kPlanes][2] = {}, p[kPlanes][2] = {};
     for (int k = low; k <= high; ++k) {
@@ -198,25 +214,29 @@ template <int kAxis, class Set, int kModes>
 }
 
 template <int kAxis, class Set, int kModes>
-inline void scatterAxis(const PlaneTables& tables, const LiquidParticles& particles, const ParticleOrder& order, int block, const OccupiedBox& box,
+inline void scatterAxis(const PlaneTables& tables, const SortedParticles& sorted, int block, const OccupiedBox& box,
                         const Prepared<Set::kFactors>* prepared, ScatterTile& tile)
 {
-    const double* mode[kModes];
-    for (int r = 0; r < kModes; ++r) mode[r] = particles.mode(kAxis, r);
+    const ParticleOrder& order = sorted.order;
+    BlockParticles<Set::kFactors, kModes> particles{order.begin(block), prepared, order.source.data(), {}};
+    for (int r = 0; r < kModes; ++r) particles.mode[r] = sorted.particles.mode(kAxis, r);
     for (int i = box.low[0]; i <= box.high[0]; ++i)
         for (int j = box.low[1]; j <= box.high[1]; ++j) {
             const int* start = order.cells(block) + cellRank(i, j, 0);
             if (start[0] == start[kBlockEdge]) continue;
             const int corner = tileIndex(i - 1, j - 1, -1);
-            scatterColumn<kAxis, Set, kModes>(tables, start, box.low[2], box.high[2], order.begin(block), prepared, mode, order.source.data(),
-                                              tile.v[FaceFields::kMass + kAxis] + corner, tile.v[FaceFields::kMomentum + kAxis] + corner);
+            scatterColumn<kAxis, Set, kModes>(tables, {start, box.low[2], box.high[2]}, particles, tile.v[FaceFields::kMass + kAxis] + corner,
+                                              tile.v[FaceFields::kMomentum + kAxis] + corner);
         }
 }
 
 }  // namespace
 
-void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, ScatterScratch& scratch, FaceFields& faces)
+void particlesToFaces(const SortedParticles& sorted, ScatterScratch& scratch, FaceFields& faces)
 {
+    const LiquidParticles& particles = sorted.particles;
+    const ParticleOrder& order = sorted.order;
+    const BlockGrid& grid = sorted.grid;
     withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
         using Set = ModeSet<kModes>;
         using Batch = Prepared<Set::kFactors>;
@@ -228,9 +248,9 @@ void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& ord
         scatterBlocks(order, grid, faces, [&](int block, const OccupiedBox& box, int worker, ScatterTile& tile) {
             auto* prepared = reinterpret_cast<Batch*>(scratch.perWorker[worker].data());
             prepare(particles, grid.origin, 1.0 / grid.dx, order.begin(block), order.end(block), prepared);
-            scatterAxis<0, Set, kModes>(tables, particles, order, block, box, prepared, tile);
-            scatterAxis<1, Set, kModes>(tables, particles, order, block, box, prepared, tile);
-            scatterAxis<2, Set, kModes>(tables, particles, order, block, box, prepared, tile);
+            scatterAxis<0, Set, kModes>(tables, sorted, block, box, prepared, tile);
+            scatterAxis<1, Set, kModes>(tables, sorted, block, box, prepared, tile);
+            scatterAxis<2, Set, kModes>(tables, sorted, block, box, prepared, tile);
         });
     });
 }

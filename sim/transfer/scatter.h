@@ -16,7 +16,6 @@ struct ScatterScratch {
 /// P2G: mass and momentum of every face (translation map: transfer/README.md, Particles to grid), from sorted particles whose modes stand in the rows
 /// order.source tells. Same as particlesToFacesReference to round-off. Block by block into a local tile, lanes = the 4×4 plane of
 /// nodes around a cell (transfer/README.md, Kernels); tiles are added to the grid in 8 colours, so the order of additions is fixed.
-void particlesToFaces(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, ScatterScratch& scratch,
-                      FaceFields& faces);
+void particlesToFaces(const SortedParticles& sorted, ScatterScratch& scratch, FaceFields& faces);
 
 }  // namespace sim

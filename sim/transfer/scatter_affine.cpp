@@ -120,10 +120,11 @@ void addToTile(double particleMass, const StencilPacks& nodes, const Pack (&u)[k
 }
 
 template <class Set>
-void scatterParticle(const LiquidParticles& particles, int s, int row, const BlockGrid& grid, int block, XiMap map, double dt, ScatterTile& tile)
+void scatterParticle(const SortedParticles& sorted, int s, int block, XiMap map, double dt, ScatterTile& tile)
 {
-    const ParticleModes modes(particles, row);
-    const Vec3 x = particles.position(s);
+    const BlockGrid& grid = sorted.grid;
+    const ParticleModes modes(sorted.particles, sorted.order.source[s]);
+    const Vec3 x = sorted.particles.position(s);
     const Mat3 toOld = inverseMotion(modes.gradient(), dt / grid.dx);
     for (int axis = 0; axis < kAxes; ++axis) {
         const Stencil stencil(grid, axis, x);
@@ -136,7 +137,7 @@ void scatterParticle(const LiquidParticles& particles, int s, int row, const Blo
         }
         if (map == XiMap::AffineConservative) restoreMeanAndGradient<Set>(grid, axis, x - dt * modes.mean(), modes.c[axis], nodes, u);
         const Vec3i first = stencil.first - kBlockEdge * grid.coords(block);
-        addToTile(particles.mass[s], nodes, u, tile.v[FaceFields::kMass + axis], tile.v[FaceFields::kMomentum + axis],
+        addToTile(sorted.particles.mass[s], nodes, u, tile.v[FaceFields::kMass + axis], tile.v[FaceFields::kMomentum + axis],
                   tileIndex(first.x(), first.y(), first.z()));
     }
 }
@@ -145,13 +146,12 @@ void scatterParticle(const LiquidParticles& particles, int s, int row, const Blo
 
 bool differsFromTranslation(XiMap map, int modes) { return (map == XiMap::Affine && modes >= 4) || (map == XiMap::AffineConservative && modes > 4); }
 
-void particlesToFacesAffine(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, XiMap map, double dt,
-                            FaceFields& faces)
+void particlesToFacesAffine(const SortedParticles& sorted, XiMap map, double dt, FaceFields& faces)
 {
-    withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
-        scatterBlocks(order, grid, faces, [&](int block, const OccupiedBox&, int, ScatterTile& tile) {
-            for (int s = order.begin(block); s < order.end(block); ++s)
-                scatterParticle<ModeSet<kModes>>(particles, s, order.source[s], grid, block, map, dt, tile);
+    const ParticleOrder& order = sorted.order;
+    withModeSet(sorted.particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {
+        scatterBlocks(order, sorted.grid, faces, [&](int block, const OccupiedBox&, int, ScatterTile& tile) {
+            for (int s = order.begin(block); s < order.end(block); ++s) scatterParticle<ModeSet<kModes>>(sorted, s, block, map, dt, tile);
         });
     });
 }

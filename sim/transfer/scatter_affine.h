@@ -17,7 +17,6 @@ bool differsFromTranslation(XiMap map, int modes);
 /// AffineConservative then restores the weighted mean and gradient that were gathered, so that both momenta are exact.
 /// Where det(I + dt C) < 0.1 the polynomial is only translated.
 /// @param dt  time for which the particles have moved with their mean velocity since their modes were gathered [s]
-void particlesToFacesAffine(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, XiMap map, double dt,
-                            FaceFields& faces);
+void particlesToFacesAffine(const SortedParticles& sorted, XiMap map, double dt, FaceFields& faces);
 
 }  // namespace sim

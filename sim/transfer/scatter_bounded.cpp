@@ -45,16 +45,16 @@ double largestShare(const FaceEnergies& e, double energy)
 
 }  // namespace
 
-double particlesToFacesBounded(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, XiMap map, double dt,
-                               double energy, BoundedScratch& scratch, FaceFields& faces)
+double particlesToFacesBounded(const SortedParticles& sorted, XiMap map, double dt, double energy, BoundedScratch& scratch, FaceFields& faces)
 {
-    particlesToFaces(particles, order, grid, scratch.scatter, faces);
+    const BlockGrid& grid = sorted.grid;
+    particlesToFaces(sorted, scratch.scatter, faces);
     scratch.translated.resize(grid.count());
     parallelFor(grid.count(), 8, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         std::copy_n(faces.sums.block(b, FaceFields::kMomentum), kAxes * kBlockCells, scratch.translated.block(b));
     });
-    particlesToFacesAffine(particles, order, grid, map, dt, faces);
+    particlesToFacesAffine(sorted, map, dt, faces);
     const double share = largestShare(faceEnergies(grid, scratch.translated, faces), energy);
     if (share == 1.0) return share;
     parallelFor(grid.count(), 8, [&](std::size_t n) {

@@ -17,7 +17,6 @@ struct BoundedScratch {
 /// Σ p² / 2M within the particles' energy: what both maps conserve is conserved.
 /// @param energy  of the particles, kinetic and modal [erg]
 /// @return the share of the affine map, 0 … 1
-double particlesToFacesBounded(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, XiMap map, double dt,
-                               double energy, BoundedScratch& scratch, FaceFields& faces);
+double particlesToFacesBounded(const SortedParticles& sorted, XiMap map, double dt, double energy, BoundedScratch& scratch, FaceFields& faces);
 
 }  // namespace sim

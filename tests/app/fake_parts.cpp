@@ -43,7 +43,7 @@ class ToySimulation : public Steppable {
     const sim::LiquidGrid& liquidGrid() const override { return grid_; }
     const sim::Forces& forces() const override { return forces_; }
     void bookEnergy() override { booksEnergy_ = true; }
-    sim::Energies energies() const override { return {.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0], .fabric = {}}; }
+    sim::Energies energies() const override { return {{.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0]}, {}}; }
     void setChanges(std::vector<sim::SettingsChange>) override {}
     std::uint64_t stateHash() const override { return static_cast<std::uint64_t>(1.0e9 * state_.liquid.x[0][0]) + 1; }
 

@@ -1,6 +1,6 @@
 #include "sim/fabric/contact/candidate_list.h"
 #include "sim/fabric/contact/contact.h"
-#include "tests/sim/fabric/contact_scenes.h"
+#include "tests/sim/fabric/contact/contact_scenes.h"
 
 #include <benchmark/benchmark.h>
 

@@ -28,7 +28,7 @@ void scatter(benchmark::State& state)
     const SortedLiquid liquid = column(static_cast<int>(state.range(0)));
     FaceFields faces;
     ScatterScratch scratch;
-    for (auto _ : state) particlesToFaces(liquid.particles, liquid.order, liquid.grid, scratch, faces);
+    for (auto _ : state) particlesToFaces({liquid.particles, liquid.order, liquid.grid}, scratch, faces);
     state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);
 }
 
@@ -36,7 +36,7 @@ void scatterAffine(benchmark::State& state)
 {
     const SortedLiquid liquid = column(static_cast<int>(state.range(0)));
     FaceFields faces;
-    for (auto _ : state) particlesToFacesAffine(liquid.particles, liquid.order, liquid.grid, XiMap::AffineConservative, 0.01, faces);
+    for (auto _ : state) particlesToFacesAffine({liquid.particles, liquid.order, liquid.grid}, XiMap::AffineConservative, 0.01, faces);
     state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);
 }
 
@@ -63,7 +63,7 @@ void transferBoth(benchmark::State& state)
     GatherSettings settings;
     settings.modes = static_cast<int>(state.range(0));
     for (auto _ : state) {
-        particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
+        particlesToFaces({liquid.particles, liquid.order, liquid.grid}, scatterScratch, faces);
         facesToParticles(faces, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles);
     }
     state.counters["particles/s"] = benchmark::Counter(kParticles, benchmark::Counter::kIsIterationInvariantRate);

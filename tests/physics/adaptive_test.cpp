@@ -1,4 +1,4 @@
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "tests/physics/runs.h"
 #include "tests/sim/fabric/pieces.h"
 #include "tests/sim/fixtures.h"

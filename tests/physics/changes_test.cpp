@@ -1,4 +1,4 @@
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 #include "tests/physics/runs.h"
 #include "tests/sim/fixtures.h"
 

@@ -1,5 +1,5 @@
 #include "sim/energy_changes.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/sim/fabric/pieces.h"
 
@@ -232,7 +232,7 @@ Scene drivenCloth(unsigned seed, FabricSolver solver)
     Random random(seed + 100);
     for (ObstacleSettings& solid : scene.obstacles) {
         solid.motion.addTranslation(0.0, 0.03, random(0.2, 1.0) * random.direction(), 0.0, 0.0);
-        solid.motion.addRotation(0.0, 0.03, random.direction(), random(-1.5, 1.5), Vec3(0.0, -0.1, 0.0), Motion::Frame::World, 0.0, 0.0);
+        solid.motion.addRotation(0.0, 0.03, {random.direction(), Vec3(0.0, -0.1, 0.0)}, random(-1.5, 1.5), 0.0, 0.0);
     }
     FabricPiece thread = testing::pieceOf(strand(Vec3(-0.9, 0.5, 0.1), Vec3(0.7, 0.6, -0.1), 14), stiff(random), {0.03, 0.03});
     PinGroup hold;

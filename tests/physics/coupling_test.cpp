@@ -1,4 +1,4 @@
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "tests/physics/runs.h"
 #include "tests/sim/fabric/pieces.h"
 #include "tests/sim/fixtures.h"
@@ -92,7 +92,7 @@ TEST_P(DropOnCloth, IsNotReflectedWhereItMeetsCloth)
 }
 
 /// Surface tension acts on both phases where the cloth is: left out there, the rest of the surface would pull the drop along, by 3 %. The
-/// book closes with it.
+/// budget closes with it.
 TEST_P(DropOnCloth, SurfaceTensionMakesNoMomentum)
 {
     Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());
@@ -234,7 +234,7 @@ struct BookedSteps {
 
 /// What the parts of a step give and take is what the energy changes by, up to the error of the solves (sim/README.md, Energy); to look changes
 /// nothing.
-TEST_P(DropOnCloth, EnergyGoesWhereTheBookSays)
+TEST_P(DropOnCloth, EnergyGoesWhereTheBudgetSays)
 {
     Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());
     scene.settings.gravity = Vec3(0.0, -981.0, 0.0);
@@ -252,7 +252,7 @@ TEST_P(DropOnCloth, EnergyGoesWhereTheBookSays)
 
 /// So it does where solids hold the liquid, whose weight is levelled, and where surface tension acts: faces that fabric is on have the
 /// mixture's velocities by then.
-TEST_P(DropOnCloth, EnergyOfAPoolGoesWhereTheBookSays)
+TEST_P(DropOnCloth, EnergyOfAPoolGoesWhereTheBudgetSays)
 {
     for (const bool isTense : {false, true}) {
         Scene scene = dropAndCloth(DragLaw::Nonlinear, GetParam());

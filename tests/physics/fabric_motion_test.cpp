@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-// What moving fabric keeps, loses and repeats (fabric/README.md, The step in vertices).
+// What moving fabric keeps, loses and repeats (fabric/vertex/README.md, The step in vertices).
 
 namespace sim::test {
 namespace {
@@ -120,8 +120,8 @@ TEST(FlyingFabric, EnergiesAreThoseOfTheStateThatIsAskedAbout)
     EXPECT_NE(run.solver.energies(states[1], run.gravity).twisting, run.solver.energies(states[2], run.gravity).twisting);
 }
 
-/// What the book names is what the energy changes by (sim/README.md, Energy), up to how well the steps are solved.
-TEST(FlyingFabric, EnergyGoesWhereTheBookSays)
+/// What the budget names is what the energy changes by (sim/README.md, Energy), up to how well the steps are solved.
+TEST(FlyingFabric, EnergyGoesWhereTheBudgetSays)
 {
     std::vector<FabricPiece> pieces = Collision().pieces;
     for (FabricPiece& piece : pieces) piece.material.dampingViscosity = 1.0e3;

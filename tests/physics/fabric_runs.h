@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/core/units.h"
-#include "sim/fabric/vertex_solver.h"
+#include "sim/fabric/vertex/vertex_solver.h"
 #include "tests/sim/fabric/pieces.h"
 
 #include <algorithm>

@@ -29,7 +29,7 @@ struct TwistedYarn {
 Motion turned(double t0, double t1, double angle)
 {
     Motion motion;
-    motion.addRotation(t0, t1, Vec3::UnitX(), angle, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
+    motion.addRotation(t0, t1, {Vec3::UnitX(), Vec3::Zero()}, angle, 0.0, 0.0);
     return motion;
 }
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-// What holds and drives fabric gives it what the book says, and what is far from it nothing.
+// What holds and drives fabric gives it what the budget says, and what is far from it nothing.
 
 namespace sim::test {
 namespace {
@@ -123,8 +123,8 @@ LedSheet pressedIntoAFloor(int n)
     sheet.piece.material.density = 0.28;
     sheet.piece.material.dampingViscosity = 6.0e3;
     Motion motion;
-    motion.addRotation(0.0, 0.06, (Vec3(-0.9, 0.2, -0.3) + 0.2 * noise.vector()).normalized(), 0.9 + 0.2 * noise(), Vec3(0.71, 0.0, 0.47),
-                       Motion::Frame::World, 0.0, 0.0);
+    motion.addRotation(0.0, 0.06, {(Vec3(-0.9, 0.2, -0.3) + 0.2 * noise.vector()).normalized(), Vec3(0.71, 0.0, 0.47)}, 0.9 + 0.2 * noise(), 0.0,
+                       0.0);
     std::vector<int> corners;
     for (int i : {0, 1, 2, 7, 8, 9})
         for (int j : {0, 1, 2, 4, 5, 6}) corners.push_back(10 * j + i);

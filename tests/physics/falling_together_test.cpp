@@ -1,5 +1,5 @@
 // Gravity acts on liquid and on fabric over one and the same interval, however steps change their length.
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/sim/fabric/pieces.h"
 
@@ -93,7 +93,7 @@ TEST(HangingStill, WetClothIsNotKickedByAShortStep)
     }
 }
 
-/// And the book of energy knows of it.
+/// And the budget of energy knows of it.
 TEST(FallingTogether, EnergyOfTheFallIsBooked)
 {
     Simulation simulation(dropBesideSheet(FabricSolver::Vertex, TimeIntegrator::Reflected));

@@ -3,7 +3,7 @@
 #include "tests/physics/runs.h"
 #include "tests/sim/fixtures.h"
 
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 
 #include <gtest/gtest.h>

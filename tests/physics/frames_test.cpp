@@ -1,5 +1,5 @@
 // What happens does not depend on where the scene stands in the grid, how it is turned, seen in a mirror, or in which units it is written.
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/scene/load_scene.h"
 #include "sim/scene/scene_file.h"
 #include "sim/state_hash.h"

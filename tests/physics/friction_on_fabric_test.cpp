@@ -1,5 +1,5 @@
 #include "sim/core/units.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/physics/fabric_runs.h"
 

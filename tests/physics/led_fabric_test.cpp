@@ -1,5 +1,5 @@
 // fabric.solver: off — pins are led, all else stays, and liquid meets both as it meets fabric that is held.
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/sim/fabric/pieces.h"
 

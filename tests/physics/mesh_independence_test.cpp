@@ -1,6 +1,6 @@
 // How finely fabric is meshed, and how large cells are, does not decide how much fabric drinks nor how hard it is to flow through.
 #include "sim/coupling/porous_law.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "tests/physics/runs.h"
 #include "tests/sim/fabric/pieces.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "sim/core/units.h"
+#include "sim/particles/velocity_modes.h"
 #include "sim/simulation.h"
-#include "sim/transfer/modes.h"
 
 #include <cmath>
 #include <string>

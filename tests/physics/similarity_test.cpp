@@ -1,4 +1,4 @@
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/physics/fabric_runs.h"
 

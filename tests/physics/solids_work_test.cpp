@@ -95,7 +95,7 @@ std::vector<Stirred> stirrers()
     all.push_back({"piston", Shape::box({-2.0, 3.0, 1.0}, {2.0, 6.0, 4.0}), push});
     swing.addOscillation(0.0, 1.0, Vec3::UnitX(), 0.8, 3.0);
     all.push_back({"paddle", Shape::box({2.4, 2.0, 0.75}, {0.15, 1.5, 0.5}), swing});
-    turn.addRotation(0.0, 1.0, Vec3::UnitZ(), 12.0, Vec3(2.9, 1.5, 0.75), Motion::Frame::World, 0.1, 0.1);
+    turn.addRotation(0.0, 1.0, {Vec3::UnitZ(), Vec3(2.9, 1.5, 0.75)}, 12.0, 0.1, 0.1);
     all.push_back({"turning plate", Shape::box({2.9, 1.5, 0.75}, {1.1, 0.13, 0.5}), turn});
     all.push_back({"slanted plate at rest",
                    Shape::box(Vec3::Zero(), {1.1, 0.13, 0.5}).moved(Eigen::Translation3d(2.4, 1.2, 0.75) * Eigen::AngleAxisd(0.6, Vec3::UnitZ())),
@@ -153,7 +153,7 @@ Scene plateThroughDrop(unsigned seed, const Transfer& transfer)
     scene.sources.push_back(drop);
     Motion motion;
     motion.addTranslation(0.0, 0.2, 8.0 * vec(), 0.0, 0.0);
-    if (seed % 7 < 3) motion.addRotation(0.0, 0.2, vec().normalized(), 6.0, Vec3::Zero(), Motion::Frame::World, 0.0, 0.0);
+    if (seed % 7 < 3) motion.addRotation(0.0, 0.2, {vec().normalized(), Vec3::Zero()}, 6.0, 0.0, 0.0);
     const auto place = Eigen::Translation3d(0.0, -1.4 * kCell, 0.0) * Eigen::AngleAxisd(3.0 * unit(random), vec().normalized());
     scene.obstacles.push_back(obstacle("plate", Shape::box(Vec3::Zero(), kCell * Vec3(3.0, 0.2, 3.0)).moved(place), motion));
     return scene;

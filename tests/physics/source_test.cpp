@@ -1,6 +1,6 @@
 #include "runs.h"
 #include "sim/core/random.h"
-#include "sim/particles/seed.h"
+#include "sim/sources/seed.h"
 #include "sim/state_hash.h"
 
 #include <gtest/gtest.h>

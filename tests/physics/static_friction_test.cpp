@@ -1,5 +1,5 @@
 #include "sim/core/units.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "sim/state_hash.h"
 #include "tests/sim/fabric/pieces.h"
@@ -238,7 +238,7 @@ TEST(StaticFriction, GoesWithAMovingSolid)
         slope.motion = {};
         const Vec3 center(0.0, 0.0, 12.0);
         slope.velocity = Vec3::Zero();
-        slope.motion.addRotation(0.0, 10.0, Vec3::UnitY(), 10.0, center, Motion::Frame::World, 0.2, 0.2);
+        slope.motion.addRotation(0.0, 10.0, {Vec3::UnitY(), center}, 10.0, 0.2, 0.2);
         EXPECT_LT(creepOf(slope), kShakenCreep) << "turned " << nameOf(slope);
     });
 }

@@ -2,7 +2,7 @@
 #include "tests/physics/fabric_runs.h"
 #include "tests/physics/random_vector.h"
 
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 
 #include <gtest/gtest.h>

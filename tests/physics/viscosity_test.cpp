@@ -112,8 +112,8 @@ TEST(ViscousLiquid, SameBitsForAnyThreadCount)
     EXPECT_EQ(one, onThreads(8, hashAfter30Steps));
 }
 
-/// The book closes with viscosity in it (sim/README.md, Energy), and only takes.
-TEST(ViscousLiquid, EnergyGoesWhereTheBookSays)
+/// The budget closes with viscosity in it (sim/README.md, Energy), and only takes.
+TEST(ViscousLiquid, EnergyGoesWhereTheBudgetSays)
 {
     Simulation simulation(splat());
     simulation.bookEnergy();

@@ -43,7 +43,7 @@ void gatherVelocities(State& state, int modes, U&& u)
                 const Vec3i node(n % 3, n / 3 % 3, n / 9);
                 const Vec3 inCells = (stencil.first + node).cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a);
                 const Vec3 x = state.grid.origin + state.grid.dx * inCells;
-                projectOntoModes(stencil.basis, node.x(), node.y(), node.z(), u(x)[a], modes, c);
+                projectOntoModes(stencil.basis, node, u(x)[a], modes, c);
             }
             c = toMonomials(stencil.basis, c);
             for (int r = 0; r < liquid.modeCount; ++r) liquid.mode(a, r)[p] = c[r];

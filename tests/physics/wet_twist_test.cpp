@@ -1,5 +1,5 @@
 // Water in a yarn turns with it.
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/sim/fabric/pieces.h"
 

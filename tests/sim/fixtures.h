@@ -3,7 +3,7 @@
 #include "sim/grid/face_fields.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/particles/particle_order.h"
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>

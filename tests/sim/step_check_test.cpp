@@ -1,6 +1,6 @@
 #include "sim/step_check.h"
 
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "sim/simulation.h"
 #include "tests/physics/runs.h"
 #include "tests/sim/fabric/pieces.h"
@@ -116,7 +116,7 @@ TEST(StepCheck, FindsNothingWhereNothingIsLeft)
     ObstacleSettings plate;
     plate.name = "plate";
     plate.shape = Shape::box(Vec3(4.0, 4.0, 4.0), Vec3(1.0, 0.1, 1.0));
-    plate.motion.addRotation(0.0, 1.0, Vec3::UnitX(), 3.0, Vec3(4.0, 4.0, 4.0), Motion::Frame::World, 0.0, 0.0);
+    plate.motion.addRotation(0.0, 1.0, {Vec3::UnitX(), Vec3(4.0, 4.0, 4.0)}, 3.0, 0.0, 0.0);
     scene.obstacles.push_back(plate);
     const Fabric none;
     const StepCheck check(scene, none);

@@ -3,7 +3,7 @@
 #include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 #include "sim/settings.h"
-#include "sim/step_report.h"
+#include "sim/stage.h"
 
 #include <array>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/core/types.h"
-#include "sim/fabric/piece.h"
+#include "sim/fabric/pieces/piece.h"
 
 #include <Eigen/Core>
 

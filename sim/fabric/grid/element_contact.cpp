@@ -104,7 +104,7 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
 {
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3 along = state.x[corners_[e][1]] - state.x[corners_[e][0]];
-    at.d = {state.across[direction(e)], state.across[direction(e) + 1]};
+    at.d = {state.gridSolver.across[direction(e)], state.gridSolver.across[direction(e) + 1]};
     const Mat3 q = at.frame = yarn::frameOf(along, at.d[0]);
     at.reciprocal = {q.col(0) / along.norm(), Vec3::Zero()};
     at.normal.setZero();
@@ -154,7 +154,7 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     const Vec3 t0 = state.x[corners_[e][1]] - x0, t1 = state.x[corners_[e][2]] - x0;
     const Mat3 q = at.frame = sheet::frameOf(t0, t1);
     const double area = t0.cross(t1).norm();
-    at.d = {state.across[direction(e)], Vec3::Zero()};
+    at.d = {state.gridSolver.across[direction(e)], Vec3::Zero()};
     at.normal = q.col(2);
     at.reciprocal = {t1.cross(at.normal) / area, at.normal.cross(t0) / area};
     for (Mat3& k : at.stiffness) k.setZero();
@@ -241,7 +241,7 @@ double ElementContact::carry(const StepOutlook& moved, double mostUnforeseen, Fa
         const Vec3 t0 = state.x[corners_[e][1]] - x0;
         const double most = mostAfter(e, moved, leftOut);
         const auto excess = [&](double energy) { return energy > most ? std::sqrt(most / energy) : 1.0; };
-        Vec3* d = state.across.data() + direction(e);
+        Vec3* d = state.gridSolver.across.data() + direction(e);
         if (isEdge(e)) {
             const std::array<Vec3, 2> between = {carried * d[0], carried * d[1]};
             const Mat3 q = yarn::frameOf(t0, between[0]);

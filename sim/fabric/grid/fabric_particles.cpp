@@ -2,7 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/liquid/energy.h"
-#include "sim/transfer/modes.h"
+#include "sim/particles/velocity_modes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ double FabricParticles::keptOver(double factor, double h) const { return keepPer
 void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
 {
     const std::size_t n = state.x.size();
-    if (state.modes.size() != kAxes * rows() * n) state.modes.assign(kAxes * rows() * n, 0.0);
+    if (state.gridSolver.modes.size() != kAxes * rows() * n) state.gridSolver.modes.assign(kAxes * rows() * n, 0.0);
     particles_.resize(n + elements.size());
     parallelFor(n + elements.size(), 1024, [&](std::size_t p) {
         const Vec3& x = p < n ? state.x[p] : elements[p - n];
@@ -55,10 +55,11 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     const auto vertices = static_cast<std::uint32_t>(state.x.size());
     vertices_.find(particles_, order_, grid_, 0, vertices);
     elements_.find(particles_, order_, grid_, vertices, vertices + static_cast<std::uint32_t>(elements.size()));
+    const SortedParticles sorted{particles_, order_, grid_};
     if (differsFromTranslation(transfer_.xi, modes_)) {
-        const Energies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
-        particlesToFacesBounded(particles_, order_, grid_, transfer_.xi, state.sinceGather, own.kinetic + own.modal, bounded_, faces_);
-    } else particlesToFaces(particles_, order_, grid_, scatter_, faces_);
+        const LiquidEnergies own = liquidEnergies(particles_, grid_, Vec3::Zero(), &order_);
+        particlesToFacesBounded(sorted, transfer_.xi, state.gridSolver.sinceGather, own.kinetic + own.modal, bounded_, faces_);
+    } else particlesToFaces(sorted, scatter_, faces_);
     faces_.velocity.resize(grid_.count());
     parallelFor(grid_.count(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);

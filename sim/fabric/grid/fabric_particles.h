@@ -39,7 +39,7 @@ class FabricParticles {
     int rows() const { return particles_.modeCount; }
     double& modeOf(FabricState& state, int axis, int r, std::size_t v) const
     {
-        return state.modes[(static_cast<std::size_t>(axis) * rows() + r) * state.x.size() + v];
+        return state.gridSolver.modes[(static_cast<std::size_t>(axis) * rows() + r) * state.x.size() + v];
     }
     void load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state);
     void damp(double h, std::size_t v, FabricState& state) const;

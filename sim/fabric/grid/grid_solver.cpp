@@ -49,8 +49,8 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
 /// Gives a state that comes from elsewhere what this solver keeps in it.
 void GridFabricSolver::begin(FabricState& state)
 {
-    if (!state.across.empty()) return;
-    state.across = contact_.unstrained(state);
+    if (!state.gridSolver.across.empty()) return;
+    state.gridSolver.across = contact_.unstrained(state);
     std::ranges::fill(state.held, Vec3::Zero());  // a face may give way where others keep the vertex in its place
 }
 
@@ -137,13 +137,13 @@ void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, Fab
 /// What forces did in the last step, on the faces of this one; null in the first.
 const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState& state)
 {
-    if (state.faceBlocks.count() == 0) return nullptr;
+    if (state.gridSolver.faceBlocks.count() == 0) return nullptr;
     expected_.resize(system_.blocks());
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
-        const int block = static_cast<int>(b), before = state.faceBlocks.find(particles_.grid().coords(block));
+        const int block = static_cast<int>(b), before = state.gridSolver.faceBlocks.find(particles_.grid().coords(block));
         double* to = expected_.block(block);
         if (before == BlockGrid::kNone) std::fill_n(to, kAxes * kBlockCells, 0.0);
-        else std::copy_n(state.faceChange.block(before), kAxes * kBlockCells, to);
+        else std::copy_n(state.gridSolver.faceChange.block(before), kAxes * kBlockCells, to);
     });
     return &expected_;
 }
@@ -151,12 +151,12 @@ const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState&
 /// How the solve changed velocities, for that of the next step.
 void GridFabricSolver::keepChange(FabricState& state) const
 {
-    state.faceBlocks = particles_.grid();
-    state.faceChange.resize(system_.blocks());
+    state.gridSolver.faceBlocks = particles_.grid();
+    state.gridSolver.faceChange.resize(system_.blocks());
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         const double *start = start_.block(block), *v = velocity_.faces.block(block);
-        double* change = state.faceChange.block(block);
+        double* change = state.gridSolver.faceChange.block(block);
         for (int c = 0; c < kAxes * kBlockCells; ++c) change[c] = v[c] - start[c];
     });
 }
@@ -170,7 +170,8 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
     parallelFor(system_.blocks(), 8, [&](std::size_t b) {
         const int block = static_cast<int>(b);
         for (int a = 0; a < kAxes; ++a) {
-            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a), *change = state.faceChange.block(block, a);
+            const double *m = inertia.block(block, a), *own = mass.block(block, FaceFields::kMass + a),
+                         *change = state.gridSolver.faceChange.block(block, a);
             double* to = acceleration_.block(block, a);
             for (int c = 0; c < kBlockCells; ++c) to[c] = m[c] > 0.0 ? m[c] * change[c] / (h * own[c]) : 0.0;
         }
@@ -261,14 +262,14 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
     moveVertices(t, h, gravity, state, report);
-    state.onFabric.clear();
+    state.vertexSolver.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
     else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
         state.omega[e] = kept * velocity_.twist[e];
         state.theta[e] += h * state.omega[e];
     }
-    state.sinceGather = h;
+    state.gridSolver.sinceGather = h;
     stiffness_.rods().transportFrames(state);
 
     clock.start(Stage::FabricStrain);

@@ -4,10 +4,10 @@
 #include "sim/fabric/grid/face_system.h"
 #include "sim/fabric/groups.h"
 #include "sim/fabric/integrator.h"
-#include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/solids/guard.h"
+#include "sim/fabric/solids/obstacle_contact.h"
 #include "sim/forces.h"
-#include "sim/scene/scene.h"
+#include "sim/obstacle_settings.h"
 
 #include <span>
 #include <vector>

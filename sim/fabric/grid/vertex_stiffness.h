@@ -1,9 +1,9 @@
 #pragma once
 
 #include "sim/fabric/grid/twist_balance.h"
-#include "sim/fabric/obstacle_contact.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
+#include "sim/fabric/solids/obstacle_contact.h"
 #include "sim/fabric/vertex_unknowns.h"
 
 #include <array>

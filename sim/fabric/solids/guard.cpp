@@ -193,18 +193,20 @@ bool SolidGuard::isHeld(const int* vertices, int corners) const
 }
 
 /// Appends an element that comes too near, or its parts, if the element itself begins inside of the solid or is left to pins.
-void SolidGuard::look(int number, int name, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const
+void SolidGuard::look(int number, const Part& whole, Points x, std::span<const Vec3> u, std::vector<Blocked>& out) const
 {
+    const int* vertices = whole.vertices;
+    const int corners = whole.corners;
     if (corners == 1 && fabric_->pinned[*vertices]) return;
     const Body& body = bodies_[number];
     const double kept = kCore * leastRadius(vertices, corners);
     const auto lookAtParts = [&] {
         for (int c = 0; corners > 1 && c < corners; ++c) {
             const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
-            look(number, name, x, u, part.data(), corners - 1, out);
+            look(number, {whole.element, part.data(), corners - 1}, x, u, out);
         }
     };
-    if (isLeft_[name] && isHeld(vertices, corners)) return lookAtParts();
+    if (isLeft_[whole.element] && isHeld(vertices, corners)) return lookAtParts();
     if (std::any_of(vertices, vertices + corners, [&](int v) { return body.distance[v] <= 0.0; })) return lookAtParts();
     const SweptElement element = swept(body, x, u, vertices, corners);
     SafePart safe = solids::safePart(body.shape, element, kept);
@@ -225,7 +227,7 @@ void SolidGuard::look(int number, int name, Points x, std::span<const Vec3> u, c
     }
     Blocked& blocked = out.emplace_back();
     blocked.body = number;
-    blocked.element = name;
+    blocked.element = whole.element;
     blocked.corners = corners;
     std::copy_n(vertices, corners, blocked.vertices.begin());
     blocked.part = safe.part;
@@ -260,7 +262,7 @@ void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
         const std::array<int, 3>& vertices = elements_[element];
         const int corners = vertices[2] < 0 ? 2 : 3;
         if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
-            look(body, element, x, u, vertices.data(), corners, out);
+            look(body, {element, vertices.data(), corners}, x, u, out);
     });
 }
 

@@ -2,7 +2,7 @@
 
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/solids/sweep.h"
-#include "sim/scene/scene.h"
+#include "sim/obstacle_settings.h"
 
 #include <span>
 #include <string>
@@ -90,7 +90,13 @@ class SolidGuard {
     bool slide(Points x, Moves u);
     bool slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const;
     void findBlocked(Points x, std::span<const Vec3> u);
-    void look(int body, int element, Points x, std::span<const Vec3> u, const int* vertices, int corners, std::vector<Blocked>& out) const;
+    /// An element, or an edge or a vertex of one.
+    struct Part {
+        int element;
+        const int* vertices;
+        int corners;
+    };
+    void look(int body, const Part& part, Points x, std::span<const Vec3> u, std::vector<Blocked>& out) const;
     bool isHeld(const int* vertices, int corners) const;
     void leaveToPins();
     bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;

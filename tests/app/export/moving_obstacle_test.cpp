@@ -13,7 +13,7 @@ sim::Scene twoBoxes()
     scene.obstacles.resize(2);
     scene.obstacles[0].name = "paddle";
     scene.obstacles[0].shape = sim::Shape::box({1, 2, 3}, {1, 0.5, 0.25});
-    scene.obstacles[0].motion.addRotation(0.0, 2.0, sim::Vec3(1, 2, 2) / 3.0, 5.0, {4, 0, 0}, sim::Motion::Frame::World, 0.0, 0.0);
+    scene.obstacles[0].motion.addRotation(0.0, 2.0, {sim::Vec3(1, 2, 2) / 3.0, {4, 0, 0}}, 5.0, 0.0, 0.0);
     scene.obstacles[0].motion.addTranslation(0.0, 2.0, {6, 0, 0}, 0.5, 0.5);
     scene.obstacles[1].shape = sim::Shape::box({0, 0, 0}, {1, 1, 1});
     return scene;

@@ -1,5 +1,5 @@
 #include "sim/coupling/drip.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>

@@ -64,7 +64,7 @@ struct Bath {
     bool find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
-        return mixture.find(scene.grid, scene.field, Vec3::Zero(), kStep, state, nullptr, scene.liquid);
+        return mixture.find(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
     }
 
     GridScene scene;
@@ -139,7 +139,7 @@ TEST(Mixture, PressureActsOnAllTheRoom)
     Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     GridScene& scene = bath.scene;
     ASSERT_TRUE(bath.find(mixture));
-    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
     const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
     mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
     // A pressure that falls evenly along x: what solvePressure would leave on the faces.

@@ -1,5 +1,5 @@
 #include "sim/coupling/mixture.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "tests/sim/fabric/pieces.h"
 #include "tests/sim/liquid/grid_scene.h"
 
@@ -41,7 +41,7 @@ struct Stack {
     void find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
-        ASSERT_TRUE(mixture.find(scene.grid, scene.field, settings.gravity, kStep, state, nullptr, scene.liquid));
+        ASSERT_TRUE(mixture.find(scene.cut(), settings.gravity, kStep, state, nullptr, scene.liquid));
     }
     /// Liquid on the faces around the fabric, less what the fibres take up.
     void makeRoom()
@@ -93,7 +93,7 @@ TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
     for (int n = 0; n < 60; ++n) {
         stack.makeRoom();
         stack.find(mixture);
-        findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+        findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
         mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
         scene.forEachCell([&](const Vec3i& c) {
             scene.velocity(1, c) += scene.work.coefficient.block(scene.at(c).block, 1)[scene.at(c).cell] * kCell * kCell * kSlope;
@@ -122,10 +122,10 @@ void pressAndDrag(Stack& stack, Mixture& mixture)
 {
     GridScene& scene = stack.scene;
     stack.find(mixture);
-    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
     mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
     preparePressure(scene.grid, scene.liquid, scene.work);
-    solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+    solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     stack.moveFabric(mixture.loads(scene.liquid));
 }
 

@@ -1,4 +1,4 @@
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 #include "tests/sim/coupling/wick.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #include "sim/core/check.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/fabric.h"
+#include "sim/fabric/pieces/generators.h"
 
 #include <gtest/gtest.h>
 

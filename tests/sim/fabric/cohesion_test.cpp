@@ -1,7 +1,7 @@
 // Liquid bridges between wet fabric and what it touches: the force they have, and that nothing else comes of it.
 #include "sim/fabric/cohesion.h"
-#include "sim/fabric/generators.h"
-#include "sim/fabric/vertex_solver.h"
+#include "sim/fabric/pieces/generators.h"
+#include "sim/fabric/vertex/vertex_solver.h"
 #include "tests/physics/fabric_runs.h"
 #include "tests/sim/fabric/pieces.h"
 #include "tests/sim/fixtures.h"
@@ -244,8 +244,8 @@ TEST(WetSheets, AreTheSameOnAnyNumberOfThreads)
     for (const int threads : {2, 8}) EXPECT_EQ(one, endOn(threads)) << threads;
 }
 
-/// The book of energy holds bridges: what they give on the way together is what they take apart.
-TEST(WetSheet, BookOfEnergyClosesOverBridges)
+/// The budget of energy holds bridges: what they give on the way together is what they take apart.
+TEST(WetSheet, BudgetOfEnergyClosesOverBridges)
 {
     WetRun run({sheetUnderCeiling()}, 1.0, 4.0e-3, {ceiling()});
     run.solver.bookEnergy();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/fabric/fabric.h"
-#include "sim/fabric/generators.h"
+#include "sim/fabric/pieces/generators.h"
 
 #include <random>
 

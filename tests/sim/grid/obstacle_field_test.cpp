@@ -270,7 +270,7 @@ TEST(ObstacleField, FollowsBlocksThatComeAndGoAndSolidsThatMoveAndStop)
     obstacles.add(Shape::ball({4.0, 4.0, 4.0}, 3.0), {});
     Motion motion;
     motion.addTranslation(0.25, 0.75, {30.0, 0.0, 0.0}, 0.0, 0.0);
-    motion.addRotation(0.25, 0.75, Vec3::UnitY(), 2.0, Vec3(-4.0, 0.0, 2.0), Motion::Frame::World, 0.0, 0.0);
+    motion.addRotation(0.25, 0.75, {Vec3::UnitY(), Vec3(-4.0, 0.0, 2.0)}, 2.0, 0.0, 0.0);
     obstacles.add(Shape::box({-8.0, 2.0, 4.0}, {2.0, 3.0, 4.0}), motion);
 
     std::mt19937 random(4);
@@ -305,7 +305,7 @@ TEST(ObstacleField, WallsMoveWithTheirBody)
 {
     GridScene scene({-8, -8, -8}, {16, 16, 16}, 0.5, Vec3::Zero());
     Motion motion;
-    motion.addRotation(0.0, 1.0, Vec3::UnitZ(), 3.0, Vec3(1.0, 0.0, 0.0), Motion::Frame::World, 0.0, 0.0);
+    motion.addRotation(0.0, 1.0, {Vec3::UnitZ(), Vec3(1.0, 0.0, 0.0)}, 3.0, 0.0, 0.0);
     motion.addTranslation(0.0, 1.0, {0.0, 0.0, 5.0}, 0.0, 0.0);
     scene.obstacles.add(Shape::ball({1.0, 1.0, -1.0}, 1.0), motion);
     const double dt = 1.0e-5;

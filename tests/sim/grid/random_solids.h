@@ -86,7 +86,7 @@ inline Motion randomMotion(Chance& chance, double far, double angle)
 {
     Motion motion;
     motion.addTranslation(0.0, 1.0, chance.inCube(far), 0.0, 0.0);
-    motion.addRotation(0.0, 1.0, chance.direction(), chance.between(-angle, angle), chance.inCube(1.0), Motion::Frame::World, 0.0, 0.0);
+    motion.addRotation(0.0, 1.0, {chance.direction(), chance.inCube(1.0)}, chance.between(-angle, angle), 0.0, 0.0);
     return motion;
 }
 

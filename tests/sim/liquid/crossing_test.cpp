@@ -42,7 +42,7 @@ struct Gone {
         }
         lost = kinetic(particles);
         ChunkSums<Impulse> onSolids;
-        pushed = pushOutOfObstacles(liquid.order, liquid.grid, field, obstacles, farthest, &before, particles, onSolids);
+        pushed = pushOutOfObstacles(liquid.order, {liquid.grid, field, obstacles}, farthest, &before, particles, onSolids);
         lost -= kinetic(particles);
         for (std::size_t p = 0; p < from.size(); ++p) after.push_back(particles.position(p));
     }

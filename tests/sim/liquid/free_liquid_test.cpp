@@ -40,10 +40,12 @@ struct Pieces {
         // Faces between deep cells are taken as full, whatever their mass: let there be none.
         for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(scene.liquid.deep.block(b), BlockBits<>::kWords, 0);
         scene.project(1.0e-3);
-        correctVolume(scene.grid, scene.field, scene.work, Vec3(0.0, -981.0, 0.0), scene.liquid, 0.5, SolverSettings(), volume);
+        Settings settings;
+        settings.gravity = Vec3(0.0, -981.0, 0.0);
+        correctVolume(scene.cut(), settings, 0.5, scene.liquid, scene.work, volume);
         asFound = volume.displacement;
         FreeLiquid work;
-        findUnheldFaces(scene.grid, scene.field, work);
+        findUnheldFaces(scene.cut(), work);
         takeMeans(scene.grid, scene.work, scene.liquid, volume.displacement, work, volume.displacement);
     }
 

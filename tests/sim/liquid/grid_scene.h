@@ -50,6 +50,8 @@ struct GridScene {
         updateObstacles();
     }
 
+    CutGrid cut() const { return {grid, field, obstacles}; }
+
     void updateObstacles()
     {
         const std::vector<int> unknown(grid.count(), BlockGrid::kNone);
@@ -104,7 +106,7 @@ struct GridScene {
             const bool blocked = field.blocked(ref.block)[ref.cell >> 6] >> (ref.cell & 63) & 1;
             if ((settings.full || phi(c) < 0.0) && !blocked) liquid.inside.set(ref.block, ref.cell);
         });
-        findSurface(grid, field, liquid);
+        findSurface(cut(), liquid);
     }
     /// Faces of liquid cells are wet. Between two such cells they are full, else they carry the ghost fluid's fraction:
     /// that of the way from the liquid cell's middle to the other one's on which there is liquid.
@@ -141,11 +143,11 @@ struct GridScene {
 
     SolveReport project(double dt)
     {
-        findPressureFaces(grid, field, settings, dt, liquid, work);
+        findPressureFaces(cut(), settings, dt, liquid, work);
         preparePressure(grid, liquid, work);
-        return solvePressure(grid, field, solver, {}, work, liquid, pressure);
+        return solvePressure(cut(), solver, {}, work, liquid, pressure);
     }
-    double divergence() const { return largestDivergence(grid, field, liquid); }
+    double divergence() const { return largestDivergence(cut(), liquid); }
 
     /// max |u − expected| over the valid faces with open fraction > 0.
     template <class U>

@@ -26,7 +26,7 @@ struct PushedOut {
             before.push_back(liquid.particles.position(p));
         }
         ChunkSums<Impulse> onSolids;
-        pushOutOfObstacles(liquid.order, liquid.grid, field, obstacles, farthest, nullptr, liquid.particles, onSolids);
+        pushOutOfObstacles(liquid.order, {liquid.grid, field, obstacles}, farthest, nullptr, liquid.particles, onSolids);
         for (std::size_t p = 0; p < before.size(); ++p) after.push_back(liquid.particles.position(p));
     }
 };

@@ -40,9 +40,9 @@ struct Crowd {
         liquid.sort();
         field.update(liquid.grid, std::vector<int>(liquid.grid.count(), BlockGrid::kNone), obstacles, false);
         RelaxScratch scratch;
-        relaxationDisplacements(liquid.particles, liquid.order, liquid.grid, kRate, kReach, kInterval, scratch, asPushed);
+        relaxationDisplacements({liquid.particles, liquid.order, liquid.grid}, kRate, kReach, kInterval, scratch, asPushed);
         kept = asPushed;
-        keepRelaxationFromLifting(liquid.order, liquid.grid, field, obstacles, gravity, kReach, liquid.particles, kept);
+        keepRelaxationFromLifting(liquid.order, {liquid.grid, field, obstacles}, gravity, kReach, liquid.particles, kept);
     }
 
     static Vec3 at(const Displacements& all, std::size_t s) { return {all[0][s], all[1][s], all[2][s]}; }

@@ -49,7 +49,7 @@ struct Surface {
         });
         scene.findInside();
         scene.settings.surfaceTension = 1.0;
-        findSurfaceSteps(scene.grid, scene.field, scene.settings, liquid, work);
+        findSurfaceSteps(scene.cut(), scene.settings, liquid, work);
         scene.forEachFace([&](int a, const Vec3i& c) {
             const double step = work.step.block(scene.at(c).block, a)[scene.at(c).cell];
             if (step == 0.0) return;
@@ -167,10 +167,10 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
             double& step = drop.work.step.block(b)[n];
             if (step != 0.0) step = std::copysign(kPressure, step);
         }
-    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
-    applySurfaceSteps(scene.grid, scene.field, scene.work, 1.0, drop.work, scene.liquid);
+    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
+    applySurfaceSteps(scene.cut(), scene.work, 1.0, drop.work, scene.liquid);
     preparePressure(scene.grid, scene.liquid, scene.work);
-    const SolveReport report = solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+    const SolveReport report = solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     EXPECT_TRUE(report.converged);
     const double scale = kStep * kPressure / scene.grid.dx;  // what it would do to a full face alone
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_LT(std::abs(scene.velocity(a, c)), 1.0e-10 * scale); });

@@ -40,7 +40,7 @@ GridScene unevenLiquid(bool isHeld, double level, std::mt19937& random)
                 mass(j + 1) += moved;
             }
         }
-    findPressureFaces(scene.grid, scene.field, scene.settings, kStep, scene.liquid, scene.work);
+    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
     preparePressure(scene.grid, scene.liquid, scene.work);
     scene.setVelocities([](const Vec3&) { return kFall; });
     scene.liquid.unpressed = scene.liquid.faces.velocity;
@@ -50,11 +50,11 @@ GridScene unevenLiquid(bool isHeld, double level, std::mt19937& random)
 void levelIn(GridScene& scene)
 {
     LiquidOnSolids onSolids;
-    onSolids.begin(scene.grid, scene.field, scene.obstacles, scene.liquid.faces);
+    onSolids.begin(scene.cut(), scene.liquid.faces);
     FreeLiquid bodies;
-    findUnheldFaces(scene.grid, scene.field, bodies);
+    findUnheldFaces(scene.cut(), bodies);
     findHeldBodies(scene.grid, scene.work, scene.liquid, bodies);
-    levelWeight(scene.grid, scene.field, scene.work, bodies, nullptr, kFall, scene.liquid, &onSolids);
+    levelWeight(scene.cut(), scene.work, bodies, kFall, scene.liquid, &onSolids);
 }
 
 double largestSpeed(GridScene& scene)
@@ -89,8 +89,8 @@ TEST(SurfaceWeight, ColumnsThatWeighTheSameStayAtRest)
                 }
                 EXPECT_NEAR(moved, 0.0, 1.0e-12 * weight) << "level " << level;
             }
-        solvePressure(scene.grid, scene.field, scene.solver, {}, scene.work, scene.liquid, scene.pressure);
-        solvePressure(asItLies.grid, asItLies.field, asItLies.solver, {}, asItLies.work, asItLies.liquid, asItLies.pressure);
+        solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+        solvePressure(asItLies.cut(), asItLies.solver, {}, asItLies.work, asItLies.liquid, asItLies.pressure);
         EXPECT_LT(largestSpeed(scene), 1.0e-9 * std::abs(kFall.y())) << "level " << level;
         EXPECT_GT(largestSpeed(asItLies), 1.0e-3 * std::abs(kFall.y())) << "level " << level;
     }

@@ -23,7 +23,7 @@ struct ViscousScene {
     {
         scene.solver.viscosityTolerance = tolerance;
         scene.solver.maxIterations = 5000;
-        return solveViscosity(scene.grid, scene.field, scene.settings, scene.solver, dt, work, scene.liquid);
+        return solveViscosity(scene.cut(), scene.settings, scene.solver, dt, work, scene.liquid);
     }
     double mass(int axis, const Vec3i& c) const
     {
@@ -227,10 +227,10 @@ TEST(Viscosity, AddsNoMoreEnergyThanTheWorkOfWallsThatMove)
         viscous.solve(0.0);
         const double before = viscous.energy();
         LiquidOnSolids onSolids;
-        onSolids.begin(scene.grid, scene.field, scene.obstacles, scene.liquid.faces);
+        onSolids.begin(scene.cut(), scene.liquid.faces);
         onSolids.beforeViscosity(scene.liquid.faces.velocity);
         ASSERT_TRUE(viscous.solve(1.0e-3).converged);
-        const double work = onSolids.afterViscosity(scene.grid, scene.field, viscous.work.system, scene.liquid), after = viscous.energy();
+        const double work = onSolids.afterViscosity(scene.cut(), viscous.work.system, scene.liquid), after = viscous.energy();
         EXPECT_LE(after, before + work + 1.0e-10 * (before + after)) << kind.name << ", state " << n << ", work " << work;
         given = std::max(given, (after - before) / after);
     }
@@ -304,7 +304,7 @@ TEST(Viscosity, LiquidTurnsRigidlyWithItsWalls)
     ViscousScene viscous({-3, -3, -3}, {13, 13, 13});
     GridScene& scene = viscous.scene;
     Motion motion;
-    motion.addRotation(-1.0, 1.0, Vec3::UnitZ(), 4.0, kMiddle, Motion::Frame::World, 0.0, 0.0);
+    motion.addRotation(-1.0, 1.0, {Vec3::UnitZ(), kMiddle}, 4.0, 0.0, 0.0);
     scene.add(Shape::ball(kMiddle, 1.1).inverted(), motion);
     scene.obstacles.moveTo(0.0, 1.0e-9);  // its velocity is that of a chord
     scene.updateObstacles();

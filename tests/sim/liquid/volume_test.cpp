@@ -13,6 +13,13 @@ namespace {
 constexpr double kStrength = 0.2;
 const Vec3 kGravity(0.0, -981.0, 0.0);
 
+Settings under(const Vec3& gravity)
+{
+    Settings settings;
+    settings.gravity = gravity;
+    return settings;
+}
+
 /// A tank of 10 × 12 × 9 cells, filled to 8 cells above its floor, just projected.
 GridScene tank()
 {
@@ -57,7 +64,7 @@ TEST(Volume, CellsExpandByWhatTheyHoldTooMuchAndHolesClose)
         GridScene scene = tank();
         scene.liquid.fill.block(scene.at(cell).block)[scene.at(cell).cell] = fill;
         VolumeWorkspace work;
-        EXPECT_TRUE(correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work).converged);
+        EXPECT_TRUE(correctVolume(scene.cut(), under(kGravity), kStrength, scene.liquid, scene.work, work).converged);
         const double noise = kVolumeNoise + kCutOffNoise * std::pow(scene.liquid.pitch, 3) * (1.0 / roomOfOpenFaces(scene, cell) - 1.0);
         const double expected = kStrength * (fill - 1.0 - std::copysign(noise, fill - 1.0));
         scene.forEachCell([&](const Vec3i& c) {
@@ -78,7 +85,7 @@ TEST(Volume, NoiseOfTheParticlesPlacesIsLeftAlone)
         if (scene.isInside(c)) fill = 1.0 + noise(random);
     });
     VolumeWorkspace work;
-    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work);
+    correctVolume(scene.cut(), under(kGravity), kStrength, scene.liquid, scene.work, work);
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
@@ -87,7 +94,7 @@ TEST(Volume, OfThinPlacesAtTheSurfaceIsLeftAlone)
     GridScene scene = tank();
     for (int j = 6; j < 8; ++j) scene.liquid.fill.block(scene.at({4, j, 4}).block)[scene.at({4, j, 4}).cell] = j == 7 ? 0.3 : 0.85;
     VolumeWorkspace work;
-    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, kStrength, SolverSettings(), work);
+    correctVolume(scene.cut(), under(kGravity), kStrength, scene.liquid, scene.work, work);
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
@@ -107,7 +114,7 @@ TEST(Volume, WhatComesOffACeilingIsNotPulledBackToIt)
         scene.project(1.0e-3);
         const Vec3 gravity(unit(random), n % 2 == 0 ? 1.01 + unit(random) : -1.01 - unit(random), unit(random));
         VolumeWorkspace work;
-        correctVolume(scene.grid, scene.field, scene.work, gravity, scene.liquid, kStrength, SolverSettings(), work);
+        correctVolume(scene.cut(), under(gravity), kStrength, scene.liquid, scene.work, work);
         double largest = 0.0;
         scene.forEachFace(
             [&](int a, const Vec3i& c) { largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell])); });
@@ -123,7 +130,7 @@ TEST(Volume, NothingMovesFartherThanTheLargestCorrection)
         if (scene.isInside(c)) scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell] = 50.0;
     });
     VolumeWorkspace work;
-    correctVolume(scene.grid, scene.field, scene.work, kGravity, scene.liquid, 1.0, SolverSettings(), work);
+    correctVolume(scene.cut(), under(kGravity), 1.0, scene.liquid, scene.work, work);
     double largest = 0.0;
     scene.forEachFace(
         [&](int a, const Vec3i& c) { largest = std::max(largest, std::abs(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell])); });

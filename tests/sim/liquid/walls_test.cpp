@@ -24,8 +24,8 @@ void fillAndApply(GridScene& scene, double friction, U&& u)
     scene.forEachFace(
         [&](int a, const Vec3i& c) { scene.liquid.faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = 1.0; });
     WallFaces followers;
-    followers.find(scene.grid, scene.field, scene.obstacles, friction, scene.liquid.faces);
-    applyWalls(scene.grid, scene.field, scene.obstacles, friction, false, followers, scene.liquid.faces.valid, scene.liquid.faces.velocity);
+    followers.find(scene.cut(), friction, scene.liquid.faces);
+    applyWalls(scene.cut(), friction, false, followers, scene.liquid.faces.valid, scene.liquid.faces.velocity);
 }
 
 TEST(Walls, FreeSlipMirrorsTheLiquidAlsoInEdgesAndCorners)
@@ -163,10 +163,10 @@ TEST(Walls, FoldingIsLikeMirroredParticles)
     ScatterScratch scratch;
     inside.sort();
     all.sort();
-    particlesToFaces(inside.particles, inside.order, inside.grid, scratch, folded);
+    particlesToFaces({inside.particles, inside.order, inside.grid}, scratch, folded);
     BlockArray<double, 3> weightless;
     foldAtPlaneWalls(inside.grid, obstacles, folded, weightless);
-    particlesToFaces(all.particles, all.order, all.grid, scratch, expected);
+    particlesToFaces({all.particles, all.order, all.grid}, scratch, expected);
     for (int a = 0; a < kAxes; ++a)
         for (int z = a == 2; z < size.z(); ++z)
             for (int y = a == 1; y < size.y(); ++y)
@@ -240,7 +240,7 @@ AtWalls passWalls(GridScene& scene, std::mt19937& random, double friction)
         if (m > 0.0 && scene.open(a, c) > 0.0) scene.setValid(a, c);
     });
     const auto alone = faces.velocity;
-    applyWalls(scene.grid, scene.field, scene.obstacles, friction, false, followers, faces.valid, faces.velocity);
+    applyWalls(scene.cut(), friction, false, followers, faces.valid, faces.velocity);
     scene.forEachFace([&](int a, const Vec3i& c) {
         const CellRef ref = scene.at(c);
         const double m = before.block(ref.block, FaceFields::kMass + a)[ref.cell], u = scene.velocity(a, c);
@@ -277,7 +277,7 @@ TEST(Walls, AddNoMoreEnergyThanTheirWorkWhereTheyMove)
         const bool turns = seed % 2 == 0;
         Motion motion;
         motion.addTranslation(0.0, 1.0, velocity, 0.0, 0.0);
-        if (turns) motion.addRotation(0.0, 1.0, Vec3::UnitY(), 30.0, scene.corner({4, 4, 4}), Motion::Frame::World, 0.0, 0.0);
+        if (turns) motion.addRotation(0.0, 1.0, {Vec3::UnitY(), scene.corner({4, 4, 4})}, 30.0, 0.0, 0.0);
         addRandomSolids(scene, random, motion);
         const AtWalls at = passWalls(scene, random, std::array{0.0, 0.2, 0.5, 0.92}[seed / 2 % 4]);
         const double scale = at.given + at.read + std::abs(at.work);
@@ -320,7 +320,7 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
             scene.velocity(a, c) = 10.0 * unit(random);
             if (mass(faces.sums, a, c) > 0.0 && scene.open(a, c) > 0.0) scene.setValid(a, c);
         });
-        applyWalls(scene.grid, scene.field, scene.obstacles, friction, false, followers, faces.valid, faces.velocity);
+        applyWalls(scene.cut(), friction, false, followers, faces.valid, faces.velocity);
         double onFaces = 0.0, onParticles = 0.0, scale = 0.0;
         scene.forEachFace([&](int a, const Vec3i& c) {
             const double u = scene.velocity(a, c), particles = mass(given, a, c) * gravity[a] * u;

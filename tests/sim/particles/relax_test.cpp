@@ -26,7 +26,7 @@ std::vector<Vec3> displacementsOf(const SortedLiquid& liquid, double reach = kRe
 {
     RelaxScratch scratch;
     Displacements displacement;
-    relaxationDisplacements(liquid.particles, liquid.order, liquid.grid, rate, reach, kDt, scratch, displacement);
+    relaxationDisplacements({liquid.particles, liquid.order, liquid.grid}, rate, reach, kDt, scratch, displacement);
     std::vector<Vec3> byId(liquid.particles.count);
     for (std::size_t s = 0; s < byId.size(); ++s) byId[liquid.particles.id[s]] = {displacement[0][s], displacement[1][s], displacement[2][s]};
     return byId;

@@ -79,7 +79,7 @@ TEST(AffineMap, EvaluatesThePolynomialWhereTheMaterialWas)
                     const Vec3i node(n % 3, n / 3 % 3, n / 9);
                     const CellRef face = faceOfCell(t.grid(), stencil.first + node);
                     const Vec3 z(stencil.basis[0].z[node.x()], stencil.basis[1].z[node.y()], stencil.basis[2].z[node.z()]);
-                    const double share = p.mass[s] * stencil.weight(node.x(), node.y(), node.z());
+                    const double share = p.mass[s] * stencil.weight(node);
                     expected.sums.block(face.block, FaceFields::kMass + a)[face.cell] += share;
                     expected.sums.block(face.block, FaceFields::kMomentum + a)[face.cell] += share * evaluateModes(Vec3(toOld * z), c[a]);
                 }
@@ -182,11 +182,11 @@ TEST(AffineMap, GivesTheFacesNoEnergyBeyondTheParticles)
                 const double steepness = std::pow(10.0, -3.0 + 0.1 * seed);  // dt |C| of random modes
                 SortedLiquid liquid = randomLiquid(seed % 3 == 0 ? 3 : 400, modes, {6, 5, 7}, {-2, 6, 3}, kCell, seed);
                 const double dt = steepness * kCell;
-                const Energies own = liquidEnergies(liquid.particles, liquid.grid, Vec3::Zero(), &liquid.order);
+                const LiquidEnergies own = liquidEnergies(liquid.particles, liquid.grid, Vec3::Zero(), &liquid.order);
                 BoundedScratch scratch;
                 FaceFields faces;
                 const double share =
-                    particlesToFacesBounded(liquid.particles, liquid.order, liquid.grid, map, dt, own.kinetic + own.modal, scratch, faces);
+                    particlesToFacesBounded({liquid.particles, liquid.order, liquid.grid}, map, dt, own.kinetic + own.modal, scratch, faces);
                 (share < 1.0 ? cut : whole) += 1;
                 double energy = 0.0;
                 Vec3 momentum = Vec3::Zero(), expected = Vec3::Zero();

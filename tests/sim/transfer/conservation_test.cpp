@@ -1,6 +1,6 @@
 // Momentum and energy through the transfers (transfer/README.md, Conservation).
 #include "sim/liquid/energy.h"
-#include "sim/particles/emit.h"
+#include "sim/sources/emit.h"
 #include "tests/sim/transfer/transfers.h"
 
 #include <gtest/gtest.h>
@@ -202,7 +202,7 @@ TEST(Energy, GatherCountsWhatTheParticlesThenHave)
             settings.keep = keep;
             settings.displacement = displacement.data();
             const GatherSums sums = t.toParticles(settings);
-            const Energies energies = liquidEnergies(t.liquid.particles, t.grid(), Vec3::Zero());
+            const LiquidEnergies energies = liquidEnergies(t.liquid.particles, t.grid(), Vec3::Zero());
             EXPECT_NEAR(sums.kinetic, energies.kinetic, 1e-12 * energies.kinetic);
             EXPECT_NEAR(sums.modal, energies.modal, 1e-12 * energies.modal);
             EXPECT_EQ(energies.modal > 0.0, modes > 1);

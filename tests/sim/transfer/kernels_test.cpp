@@ -32,8 +32,8 @@ TEST_P(FastKernels, ScatterAgreesWithReference)
     const SortedLiquid liquid = randomLiquid(20000, GetParam());
     FaceFields fast, plain;
     ScatterScratch scratch;
-    particlesToFaces(liquid.particles, liquid.order, liquid.grid, scratch, fast);
-    particlesToFacesReference(liquid.particles, liquid.order, liquid.grid, plain);
+    particlesToFaces({liquid.particles, liquid.order, liquid.grid}, scratch, fast);
+    particlesToFacesReference({liquid.particles, liquid.order, liquid.grid}, plain);
     EXPECT_LT(relativeDifference(fast.sums.block(0), plain.sums.block(0), plain.sums.size()), 1e-12);
 }
 
@@ -88,7 +88,7 @@ TEST_P(FastKernels, SameBitsForAnyThreadCount)
             settings.modes = GetParam();
             settings.dt = 0.02;
             fillRandomVelocities(liquid.grid, faces);
-            particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
+            particlesToFaces({liquid.particles, liquid.order, liquid.grid}, scatterScratch, faces);
             const double sum = facesToParticles(faces, liquid.order, liquid.grid, settings, gatherScratch, liquid.particles).kinetic;
             std::vector<double> all(faces.sums.block(0), faces.sums.block(0) + faces.sums.size());
             all.insert(all.end(), liquid.particles.x[0].begin(), liquid.particles.x[0].end());

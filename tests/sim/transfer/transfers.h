@@ -41,8 +41,8 @@ struct Transfers {
     /// P2G; faces with mass get a velocity, the others rest.
     void toFaces(XiMap map = XiMap::Translation, double dt = 0.0)
     {
-        if (map == XiMap::Translation) particlesToFaces(liquid.particles, liquid.order, liquid.grid, scatterScratch, faces);
-        else particlesToFacesAffine(liquid.particles, liquid.order, liquid.grid, map, dt, faces);
+        if (map == XiMap::Translation) particlesToFaces({liquid.particles, liquid.order, liquid.grid}, scatterScratch, faces);
+        else particlesToFacesAffine({liquid.particles, liquid.order, liquid.grid}, map, dt, faces);
         setVelocities([&](int axis, int b, int c) { return mass(axis, b, c) > 0.0 ? momentum(axis, b, c) / mass(axis, b, c) : 0.0; });
     }
 

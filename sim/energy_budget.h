@@ -1,0 +1,89 @@
+#pragma once
+
+#include "sim/liquid/push_out.h"
+#include "sim/scene/scene.h"
+#include "sim/state.h"
+#include "sim/step_report.h"
+#include "sim/workspace.h"
+
+namespace sim {
+
+/// Books what each part of a step does to the energy of liquid and fabric, as the difference before and after it on the carrier it works
+/// on, particles or faces (sim/README.md, Energy). Does nothing, and measures nothing, unless the workspace asks for it.
+class EnergyBudget {
+ public:
+    EnergyBudget(const State& state, const Settings& settings, const Workspace& work, StepReport& report);
+
+    /// Particles have come, gone, and been sorted: their modes are where they were.
+    void sorted();
+    /// The liquid's momenta are on the faces, gravity not yet.
+    void toGrid();
+    /// Gravity, or viscosity, has acted on the faces.
+    void onFaces(EnergyChange change);
+    /// Viscosity has, through which solids that move did this work [erg].
+    void viscosity(double bySolids);
+    /// Before weight is levelled, or surface tension acts: faces that fabric is on have the mixture's velocities by then, which are not looked at.
+    void remember();
+    /// Weight has been moved between faces that only liquid is on.
+    void levelled();
+    /// Surface tension has acted there, too, but not yet the pressure that holds against it.
+    /// On faces that liquid and fabric share its work is part of the pressure's.
+    void surfaceTension(bool isMixed);
+    /// The pressure has done this work on liquid that sources pressed into liquid [erg].
+    void pressedIn(double work);
+    /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids and sources.
+    void reflected(double dt);
+    /// Back on the particles, which moved for dt [s].
+    void toParticles(double dt, const PushedOut& pushed);
+    /// All that has changed since the last look.
+    void after(EnergyChange change);
+    /// Fabric has taken liquid up, or moved some within itself: where pores lift it that is suction's work; velocities mix.
+    void taken(EnergyChange change);
+    /// Liquid and fabric have been solved for, over dt [s].
+    /// @param gravity  that acted on the fabric: meanGravity [cm/s^2]
+    void solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric);
+    /// Faces behind walls have got their velocities.
+    /// @param read       velocities that the particles get [cm/s]
+    /// @param fall       what weight made of velocities [cm/s]
+    /// @param flipRatio  share of their own velocities that the particles keep: what walls replace on faces does not reach it [-]
+    void walls(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio);
+    /// What solids got of the liquid on its faces is known, and so what those that move did to it: impulse times velocity on each face. That is exact
+    /// where the parts booked before, by pressure, viscosity and walls, are not; the pressure's row has what they lack.
+    void solidsGave();
+    /// The step is over.
+    void finished();
+
+ private:
+    struct Energy {
+        double liquidKinetic = 0.0, potential = 0.0, fabric = 0.0;  ///< fabric: all of its own
+        Vec3 fabricMoment = Vec3::Zero();                           ///< Σ m x of the fabric [g cm]
+        double sum() const { return liquidKinetic + potential + fabric; }
+    };
+    Energy look() const;
+    Vec3 fabricMoment() const;
+    double particlesKinetic() const;
+    double facesKinetic() const;
+    /// Of its impulse on each face, along the velocity at the end: that has no divergence, so that a drop's uniform pressure does
+    /// no work on it [erg].
+    double workOfSurfaceTension() const;
+    /// Of moving solids against the liquid's pressure on them over dt: what flows out of cells through what is closed of their faces [erg].
+    double workAgainst(const BlockArray<double>& pressure, double dt) const;
+    /// Of moving solids on the faces behind them, which get their velocity: impulse times velocity [erg].
+    double workOnFollowers(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio) const;
+    void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
+
+    const State& state_;
+    const Settings& settings_;
+    const Workspace& work_;
+    std::optional<EnergyChanges>& changes_;
+    bool isSorted_ = false, isOnFaces_ = false;
+    BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
+    BlockArray<double, 3> remembered_;     ///< velocities before they were levelled or pulled [cm/s]
+    BlockArray<double, 3> pulled_;         ///< by how much surface tension changed velocities [cm/s], if it acts: of faces that only liquid is on,
+    BlockArray<double, 3> pulledMixture_;  ///< … and of all, where others are shared
+    Energy last_;
+    double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
+    double lag_ = 0.0;        ///< of potential energy behind the present places [erg]
+};
+
+}  // namespace sim

@@ -1,0 +1,102 @@
+#include "sim/fabric/pins.h"
+#include "sim/fabric/vertex/vertex_solver.h"
+
+#include <array>
+#include <cmath>
+
+// What acted on the fabric in an attempt that stands, by the forces of its last iteration: contact's are known pair by pair, those of pins are
+// what the balance of a held vertex wants. What iterations have left of that balance is nobody's yet (MomentumBudget).
+
+namespace sim {
+
+/// Newton's last move, as far as contact has been looked at before it [cm].
+Vec3 VertexSolver::solvedMove(int vertex) const { return hasMovedSinceLook_ ? system_.move(vertex) : Vec3::Zero().eval(); }
+
+/// Gradient of a pair of fabric by its separation [dyn]: contact is so stiff that where a move did not come quite as far as Newton's
+/// the force at the state is another than the one it reckoned with.
+Vec3 VertexSolver::forceAtEnd(std::size_t contact) const
+{
+    const Vec3& normal = contacts_->normal[contact];
+    Vec3 change = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) change += contacts_->weights[contact][k] * solvedMove(contacts_->vertices[contact][k]);
+    const Vec3 along = normal.dot(change) * normal;
+    return contacts_->force[contact] + contacts_->stiffness[contact] * along + contacts_->frictionStiffness[contact] * (change - along);
+}
+
+/// The same of a point on a solid.
+Vec3 VertexSolver::forceAtEnd(const ObstacleContact& contact) const
+{
+    const std::array<int, 3> v = contact.vertices();
+    const std::array<double, 3> share = contact.shares();
+    Vec3 change = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) change += share[k] * solvedMove(v[k]);
+    return contact.gradient + contact.stiffness * change;
+}
+
+void VertexSolver::tellForces(double h, const Vec3& gravity, const FabricState& state) const
+{
+    tellContacts(h, state);
+    if (guardActed_) tellGuard(h, state);
+    if (!fabric_.pins.vertex.empty()) tellPins(h, gravity, state);
+}
+
+/// Penalty and friction, on solids and between pieces of the scene.
+void VertexSolver::tellContacts(double h, const FabricState& state) const
+{
+    for (const ObstacleContact& contact : touching_) {
+        const std::array<int, 3> v = contact.vertices();
+        const std::array<double, 3> share = contact.shares();
+        const Vec3 place = share[0] * state.x[v[0]] + share[1] * state.x[v[1]] + share[2] * state.x[v[2]];
+        forces_->touch(fabric_.pieceOf(v[0]), obstacles_.inScene(contact.between[1]), Impulse::at(place, h * forceAtEnd(contact)));
+    }
+    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) {
+        const std::array<int, 4>& v = contacts_->vertices[i];
+        const std::array<double, 4>& weight = contacts_->weights[i];
+        const int first = fabric_.pieceOf(v[0]), second = fabric_.pieceOf(v[contacts_->firstSide[i]]);
+        if (first == second) continue;
+        Vec3 place = Vec3::Zero();  // between the two sides
+        for (int k = 0; k < 4; ++k) place += 0.5 * std::abs(weight[k]) * state.x[v[k]];
+        forces_->meet(first, second, Impulse::at(place, -h * forceAtEnd(i)));
+    }
+}
+
+/// What solids made of the last move, which velocities follow.
+void VertexSolver::tellGuard(double h, const FabricState& state) const
+{
+    for (std::size_t v = 0; v < guardMove_.size(); ++v) {
+        if (guardMove_[v].isZero(0.0)) continue;
+        const Vec3 onObstacle = -mass_[v] / h * guardMove_[v];
+        forces_->touch(fabric_.pieceOf(static_cast<int>(v)), obstacles_.inScene(obstacles_.nearest(state.x[v])), Impulse::at(state.x[v], onObstacle));
+    }
+}
+
+/// What a held vertex, or a held twist angle, would do if it were not.
+void VertexSolver::tellPins(double h, const Vec3& gravity, const FabricState& state) const
+{
+    const std::vector<int>& pinned = fabric_.pins.vertex;
+    const std::span<const double> gradient = system_.heldGradient();
+    const double part = h / wholeStep_;
+    for (std::size_t i = 0; i < pinned.size(); ++i) {
+        const int v = pinned[i];
+        Vec3 got = mass_[v] * (h * gravity - (state.v[v] - start_.v[v])) - h * Vec3(gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]);
+        if (loads_) got += part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
+        forces_->pins[fabric_.pins.motion[i]] += Impulse::at(state.x[v], got);
+    }
+    std::size_t held = 3 * pinned.size();
+    for (std::size_t e = 0; e < fabric_.edges.size() && held < gradient.size(); ++e) {
+        if (!fabric_.edges.twistHeld[e]) continue;
+        const double torque = -gradient[held++];
+        if (const auto pin = pinOfEdge(fabric_, static_cast<int>(e)))
+            forces_->pins[fabric_.pins.motion[*pin]].angular += h * torque * state.tangent[e];
+    }
+}
+
+void VertexSolver::tellLiquid(const FabricState& state) const
+{
+    for (std::size_t v = 0; v < state.v.size(); ++v) {
+        const Vec3 got = loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]);
+        if (!got.isZero(0.0)) forces_->fabrics[fabric_.pieceOf(static_cast<int>(v))].liquid += Impulse::at(state.x[v], got);
+    }
+}
+
+}  // namespace sim

@@ -1,0 +1,113 @@
+#include "sim/core/parallel.h"
+#include "sim/fabric/owed_energy.h"
+#include "sim/fabric/vertex/vertex_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Backward Euler takes energy. What a step gains where nothing drives the fabric it has from a Newton iteration that has not come to a
+// solution, or from contact that the step before did not see.
+
+namespace sim {
+
+/// At x, of what touched at the last look, with the friction that is held.
+ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const
+{
+    ContactEnergy stored;
+    if (contacts_) stored = contact_->storedEnergy(x, held.vertexSolver.onFabric);
+    stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
+    stored.bridges += obstacles_.bridgeEnergy(fabric_, x);
+    return stored;
+}
+
+/// Energy that the fabric may have at the end of a step [erg]: that of the start, and what was given. Where nothing moves this is the
+/// liquid's work alone, and the rest need not be known.
+double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
+{
+    if (isDriven_) return startEnergies_.total() + workFromOutside(energyChanges(h, gravity, state));
+    if (!loads_) return startEnergies_.total();
+    return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
+                                        return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
+                                    });
+}
+
+/// Kinetic energy of a motion, or of one that is not felt [erg].
+double VertexSolver::felt(double kinetic, double h) const
+{
+    const double unfelt = kAccelerationTolerance * feltAcceleration_ * h;
+    return kinetic + 0.5 * totalMass_ * unfelt * unfelt;
+}
+
+/// Energy that a step gained from nothing, relative to that of its motion, beyond that of contact which was not seen at its start; less than
+/// what is not felt counts as none.
+double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state) const
+{
+    const FabricEnergies now = energies(state, gravity);
+    const double scale = felt(now.kinetic, h);
+    if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
+    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - unseenAtStart_) / scale;
+}
+
+/// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
+/// that cannot pay it goes on to owe. Returns the changes of the step.
+EnergyChanges VertexSolver::payForGain(double h, const Vec3& gravity, FabricState& state) const
+{
+    EnergyChanges changes = energyChanges(h, gravity, state);
+    const double due = start_.vertexSolver.owed + energies(state, gravity).total() - startEnergies_.total() - workFromOutside(changes);
+    changes[EnergyChange::Implicit] -= payOwed(due, fabric_, groups_, mass_, state);
+    return changes;
+}
+
+/// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of
+/// fabric that nothing drives.
+void VertexSolver::giveNoEnergy(const Part& part)
+{
+    const double h = part.h;
+    const Vec3& gravity = part.gravity;
+    FabricState& state = part.state;
+    const double allowed = allowedEnergy(h, gravity, state);
+    const auto resting = [&] {
+        const FabricEnergies now = energies(state, gravity);
+        return now.total() - now.kinetic;
+    };
+    if (resting() <= allowed) {
+        slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);
+        return;
+    }
+    std::vector<Vec3> way(state.x.size());
+    std::vector<double> turn(state.theta.size());
+    for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
+    for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
+    const double lastFraction = state.vertexSolver.lastFraction;
+    // Where all of the motion does not pay for it, only a part of the way can be.
+    for (const double share : {0.5, 0.25, 0.125, 0.0}) {
+        if (resting() <= allowed) break;
+        state = start_;
+        state.vertexSolver.lastFraction = lastFraction;
+        state.springStep = springStep_;
+        guard_.moveTo(part.t, part.t + h);
+        if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
+        for (std::size_t v = 0; v < way.size(); ++v) move_[v] = share * way[v];
+        limit(state, part.report, part.clock);
+        commit(state, part.clock);
+        guard_.rest();
+        for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += share * turn[e];
+        finish(h, state);
+    }
+    slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);
+}
+
+/// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.
+void VertexSolver::lookAgain(double h, FabricState& state, StageClock& clock)
+{
+    if (!startIsLookedAt_) {
+        look(h, start_.x, {}, clock);
+        unseenAtStart_ = std::max(0.0, contactEnergy(h, start_.x, start_).sum() - start_.stored.sum());
+        startIsLookedAt_ = true;
+    }
+    look(h, state.x, {}, clock);
+    hasMovedSinceLook_ = false;
+    finish(h, state);
+}
+
+}  // namespace sim

@@ -1,0 +1,346 @@
+#include "sim/fabric/vertex/vertex_solver.h"
+
+#include "sim/core/parallel.h"
+#include "sim/fabric/contact/spring_step.h"
+#include "sim/fabric/felt_acceleration.h"
+#include "sim/fabric/held.h"
+#include "sim/fabric/owed_energy.h"
+#include "sim/fabric/pins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace sim {
+
+namespace {
+
+constexpr double kTolerance = 1.0e-2;    ///< of the linear solves, relative: looser ones act as damping (fabric/vertex/README.md, Linear solve) [-]
+constexpr double kMoveTolerance = 0.05;  ///< rms error of moves beyond which none is [radii] …
+constexpr double kBearable = 0.05;       ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
+constexpr double kRoundings = 4.0;       ///< of places in a step: slower motion is none [-]
+constexpr double kLeftAtContact = 0.3;   ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
+constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
+constexpr double kExpectedMove = 0.3;        ///< farthest that forces are expected to move a vertex against its free flight [radii]
+constexpr double kExpectedTurn = 0.1;        ///< farthest that twist angles are expected to go on as they did [rad]
+constexpr double kLastMove = 0.1;            ///< rms move of a Newton iteration that may be the last [radii]
+constexpr double kSettledMove = 0.25;        ///< rms move of one after which a step needs no halves [radii] …
+constexpr double kSmallMove = 0.03;          ///< … or this small, where moves do not become smaller [radii]
+constexpr double kContraction = 0.5;         ///< from one iteration's move to the next [-]
+constexpr int kMostNewton = 6;               ///< iterations to get there; more ask for halves
+constexpr double kFrictionError = 0.05;      ///< with which a step may end: more sticks where it should slide [-] …
+constexpr double kFeltFriction = 0.2;        ///< … and below which friction is too little to matter [feltAcceleration]
+constexpr double kFractionTwice = 0.95;      ///< less than this of the moves taken twice running …
+constexpr double kFractionOnce = 0.7;        ///< … or than this once asks for halves [-]
+constexpr int kDrivenHalvings = 2;           ///< of steps in which something drives the fabric, at least as many as these may be made
+constexpr int kMaxListBuilds = 25;           ///< per attempt; more ask for halves
+constexpr int kMaxLinearIterations = 1000;
+constexpr double kMuchGain = 0.1;  ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
+
+}  // namespace
+
+VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles,
+                           std::optional<Cohesion> cohesion)
+    : fabric_(fabric),
+      settings_(settings),
+      system_(fabric, settings),
+      cohesion_(std::move(cohesion)),
+      groups_(fabric),
+      restReference_(restState(fabric).reference),
+      nearestPin_(nearestPins(fabric))
+{
+    if (settings.contact) {
+        contact_.emplace(fabric, cohesion_ ? &*cohesion_ : nullptr);
+        obstacles_ = FabricObstacles(fabric, obstacles, cohesion_ ? &*cohesion_ : nullptr);
+        guard_ = SolidGuard(fabric, obstacles);
+    }
+    totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
+    meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
+    mass_.resize(fabric.vertexCount());
+    inertia_.resize(fabric.vertexCount());
+    free_.resize(fabric.vertexCount());
+    move_.resize(fabric.vertexCount());
+    expected_.resize(fabric.vertexCount());
+    freeAngle_.resize(fabric.edges.size());
+}
+
+FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads)
+{
+    FabricReport report;
+    if (booksEnergy_) report.energyChanges.emplace();
+    loads_ = loads.onVertices;
+    wholeStep_ = h;
+    parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
+    feltAcceleration_ = feltAcceleration(
+        gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
+    const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
+    placeRounding_ = std::numeric_limits<double>::epsilon() * farthest;
+    if (cohesion_) cohesion_->takeUp(state.absorbed);
+    groups_.begin();
+    findMomenta(state);
+    advanceInParts({t, h, 0, gravity, state, report, clock});
+    keepMomentum(h, gravity, state);
+    if (forces_ && loads_) tellLiquid(state);
+    report.candidates = contact_ ? contact_->candidates() : 0;
+    return report;
+}
+
+void VertexSolver::advanceInParts(const Part& part)
+{
+    if (attempt(part)) return;
+    ++part.report.halvings;
+    start_.vertexSolver.lastFraction = part.state.vertexSolver.lastFraction;
+    part.state = start_;
+    advanceInParts(part.half(part.t));
+    advanceInParts(part.half(part.t + 0.5 * part.h));
+}
+
+/// Where vertices and angles go without forces of the fabric's own, and in move_ where forces like those of the last step take the
+/// vertices, where there is contact by no more than it is sure to notice; pins go where their motion has them. Newton begins there: quiet
+/// fabric finds its forces in balance and its friction at the speed that it has, instead of after a fall for one step.
+void VertexSolver::predict(const Part& step)
+{
+    const FabricState& state = step.state;
+    const double h = step.h;
+    const Vec3 fall = h * h * step.gravity;
+    const double part = h / wholeStep_;
+    const double expectedMove = contact_ ? kExpectedMove : std::numeric_limits<double>::infinity();  // radii
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        const double mass = mass_[v];
+        inertia_[v] = Vec3::Constant(mass);
+        move_[v] = h * state.v[v] + fall;
+        Vec3 byForces = h * h * state.acceleration[v];
+        if (loads_) {
+            inertia_[v] += part * loads_->drag[v];
+            move_[v] = (mass * move_[v] + (h * part) * loads_->impulse[v]).cwiseQuotient(inertia_[v]);
+            byForces = (mass * byForces).cwiseQuotient(inertia_[v]);
+        }
+        const double most = expectedMove * fabric_.radius[v], size = byForces.norm();
+        free_[v] = state.x[v] + move_[v];
+        expected_[v] = move_[v] + byForces;
+        const bool stays = expected_[v].squaredNorm() <= most * most;  // and so feels what it feels where it is
+        move_[v] += (size > most && !stays ? most / size : 1.0) * byForces;
+    });
+    const std::vector<Vec3> targets = pinTargets(fabric_, step.t + h);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const int v = fabric_.pins.vertex[i];
+        free_[v] = targets[i];
+        expected_[v] = move_[v] = free_[v] - state.x[v];
+    }
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { freeAngle_[e] = state.theta[e] + h * state.omega[e]; });
+}
+
+/// Weighted by mass.
+double VertexSolver::rmsInRadii(std::span<const Vec3> move) const
+{
+    const double sum =
+        parallelSum(move.size(), [&](std::size_t v) { return fabric_.mass[v] * move[v].squaredNorm() / (fabric_.radius[v] * fabric_.radius[v]); });
+    return std::sqrt(sum / totalMass_);
+}
+
+/// Moves the fabric by move_.
+void VertexSolver::commit(FabricState& state, StageClock& clock)
+{
+    clock.start(Stage::FabricElastic);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
+    if (contact_) contact_->moved();
+    system_.rods().transportFrames(state);
+}
+
+/// Material frames of held edges follow their pins' rotation.
+void VertexSolver::turnHeldEdges(double t, FabricState& state) const
+{
+    for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
+        if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t, state, static_cast<int>(e));
+}
+
+/// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin next to where they are:
+/// twist is so stiff and light that its rate tells little of where it will be, that of a halved step nothing; from there Newton wound up
+/// the free ends of yarns, a little in every step. False if the attempt should be redone in halves.
+bool VertexSolver::begin(const Part& part, bool isLast)
+{
+    const double t = part.t, h = part.h;
+    FabricState& state = part.state;
+    start_ = state;
+    startTime_ = t;
+    startEnergies_ = energies(start_, part.gravity);
+    start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
+    startIsLookedAt_ = false;
+    unseenAtStart_ = 0.0;
+    part.clock.start(Stage::FabricElastic);
+    system_.rods().startStep(state);
+    system_.shells().startStep(state.x);
+    predict(part);
+    obstacles_.moveTo(t, t + h);
+    guard_.moveTo(t, t + h);
+    solidsMove_ = guard_.movesNear(state.x, move_);
+    isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
+    // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (payForGain).
+    const double bearable = isDriven_ && h < wholeStep_ ? 1.0 : kStiffeningGain;
+    springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * felt(startEnergies_.kinetic, h));
+    state.springStep = springStep_;
+    limits_ = {};
+    guarded_ = {};
+    if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
+
+    if (!followSolids(part, isLast)) return false;
+    parallelFor(freeAngle_.size(), 4096,
+                [&](std::size_t e) { state.theta[e] += std::clamp(freeAngle_[e] - state.theta[e], -kExpectedTurn, kExpectedTurn); });
+    turnHeldEdges(t + h, state);
+    return true;
+}
+
+/// What touches at x.
+/// @param expected  ActiveContacts, FabricObstacles::Start
+void VertexSolver::look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock)
+{
+    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(x, clock, expected) : nullptr;
+    touching_ = {};
+    if (obstacles_.empty()) return;
+    clock.start(Stage::FabricContact);
+    FabricObstacles::Start start = obstacleStart(h);
+    start.moves = expected;
+    touching_ = obstacles_.at(fabric_, x, start, guard_.nearestPoints(x));
+}
+
+/// Newton's move from where the state is, into move_.
+void VertexSolver::solve(const Part& part, Newton& newton)
+{
+    const double h = part.h;
+    const FabricState& state = part.state;
+    FabricReport& report = part.report;
+    look(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
+    hasMovedSinceLook_ = true;
+    part.clock.start(Stage::FabricElastic);
+    system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
+    part.clock.start(Stage::FabricSolve);
+    const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
+    const double fall = feltAcceleration_ * h;
+    const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
+    const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
+                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0,
+                                       kRoundings * placeRounding_ / h};
+    const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
+    if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
+    ++report.newton;
+    report.iterations += linear.iterations;
+    report.speedError = std::max(report.speedError, linear.speedError);
+    report.contacts = contacts_ ? contacts_->size() : 0;
+    report.obstacleContacts = touching_.size();
+}
+
+/// Has the last move left nothing worth another? One by which nothing moved far, or much less far than before.
+void VertexSolver::judge(double h, Newton& newton) const
+{
+    const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
+    const double move = rmsInRadii(move_);
+    newton.isQuiet = largest < kQuietAcceleration * feltAcceleration_ * h * h && move < kSmallMove;
+    newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
+    newton.isNear = newton.isSettled && move < kLastMove;
+    newton.lastMove = move;
+    ++newton.count;
+}
+
+/// Makes the move as far as the limiter lets it.
+void VertexSolver::take(const Part& part, Newton& newton)
+{
+    FabricState& state = part.state;
+    limit(state, part.report, part.clock);
+    const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return mass_[v] * of(v); }); };
+    newton.wanted += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).squaredNorm(); });
+    newton.taken += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).dot(move_[v]); });
+    commit(state, part.clock);
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
+    turnHeldEdges(part.t + part.h, state);
+}
+
+/// Velocities by which the state came from that at the start, and what the fabric's own forces did.
+void VertexSolver::findRates(double h, FabricState& state) const
+{
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
+        state.v[v] = (state.x[v] - start_.x[v]) / h;
+        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
+        state.held[v] = fabric_.pinned[v] ? Vec3(Vec3::Ones()) : heldShare(state.acceleration[v], (state.v[v] - start_.v[v]) / h);
+    });
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
+}
+
+/// What a step leaves behind when the fabric is where it ends: rates, what friction holds, and the energy of contact.
+void VertexSolver::finish(double h, FabricState& state)
+{
+    findRates(h, state);
+    if (contacts_) contact_->keepFriction(state.x, state.vertexSolver.onFabric);
+    else state.vertexSolver.onFabric.clear();
+    obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
+    state.stored = contactEnergy(h, state.x, state);
+}
+
+/// Newton's iterations until nothing moves that matters, and no energy comes from what is left.
+void VertexSolver::iterate(const Part& part, Newton& newton)
+{
+    const double h = part.h;
+    FabricState& state = part.state;
+    const int most = std::max(settings_.newton, kMostNewton);
+    std::optional<Newton> settled;  // before iterations for the energy's sake, which tell nothing of how far a step could be taken
+    for (;;) {
+        solve(part, newton);
+        judge(h, newton);
+        take(part, newton);
+        const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
+        if (!isLastMove) continue;
+        const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
+        if (frictionError > kFrictionError && newton.count < most) continue;
+        newton.isSettled = newton.isSettled && frictionError <= kFrictionError;
+        finish(h, state);
+        if (!settled) settled = newton;
+        newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
+        if (gain(h, part.gravity, state) <= kNoGain) return;
+        lookAgain(h, state, part.clock);
+        newton.gain = gain(h, part.gravity, state);
+        if (newton.gain <= kNoGain || newton.count >= most) return;
+    }
+}
+
+bool VertexSolver::attempt(const Part& part)
+{
+    const double h = part.h;
+    FabricState& state = part.state;
+    FabricReport& report = part.report;
+    bool isLast = part.level >= settings_.maxHalvings;
+    if (!begin(part, isLast)) return false;
+    Newton newton;
+    iterate(part, newton);
+
+    const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
+    const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
+                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled ||
+                         (newton.gain > kMuchGain && (isDriven_ || !newton.isQuiet));
+    state.vertexSolver.lastFraction = fraction;
+    // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
+    if (isDriven_) isLast = isLast && part.level >= kDrivenHalvings;
+    if (isShort && !isLast) return false;
+    report.takenFraction = std::min(report.takenFraction, fraction);
+
+    if (isShort) ++report.shortened;
+    findGroups();
+    const bool mayHaveGained = startIsLookedAt_ || isShort;
+    if (mayHaveGained && !isDriven_) giveNoEnergy(part);
+    std::optional<EnergyChanges> changes;
+    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = payForGain(h, part.gravity, state);
+    if (state.vertexSolver.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, part.gravity).kinetic, h));
+    if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, part.gravity, state);
+    if (forces_) tellForces(h, part.gravity, state);
+    return true;
+}
+
+FabricEnergies VertexSolver::energies(const FabricState& state, const Vec3& gravity) const
+{
+    return fabricEnergies(fabric_, state, elastic_.at(state, system_.rods(), system_.shells()), gravity);
+}
+
+double VertexSolver::leastDistance() const { return contact_ ? contact_->leastDistance() : std::numeric_limits<double>::infinity(); }
+
+}  // namespace sim

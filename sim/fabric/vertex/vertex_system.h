@@ -1,0 +1,150 @@
+#pragma once
+
+#include "sim/fabric/contact/contact.h"
+#include "sim/fabric/rods/rods.h"
+#include "sim/fabric/shells/shells.h"
+#include "sim/fabric/solids/obstacle_contact.h"
+#include "sim/fabric/vertex/cloth_preconditioner.h"
+#include "sim/fabric/vertex_unknowns.h"
+
+#include <span>
+#include <vector>
+
+namespace sim {
+
+/// What a Newton iteration looks at: the fabric's state and where it would go without forces.
+struct NewtonPoint {
+    const FabricState& state;
+    std::span<const Vec3> freePositions;  ///< of each vertex [cm]
+    std::span<const double> freeAngles;   ///< of each yarn edge [rad]
+    std::span<const Vec3> inertia;        ///< of each vertex by components: mass, and drag of liquid times the step [g]
+    double h;                             ///< length of the step [s]
+};
+
+/// When a linear solve is good enough: √(rᵀz / total mass), the rms error of speeds, below `share` of what it was at first, 0.3 of
+/// that in the step's first iteration, or `speed`; and below `most` in any case. Of what is small enough from the start `left` remains at most.
+struct LinearTolerance {
+    double share;           ///< [-]
+    double speed, most;     ///< [cm/s]
+    double left = 1.0;      ///< [-]
+    double roundOff = 0.0;  ///< slower errors are of rounding and stay [cm/s]
+};
+
+/// Linear solve of one Newton iteration.
+struct LinearReport {
+    int iterations = 0;
+    double firstEnergy = 0.0;  ///< rᵀz at the start [erg]
+    double speedError = 0.0;   ///< √(rᵀz / total mass) at the end [cm/s]
+};
+
+/// The Newton system in vertex space, A = S + K + C: S the strands with their inertia, the same-side part of their contacts and
+/// obstacles, factored exactly; K the cloth; C contact between different strands, and what shared vertices tie together.
+/// Solved by conjugate gradients with S and a block-incomplete factor of K as preconditioner (fabric/vertex/README.md, Linear solve).
+class VertexSystem {
+ public:
+    VertexSystem(const Fabric& fabric, const FabricSettings& settings);
+
+    const Rods& rods() const { return rods_; }
+    Rods& rods() { return rods_; }
+    const Shells& shells() const { return shells_; }
+    Shells& shells() { return shells_; }
+    const VertexUnknowns& unknowns() const { return unknowns_; }
+
+    /// Gradient and matrix at a point, with its factors.
+    void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
+    /// Newton's move. `stepEnergy`: firstEnergy of the step's first iteration [erg]; 0 in that.
+    LinearReport solve(const LinearTolerance& tolerance, double stepEnergy, int maxIterations);
+
+    Vec3 move(int vertex) const;                                                  ///< of the last solve [cm]
+    double turn(int edge) const { return solution_[unknowns_.twistSlot[edge]]; }  ///< [rad]
+    const AlignedArray<double>& gradient() const { return gradient_; }
+    /// What would be the gradient of the held unknowns at the last assembly, if they were not: 3 numbers of each pin [dyn], then one of each
+    /// held twist angle, by edges [dyn cm].
+    std::span<const double> heldGradient() const { return heldGradient_; }
+
+ private:
+    static constexpr int kNextVertex = 4 * kLanes;  ///< how far the next vertex of a strand is in a vector
+
+    /// A vertex's rows in a strand that does not own it: they are emptied, and what they held acts through this.
+    struct Link {
+        int vertex, strandRow, lane;
+        std::array<int, 16> slot;  ///< of the unknowns that its rows were coupled to; −1 for none
+        std::array<std::array<double, 16>, 3> coupling;
+    };
+
+    void sumUp(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
+    void findLinks();
+    void addInertia(const NewtonPoint& at);
+    void emptySharedRows();
+    void addToDiagonal(int vertex, const Mat3& block);
+    void addObstacles(std::span<const ObstacleContact> obstacles);
+    bool tie(int a, int b, const Mat3& block);
+    Eigen::Map<Mat3> asBlock(int entry) { return Eigen::Map<Mat3>(cloth_.block(entry)); }
+    void copyPairs(const ActiveContacts* contacts);
+    void addContacts(const ActiveContacts& contacts);
+    void sortIncidence();
+    void holdPins();
+    void copyByVertex(const double* p, int group);
+    void applyPairs();
+    double multiply();
+    double multiplyStrands();
+    double multiplyCloth();
+    double applyLinks();
+    double precondition(double step);
+    double preconditionCloth();
+    void nextDirection(double ratio);
+    void findFreePieces();
+    void weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles);
+    void balanceFreePieces();
+
+    const Fabric& fabric_;
+    Rods rods_;
+    Shells shells_;
+    VertexUnknowns unknowns_;
+    StrandMatrix strands_;
+    BlockMatrix cloth_;
+    ClothPreconditioner clothFactor_;
+    std::vector<char> ownsDiagonal_;                   ///< of each row of cloth: it is on a strand; S has its diagonal block instead of K
+    std::vector<int> clothRow_;                        ///< of each vertex; −1 without cloth
+    std::vector<Mat3> clothExtra_;                     ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
+    mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
+    std::vector<Link> links_;
+    double totalMass_ = 0.0;  ///< of what is not pinned, with drag [g]
+
+    /// A pair's part of C as the solver reads it; vectors have a fourth component, 0.
+    struct PairBlock {
+        std::array<double, 4> normal;
+        std::array<double, 4> weights;
+        std::array<int, 4> vertices;
+        double stiffness, across;       ///< k_n − k_t and k_t [dyn/cm]
+        std::uint8_t firstSide;         ///< vertices of the first side
+        std::array<bool, 2> inStrands;  ///< S holds all of the side's own part, else only the diagonals of its vertices on strands
+    };
+    struct Incidence {
+        int pairSide;  ///< 2 · pair + side
+        int place;     ///< among the pair's vertices
+        double weight;
+    };
+    /// A vertex on a strand whose side of a pair is not in S but for its own diagonal.
+    struct LooseVertex {
+        int vertex, pair;
+        double weight;
+    };
+
+    std::vector<PairBlock> pairs_;
+    std::vector<int> incidenceBegin_, cursor_;
+    std::vector<Incidence> incidence_;  ///< of each vertex, in the order of the pairs
+    std::vector<LooseVertex> loose_;
+    AlignedArray<double> pairForce_;    ///< C p on either side of each pair, 4 numbers each
+    AlignedArray<double> pOfVertex_;    ///< p of each vertex, 4 numbers each
+    std::vector<int> heldSlots_;        ///< unknowns that are pinned …
+    std::vector<double> heldGradient_;  ///< … and their gradient before it is taken away
+    std::vector<int> pieceOf_;          ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
+    std::vector<Mat3> pieceStiffness_;  ///< of each of these pieces, moved as a whole [dyn/cm]
+    std::vector<Vec3> pieceForce_;      ///< what is left of the forces on it [dyn]
+
+    std::vector<double> partialDot_;  ///< of each group of strands
+    AlignedArray<double> gradient_, solution_, residual_, z_, p_, sp_, q_;
+};
+
+}  // namespace sim
