@@ -100,7 +100,7 @@ void sheet(benchmark::State& state, bool hit)
     const int threads = static_cast<int>(state.range(0));
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena(threads).execute([&] {
-        StepReport times;
+        StageTimes times;
         LimitReport report;
         double cpu = 0.0, candidates = 0.0, active = 0.0, steps = 0.0, least = 1.0e9;
         constexpr int kSteps = 20;

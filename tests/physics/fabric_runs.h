@@ -51,7 +51,7 @@ class FabricRun {
 
     FabricReport step(double h)
     {
-        StepReport stages;
+        StageTimes stages;
         StageClock clock(stages);
         const FabricReport report = solver.step(time, h, gravity, state, clock);
         time += h;

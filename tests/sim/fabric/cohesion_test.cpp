@@ -82,7 +82,7 @@ struct WetRun {
     }
     FabricReport step(double h)
     {
-        StepReport stages;
+        StageTimes stages;
         StageClock clock(stages);
         const FabricReport report = solver.step(time, h, gravity, state, clock);
         time += h;

@@ -15,13 +15,23 @@ namespace {
 
 using Pattern = FillSettings::Pattern;
 
+SourceSettings sourceOf(const std::string& name, const Shape& shape, Pattern pattern, const Emission& emission)
+{
+    SourceSettings source;
+    source.name = name;
+    source.shape = shape;
+    source.fill.pattern = pattern;
+    source.emissions = {emission};
+    return source;
+}
+
 Scene sceneWith(const Shape& shape, const Emission& emission, Pattern pattern = Pattern::Lattice)
 {
     Scene scene;
     scene.file = "pour.yaml";
     scene.settings.cell = 0.288;
     scene.settings.liquid.density = 1.25;
-    scene.sources.push_back({"jet", shape, {pattern, 1, 0.0}, {emission}});
+    scene.sources.push_back(sourceOf("jet", shape, pattern, emission));
     return scene;
 }
 
@@ -203,7 +213,7 @@ TEST(Emit, MaxVolumeIsPassedByLessThanAParticle)
 TEST(Emit, OverlappingBodiesShareTheirLiquid)
 {
     Scene scene = sceneWith(Shape::box(Vec3::Zero(), Vec3::Constant(1.0)), {});
-    scene.sources.push_back({"other", Shape::box({1.0, 0.1, 0.2}, Vec3::Constant(1.0)), {}, {Emission{}}});
+    scene.sources.push_back(sourceOf("other", Shape::box({1.0, 0.1, 0.2}, Vec3::Constant(1.0)), Pattern::Lattice, {}));
     State s;
     emitLiquid(scene, s, 0.0, 0.0);
     const Shape both = Shape::unite({scene.sources[0].shape, scene.sources[1].shape});
@@ -216,7 +226,8 @@ TEST(Emit, ObstaclesKeepTheirPlaceWhereverTheyHaveMoved)
     Emission emission;
     emission.from = emission.to = 1.0;
     Scene scene = sceneWith(Shape::box(Vec3::Zero(), Vec3::Constant(1.0)), emission);
-    ObstacleSettings obstacle{"ball", Shape::ball({-5.0, 0.0, 0.0}, 0.5), {}};
+    ObstacleSettings obstacle;
+    obstacle.shape = Shape::ball({-5.0, 0.0, 0.0}, 0.5);
     obstacle.motion.addTranslation(0.0, 0.5, {5.0, 0.0, 0.0}, 0.1, 0.1);
     scene.obstacles.push_back(obstacle);
     State s;
@@ -228,7 +239,9 @@ TEST(Emit, ObstaclesKeepTheirPlaceWhereverTheyHaveMoved)
 TEST(Emit, SaysWhichSourceHasNoRoom)
 {
     Scene scene = sceneWith(Shape::ball(Vec3::Zero(), 0.001).moved(Eigen::Isometry3d(Eigen::Translation3d(0.0, 1.0, 0.0))), {});
-    scene.obstacles.push_back({"floor", Shape::box({0.0, 1.0, 0.0}, Vec3::Ones()), {}});
+    ObstacleSettings floor;
+    floor.shape = Shape::box({0.0, 1.0, 0.0}, Vec3::Ones());
+    scene.obstacles.push_back(floor);
     State s;
     try {
         emitLiquid(scene, s, 0.0, 0.0);

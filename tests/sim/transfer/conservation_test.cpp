@@ -151,7 +151,11 @@ TEST_P(ParticleSet, EmittedParticlesBringTheirMomentum)
     scene.settings.cell = t.grid().dx;
     Emission emission;
     emission.velocity = {0.3, -2.0, 0.7};
-    scene.sources.push_back({"drop", Shape::ball({6.0, 0.5, 1.0}, 0.8), {}, {emission}, {}, {}});
+    SourceSettings drop;
+    drop.name = "drop";
+    drop.shape = Shape::ball({6.0, 0.5, 1.0}, 0.8);
+    drop.emissions = {emission};
+    scene.sources.push_back(drop);
     State state;
     state.liquid = t.liquid.particles;
     state.grid = t.liquid.grid;

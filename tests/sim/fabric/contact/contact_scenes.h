@@ -233,7 +233,7 @@ struct ContactRun {
     FabricContact contact;
     std::vector<Vec3> x;
     LimitReport report;
-    StepReport step;
+    StageTimes step;
 };
 
 }  // namespace sim::test

@@ -52,7 +52,7 @@ TEST(GridFabric, FabricThatLiquidDrawsGainsNothingElse)
         piece.material.density = 0.2;
         GridRun run({piece}, gridSettings(n % 4 < 2 ? TransferMethod::Apic : TransferMethod::PolyPic));
         run.solver.bookEnergy();
-        StepReport report;
+        StageTimes report;
         StageClock clock(report);
         const double start = run.energies().total(), heavier = std::pow(10.0, 1.0 + noise()), edges = 5.0 * std::abs(noise());
         run.solver.prepare(run.state, clock);

@@ -45,7 +45,7 @@ struct GridRun {
     }
     FabricReport step(double h)
     {
-        StepReport report;
+        StageTimes report;
         StageClock clock(report);
         const FabricReport done = solver.step(time, h, settings.gravity, state, clock);
         time += h;

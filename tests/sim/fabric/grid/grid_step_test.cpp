@@ -297,7 +297,7 @@ TEST(GridFabric, ClothStaysOnABall)
     const Fabric fabric = assembleFabric(pieces);
     FabricState state = initialState(fabric, pieces);
     GridFabricSolver solver(fabric, settings, std::span(&ball, 1));
-    StepReport report;
+    StageTimes report;
     StageClock clock(report);
     for (int n = 0; n < 250; ++n) {
         solver.step(n * kStep, kStep, settings.gravity, state, clock);

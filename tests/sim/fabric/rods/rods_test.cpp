@@ -1,6 +1,6 @@
 #include "sim/fabric/rods/rods.h"
-#include "pieces.h"
 #include "sim/fabric/rods/rod_kernel.h"
+#include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>
 

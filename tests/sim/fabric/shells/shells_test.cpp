@@ -1,5 +1,5 @@
 #include "sim/fabric/shells/shells.h"
-#include "pieces.h"
+#include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>
 

@@ -35,7 +35,7 @@ int crossingsInVertexSolver(const Encounter& scene, double h, int steps, bool is
     FabricState state = initialState(fabric, scene.pieces);
     VertexSolver solver(fabric, {}, {&scene.solid, 1});
     return crossingsOf(scene, fabric, state, h, steps, isStraight, [&](double t) {
-        StepReport report;
+        StageTimes report;
         StageClock clock(report);
         solver.step(t, h, kGravity, state, clock);
     });
@@ -63,7 +63,7 @@ TEST(FabricAtSolids, IsNeverCrossedBySolverGrid)
         const double h = seed % 2 == 0 ? 1.0e-3 : 2.5e-4;
         EXPECT_EQ(crossingsOf(scene, fabric, state, h, 15, true,
                               [&](double t) {
-                                  StepReport report;
+                                  StageTimes report;
                                   StageClock clock(report);
                                   solver.step(t, h, kGravity, state, clock);
                               }),

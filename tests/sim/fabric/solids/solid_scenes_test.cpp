@@ -40,7 +40,7 @@ struct SolidRun {
     }
     void step(double h)
     {
-        StepReport stages;
+        StageTimes stages;
         StageClock clock(stages);
         if (vertex) report = vertex->step(time, h, gravity, state, clock);
         else report = grid->step(time, h, gravity, state, clock);

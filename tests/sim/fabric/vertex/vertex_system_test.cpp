@@ -1,5 +1,5 @@
 #include "sim/fabric/vertex/vertex_system.h"
-#include "pieces.h"
+#include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(VertexSystem, NewtonMoveTakesTheForcesAway)
         const std::vector<Vec3> inertia = inertiaOf(fabric);
         constexpr double kStep = 1.0e-3;
         contact.beginStep(fabric.rest, fabric.mass, kStep, kStep);
-        StepReport report;
+        StageTimes report;
         StageClock clock(report);
         const NewtonPoint point{state, fabric.rest, freeAngles, inertia, kStep};
 
