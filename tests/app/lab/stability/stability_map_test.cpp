@@ -73,7 +73,9 @@ TEST(StabilityMap, WhatRestsMayGainAHundredthOfWhatWeightGivesInAStep)
     Logs logs;
     logs.steps(1.0e-3, 0.0);
     test::writeFile(logs.folder / "report.json", R"({"cell":0.1,"fabric":{"mass":1}})");
-    test::writeFile(logs.folder / "resolved.yaml", "drench: 1\nscene: {name: rest}\ntime: {duration: 0.1}\ngravity: [0, -1000, 0]\n");
+    test::writeFile(logs.folder / "resolved.yaml",
+                    "drench: 1\nscene: {name: rest}\ntime: {duration: 0.1}\ngrid: {cell: 0.1}\ngravity: [0, -1000, 0]\n"
+                    "liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}\n");
     const auto judge = [&](double total) {
         test::writeFile(logs.folder / "energy_ledger.csv", fmt::format("time_s,total_erg,kinetic_erg\n0,1,0\n1e-3,{},1e-9\n", total));
         return logs.judged().isStable;
