@@ -35,11 +35,9 @@ Closing ClosedAreas::closing(int axis, const Vec3i& cell, double closed, int own
     const auto comesFirst = [](const Part& a, const Part& b) { return std::abs(a.slope - b.slope) > kAlike ? a.slope < b.slope : a.depth < b.depth; };
     for (int n = 1; n < count; ++n)
         for (int m = n; m > 0 && comesFirst(parts[m], parts[m - 1]); --m) std::swap(parts[m], parts[m - 1]);
-    Closing closing{parts[0].solid, Closing::kNone, count == 1 ? closed : std::min(closed, parts[0].area), 0.0};
-    if (count > 1) {
-        closing.second = parts[1].solid;
-        closing.ofSecond = closed - closing.ofFirst;
-    }
+    Closing closing{parts[0].solid, count > 1 ? parts[1].solid : owner, std::min(closed, parts[0].area), 0.0};
+    closing.ofSecond = closed - closing.ofFirst;
+    if (closing.second == closing.first) closing = {closing.first, Closing::kNone, closed, 0.0};
     return closing;
 }
 

@@ -7,7 +7,7 @@
 
 namespace sim {
 
-/// What two solids have of a face's closed area [-].
+/// What two solids have of a face's closed area [-]; where more close it the second has what those after it do.
 struct Closing {
     static constexpr int kNone = -1;
     int first = kNone, second = kNone;  ///< numbers of the solids
@@ -27,7 +27,7 @@ class ClosedAreas {
     Closing closing(int axis, const Vec3i& cell, double closed, int owner) const;
 
  private:
-    static constexpr int kMost = 4;  ///< solids that are told apart
+    static constexpr int kMost = 8;  ///< solids that are told apart: what others close is the nearest one's
 
     const BlockGrid& grid_;
     const Obstacles& obstacles_;

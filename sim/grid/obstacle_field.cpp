@@ -6,6 +6,7 @@
 #include "sim/grid/seams.h"
 
 #include <cmath>
+#include <utility>
 
 namespace sim {
 
@@ -67,9 +68,9 @@ void ObstacleField::update(const BlockGrid& grid, std::span<const int> previous,
 {
     isFolded_ = false;
     mirrors_ = mirrors;
-    areSeveral_ = obstacles.count() > 1;
+    const bool wereSeveral = std::exchange(areSeveral_, obstacles.count() > 1);
     if (slotCount_ == 0) makeOpenSlot(grid.dx);
-    else resizeSlots(slotCount_);
+    else if (areSeveral_ && !wereSeveral) resizeSlots(slotCount_);
     oldSlot_.swap(slot_);
     slot_.assign(grid.count() + 1, kOpenSlot);
     nearSolid_.clear();

@@ -20,6 +20,15 @@ CellRef cellBeside(const BlockGrid& grid, int block, int cell, int axis, int ste
 
 bool isClosed(const ObstacleField& field, const CellRef& face, int axis) { return field.open(face.block, axis)[face.cell] == 0.0; }
 
+/// The solid that is nearest to a face.
+int nearestTo(const CutGrid& cut, const CellRef& face, int axis)
+{
+    const ObstacleField& field = cut.field;
+    const CellRef below = cellBeside(cut.grid, face.block, face.cell, axis, -1);
+    const bool isOwn = field.centerDistance(face.block)[face.cell] <= field.centerDistance(below.block)[below.cell];
+    return isOwn ? field.owner(face.block)[face.cell] : field.owner(below.block)[below.cell];
+}
+
 /// Of the liquid, or of the solid that closes the face [cm/s].
 double velocityAt(const ObstacleField& field, const LiquidGrid& liquid, const CellRef& face, int axis)
 {
@@ -160,15 +169,12 @@ void LiquidOnSolids::addShared(const CutGrid& cut, const FaceRow& row, int lane,
 {
     const ObstacleField& field = cut.field;
     const int b = blocks_[row.place], c = row.first + lane, axis = row.axis;
-    const CellRef below = cellBeside(cut.grid, b, c, axis, -1);
-    const bool isOwn = field.centerDistance(b)[c] <= field.centerDistance(below.block)[below.cell];
-    const int nearest = isOwn ? field.owner(b)[c] : field.owner(below.block)[below.cell];
     const Closing closing = field.closing(b, axis, c);
     const double closed = closing.ofFirst + closing.ofSecond, rest = on.got[lane] - closed * on.push[lane];
     const auto add = [&](int solid, double got, double share, double work) {
         sums[solid] += {{-got * Vec3::Unit(axis), -got * at.cross(Vec3::Unit(axis))}, share * on.pressed[lane], share * on.pressed[lane] * at, work};
     };
-    add(nearest, rest, 0.0, rest * field.wallVelocity(b, axis)[c]);
+    add(nearestTo(cut, {b, c}, axis), rest, 0.0, rest * field.wallVelocity(b, axis)[c]);
     if (!(closed > 0.0)) return;
     add(closing.first, closing.ofFirst * on.push[lane], closing.ofFirst / closed, on.push[lane] * field.swept(b, axis)[c]);
     if (closing.second != Closing::kNone) add(closing.second, closing.ofSecond * on.push[lane], closing.ofSecond / closed, 0.0);
@@ -199,10 +205,7 @@ void LiquidOnSolids::addRow(const CutGrid& cut, const FaceRow& where, unsigned f
             addShared(cut, where, i, at, on, sums);
             continue;
         }
-        const CellRef below = cellBeside(cut.grid, b, c, axis, -1);
-        const bool isOwn = cut.field.centerDistance(b)[c] <= cut.field.centerDistance(below.block)[below.cell];
-        add(isOwn ? cut.field.owner(b)[c] : cut.field.owner(below.block)[below.cell], on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at,
-            work[i]);
+        add(nearestTo(cut, {b, c}, axis), on.got[i], on.pressed[i], on.got[i] * at, on.pressed[i] * at, work[i]);
     }
 }
 
