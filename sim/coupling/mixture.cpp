@@ -43,8 +43,8 @@ bool Mixture::find(const CutGrid& cut, const Vec3& gravity, double dt, const Fab
     dt_ = dt;
     onFaces_.spread(state);
     if (faces) onFaces_.takeVelocity(*faces);
-    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_,
-                     &push_, &unpressed_})
+    for (Faces* u :
+         {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_, &push_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, cut.field, liquid);
     if (settings_.capillary) suck(cut, state, liquid);
@@ -126,7 +126,6 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
         const double back = reacts() ? reaction_.block(b, a)[c] / face.fabricMass : 0.0;
         const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * free * gravity[a] + back;
         liquidVolume_.block(b, a)[c] = face.liquidVolume;
-        unpressed_.block(b, a)[c] = full / liquidDensity_ - face.liquidVolume - face.fabricVolume;
         drag_.block(b, a)[c] = face.drag;
         mixed_.block(b, a)[c] = split.ofLiquid * predicted_.block(b, a)[c] + split.ofFabric * fabric;
         mobility_.block(b, a)[c] = split.mobility;
@@ -261,8 +260,6 @@ double Mixture::impulseTaken(int block, int axis, int cell) const
     if (settings_.pressureOnFabric) impulse -= onFaces_.solid.block(block, axis)[cell] * push_.block(block, axis)[cell];
     return impulse;
 }
-
-double Mixture::impulseWithheld(int block, int axis, int cell) const { return unpressed_.block(block, axis)[cell] * push_.block(block, axis)[cell]; }
 
 bool Mixture::isShared(int axis, const Vec3i& cell) const
 {

@@ -42,12 +42,12 @@ class Mixture {
     void toPairs(LiquidGrid& liquid, BlockArray<double, 3>& change) const;
     void fromPairs(LiquidGrid& liquid) const;
 
-    /// After separate: call f(liquid's block, axis, cell, taken, withheld) for each shared face, blocks in parallel: what drag, suction and the fabric's
-    /// part of the pressure took from its liquid, and what the pressure withheld, as it does not act on room that is empty [g cm/s].
+    /// After separate: call f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure took from the
+    /// liquid of each shared face [g cm/s], blocks in parallel.
     template <class F>
     void forEachImpulseTaken(F&& f) const
     {
-        forEachShared([&](int b, int m, int a, int c) { f(m, a, c, impulseTaken(b, a, c), impulseWithheld(b, a, c)); });
+        forEachShared([&](int b, int m, int a, int c) { f(m, a, c, impulseTaken(b, a, c)); });
     }
 
     /// Set what the liquid has on these faces to 0.
@@ -80,7 +80,6 @@ class Mixture {
     bool reacts() const { return settings_.capillary && settings_.capillaryReaction; }
     double speedAt(int block, int axis, int cell) const;
     double impulseTaken(int block, int axis, int cell) const;
-    double impulseWithheld(int block, int axis, int cell) const;
     void react();
     /// body(block, liquid's block, axis, cell) for the shared faces, blocks in parallel.
     template <class Body>
@@ -113,7 +112,6 @@ class Mixture {
     Faces liquidMass_;              ///< [g]
     Faces relative_;                ///< velocity of the liquid past the fabric [cm/s]
     Faces liquidVolume_;            ///< on which pressure pushes the liquid [cm^3]
-    Faces unpressed_;               ///< room on which pressure pushes neither phase [cm^3]
     Faces drag_;                    ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
     Faces predicted_;               ///< u_f*, later ũ_f: after the pressure [cm/s]
     Faces mixed_, mobility_;        ///< of the mixture before the pressure [cm/s]; β [cm^3/g]

@@ -28,7 +28,7 @@ class LiquidOnSolids {
     {
         if (const int place = place_[block]; place != BlockGrid::kNone) others_.block(place, axis)[cell] += impulse;
     }
-    /// There is fabric on faces: then tell what fabric and suction took from the liquid of each, less what the pressure withheld from it [g cm/s].
+    /// There is fabric on faces: then tell what fabric and suction took from the liquid of each [g cm/s].
     void meetFabric() { clearOthers(); }
     void fabricTook(int block, int axis, int cell, double impulse)
     {

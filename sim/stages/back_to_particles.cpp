@@ -108,7 +108,7 @@ void pushSolids(StepContext& c)
     if (c.plan.isMixed) {
         work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseTaken(
-            [&](int block, int axis, int cell, double taken, double withheld) { work.onSolids.fabricTook(block, axis, cell, taken - withheld); });
+            [&](int block, int axis, int cell, double impulse) { work.onSolids.fabricTook(block, axis, cell, impulse); });
     }
     const LiquidOnSolids::Outcome outcome{.velocity = velocityRead(c),
                                           .liquid = work.grid,
