@@ -107,7 +107,7 @@ void forEachBlock(const ParticleOrder& order, const BlockGrid& grid, const Block
         forEachTileRow(grid, block, OccupiedBox(order.cells(block)), [&](int piece, int cell, int node, auto length) {
             for (int a = 0; a < kAxes; ++a) std::copy_n(u.block(piece, a) + cell, static_cast<int>(length), tile.v[a] + node);
         });
-        body(n, static_cast<const FaceTile&>(tile));
+        body(n, tile);
     });
 }
 

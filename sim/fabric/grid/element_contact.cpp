@@ -231,6 +231,11 @@ double ElementContact::mostAfter(std::size_t e, const StepOutlook& moved, double
     return std::max(0.0, stress_[e].energy + last0.dot(moves[0]) + last1.dot(moves[1]));
 }
 
+double ElementContact::gain(const StepOutlook& moved) const
+{
+    return parallelSum(size(), [&](std::size_t e) { return std::min(energyAfter(e, moved), mostAfter(e, moved, 1.0) - stress_[e].energy); });
+}
+
 double ElementContact::carry(const StepOutlook& moved, double mostUnforeseen, FabricState& state) const
 {
     const double unmet = unforeseen(moved), leftOut = unmet > mostUnforeseen ? mostUnforeseen / unmet : 1.0;

@@ -47,6 +47,8 @@ class ElementContact {
     /// Energy that elements would hold after this outlook which assemble() left out, as they were not expected to be pressed [erg]: they would
     /// be pressed without resistance.
     double unforeseen(const StepOutlook& outlook) const;
+    /// Energy that all elements would gain by this motion, as far as carry() lets them keep it [erg].
+    double gain(const StepOutlook& moved) const;
     /// Takes them in, with this outlook.
     void takeIn(const FabricState& state, const StepOutlook& outlook);
     /// Elements that are pressed so that it is felt, ascending.

@@ -87,6 +87,7 @@ FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v,
             p = inverseMass(i) * residual_.pack(true, i) + ratio * p;
         });
     }
+    report.errorWork = -forEachFacePack([&](std::size_t i, Pack& work) { work += residual_.pack(true, i) * v.pack(true, i); });
     return report;
 }
 

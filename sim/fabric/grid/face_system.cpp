@@ -6,6 +6,13 @@
 
 namespace sim {
 
+namespace {
+
+/// Of a face that elements feel, relative to the mean mass of vertices [-].
+constexpr double kLeastMass = 1.0e-9;
+
+}  // namespace
+
 FaceSystem::FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact)
     : fabric_(fabric), stiffness_(stiffness), contact_(contact)
 {
@@ -53,24 +60,52 @@ void FaceSystem::gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3
     const BlockPoints& elements = particles_->elements();
     onElements_.resize(elements.size());
     gradients.resize(contact_.size());
-    forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
+    forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, FaceTile& tile) {
+        clearLight(n, tile);
         gatherGradients(tile, elements, n, onElements_);
         for (int s = elements.begin(n); s < elements.end(n); ++s)
             for (int i = 0; i < 9; ++i) gradients[elements.id[s]](i / 3, i % 3) = onElements_.of[i][s];
     });
 }
 
+/// Which faces elements feel. The stiffness of contact over a mass that is next to none would be an eigenvalue which round-off makes negative.
 void FaceSystem::findMissing()
 {
-    work_.resize(blocks());
+    counts_.resize(blocks());
+    const double least = kLeastMass * totalMass_ / static_cast<double>(fabric_.vertexCount());
     const double* mass = mass_.block(0);
     parallelFor(mass_.size() / kBlockCells, 8, [&](std::size_t c) {
-        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) work_.block(0)[i] = mass[i] > 0.0 ? 1.0 : 0.0;
+        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) counts_.block(0)[i] = mass[i] > least ? 1.0 : 0.0;
     });
-    gatherElements(work_, missing_);
+    hasLight_.resize(particles_->order().occupied.size());
+    forEachBlock(particles_->order(), *grid_, mass_, [&](std::size_t n, const FaceTile& tile) {
+        const OccupiedBox box(particles_->order().cells(particles_->order().occupied[n]));
+        bool any = false;
+        for (const auto& field : tile.v)
+            for (int z = box.low[2] - 1; z <= box.high[2] + 2; ++z)
+                for (int y = box.low[1] - 1; y <= box.high[1] + 2; ++y)
+                    for (int x = box.low[0] - 1; x <= box.high[0] + 2; ++x) {
+                        const double m = field[tileIndex(x, y, z)];
+                        any = any || (m > 0.0 && m <= least);
+                    }
+        hasLight_[n] = any;
+    });
+    gatherElements(counts_, missing_);
     constexpr double kRoundOff = 1.0e-12;
     for (Mat3& missing : missing_)
         if (missing.cwiseAbs().maxCoeff() <= kRoundOff) missing.setZero();
+}
+
+/// What elements do not feel, or do not push, in the tile of occupied block n becomes 0.
+void FaceSystem::clearLight(std::size_t n, FaceTile& tile) const
+{
+    if (!hasLight_[n]) return;
+    const ParticleOrder& order = particles_->order();
+    const int block = order.occupied[n];
+    forEachTileRow(*grid_, block, OccupiedBox(order.cells(block)), [&](int piece, int cell, int node, auto length) {
+        for (int a = 0; a < kAxes; ++a)
+            for (int i = 0; i < length; ++i) tile.v[a][node + i] *= counts_.block(piece, a)[cell + i];
+    });
 }
 
 /// The pressed elements, and which of their pushes act on each vertex.
@@ -100,10 +135,11 @@ void FaceSystem::findPushes()
 void FaceSystem::gather(const BlockArray<double, 3>& u)
 {
     const BlockPoints& vertices = particles_->vertices();
-    forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, const FaceTile& tile) {
+    forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, FaceTile& tile) {
         gatherValues(tile, vertices, n, onVertices_);
         for (int s = vertices.begin(n); s < vertices.end(n); ++s)
             stiffness_.set(in_, vertices.id[s], {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]});
+        clearLight(n, tile);
         forEachPressed([&](auto& pressed) { gatherAlong<pressed.kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried()); });
     });
 }
@@ -118,8 +154,9 @@ void FaceSystem::spread(FaceVector& q)
             for (int i = pushBegin_[s]; i < pushBegin_[s + 1]; ++i) sum += pushes_[pushOf_[i]];
             for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = sum[a];
         }
-        scatterValues(vertices, n, onVertices_, tile);
         forEachPressed([&](auto& pressed) { scatterAlong<pressed.kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile); });
+        clearLight(n, tile);
+        scatterValues(vertices, n, onVertices_, tile);
     });
     forEachTwist([&](std::size_t e, int slot) { q.twist[e] = out_[slot]; });
 }

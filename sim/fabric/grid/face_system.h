@@ -41,12 +41,13 @@ struct FaceTolerance {
 struct FaceSolveReport {
     int iterations = 0;
     double speedError = 0.0;  ///< rms in the norm of the system's matrix, weighted by mass; not below what it is [cm/s]
+    double errorWork = 0.0;   ///< of the impulses that are missing to the balance of forces, on the velocities found [erg]
 };
 
 /// The linear system of one implicit step on the grid (fabric/grid/README.md, Linear system): A = M + h² (Wᵀ K W + Gᵀ H G), with K
 /// the stiffness of the vertices and H that of contact at the elements, W and G the interpolation of velocities and
-/// their gradients, matrix-free. Faces that elements reach but no vertex does have no mass; elements take them to move
-/// as they do themselves.
+/// their gradients, matrix-free. Faces that elements reach but no vertex does, or hardly, have no mass or hardly any; elements take
+/// them to move as they do themselves.
 class FaceSystem {
  public:
     FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact);
@@ -93,6 +94,7 @@ class FaceSystem {
     void clearInactive(BlockArray<double, 3>& u) const;
     void gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
     void findMissing();
+    void clearLight(std::size_t n, FaceTile& tile) const;
     void findPushes();
     void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
@@ -135,7 +137,9 @@ class FaceSystem {
     double totalMass_;              ///< [g]
     FaceRows rows_;
 
-    std::vector<Mat3> missing_;  ///< of each element: gradient of a 1 on faces with mass; 0 if all have some [-]
+    BlockArray<double, 3> counts_;  ///< of each face: 1 if it has mass enough for elements to feel it, else 0 [-]
+    std::vector<char> hasLight_;    ///< of each occupied block: have faces with too little mass for that any at all?
+    std::vector<Mat3> missing_;     ///< of each element: gradient of a 1 on faces that count; 0 if all do [-]
     PressedElements<EdgeContact<Pack>> pressedEdges_;
     PressedElements<FaceContact<Pack>> pressedFaces_;
     std::vector<Vec3> pushes_;             ///< of the pressed elements on their corners

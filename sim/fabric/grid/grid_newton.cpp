@@ -2,9 +2,11 @@
 #include "sim/fabric/grid/grid_solver.h"
 
 #include <algorithm>
+#include <limits>
 
 // One linear solve goes by the forces where a step begins. Where it moves fabric about as far as its edges are long, because liquid strikes or
-// draws it, other forces act where it gets to, and energy would come from nothing: then these are solved for, by Newton's method.
+// draws it, other forces act where it gets to, and energy would come from nothing: then these are solved for, by Newton's method. Where that does
+// not come to a solution either, the fabric makes as much of the move as gives it no energy.
 
 namespace sim {
 
@@ -12,8 +14,9 @@ namespace {
 
 /// Elastic energy from nothing that a step may leave, relative to that of the motion: more asks for another iteration [-].
 constexpr double kNoGain = 1.0e-3;
-constexpr int kMostNewton = 8;   ///< iterations
-constexpr int kMostRepeats = 3;  ///< of a solve, to take such contact in
+constexpr double kTighter = 0.1;  ///< what the errors of the next solve must keep within, relative to those of one that gave energy [-]
+constexpr int kMostNewton = 8;    ///< iterations
+constexpr int kMostRepeats = 3;   ///< of a solve, to take contact in that was not expected
 
 }  // namespace
 
@@ -23,6 +26,8 @@ void GridFabricSolver::solveOnce(const FaceTolerance& tolerance, const BlockArra
     ++report.newton;
     report.iterations += solve.iterations;
     report.speedError = solve.speedError;
+    isSolved_ = solve.speedError <= tolerance.after(solve.iterations);
+    errorWork_ = solve.errorWork;
 }
 
 /// What is assembled has changed: from the start again, by way of what was found.
@@ -83,8 +88,38 @@ double GridFabricSolver::kineticOfChange()
     });
 }
 
-void GridFabricSolver::solve(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report)
+/// Energy that the solved motion would give the fabric beyond what weight, liquid, pins and solids do [erg].
+/// @param before  elastic energy at the start of the step [erg]
+double GridFabricSolver::gainOfMotion(const Solve& of, double before)
 {
+    AlignedArray<double>& u = system_.onVertices(velocity_);
+    const double elastic = tryMove(of.h, u, of.state) - before;
+    const VertexStiffness::Work holds = stiffness_.workOfHolds(of.h, u);
+    double contact = 0.0;
+    if (settings_.contact) {
+        system_.findMotion(velocity_.faces, motion_);
+        contact = contact_.gain(outlookOn(of.h, of.tolerance));
+    }
+    const OnFaces onFaces = workOnFaces(of.h, of.gravity, of.state, of.loads);
+    return onFaces.kineticAfter - onFaces.kineticBefore + elastic + contact - onFaces.fall - onFaces.drag - holds.pins - holds.obstacles;
+}
+
+/// Velocities become the largest share of themselves that gives the fabric no energy. Standing still gives none.
+void GridFabricSolver::shortenMotion(const Solve& of, double before)
+{
+    const FaceVector whole = velocity_;
+    for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0}) {
+        for (std::size_t i = 0; i < whole.faces.size(); ++i) velocity_.faces.block(0)[i] = share * whole.faces.block(0)[i];
+        for (std::size_t e = 0; e < whole.twist.size(); ++e) velocity_.twist[e] = share * whole.twist[e];
+        if (gainOfMotion(of, before) <= kNoGain * of.kinetic) return;
+    }
+}
+
+void GridFabricSolver::solve(const Solve& of, FabricReport& report)
+{
+    const auto& [h, gravity, state, loads, wanted, kinetic] = of;
+    FaceTolerance tolerance = wanted;
+    double least = std::numeric_limits<double>::infinity();
     start_ = velocity_.faces;
     solveOnce(tolerance, expectedChange(state), report);
     const double before = elastic_.at(state, stiffness_.rods(), stiffness_.shells()).elastic();
@@ -92,13 +127,20 @@ void GridFabricSolver::solve(double h, double kinetic, const FaceTolerance& tole
         if (settings_.contact) meetUnforeseen(h, kinetic, tolerance, state, report);
         AlignedArray<double>& u = system_.onVertices(velocity_);
         const double reached = tryMove(h, u, state);
-        // What elastic forces gave, against what they had; backward Euler loses the energy of the change of velocities beside.
-        const double gain = reached - before + stiffness_.innerWork(h, u) - kineticOfChange();
-        if (gain <= kNoGain * kinetic || n == kMostNewton) return;
+        // What elastic forces gave, against what they had, and what the solve's error did; backward Euler loses the energy of the change of
+        // velocities beside.
+        const double gain = reached - before + stiffness_.innerWork(h, u) - kineticOfChange() + errorWork_;
+        if (isSolved_ && gain <= kNoGain * kinetic) return;
+        if (errorWork_ > kNoGain * kinetic) tolerance.wanted *= kTighter, tolerance.bearable *= kTighter;
+        if (isSolved_ && gain < least) least = gain, leastGain_ = velocity_;
+        if (n == kMostNewton) break;
         stiffness_.assembleAt(trial_, h, u);
         system_.assemble();
         solveAgain(tolerance, state, report);
     }
+    if (least < std::numeric_limits<double>::infinity()) velocity_ = leastGain_;
+    shortenMotion(of, before);
+    ++report.shortened;
 }
 
 }  // namespace sim

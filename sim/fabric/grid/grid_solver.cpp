@@ -247,7 +247,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     system_.assemble();
 
     clock.start(Stage::FabricSolve);
-    solve(h, kinetic, until, state, report);
+    solve({h, gravity, state, loads, until, kinetic}, report);
     keepMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();

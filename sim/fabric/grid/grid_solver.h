@@ -46,7 +46,18 @@ class GridFabricSolver final : public FabricIntegrator {
     double partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state);
     void moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report);
     void startVelocities(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
-    void solve(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    /// A solve of one step: what it goes by and what acts on the fabric.
+    struct Solve {
+        double h;  ///< [s]
+        const Vec3& gravity;
+        const FabricState& state;  ///< at the start
+        const FaceLoads* loads;
+        FaceTolerance tolerance;
+        double kinetic;  ///< of the fabric's motion, or of one that is not felt [erg]
+    };
+    void solve(const Solve& of, FabricReport& report);
+    double gainOfMotion(const Solve& of, double before);
+    void shortenMotion(const Solve& of, double before);
     void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void solveAgain(const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     void meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
@@ -60,7 +71,14 @@ class GridFabricSolver final : public FabricIntegrator {
     void keepAccelerations(double h, FabricState& state);
     void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads, EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const;
-    double facesKinetic(const BlockArray<double, 3>& velocity) const;
+    /// What the solve did with the fabric on its faces, and with its twist [erg].
+    struct OnFaces {
+        double kineticBefore = 0.0, kineticAfter = 0.0;
+        double ofChange = 0.0;  ///< kinetic energy of the change of velocities; liquid's drag is no mass here
+        double fall = 0.0;      ///< work of weight
+        double drag = 0.0;      ///< work of the liquid
+    };
+    OnFaces workOnFaces(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
     void tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching);
     void tellGuard(double h, const FabricState& state) const;
     void tellLiquid(const FabricState& state, const FaceLoads& loads);
@@ -78,7 +96,9 @@ class GridFabricSolver final : public FabricIntegrator {
     SolidGuard guard_;
     FabricGroups groups_;                        ///< of the step under way …
     std::vector<int> groupOfBlock_, nearBlock_;  ///< … and of blocks (findGroups)
-    FaceVector velocity_;
+    FaceVector velocity_, leastGain_;            ///< of the solve under way: the last, and that which gave the fabric least energy [cm/s, 1/s]
+    bool isSolved_ = false;                      ///< is the last linear solve's error bearable? …
+    double errorWork_ = 0.0;                     ///< … and what energy did it give? [erg]
     bool meetsLiquid_;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
     // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did

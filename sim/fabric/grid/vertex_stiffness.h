@@ -42,6 +42,8 @@ class VertexStiffness {
         double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
     };
     Work work(double h, AlignedArray<double>& u);
+    /// The same of pins and obstacles alone.
+    Work workOfHolds(double h, const AlignedArray<double>& u) const;
     /// Of the material's own forces and its damping alone, by what is assembled [erg].
     double innerWork(double h, AlignedArray<double>& u) const;
     /// Impulses h gradient + h² K u with which the vertices' velocities u pull at what holds them: call onPin(number among Fabric::Pins, impulse),
@@ -100,7 +102,6 @@ class VertexStiffness {
     void addHolds();
     void tellFromStart(double h);
     double workOfProduct(double h, const AlignedArray<double>& u) const;
-    Work workOfHolds(double h, const AlignedArray<double>& u) const;
     void multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const;
     void findPins(const FabricState& state, double end);
     /// Of what the vertices have, at a spring's point.
