@@ -41,7 +41,7 @@ void readPores(const XmlElement& info, LiquidInfo& out)
 }
 
 /// Cloth of T threads per cm^2, each through half the thickness t and back, as the scenes of 2018 mean it
-/// (app/README.md, Scenes of libWetCloth).
+/// (app/import/README.md, Scenes of libWetCloth).
 void readThreads(const XmlElement& info, bool counts, LiquidInfo& out)
 {
     const double threads = info.value("fabricThreadCount", 0.0);

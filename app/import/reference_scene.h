@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-// What a scene of libWetCloth says, with the defaults of its reader (app/README.md, Scenes of libWetCloth). All numbers are CGS, angles
+// What a scene of libWetCloth says, with the defaults of its reader (app/import/README.md, Scenes of libWetCloth). All numbers are CGS, angles
 // as there.
 
 namespace app::reference {
