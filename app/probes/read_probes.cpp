@@ -75,7 +75,7 @@ Probe probeIn(const Node& node, const std::string& path, std::size_t number, con
         v.other("name", "What tables and plots call it");
         v.other("unit", "As tables and plots show it");
         v.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
-        v.other("read", "A formula of what is read, as in validate");
+        v.formula("read", "What is read, as in validate");
         v.other("along", "Read at points along a line, x, y, z in the formula");
     });
     sim::FormulaNames names = context.reading;
@@ -113,9 +113,9 @@ std::optional<Probes> readProbes(const SceneSetup& setup)
         sim::fail(node->place, fmt::format("{}: formulas know centimetres only; write the file in units: cgs", kProbesPath));
     sim::SectionReader section(*node, kProbesPath);
     sim::SectionReader::read(node, kProbesPath, [](auto& v) {
-        v.other("every", "Time between readings; left out: that between frames");
+        v.formula("every", "Time between readings; left out: that between frames [s]");
         v.other("let", "Names for formulas");
-        v.other("flow", "Of which flow_error and flow_part tell");
+        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
         v.other("hoops", "Planes and hoops through which flux(\"name\") is read");
         v.needs("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
         v.other("readings", "What is read");

@@ -74,6 +74,7 @@ SchemaJson bareKeySchema(const DeclaredKey& key, SchemaOf of)
         case Kind::Words: return listSchema(wordSchema(key.words));
         case Kind::Map: return mapSchema(key.below, of);
         case Kind::PerPhase: return anyOf(keySchema(key.below.front(), of), mapSchema(key.below, of));
+        case Kind::Formula: return formulaSchema();
         case Kind::Other: break;
     }
     return SchemaJson::object();
@@ -136,6 +137,13 @@ SchemaJson mapSchema(std::span<const DeclaredKey> keys, SchemaOf of)
 }
 
 SchemaJson textSchema() { return {{"type", {"string", "number", "boolean"}}}; }
+
+SchemaJson formulaSchema()
+{
+    SchemaJson schema = textSchema();
+    schema["format"] = "formula";
+    return schema;
+}
 
 SchemaJson namedSchema(const SchemaJson& value) { return {{"type", "object"}, {"additionalProperties", value}}; }
 

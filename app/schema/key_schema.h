@@ -27,8 +27,10 @@ SchemaJson mapSchema(std::span<const sim::DeclaredKey> keys, SchemaOf of);
 /// A map from words that the user chooses.
 SchemaJson namedSchema(const SchemaJson& value);
 
-/// Any word, as a name or a formula may be: to YAML some are numbers.
+/// Any word, as a name may be: to YAML some are numbers.
 SchemaJson textSchema();
+/// The same, marked as a formula.
+SchemaJson formulaSchema();
 
 SchemaJson listSchema(const SchemaJson& items, std::size_t atLeast = 0);
 

@@ -80,6 +80,7 @@ std::string kindOf(const SchemaJson& schema, const std::string& unit)
             if (const std::string kind = kindOf(way, unit); std::ranges::find(ways, kind) == ways.end()) ways.push_back(kind);
         return joined(ways, " or ");
     }
+    if (schema.contains("format")) return schema["format"].get<std::string>() + inUnit;
     const SchemaJson type = schema.value("type", SchemaJson());
     if (type == "integer") return integerKind(schema);
     if (type == "number") return "number" + inUnit;

@@ -77,12 +77,32 @@ SchemaJson lastAskedFor(const std::string& text, Read read)
                      SchemaOf::Body);
 }
 
+/// What sections with formulas have in common.
+void addNamesOfFormulas(SchemaJson& section)
+{
+    section["properties"]["let"].update(namedSchema(formulaSchema()));
+    SchemaJson three = listSchema(formulaSchema(), sim::kAxes);
+    three["maxItems"] = sim::kAxes;
+    section["properties"]["flow"].update(three);
+}
+
+/// Pairs of numbers.
+SchemaJson tableSchema()
+{
+    const SchemaJson number = {{"anyOf", {{{"type", "number"}}, {{"type", "string"}}}}};
+    const SchemaJson pair = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
+    return listSchema(pair, 1);
+}
+
 /// @param list  of what is read as the scene runs
 template <class Read>
 SchemaJson readingsSchema(const std::string& section, const std::string& list, Read read)
 {
     SchemaJson schema = lastAskedFor(section + ": {}", read);
-    schema["properties"][list].update(listSchema(lastAskedFor(section + ": {every: 1, " + list + ": [{}]}", read)));
+    SchemaJson reading = lastAskedFor(section + ": {every: 1, " + list + ": [{}]}", read);
+    reading["properties"]["table"].update(tableSchema());
+    schema["properties"][list].update(listSchema(reading));
+    addNamesOfFormulas(schema);
     return schema;
 }
 
@@ -90,6 +110,7 @@ SchemaJson probesSchema()
 {
     const auto within = [](const std::string& probes) { return lastAskedFor("output: {probes: {" + probes + "}}", readProbes); };
     SchemaJson schema = within(""), reading = within("readings: [{}]");
+    addNamesOfFormulas(schema);
     reading["properties"]["along"].update(within("readings: [{read: 1, along: {}}]"));
     schema["properties"]["hoops"].update(namedSchema(within("hoops: {a: {}}, readings: []")));
     schema["properties"]["readings"].update(listSchema(reading, 1));
@@ -104,9 +125,18 @@ SchemaJson outputSchema()
     return schema;
 }
 
+SchemaJson validateSchema()
+{
+    SchemaJson schema = readingsSchema("validate", "checks", readValidation);
+    schema["properties"]["quick"].update(settingsSchema());
+    return schema;
+}
+
 SchemaJson precisionSchema()
 {
     SchemaJson schema = readingsSchema("precision", "errors", readPrecision);
+    schema["properties"]["converged"].update(settingsSchema());
+    for (const char* key : {"methods", "integrators", "steps", "resolutions"}) schema["properties"][key].update(listSchema(settingsSchema(), 1));
     for (const char* key : {"published", "quick"})
         schema["properties"][key].update(
             lastAskedFor(fmt::format("precision: {{every: 1, errors: [{{read: t, expect: 1}}], {}: {{}}}}", key), readPrecision));
@@ -141,7 +171,7 @@ SchemaJson sceneProperties()
                        {"render", declaredMap([&](KeyList& v) { describe(v, render); })},
                        {"output", outputSchema()},
                        {"compare", compareSchema()},
-                       {"validate", readingsSchema("validate", "checks", readValidation)},
+                       {"validate", validateSchema()},
                        {"precision", precisionSchema()}});
     return properties;
 }

@@ -31,6 +31,7 @@ struct DeclaredKey {
         Words,     ///< a list of some of them
         Map,       ///< with the keys `below`
         PerPhase,  ///< as below.front(), or a map with both of `below`
+        Formula,   ///< read by other code, which knows the names in it
         Other,     ///< read by other code
     };
 
@@ -179,6 +180,7 @@ class KeyList {
     }
     void later(const char* key, const char*) { laterKeys.emplace_back(key); }
     void other(const char* key, const char* help) { add(key, DeclaredKey::Kind::Other, help); }
+    void formula(const char* key, const char* help) { add(key, DeclaredKey::Kind::Formula, help); }
     void needs(const char* key, const char* what) { needed_.emplace_back(key, what); }
     void require(bool, const char*, const std::string&) {}
 

@@ -151,6 +151,7 @@ class SectionReader {
     void later(const char* key, const char* message);
     /// A key that other code reads.
     void other(const char*, const char*) {}
+    void formula(const char*, const char*) {}
     void needs(const char* key, const char* what);
     void require(bool isMet, const char* key, const std::string& message);
 

@@ -9,12 +9,6 @@ namespace {
 
 using sim::Node;
 
-Take takeIn(const Node& node, const std::string& path)
-{
-    const std::vector<std::string> words(kTakes.begin(), kTakes.end());
-    return static_cast<Take>(sim::readChoice(node, path, words));
-}
-
 std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& path)
 {
     if (!node.isList() || node.items.empty()) sim::fail(node.place, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
@@ -28,13 +22,26 @@ std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& 
 
 Check readCheck(const Node& node, const std::string& path, const ReadingContext& context, const std::string& name)
 {
-    sim::SectionReader section(node, path);
-    sim::SectionReader::read(&node, path, [](auto& v) {
-        for (const char* key :
-             {"name", "unit", "read", "against", "from", "to", "take", "level", "expect", "table", "tolerance", "within", "at_most", "at_least"})
-            v.other(key, "");
+    std::string called = name, unit;
+    Take statistic = Take::Last;
+    sim::SectionReader::read(&node, path, [&](auto& v) {
+        v.text("name", called, "What tables and plots call it");
+        v.text("unit", unit, "As tables and plots show it");
+        v.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
+        v.formula("read", "What is read as the scene runs, of t and the names of app/readings/measures.h");
+        v.formula("against", "What readings are ordered by; left out: the time t");
+        v.formula("from", "Readings below it, of against, do not count");
+        v.formula("to", "Readings above it, of against, do not count");
+        v.choice("take", statistic, "The one number that is made of the readings; left out: last");
+        v.formula("level", "Which take: reach is about");
+        v.formula("expect", "What is known, of the time t");
+        v.other("table", "What was measured, in the place of expect: pairs of against and the value, against ascending");
+        v.formula("tolerance", "Largest difference from expect, relative to it");
+        v.formula("within", "Largest difference from expect, as it is");
+        v.formula("at_most", "Largest value");
+        v.formula("at_least", "Smallest value");
     });
-    section.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
+    const sim::SectionReader section(node, path);
     const auto readings = [&](const char* key, const char* otherwise) {
         const Node* at = section.find(key);
         return at ? readFormula(*at, section.pathOf(key), context.reading) : sim::Formula(otherwise, context.reading);
@@ -43,13 +50,10 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
         const Node* at = section.find(key);
         return at ? std::optional(readConstant(*at, section.pathOf(key), context)) : std::nullopt;
     };
-    Check check{.name = name, .read = readings("read", ""), .against = readings("against", "t")};
-    section.text("name", check.name, "");
-    section.text("unit", check.unit, "");
+    Check check{.name = called, .read = readings("read", ""), .against = readings("against", "t"), .take = statistic, .unit = unit};
     check.from = constant("from").value_or(check.from);
     check.to = constant("to").value_or(check.to);
     check.level = constant("level").value_or(check.level);
-    if (const Node* at = section.find("take")) check.take = takeIn(*at, section.pathOf("take"));
     if (const Node* at = section.find("expect")) check.expect = readFormula(*at, section.pathOf("expect"), context.known);
     if (const Node* at = section.find("table")) check.table = tableIn(*at, section.pathOf("table"));
     check.tolerance = constant("tolerance");

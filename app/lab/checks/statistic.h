@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
+#include "sim/scene/choice.h"
+
 #include <span>
-#include <string_view>
 
 namespace app {
 
@@ -31,10 +31,26 @@ enum class Take {
     Reach,         ///< where they first pass a level upwards
 };
 
-/// As scene files write them, in the order of Take.
-inline constexpr std::array<std::string_view, 15> kTakes = {"first",  "last",       "mean",          "smallest",  "largest",
-                                                            "change", "slope",      "exponent",      "rate",      "envelope_rate",
-                                                            "period", "mean_error", "largest_error", "rms_error", "reach"};
+/// As scene files write them.
+inline std::span<const sim::Choice<Take>> choicesOf(Take)
+{
+    static constexpr sim::Choice<Take> kAll[] = {{"first", Take::First},
+                                                 {"last", Take::Last},
+                                                 {"mean", Take::Mean},
+                                                 {"smallest", Take::Smallest},
+                                                 {"largest", Take::Largest},
+                                                 {"change", Take::Change},
+                                                 {"slope", Take::Slope},
+                                                 {"exponent", Take::Exponent},
+                                                 {"rate", Take::Rate},
+                                                 {"envelope_rate", Take::EnvelopeRate},
+                                                 {"period", Take::Period},
+                                                 {"mean_error", Take::MeanError},
+                                                 {"largest_error", Take::LargestError},
+                                                 {"rms_error", Take::RmsError},
+                                                 {"reach", Take::Reach}};
+    return kAll;
+}
 
 /// NaN where there are too few readings for it.
 /// @param level  of Take::Reach

@@ -47,29 +47,33 @@ void requireKnown(const std::string& name, const Choices& choices, const Node& n
 
 struct Axis {
     const char *plural, *single;
+    const char *help, *published;  ///< what the keys of both names say
     Choices Precision::*choices;
     std::string PrecisionNames::*name;
 };
-constexpr std::array<Axis, 4> kAxes = {{{"methods", "method", &Precision::methods, &PrecisionNames::method},
-                                        {"integrators", "integrator", &Precision::integrators, &PrecisionNames::integrator},
-                                        {"steps", "step", &Precision::steps, &PrecisionNames::step},
-                                        {"resolutions", "resolution", &Precision::resolutions, &PrecisionNames::resolution}}};
+constexpr std::array<Axis, 4> kAxes = {
+    {{"methods", "method", "Transfers to run it with, each a name and what it changes", "Name of its transfer; left out: the first",
+      &Precision::methods, &PrecisionNames::method},
+     {"integrators", "integrator", "Integrators to run it with, each a name and what it changes", "Name of its integrator; left out: the first",
+      &Precision::integrators, &PrecisionNames::integrator},
+     {"steps", "step", "Time steps to run it with, each a name and what it changes, or cells that liquid of speed crosses",
+      "Name of its time step; left out: the first", &Precision::steps, &PrecisionNames::step},
+     {"resolutions", "resolution", "Cells to run it with, each a name and what it changes", "", &Precision::resolutions,
+      &PrecisionNames::resolution}}};
 
 void readPublished(const Node* node, Precision& precision)
 {
     if (!node) return;
     const std::string path = "precision.published";
-    sim::SectionReader section(*node, path);
-    sim::SectionReader::read(node, path, [](auto& v) {
-        for (const char* key : {"method", "integrator", "step"}) v.other(key, "");
+    const auto isChosen = [](const Axis& axis) { return axis.name != &PrecisionNames::resolution; };
+    for (const Axis& axis : kAxes)
+        if (isChosen(axis)) precision.published.*axis.name = (precision.*axis.choices).front().name;
+    sim::SectionReader::read(node, path, [&](auto& v) {
+        for (const Axis& axis : kAxes)
+            if (isChosen(axis)) v.text(axis.single, precision.published.*axis.name, axis.published);
     });
-    for (const Axis& axis : kAxes) {
-        if (axis.name == &PrecisionNames::resolution) continue;
-        std::string& name = precision.published.*axis.name;
-        name = (precision.*axis.choices).front().name;
-        section.text(axis.single, name, "");
-        requireKnown(name, precision.*axis.choices, *node, section.pathOf(axis.single));
-    }
+    for (const Axis& axis : kAxes)
+        if (isChosen(axis)) requireKnown(precision.published.*axis.name, precision.*axis.choices, *node, sim::joinPath(path, axis.single));
 }
 
 /// Which choices `quick` names.
@@ -77,16 +81,16 @@ void readQuick(const Node* node, Precision& precision)
 {
     if (!node) return;
     const std::string path = "precision.quick";
-    sim::SectionReader section(*node, path);
-    sim::SectionReader::read(node, path, [](auto& v) {
-        for (const Axis& axis : kAxes) v.other(axis.plural, "");
+    std::array<std::vector<std::string>, kAxes.size()> all;
+    sim::SectionReader::read(node, path, [&](auto& v) {
+        for (std::size_t a = 0; a < kAxes.size(); ++a) v.texts(kAxes[a].plural, all[a], "Names of those that are run; left out: all");
     });
-    for (const Axis& axis : kAxes) {
-        std::vector<std::string> names;
-        section.texts(axis.plural, names, "");
+    for (std::size_t a = 0; a < kAxes.size(); ++a) {
+        const Axis& axis = kAxes[a];
+        const std::vector<std::string>& names = all[a];
         if (names.empty()) continue;
         Choices& choices = precision.*axis.choices;
-        for (const std::string& name : names) requireKnown(name, choices, *node, section.pathOf(axis.plural));
+        for (const std::string& name : names) requireKnown(name, choices, *node, sim::joinPath(path, axis.plural));
         for (PrecisionChoice& choice : choices) choice.isQuick = std::ranges::find(names, choice.name) != names.end();
     }
 }
@@ -120,21 +124,29 @@ std::optional<Precision> readPrecision(const SceneSetup& setup)
 {
     const Node* node = setup.file.root.find("precision");
     if (!node) return std::nullopt;
-    sim::SectionReader section(*node, "precision");
-    sim::SectionReader::read(node, "precision", [](auto& v) {
-        for (const char* key : {"about", "every", "let", "flow", "errors", "energy", "decay", "speed", "methods", "integrators", "steps",
-                                "resolutions", "published", "headline", "converged", "quick"})
-            v.other(key, "");
+    Precision precision;
+    sim::SectionReader::read(node, "precision", [&](auto& v) {
+        v.text("about", precision.about, "What is compared with what, as the report says it");
+        v.formula("every", "Time between two readings [s], above 0");
+        v.other("let", "Names for formulas");
+        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
+        v.other("errors", "What is compared; the error of a run is the root mean square of these");
+        v.formula("energy", "Energy of which the table tells how much is left");
+        v.formula("decay", "Rate at which that energy decays over the kinematic viscosity, 0 where it is not known [1/cm^2]");
+        v.formula("speed", "Speed of the liquid, for steps that are told in cells [cm/s]");
+        for (const Axis& axis : kAxes) v.other(axis.plural, axis.help);
+        v.other("published", "The scheme to compare with");
+        v.flag("headline", precision.isHeadline, "It is drawn beside the other such cases");
+        v.other("converged", "What makes the run that the others are held against where no formula is known");
+        v.other("quick", "What drench bench precision --quick runs");
     });
+    sim::SectionReader section(*node, "precision");
     auto measures = std::make_shared<Measures>(setup.scene);
     const ReadingContext context = readContext(section, setup.scene, *measures);
     section.needs("errors", "a list of what is compared, like errors: [{read: flow_error, expect: 0}]");
-    Precision precision;
     precision.measures = std::move(measures);
-    section.text("about", precision.about, "");
     precision.every = readInterval(section, context);
     if (const Node* at = section.find("energy")) precision.energy = readFormula(*at, "precision.energy", context.reading);
-    section.flag("headline", precision.isHeadline, "");
     if (const Node* at = section.find("decay")) precision.decay = readConstant(*at, "precision.decay", context);
     if (const Node* at = section.find("speed")) precision.speed = readConstant(*at, "precision.speed", context);
     precision.errors = errorsIn(section, context);

@@ -36,14 +36,18 @@ std::optional<Validation> readValidation(const SceneSetup& setup)
 {
     const Node* node = setup.file.root.find("validate");
     if (!node) return std::nullopt;
-    sim::SectionReader section(*node, "validate");
-    sim::SectionReader::read(node, "validate", [](auto& v) {
-        for (const char* key : {"about", "source", "every", "let", "flow", "quick", "checks"}) v.other(key, "");
-    });
     Validation validation;
+    sim::SectionReader::read(node, "validate", [&](auto& v) {
+        v.text("about", validation.about, "What is compared with what, as the report says it");
+        v.text("source", validation.source, "Who found what is expected");
+        v.formula("every", "Time between two readings [s], above 0");
+        v.other("let", "Names for formulas");
+        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
+        v.other("quick", "What drench validate --quick changes, so that the run is short");
+        v.other("checks", "What is compared");
+    });
+    sim::SectionReader section(*node, "validate");
     validation.measures = std::make_shared<Measures>(setup.scene);
-    section.text("about", validation.about, "");
-    section.text("source", validation.source, "");
     const ReadingContext context = readContext(section, setup.scene, *validation.measures);
     validation.every = readInterval(section, context);
     if (const Node* quick = section.find("quick"))
