@@ -6,6 +6,7 @@
 #include "app/system/atomic_files.h"
 #include "app/system/child_process.h"
 #include "app/system/thread_limit.h"
+#include "sim/core/vector_bits.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -21,14 +22,6 @@ namespace app {
 namespace {
 
 using ProvenanceJson = nlohmann::ordered_json;
-
-#if defined(__AVX512F__)
-constexpr int kVectorBits = 512;
-#elif defined(__AVX__)
-constexpr int kVectorBits = 256;
-#else
-constexpr int kVectorBits = 128;
-#endif
 
 /// The command line of this process, as a shell reads it.
 std::string commandLine()
@@ -90,7 +83,7 @@ std::string provenanceOf(const SceneSetup& setup, int threads, const std::string
                            {"compiler", kBuildInfo.compiler},
                            {"flags", kBuildInfo.flags},
                            {"processor", processorName()},
-                           {"vector_bits", kVectorBits},
+                           {"vector_bits", sim::kVectorBits},
                            {"threads", threads},
                            {"libraries", librariesJson(drawnBy)},
                            {"command", commandLine()},

@@ -50,6 +50,21 @@ inline Scene tankScene(const Transfer& transfer, double cell, const Vec3& size, 
     return scene;
 }
 
+/// A ball that falls into a pool with a post in it.
+inline Scene ballIntoPool(const Transfer& transfer)
+{
+    Scene scene = tankScene(transfer, 0.5, {20.0, 24.0, 18.0}, {0.0, 0.0, 0.0}, {20.0, 5.0, 18.0});
+    scene.settings.time.cfl = 1.0;
+    scene.obstacles.push_back(obstacle("post", Shape::capsule({3.0, -1.0, 4.0}, {3.5, 4.0, 4.5}, 0.8)));
+    SourceSettings drop;
+    drop.shape = Shape::ball({6.0, 5.0, 4.5}, 1.6);
+    Emission emission;
+    emission.velocity = {-30.0, -150.0, 10.0};
+    drop.emissions.push_back(emission);
+    scene.sources.push_back(drop);
+    return scene;
+}
+
 /// A column at one end of a short tank, 10 × 12 × 4 cells of 1 cm in 24, so high that nothing reaches its lid.
 inline Scene coarseDamBreak(const Transfer& transfer)
 {

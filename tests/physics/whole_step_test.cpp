@@ -8,26 +8,11 @@
 namespace sim::test {
 namespace {
 
-/// A ball that falls into a pool with a post in it.
-Scene splash(const Transfer& transfer)
-{
-    Scene scene = tankScene(transfer, 0.5, {20.0, 24.0, 18.0}, {0.0, 0.0, 0.0}, {20.0, 5.0, 18.0});
-    scene.settings.time.cfl = 1.0;
-    scene.obstacles.push_back(obstacle("post", Shape::capsule({3.0, -1.0, 4.0}, {3.5, 4.0, 4.5}, 0.8)));
-    SourceSettings drop;
-    drop.shape = Shape::ball({6.0, 5.0, 4.5}, 1.6);
-    Emission emission;
-    emission.velocity = {-30.0, -150.0, 10.0};
-    drop.emissions.push_back(emission);
-    scene.sources.push_back(drop);
-    return scene;
-}
-
 TEST(WholeStep, SameBitsForAnyThreadCount)
 {
     for (const Transfer& transfer : kTransfers) {
         const auto hashAfter30Steps = [&] {
-            Simulation simulation(splash(transfer));
+            Simulation simulation(ballIntoPool(transfer));
             for (int step = 0; step < 30; ++step) simulation.step(1.0e9);
             return stateHash(simulation.state());
         };
@@ -39,7 +24,7 @@ TEST(WholeStep, SameBitsForAnyThreadCount)
 
 TEST(WholeStep, ReflectsWithTheSameBitsForAnyThreadCount)
 {
-    const Scene scene = splash(kPoly8);
+    const Scene scene = ballIntoPool(kPoly8);
     ASSERT_TRUE(scene.settings.time.reflects());
     const auto hashAfter30Steps = [&] {
         Simulation simulation(scene);
@@ -67,7 +52,7 @@ TEST(WholeStep, RunsOnlyTheStagesItNeeds)
     for (Stage stage : {Stage::Sort, Stage::ParticlesToGrid, Stage::Cells, Stage::Pressure, Stage::GridToParticles})
         EXPECT_TRUE(report.stageRan[static_cast<int>(stage)]) << kStageNames[static_cast<int>(stage)];
 
-    Scene everything = splash(kPoly8);
+    Scene everything = ballIntoPool(kPoly8);
     everything.settings.liquid.relax.rate = 125.0;
     everything.settings.liquid.surfaceTensionForce = true;
     const StepReport more = Simulation(everything).step(1.0e9);
@@ -128,7 +113,7 @@ double differenceByOrder(const Scene& scene, int steps)
 TEST(WholeStep, OrderOfTheParticlesDoesNotMatter)
 {
     for (const Transfer& transfer : kTransfers) {
-        Scene scene = splash(transfer);
+        Scene scene = ballIntoPool(transfer);
         scene.settings.solver.pressureTolerance = 1.0e-11;
         EXPECT_LT(differenceByOrder(scene, 10), 1.0e-9) << transfer.name;
         // Relaxation adds up floats; crowded particles then double a difference in each step.
@@ -140,7 +125,7 @@ TEST(WholeStep, OrderOfTheParticlesDoesNotMatter)
 TEST(WholeStep, ReportTellsTheEnergiesOfTheState)
 {
     for (const Transfer& transfer : kTransfers) {
-        Simulation simulation(splash(transfer));
+        Simulation simulation(ballIntoPool(transfer));
         for (int step = 0; step < 5; ++step) {
             const StepReport report = simulation.step(1.0e9);
             const Energies now = simulation.energies();
@@ -154,9 +139,9 @@ TEST(WholeStep, ReportTellsTheEnergiesOfTheState)
 
 TEST(WholeStep, StateAloneDecidesWhatFollows)
 {
-    Simulation simulation(splash(kPoly8));
+    Simulation simulation(ballIntoPool(kPoly8));
     for (int step = 0; step < 10; ++step) simulation.step(1.0e9);
-    Simulation restarted(splash(kPoly8), simulation.state());
+    Simulation restarted(ballIntoPool(kPoly8), simulation.state());
     for (int step = 0; step < 10; ++step) {
         simulation.step(1.0e9);
         restarted.step(1.0e9);
