@@ -1,72 +1,13 @@
 #include "sim/fabric/contact/contact.h"
 
 #include "sim/core/parallel.h"
-#include "sim/fabric/contact/candidate_list.h"
-#include "sim/fabric/contact/limiter.h"
-#include "sim/fabric/contact/pair_energy.h"
-#include "sim/fabric/contact/pair_turn.h"
-#include "sim/fabric/friction_law.h"
+#include "sim/fabric/contact/contact_parts.h"
 
 #include <limits>
 
 namespace sim {
 
 using namespace contact;
-
-struct FabricContact::Parts {
-    Parts(const Fabric& fabric, const Cohesion* c) : cohesion(c), list(fabric, c != nullptr), limiter(list.primitives()), start(fabric.rest) {}
-
-    /// What the friction of an active pair goes by.
-    struct Grip {
-        PairRange range;
-        Vec3 apart;           ///< separation where it was looked at last [cm]
-        double stiffness;     ///< of the pair [dyn/cm]
-        double perStep;       ///< mean mass of its vertices over springStep² [dyn/cm]
-        double coefficient;   ///< Coulomb's [-]
-        double perMass;       ///< h² over the mass that its separation has [cm/dyn]
-        bool slides;          ///< friction is at its bound
-        double bridge = 0.0;  ///< longest beyond the reach [cm] …
-        double pull = 0.0;    ///< … and what it holds with [dyn]
-    };
-    /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
-    struct Acted {
-        Vec3 apart;     ///< its separation [cm]
-        Vec3 friction;  ///< [dyn]
-        double bound;   ///< of friction [dyn]
-    };
-
-    bool bridges() const { return cohesion && cohesion->isOnFabric(); }
-    void findActive(const CandidatePool& pairs, std::vector<PairPlace>& found);
-    void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::span<const PairPlace> places,
-                  std::size_t first);
-    void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::size_t place, std::size_t slot);
-    Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance, std::size_t slot) const;
-    void resizeActive(std::size_t n);
-    void findHeld();
-    template <class Body>
-    void forEachSeeker(Body&& body) const;
-    double pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
-    void findBridges(std::span<const Vec3> x);
-    Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
-    double touchingMass();
-
-    const Cohesion* cohesion;  ///< or null
-    CandidateList list;
-    Limiter limiter;
-    std::vector<Vec3> start;                      ///< of the step [cm]
-    std::vector<double> mass, inverseMass;        ///< [g, 1/g]
-    double h = 0.0, springStep = 0.0;             ///< [s]
-    std::vector<PairPlace> acting;                ///< by chunks
-    std::vector<PairPlace> edgePairs, facePairs;  ///< that act, sorted
-    PairSorter sorter;
-    ActiveContacts active;
-    std::vector<Grip> grips;             ///< of the active pairs
-    Grips held;                          ///< at the start of the step
-    std::vector<Vec3> heldForce;         ///< of it on the active pairs [dyn]
-    std::vector<char> isTouching;        ///< of each vertex
-    std::vector<int> nearest, opposite;  ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
-    std::vector<Vec3> keptForce;         ///< of friction on the active pairs, at the end of the step [dyn]
-};
 
 FabricContact::FabricContact(const Fabric& fabric, const Cohesion* cohesion) : parts_(std::make_unique<Parts>(fabric, cohesion)) {}
 FabricContact::~FabricContact() = default;
@@ -147,21 +88,6 @@ void FabricContact::Parts::resizeActive(std::size_t n)
     heldForce.resize(n);
 }
 
-/// What friction holds on each of the active pairs: both lie in the same order.
-void FabricContact::Parts::findHeld()
-{
-    std::size_t next = 0;
-    const auto find = [&](std::span<const PairPlace> places, std::size_t first) {
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const Vec2i pair(places[i].a, places[i].b);
-            while (next < held.between.size() && Grips::isBefore(held.between[next], pair)) ++next;
-            heldForce[first + i] = next < held.between.size() && held.between[next] == pair ? held.force[next] : Vec3::Zero().eval();
-        }
-    };
-    find(edgePairs, 0);
-    find(facePairs, edgePairs.size());
-}
-
 /// Pair `place` of the pool as number `slot` of the active ones.
 void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs, std::size_t place,
                                     std::size_t slot)
@@ -202,129 +128,6 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
     active.frictionStiffness[slot] = sideways.along;
-}
-
-/// Of an active pair that is described but for it, at x or where the moves expected lead.
-Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
-                                        std::size_t slot) const
-{
-    const Grip& grip = grips[slot];
-    const double pressed = grip.range.reach - distance;
-    if (!(grip.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
-    const std::array<int, 4>& v = active.vertices[slot];
-    const std::array<double, 4>& c = active.weights[slot];
-    const Vec3& normal = active.normal[slot];
-    const Vec3& apart = grip.apart;
-    Vec3 before = Vec3::Zero(), further = Vec3::Zero();
-    for (std::size_t k = 0; k < 4; ++k) {
-        before += c[k] * start[v[k]];
-        if (!expected.empty()) further += c[k] * expected[v[k]];
-    }
-    const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
-    const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
-    const Vec3 carried = turn * before;
-    const GripSpring spring{along(turn * heldForce[slot]), gripStiffness(-energy.slope, pressed, grip.perStep), grip.coefficient * -energy.slope};
-    if (expected.empty()) return spring.at(along(apart - carried));
-    return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
-}
-
-/// body(seeker, pair, direction from the seeker to the other) for the active pairs that may have bridges: yarns seek yarns, vertices faces.
-template <class Body>
-void FabricContact::Parts::forEachSeeker(Body&& body) const
-{
-    const Primitives& primitives = list.primitives();
-    for (std::size_t i = 0; i < active.size(); ++i) {
-        if (!(grips[i].bridge > 0.0)) continue;
-        const int a = active.between[i][0], b = active.between[i][1];
-        const bool areEdges = primitives.kind(a) == PairKind::EdgeEdge;
-        if (areEdges && (primitives.strand[a] < 0 || primitives.strand[b] < 0)) continue;
-        body(a, i, Vec3(-active.normal[i]));
-        if (areEdges) body(b, i, active.normal[i]);
-    }
-}
-
-/// A seeker's part of the force of a pair's bridge [dyn]. Yarns that cross touch along their width.
-double FabricContact::Parts::pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const
-{
-    const Primitives& primitives = list.primitives();
-    const std::array<int, 4>& v = active.vertices[i];
-    const std::array<double, 4>& c = active.weights[i];
-    if (primitives.kind(seeker) == PairKind::VertexFace) return cohesion->onFace(v[0], {v[1], v[2], v[3]}, {-c[1], -c[2], -c[3]});
-    const int other = active.between[i][active.between[i][0] == seeker ? 1 : 0];
-    const Vec3 first = x[v[1]] - x[v[0]], second = x[v[3]] - x[v[2]];
-    const double length = (active.between[i][0] == seeker ? first : second).norm();
-    const double along = std::abs(first.normalized().dot(second.normalized()));
-    return std::min(1.0, along + 2.0 * primitives.radius[other] / length) * cohesion->onYarn(seeker);
-}
-
-/// Each vertex and yarn edge has a bridge to what is nearest, and one to what is nearest on its other side.
-void FabricContact::Parts::findBridges(std::span<const Vec3> x)
-{
-    for (std::vector<int>* best : {&nearest, &opposite}) best->assign(list.primitives().firstFace(), -1);
-    const auto isNearer = [&](std::size_t i, int than) { return than < 0 || grips[i].apart.squaredNorm() < grips[than].apart.squaredNorm(); };
-    const auto direction = [&](int seeker, int i) -> Vec3 { return active.between[i][0] == seeker ? Vec3(-active.normal[i]) : active.normal[i]; };
-    forEachSeeker([&](int seeker, std::size_t i, const Vec3&) {
-        if (isNearer(i, nearest[seeker])) nearest[seeker] = static_cast<int>(i);
-    });
-    forEachSeeker([&](int seeker, std::size_t i, const Vec3& towards) {
-        if (towards.dot(direction(seeker, nearest[seeker])) < 0.0 && isNearer(i, opposite[seeker])) opposite[seeker] = static_cast<int>(i);
-    });
-    forEachSeeker([&](int seeker, std::size_t i, const Vec3&) {
-        const int slot = static_cast<int>(i);
-        if (slot == nearest[seeker] || slot == opposite[seeker]) grips[i].pull += pullOf(seeker, i, x);
-    });
-    for (std::size_t i = 0; i < active.size(); ++i) active.force[i] += grips[i].pull * active.normal[i];
-}
-
-FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::span<const Vec3> x) const
-{
-    const Vec3& n = active.normal[i];
-    Vec3 apart = Vec3::Zero();
-    for (std::size_t k = 0; k < 4; ++k) apart += active.weights[i][k] * x[active.vertices[i][k]];
-    const Vec3 moved = apart - grips[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
-    const double normalForce = grips[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
-    return {apart, acted - acted.dot(n) * n, grips[i].coefficient * std::max(normalForce, 0.0)};
-}
-
-/// Mass of the vertices of the active pairs that are not pinned [g].
-double FabricContact::Parts::touchingMass()
-{
-    isTouching.assign(mass.size(), 0);
-    for (const std::array<int, 4>& pair : active.vertices)
-        for (int v : pair) isTouching[v] = 1;
-    return parallelSum(mass.size(), [&](std::size_t v) { return isTouching[v] && inverseMass[v] > 0.0 ? mass[v] : 0.0; });
-}
-
-double FabricContact::frictionError(std::span<const Vec3> x, double acceleration)
-{
-    Parts& p = *parts_;
-    using Sums = std::array<double, 2>;
-    const auto [wrong, bound] = parallelReduce(
-        p.active.size(), Sums{},
-        [&](std::size_t i) {
-            const Parts::Acted acted = p.actedOn(i, x);
-            const double beyond = acted.friction.norm() - acted.bound;
-            return Sums{p.grips[i].slides ? std::abs(beyond) : std::max(beyond, 0.0), acted.bound};
-        },
-        [](const Sums& a, const Sums& b) {
-            return Sums{a[0] + b[0], a[1] + b[1]};
-        });
-    return wrong > 0.0 ? wrong / std::max(bound, acceleration * p.touchingMass()) : 0.0;
-}
-
-void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held)
-{
-    Parts& p = *parts_;
-    std::vector<Vec3>& force = p.keptForce;
-    force.resize(p.active.size());
-    parallelFor(force.size(), 512, [&](std::size_t i) {
-        const Parts::Acted acted = p.actedOn(i, x);
-        const bool touches = acted.apart.dot(p.active.normal[i]) < p.grips[i].range.reach;
-        force[i] = touches ? atMost(acted.bound, acted.friction) : Vec3::Zero().eval();
-    });
-    held.clear();
-    for (std::size_t i = 0; i < force.size(); ++i)
-        if (!force[i].isZero(0.0)) held.add(p.active.between[i], force[i]);
 }
 
 ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& held) const

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "sim/fabric/contact/candidate_list.h"
+#include "sim/fabric/contact/contact.h"
+#include "sim/fabric/contact/limiter.h"
+#include "sim/fabric/contact/pair_energy.h"
+#include "sim/fabric/friction_law.h"
+
+namespace sim {
+
+/// What FabricContact is made of: the pairs that act (contact.cpp), the friction between them (pair_friction.cpp), and the bridges of liquid
+/// (bridges.cpp).
+struct FabricContact::Parts {
+    Parts(const Fabric& fabric, const Cohesion* c) : cohesion(c), list(fabric, c != nullptr), limiter(list.primitives()), start(fabric.rest) {}
+
+    /// What the friction of an active pair goes by.
+    struct Grip {
+        contact::PairRange range;
+        Vec3 apart;           ///< separation where it was looked at last [cm]
+        double stiffness;     ///< of the pair [dyn/cm]
+        double perStep;       ///< mean mass of its vertices over springStep² [dyn/cm]
+        double coefficient;   ///< Coulomb's [-]
+        double perMass;       ///< h² over the mass that its separation has [cm/dyn]
+        bool slides;          ///< friction is at its bound
+        double bridge = 0.0;  ///< longest beyond the reach [cm] …
+        double pull = 0.0;    ///< … and what it holds with [dyn]
+    };
+    /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
+    struct Acted {
+        Vec3 apart;     ///< its separation [cm]
+        Vec3 friction;  ///< [dyn]
+        double bound;   ///< of friction [dyn]
+    };
+
+    bool bridges() const { return cohesion && cohesion->isOnFabric(); }
+    void findActive(const contact::CandidatePool& pairs, std::vector<contact::PairPlace>& found);
+    void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::CandidatePool& pairs,
+                  std::span<const contact::PairPlace> places, std::size_t first);
+    void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::CandidatePool& pairs, std::size_t place, std::size_t slot);
+    Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::PairEnergy& energy, double distance,
+                      std::size_t slot) const;
+    void resizeActive(std::size_t n);
+    void findHeld();
+    template <class Body>
+    void forEachSeeker(Body&& body) const;
+    double pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
+    void findBridges(std::span<const Vec3> x);
+    Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
+    double touchingMass();
+
+    const Cohesion* cohesion;  ///< or null
+    contact::CandidateList list;
+    contact::Limiter limiter;
+    std::vector<Vec3> start;                               ///< of the step [cm]
+    std::vector<double> mass, inverseMass;                 ///< [g, 1/g]
+    double h = 0.0, springStep = 0.0;                      ///< [s]
+    std::vector<contact::PairPlace> acting;                ///< by chunks
+    std::vector<contact::PairPlace> edgePairs, facePairs;  ///< that act, sorted
+    contact::PairSorter sorter;
+    ActiveContacts active;
+    std::vector<Grip> grips;             ///< of the active pairs
+    Grips held;                          ///< at the start of the step
+    std::vector<Vec3> heldForce;         ///< of it on the active pairs [dyn]
+    std::vector<char> isTouching;        ///< of each vertex
+    std::vector<int> nearest, opposite;  ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
+    std::vector<Vec3> keptForce;         ///< of friction on the active pairs, at the end of the step [dyn]
+};
+
+}  // namespace sim

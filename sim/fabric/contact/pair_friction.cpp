@@ -1,0 +1,99 @@
+#include "sim/core/parallel.h"
+#include "sim/fabric/contact/contact_parts.h"
+#include "sim/fabric/contact/pair_turn.h"
+
+namespace sim {
+
+using namespace contact;
+
+/// What friction holds on each of the active pairs: both lie in the same order.
+void FabricContact::Parts::findHeld()
+{
+    std::size_t next = 0;
+    const auto find = [&](std::span<const PairPlace> places, std::size_t first) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const Vec2i pair(places[i].a, places[i].b);
+            while (next < held.between.size() && Grips::isBefore(held.between[next], pair)) ++next;
+            heldForce[first + i] = next < held.between.size() && held.between[next] == pair ? held.force[next] : Vec3::Zero().eval();
+        }
+    };
+    find(edgePairs, 0);
+    find(facePairs, edgePairs.size());
+}
+
+/// Of an active pair that is described but for it, at x or where the moves expected lead.
+Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
+                                        std::size_t slot) const
+{
+    const Grip& grip = grips[slot];
+    const double pressed = grip.range.reach - distance;
+    if (!(grip.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
+    const std::array<int, 4>& v = active.vertices[slot];
+    const std::array<double, 4>& c = active.weights[slot];
+    const Vec3& normal = active.normal[slot];
+    const Vec3& apart = grip.apart;
+    Vec3 before = Vec3::Zero(), further = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+        before += c[k] * start[v[k]];
+        if (!expected.empty()) further += c[k] * expected[v[k]];
+    }
+    const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
+    const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
+    const Vec3 carried = turn * before;
+    const GripSpring spring{along(turn * heldForce[slot]), gripStiffness(-energy.slope, pressed, grip.perStep), grip.coefficient * -energy.slope};
+    if (expected.empty()) return spring.at(along(apart - carried));
+    return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
+}
+
+FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::span<const Vec3> x) const
+{
+    const Vec3& n = active.normal[i];
+    Vec3 apart = Vec3::Zero();
+    for (std::size_t k = 0; k < 4; ++k) apart += active.weights[i][k] * x[active.vertices[i][k]];
+    const Vec3 moved = apart - grips[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
+    const double normalForce = grips[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
+    return {apart, acted - acted.dot(n) * n, grips[i].coefficient * std::max(normalForce, 0.0)};
+}
+
+/// Mass of the vertices of the active pairs that are not pinned [g].
+double FabricContact::Parts::touchingMass()
+{
+    isTouching.assign(mass.size(), 0);
+    for (const std::array<int, 4>& pair : active.vertices)
+        for (int v : pair) isTouching[v] = 1;
+    return parallelSum(mass.size(), [&](std::size_t v) { return isTouching[v] && inverseMass[v] > 0.0 ? mass[v] : 0.0; });
+}
+
+double FabricContact::frictionError(std::span<const Vec3> x, double acceleration)
+{
+    Parts& p = *parts_;
+    using Sums = std::array<double, 2>;
+    const auto [wrong, bound] = parallelReduce(
+        p.active.size(), Sums{},
+        [&](std::size_t i) {
+            const Parts::Acted acted = p.actedOn(i, x);
+            const double beyond = acted.friction.norm() - acted.bound;
+            return Sums{p.grips[i].slides ? std::abs(beyond) : std::max(beyond, 0.0), acted.bound};
+        },
+        [](const Sums& a, const Sums& b) {
+            return Sums{a[0] + b[0], a[1] + b[1]};
+        });
+    return wrong > 0.0 ? wrong / std::max(bound, acceleration * p.touchingMass()) : 0.0;
+}
+
+void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held)
+{
+    Parts& p = *parts_;
+    std::vector<Vec3>& force = p.keptForce;
+    force.resize(p.active.size());
+    parallelFor(force.size(), 512, [&](std::size_t i) {
+        const Parts::Acted acted = p.actedOn(i, x);
+        const bool touches = acted.apart.dot(p.active.normal[i]) < p.grips[i].range.reach;
+        force[i] = touches ? atMost(acted.bound, acted.friction) : Vec3::Zero().eval();
+    });
+    held.clear();
+    for (std::size_t i = 0; i < force.size(); ++i)
+        if (!force[i].isZero(0.0)) held.add(p.active.between[i], force[i]);
+}
+
+}  // namespace sim

@@ -1,0 +1,139 @@
+#include "sim/core/parallel.h"
+#include "sim/fabric/vertex/vertex_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+// Newton's iterations of one attempt: what touches, where the linear solve leads, how far the limiter lets it, and when it is enough.
+
+namespace sim {
+
+namespace {
+
+constexpr double kTolerance = 1.0e-2;    ///< of the linear solves, relative: looser ones act as damping (fabric/vertex/README.md, Linear solve) [-]
+constexpr double kMoveTolerance = 0.05;  ///< rms error of moves beyond which none is [radii] …
+constexpr double kBearable = 0.05;       ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
+constexpr double kRoundings = 4.0;       ///< of places in a step: slower motion is none [-]
+constexpr double kLeftAtContact = 0.3;   ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
+constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
+constexpr double kLastMove = 0.1;            ///< rms move of a Newton iteration that may be the last [radii]
+constexpr double kSettledMove = 0.25;        ///< rms move of one after which a step needs no halves [radii] …
+constexpr double kSmallMove = 0.03;          ///< … or this small, where moves do not become smaller [radii]
+constexpr double kContraction = 0.5;         ///< from one iteration's move to the next [-]
+constexpr int kMostNewton = 6;               ///< iterations to get there; more ask for halves
+constexpr double kFrictionError = 0.05;      ///< with which a step may end: more sticks where it should slide [-] …
+constexpr double kFeltFriction = 0.2;        ///< … and below which friction is too little to matter [feltAcceleration]
+constexpr int kMaxLinearIterations = 1000;
+
+}  // namespace
+
+/// What touches at x.
+/// @param expected  ActiveContacts, FabricObstacles::Start
+void VertexSolver::look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock)
+{
+    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(x, clock, expected) : nullptr;
+    touching_ = {};
+    if (obstacles_.empty()) return;
+    clock.start(Stage::FabricContact);
+    FabricObstacles::Start start = obstacleStart(h);
+    start.moves = expected;
+    touching_ = obstacles_.at(fabric_, x, start, guard_.nearestPoints(x));
+}
+
+/// Newton's move from where the state is, into move_.
+void VertexSolver::solve(const Part& part, Newton& newton)
+{
+    const double h = part.h;
+    const FabricState& state = part.state;
+    FabricReport& report = part.report;
+    look(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
+    hasMovedSinceLook_ = true;
+    part.clock.start(Stage::FabricElastic);
+    system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
+    part.clock.start(Stage::FabricSolve);
+    const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
+    const double fall = feltAcceleration_ * h;
+    const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
+    const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
+                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0,
+                                       kRoundings * placeRounding_ / h};
+    const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
+    if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
+    ++report.newton;
+    report.iterations += linear.iterations;
+    report.speedError = std::max(report.speedError, linear.speedError);
+    report.contacts = contacts_ ? contacts_->size() : 0;
+    report.obstacleContacts = touching_.size();
+}
+
+/// Has the last move left nothing worth another? One by which nothing moved far, or much less far than before.
+void VertexSolver::judge(double h, Newton& newton) const
+{
+    const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
+    const double move = rmsInRadii(move_);
+    newton.isQuiet = largest < kQuietAcceleration * feltAcceleration_ * h * h && move < kSmallMove;
+    newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
+    newton.isNear = newton.isSettled && move < kLastMove;
+    newton.lastMove = move;
+    ++newton.count;
+}
+
+/// Makes the move as far as the limiter lets it.
+void VertexSolver::take(const Part& part, Newton& newton)
+{
+    FabricState& state = part.state;
+    limit(state, part.report, part.clock);
+    const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return mass_[v] * of(v); }); };
+    newton.wanted += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).squaredNorm(); });
+    newton.taken += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).dot(move_[v]); });
+    commit(state, part.clock);
+    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
+    turnHeldEdges(part.t + part.h, state);
+}
+
+/// Weighted by mass.
+double VertexSolver::rmsInRadii(std::span<const Vec3> move) const
+{
+    const double sum =
+        parallelSum(move.size(), [&](std::size_t v) { return fabric_.mass[v] * move[v].squaredNorm() / (fabric_.radius[v] * fabric_.radius[v]); });
+    return std::sqrt(sum / totalMass_);
+}
+
+/// Moves the fabric by move_.
+void VertexSolver::commit(FabricState& state, StageClock& clock)
+{
+    clock.start(Stage::FabricElastic);
+    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
+    if (contact_) contact_->moved();
+    system_.rods().transportFrames(state);
+}
+
+/// Newton's iterations until nothing moves that matters, and no energy comes from what is left.
+void VertexSolver::iterate(const Part& part, Newton& newton)
+{
+    const double h = part.h;
+    FabricState& state = part.state;
+    const int most = std::max(settings_.newton, kMostNewton);
+    std::optional<Newton> settled;  // before iterations for the energy's sake, which tell nothing of how far a step could be taken
+    for (;;) {
+        solve(part, newton);
+        judge(h, newton);
+        take(part, newton);
+        const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
+        if (!isLastMove) continue;
+        const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
+        if (frictionError > kFrictionError && newton.count < most) continue;
+        newton.isSettled = newton.isSettled && frictionError <= kFrictionError;
+        finish(h, state);
+        if (!settled) settled = newton;
+        newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
+        if (gain(h, part.gravity, state) <= kNoGain) return;
+        lookAgain(h, state, part.clock);
+        newton.gain = gain(h, part.gravity, state);
+        if (newton.gain <= kNoGain || newton.count >= most) return;
+    }
+}
+
+}  // namespace sim
