@@ -7,10 +7,16 @@ namespace render {
 
 namespace {
 
-void makeTexture(const Gl& gl, GLuint id, int width, int height, GLint format, GLenum layout, GLenum type)
+/// How a texture keeps its pixels, and how it would be given them.
+struct TextureFormat {
+    GLint kept;
+    GLenum layout, type;
+};
+
+void makeTexture(const Gl& gl, GLuint id, int width, int height, const TextureFormat& format)
 {
     gl.BindTexture(GL_TEXTURE_2D, id);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, format.kept, width, height, 0, format.layout, format.type, nullptr);
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) gl.TexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
@@ -69,8 +75,8 @@ DrawTargets::DrawTargets(const Gl& gl, int width, int height, int samples)
     attach(scene_.id(), GL_DEPTH_ATTACHMENT, sceneDepth_.id());
     requireComplete(gl, width, height);
 
-    makeTexture(gl, color_.id(), width, height, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
-    makeTexture(gl, depth_.id(), width, height, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+    makeTexture(gl, color_.id(), width, height, {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE});
+    makeTexture(gl, depth_.id(), width, height, {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT});
     gl.BindFramebuffer(GL_FRAMEBUFFER, resolved_.id());
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
@@ -107,7 +113,7 @@ void DrawTargets::beginOcclusion()
 {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, occlusion_.id());
     if (hasOpenness_) return;
-    makeTexture(gl_, openness_.id(), width_, height_, GL_RG16F, GL_RG, GL_FLOAT);
+    makeTexture(gl_, openness_.id(), width_, height_, {GL_RG16F, GL_RG, GL_FLOAT});
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, openness_.id(), 0);
     requireComplete(gl_, width_, height_);
     hasOpenness_ = true;

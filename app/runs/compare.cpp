@@ -163,9 +163,10 @@ std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Opti
     return done;
 }
 
-void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,
-                  const std::filesystem::path& folder, const std::function<bool()>& stopWanted)
+void makeProducts(const std::vector<ComparedRun>& runs, const ProductSettings& wanted, const Parts& parts, const std::function<bool()>& stopWanted)
 {
+    const PictureSettings& pictures = wanted.pictures;
+    const std::filesystem::path& folder = wanted.folder;
     if (pictures.compare.table) {
         std::vector<RunResult> results;
         for (const auto& run : runs)
@@ -179,11 +180,11 @@ void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& p
         fmt::print("\n{}\n", table);
     }
     if (pictures.compare.energyPlot) drawEnergies(runs, folder);
-    if (!withFrames) return;
+    if (!wanted.withFrames) return;
     std::vector<FrameSequence> sequences;
     for (const auto& run : runs) sequences.push_back(sequenceOf(run));
     if (pictures.compare.sheet) composeSheet(sequences, kSheetRows, pictures, parts, folder);
-    if (!withVideo || !pictures.compare.video) return;
+    if (!wanted.withVideo || !pictures.compare.video) return;
     const auto made = composeSideBySide(sequences, pictures.output.every, pictures, parts, folder, stopWanted);
     if (!made.empty()) fmt::print("side by side: {}\n", made.string());
 }

@@ -44,8 +44,14 @@ std::string whatWasSeen(const std::vector<ComparedRun>& runs);
 /// Its pictures, as they are there.
 FrameSequence sequenceOf(const ComparedRun& run);
 
+/// What is to be made of runs that are done.
+struct ProductSettings {
+    const PictureSettings& pictures;  ///< of the scene, which says what it wishes
+    bool withFrames, withVideo;       ///< what is made of pictures, too; and videos of them
+    std::filesystem::path folder;     ///< where products go
+};
+
 /// Table, energy plot with its CSV, contact sheet and side-by-side video of runs that are done, as the scene wishes.
-void makeProducts(const std::vector<ComparedRun>& runs, const PictureSettings& pictures, const Parts& parts, bool withFrames, bool withVideo,
-                  const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
+void makeProducts(const std::vector<ComparedRun>& runs, const ProductSettings& wanted, const Parts& parts, const std::function<bool()>& stopWanted);
 
 }  // namespace app

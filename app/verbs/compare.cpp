@@ -16,7 +16,7 @@ int compareFolders(const Options& options, const Parts& parts)
 {
     const std::vector<ComparedRun> runs = storedRuns(options.from, options.sets, parts);
     makeFolder(options.out);
-    makeProducts(runs, runs.front().setup.pictures, parts, true, options.video, options.out, stopWanted);
+    makeProducts(runs, {runs.front().setup.pictures, true, options.video, options.out}, parts, stopWanted);
     return stopWanted() ? 1 : 0;
 }
 
@@ -34,7 +34,7 @@ int runVerbCompare(const Options& options, const Parts& parts)
 
     const auto done = runAll(runs, options, withFrames, stopWanted);
     if (stopWanted()) return 1;
-    if (!done.empty()) makeProducts(done, asWritten.pictures, parts, withFrames, options.video, folder, stopWanted);
+    if (!done.empty()) makeProducts(done, {asWritten.pictures, withFrames, options.video, folder}, parts, stopWanted);
     if (stopWanted()) return 1;
     if (const std::string seen = whatWasSeen(done); !seen.empty()) fmt::print("{}\n", seen);
     if (done.size() == runs.size()) return 0;

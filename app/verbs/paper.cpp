@@ -46,7 +46,7 @@ int runVerbPaper(const Options& options, const Parts& parts)
         fmt::print("{} ({}/{})\n", scene.example, n + 1, wanted.size());
         makeFolder(folder / scene.name);
         const auto done = runAll(wanted[n], optionsOf(scene, options), withFrames, stopWanted);
-        if (!stopWanted() && !done.empty()) makeProducts(done, pictures, parts, withFrames, options.video, folder / scene.name, stopWanted);
+        if (!stopWanted() && !done.empty()) makeProducts(done, {pictures, withFrames, options.video, folder / scene.name}, parts, stopWanted);
         if (stopWanted()) {
             spdlog::warn("stopped: the same command goes on where it was");
             return 1;
