@@ -29,8 +29,7 @@ std::vector<BlockEdge> edgesOf(const sim::BlockGrid& grid)
                 edges.push_back({axis, corner});
             }
     std::ranges::sort(edges);
-    const auto again = std::ranges::unique(edges);
-    edges.erase(again.begin(), again.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
 }
 

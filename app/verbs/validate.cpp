@@ -47,8 +47,8 @@ int runVerbValidate(const Options& options, const Parts& parts)
     for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
     makeFolder(folder);
     std::vector<CaseResult> results;
-    for (const auto& [name, setup] : cases) {
-        results.push_back(withThreads(options.threads, [&] { return runCase(name, setup, parts, stopWanted); }));
+    for (const auto& loaded : cases) {
+        results.push_back(withThreads(options.threads, [&] { return runCase(loaded.first, loaded.second, parts, stopWanted); }));
         if (stopWanted()) break;
         tell(results.back());
         writeReadings(results.back(), folder);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -72,13 +73,26 @@ template <int N, class F>
 #endif
 }
 
+/// Lane i is lane from[i] of v; the mask is a constant.
+template <class V, class Mask>
+[[gnu::always_inline]] inline V permuteLanes(V v, Mask from)
+{
+#ifdef __clang__  // has no such function for masks of variables
+    V permuted = v;
+    for (std::size_t i = 0; i < sizeof(V) / sizeof(v[0]); ++i) permuted[i] = v[from[i]];
+    return permuted;
+#else
+    return __builtin_shuffle(v, from);
+#endif
+}
+
 /// Lanes added in a fixed order, halves first. V is FloatPack or FloatMask.
 template <class V>
 [[gnu::always_inline]] inline auto sumFloatLanes(V v)
 {
-    v += __builtin_shuffle(v, FloatMask{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
-    v += __builtin_shuffle(v, FloatMask{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11});
-    v += __builtin_shuffle(v, FloatMask{2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13});
+    v += permuteLanes(v, FloatMask{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
+    v += permuteLanes(v, FloatMask{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11});
+    v += permuteLanes(v, FloatMask{2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13});
     return v[0] + v[1];
 }
 

@@ -1,6 +1,7 @@
 #include "sim/liquid/gain_at_walls.h"
 
 #include "sim/core/parallel.h"
+#include "sim/core/simd.h"
 
 #include <algorithm>
 #include <limits>

@@ -207,9 +207,10 @@ template <int kAxis, class Set, int kModes>
         });
         unroll<2>([&](auto h) { m[kPlanes - 1][h] = p[kPlanes - 1][h] = broadcast(0.0); });
     }
+    const int above = high + 1;
     unroll<kPlanes - 1>([&](auto n) {
-        addRows<kRows>(mass + (high + 1 + n) * kTileStrideZ, m[n]);
-        addRows<kRows>(momentum + (high + 1 + n) * kTileStrideZ, p[n]);
+        addRows<kRows>(mass + (above + n) * kTileStrideZ, m[n]);
+        addRows<kRows>(momentum + (above + n) * kTileStrideZ, p[n]);
     });
 }
 

@@ -46,10 +46,9 @@ using EightIndices = std::array<int, kLanes>;
     const Pack p01 = two(0), p23 = two(2), p45 = two(4), p67 = two(6);
     const PackMask xy = {0, 4, 8, 12, 1, 5, 9, 13}, zw = {2, 6, 10, 14, 3, 7, 11, 15};
     const PackMask lower = {0, 1, 2, 3, 8, 9, 10, 11}, upper = {4, 5, 6, 7, 12, 13, 14, 15};
-    const Pack xy0 = __builtin_shuffle(p01, p23, xy), xy4 = __builtin_shuffle(p45, p67, xy);
-    const Pack zw0 = __builtin_shuffle(p01, p23, zw), zw4 = __builtin_shuffle(p45, p67, zw);
-    return {__builtin_shuffle(xy0, xy4, lower), __builtin_shuffle(xy0, xy4, upper), __builtin_shuffle(zw0, zw4, lower),
-            __builtin_shuffle(zw0, zw4, upper)};
+    const Pack xy0 = pickLanes(p01, p23, xy), xy4 = pickLanes(p45, p67, xy);
+    const Pack zw0 = pickLanes(p01, p23, zw), zw4 = pickLanes(p45, p67, zw);
+    return {pickLanes(xy0, xy4, lower), pickLanes(xy0, xy4, upper), pickLanes(zw0, zw4, lower), pickLanes(zw0, zw4, upper)};
 }
 
 [[gnu::always_inline]] inline Triple<Pack> gather(const Points& points, const EightIndices& index)

@@ -73,7 +73,7 @@ Shells::Shells(const Fabric& fabric, const FabricSettings& settings) : settings_
     for (auto* rows : {&pattern_, &neighbors_})
         for (std::vector<int>& columns : *rows) {
             std::ranges::sort(columns);
-            columns.erase(std::ranges::unique(columns).begin(), columns.end());
+            columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
         }
 
     const BlockMatrix pattern(pattern_);
@@ -271,7 +271,7 @@ void Shells::addBlock(const Batch& batch, int n, const std::array<Pack, 9>& bloc
         if (batch.entry[n][l] < 0) continue;
         double* at = matrix.block(batch.entry[n][l]);
         Pack values = ofLane[l];
-        if ((batch.isTransposed[n] >> l & 1u) == 0) values = __builtin_shuffle(values, PackMask{0, 3, 6, 1, 4, 7, 2, 5});
+        if ((batch.isTransposed[n] >> l & 1u) == 0) values = permuteLanes(values, PackMask{0, 3, 6, 1, 4, 7, 2, 5});
         storeFirst(at, loadPack(at) + values, kLanes);
         at[8] += block[8][l];
     }
