@@ -12,7 +12,7 @@ std::size_t bytesOf(const sim::State& state)
 {
     const sim::LiquidParticles& liquid = state.liquid;
     constexpr std::size_t kPerVertex = 7 * sizeof(sim::Vec3) + 8 * sizeof(double);
-    const auto rows = static_cast<std::size_t>(sim::kAxes * (1 + liquid.modeCount) + 2);
+    const auto rows = sim::kAxes * (1 + static_cast<std::size_t>(liquid.modeCount)) + 2;
     return liquid.count * rows * sizeof(double) + static_cast<std::size_t>(state.grid.count()) * sim::kBlockCells * sizeof(double) +
            state.fabric.x.size() * kPerVertex;
 }

@@ -142,9 +142,9 @@ ReadShape readParts(const Node& node, const Context& context, const std::string&
         texts += (i > 0 ? ", " : "") + part.text;
     }
     const std::string text = "[" + texts + "]";
-    if (operation == "union") return {Shape::unite(std::move(shapes)), text, notes};
-    if (operation == "intersect") return {Shape::intersect(std::move(shapes)), text, notes};
-    return {Shape::subtract(std::move(shapes)), text, notes};
+    if (operation == "union") return {Shape::unite(shapes), text, notes};
+    if (operation == "intersect") return {Shape::intersect(shapes), text, notes};
+    return {Shape::subtract(shapes), text, notes};
 }
 
 ReadShape readBody(const Node& node, const Context& context, const std::string& kind)

@@ -38,10 +38,10 @@ class Shape {
     /// cannot be mended, and when the lattice has more than 5e8 nodes.
     static Shape mesh(const std::vector<Vec3>& vertices, const std::vector<Vec3i>& triangles, double cell, std::vector<std::string>* notes = nullptr);
 
-    static Shape unite(std::vector<Shape> shapes);
-    static Shape intersect(std::vector<Shape> shapes);
+    static Shape unite(const std::vector<Shape>& shapes);
+    static Shape intersect(const std::vector<Shape>& shapes);
     /// The first without all the others.
-    static Shape subtract(std::vector<Shape> shapes);
+    static Shape subtract(const std::vector<Shape>& shapes);
     Shape inverted() const;
     bool isInverted() const;  ///< the outside of another shape, which inverted() gives
     /// The shape after a rigid motion. Boxes stay axis-aligned boxes under translations.

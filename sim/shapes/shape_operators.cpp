@@ -181,7 +181,7 @@ BodyPointer moveBody(const BodyPointer& body, const Eigen::Isometry3d& transform
 
 Shape Shape::inverted() const { return Shape(outsideOf(body_)); }
 
-Shape Shape::unite(std::vector<Shape> shapes)
+Shape Shape::unite(const std::vector<Shape>& shapes)
 {
     Bodies parts = bodies(shapes);
     if (parts.empty()) return {};
@@ -189,7 +189,7 @@ Shape Shape::unite(std::vector<Shape> shapes)
     return Shape(std::make_shared<Union>(std::move(parts)));
 }
 
-Shape Shape::intersect(std::vector<Shape> shapes)
+Shape Shape::intersect(const std::vector<Shape>& shapes)
 {
     Bodies parts = bodies(shapes);
     if (parts.empty() || parts.size() < shapes.size()) return {};
@@ -197,7 +197,7 @@ Shape Shape::intersect(std::vector<Shape> shapes)
     return Shape(std::make_shared<Intersection>(std::move(parts)));
 }
 
-Shape Shape::subtract(std::vector<Shape> shapes)
+Shape Shape::subtract(const std::vector<Shape>& shapes)
 {
     if (shapes.empty() || shapes.front().empty()) return {};
     Bodies parts = bodies(shapes);

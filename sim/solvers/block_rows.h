@@ -4,6 +4,7 @@
 #include "sim/grid/block_grid.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 // A block is 64 rows of 8 cells along x; row r = 8 k + j. The solver's loops go row by row, one vector each.
@@ -71,7 +72,7 @@ template <class T>
 inline T maxOfRow(Row<T> a)
 {
     T m = a[0];
-    for (int i = 1; i < kBlockEdge; ++i) m = a[i] > m || a[i] != a[i] ? a[i] : m;
+    for (int i = 1; i < kBlockEdge; ++i) m = a[i] > m || std::isnan(a[i]) ? a[i] : m;
     return m;
 }
 

@@ -14,6 +14,7 @@ double larger(double a, double b) { return b > a || b != b ? b : a; }
 
 Row<double> absolute(Row<double> v) { return v < 0.0 ? -v : v; }
 
+// NOLINTNEXTLINE(misc-redundant-expression): b != b where b is NaN
 Row<double> largerRow(Row<double> a, Row<double> b) { return (b > a) | (b != b) ? b : a; }
 
 double largestOf(const std::vector<double>& values)
