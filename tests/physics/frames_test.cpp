@@ -139,7 +139,7 @@ TEST_P(Frames, ThatLieAslantInTheGridSeeNearlyTheSame)
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Frames, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
-                         [](const auto& info) { return info.param == FabricSolver::Grid ? "grid" : "vertex"; });
+                         [](const auto& tested) { return tested.param == FabricSolver::Grid ? "grid" : "vertex"; });
 
 /// The same scene in centimetres and in metres, number by number: the same bits after some steps.
 TEST(Units, CgsAndSiAreTheSameRun)

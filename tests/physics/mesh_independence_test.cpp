@@ -157,7 +157,7 @@ TEST_P(MeshIndependence, SinkingYarn)
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, MeshIndependence, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
-                         [](const auto& info) { return info.param == FabricSolver::Grid ? "grid" : "vertex"; });
+                         [](const auto& tested) { return tested.param == FabricSolver::Grid ? "grid" : "vertex"; });
 
 }  // namespace
 }  // namespace sim::test

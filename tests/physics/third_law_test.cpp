@@ -75,7 +75,7 @@ TEST_P(ThirdLaw, LiquidAndFreeFabricKeepTheirMomentum)
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, ThirdLaw, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
-                         [](const auto& info) { return info.param == FabricSolver::Grid ? "grid" : "vertex"; });
+                         [](const auto& tested) { return tested.param == FabricSolver::Grid ? "grid" : "vertex"; });
 
 }  // namespace
 }  // namespace sim::test
