@@ -30,27 +30,28 @@ Mixture::Mixture(const Fabric& fabric, const LiquidAround& around, const Setting
     if (reacts()) reactionOf_.resize(fabric.vertexCount());
 }
 
-bool Mixture::findShared(const BlockGrid& grid)
+bool Mixture::matchBlocks(const BlockGrid& grid)
 {
     liquidBlock_.clear();
     for (const Vec3i& coords : onFaces_.grid().coords()) liquidBlock_.push_back(grid.find(coords));
     return std::ranges::any_of(liquidBlock_, [](int b) { return b != BlockGrid::kNone; });
 }
 
-bool Mixture::find(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces, LiquidGrid& liquid)
+bool Mixture::findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces,
+                              LiquidGrid& liquid)
 {
-    if (!findShared(cut.grid)) return false;
+    if (!matchBlocks(cut.grid)) return false;
     dt_ = dt;
     onFaces_.spread(state);
     if (faces) onFaces_.takeVelocity(*faces);
-    for (Faces* u :
-         {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &sucked_, &reaction_, &onFabric_, &pull_, &push_})
+    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &suctionImpulse_, &reaction_, &onFabric_,
+                     &dragImpulse_, &pressureImpulse_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, cut.field, liquid);
-    if (settings_.capillary) suck(cut, state, liquid);
+    if (settings_.capillary) addSuction(cut, state, liquid);
     if (reacts()) react();
     mix(gravity, cut.field, liquid);
-    addDisplaced(liquid);
+    addDisplacedMass(liquid);
     return true;
 }
 
@@ -76,7 +77,7 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
 }
 
 /// Fabric draws liquid to where its pores are empty (coupling/README.md, Suction).
-void Mixture::suck(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid)
+void Mixture::addSuction(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid)
 {
     suction_.find(vertices_, state, cut.grid, liquidBlock_, liquid);
     Faces& perSlope = reaction_;  // until it is known
@@ -90,7 +91,7 @@ void Mixture::suck(const CutGrid& cut, const FabricState& state, const LiquidGri
         const double factor = dt_ * volume * saturation * cut.field.open(m, a)[c] * along;
         const double impulse = factor * suction_.slope(onFaces_.grid(), b, a, c);
         perSlope.block(b, a)[c] = factor;
-        sucked_.block(b, a)[c] = impulse;
+        suctionImpulse_.block(b, a)[c] = impulse;
         predicted_.block(b, a)[c] += impulse / mass;
     });
 }
@@ -133,19 +134,19 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
 }
 
 /// Room that fabric takes up is full.
-void Mixture::addDisplaced(LiquidGrid& liquid) const
+void Mixture::addDisplacedMass(LiquidGrid& liquid) const
 {
     const double perVolume = liquid.fullMass / std::pow(onFaces_.grid().dx, 3);
     forEachShared(
         [&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.solid.block(b, a)[c]; });
 }
 
-void Mixture::takeDisplaced(LiquidGrid& liquid) const
+void Mixture::removeDisplacedMass(LiquidGrid& liquid) const
 {
     forEachShared([&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] = liquidMass_.block(b, a)[c]; });
 }
 
-void Mixture::toPairs(LiquidGrid& liquid, BlockArray<double, 3>& change) const
+void Mixture::toMassesOfBoth(LiquidGrid& liquid, BlockArray<double, 3>& change) const
 {
     forEachShared([&](int b, int m, int a, int c) {
         const double mobility = mobility_.block(b, a)[c], pushed = liquidVolume_.block(b, a)[c] + onFaces_.solid.block(b, a)[c];
@@ -154,13 +155,13 @@ void Mixture::toPairs(LiquidGrid& liquid, BlockArray<double, 3>& change) const
     });
 }
 
-void Mixture::fromPairs(LiquidGrid& liquid) const
+void Mixture::fromMassesOfBoth(LiquidGrid& liquid) const
 {
-    takeDisplaced(liquid);
-    addDisplaced(liquid);
+    removeDisplacedMass(liquid);
+    addDisplacedMass(liquid);
 }
 
-void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient)
+void Mixture::eliminateDrag(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient)
 {
     const double scale = dt_ / (onFaces_.grid().dx * onFaces_.grid().dx);
     forEachShared([&](int b, int m, int a, int c) {
@@ -174,7 +175,7 @@ void Mixture::blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArr
 void Mixture::applyPressure(const LiquidGrid& liquid)
 {
     parallelFor(liquidBlock_.size(), [&](std::size_t b) {
-        for (Faces* u : {&onFabric_, &pull_, &push_}) std::fill_n(u->block(static_cast<int>(b)), Faces::kStride, 0.0);
+        for (Faces* u : {&onFabric_, &dragImpulse_, &pressureImpulse_}) std::fill_n(u->block(static_cast<int>(b)), Faces::kStride, 0.0);
     });
     forEachShared([&](int b, int m, int a, int c) {
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], mobility = mobility_.block(b, a)[c];
@@ -182,9 +183,9 @@ void Mixture::applyPressure(const LiquidGrid& liquid)
         const double push = mobility > 0.0 ? -change / mobility : 0.0;
         double& u = predicted_.block(b, a)[c];
         u -= liquidVolume_.block(b, a)[c] / mass * push;
-        push_.block(b, a)[c] = push;
+        pressureImpulse_.block(b, a)[c] = push;
         onFabric_.block(b, a)[c] = drag * mass / (mass + drag);
-        pull_.block(b, a)[c] = onFabric_.block(b, a)[c] * u;
+        dragImpulse_.block(b, a)[c] = onFabric_.block(b, a)[c] * u;
     });
 }
 
@@ -204,14 +205,14 @@ const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
     forEachShared([&](int b, int, int a, int c) {  // what a vertex gets of it is by its share of the mass
         const double mass = onFaces_.mass.block(b, a)[c];
         onFabric_.block(b, a)[c] /= mass;
-        pull_.block(b, a)[c] /= mass;
+        dragImpulse_.block(b, a)[c] /= mass;
     });
     // Vertices far from the liquid are not asked.
     std::ranges::fill(loads_.drag, Vec3::Zero());
     std::ranges::fill(loads_.impulse, Vec3::Zero());
     onFaces_.gather(onFabric_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
-    onFaces_.gather(pull_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
-    if (settings_.pressureOnFabric) onFaces_.gather(push_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
+    onFaces_.gather(dragImpulse_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
+    if (settings_.pressureOnFabric) onFaces_.gather(pressureImpulse_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
     if (reacts())
         for (std::size_t v = 0; v < reactionOf_.size(); ++v) loads_.impulse[v] += reactionOf_[v];
     return loads_;
@@ -221,29 +222,30 @@ FaceLoads Mixture::faceLoads(const LiquidGrid& liquid)
 {
     applyPressure(liquid);
     if (settings_.pressureOnFabric)
-        forEachShared([&](int b, int, int a, int c) { pull_.block(b, a)[c] -= onFaces_.solid.block(b, a)[c] * push_.block(b, a)[c]; });
+        forEachShared(
+            [&](int b, int, int a, int c) { dragImpulse_.block(b, a)[c] -= onFaces_.solid.block(b, a)[c] * pressureImpulse_.block(b, a)[c]; });
     if (reacts())
         parallelFor(liquidBlock_.size(), [&](std::size_t b) {
-            double* pull = pull_.block(static_cast<int>(b));
+            double* pull = dragImpulse_.block(static_cast<int>(b));
             const double* reaction = reaction_.block(static_cast<int>(b));
             for (std::size_t i = 0; i < Faces::kStride; ++i) pull[i] += reaction[i];
         });
-    return {onFaces_.grid(), onFabric_, pull_};
+    return {onFaces_.grid(), onFabric_, dragImpulse_};
 }
 
-void Mixture::separate(const FabricState& state, LiquidGrid& liquid)
+void Mixture::recoverPhaseVelocities(const FabricState& state, LiquidGrid& liquid)
 {
     onFaces_.spreadVelocity(state);
-    separate(liquid);
+    recoverPhaseVelocities(liquid);
 }
 
-void Mixture::separate(const FabricFaces& faces, LiquidGrid& liquid)
+void Mixture::recoverPhaseVelocities(const FabricFaces& faces, LiquidGrid& liquid)
 {
     onFaces_.takeVelocity(faces);
-    separate(liquid);
+    recoverPhaseVelocities(liquid);
 }
 
-void Mixture::separate(LiquidGrid& liquid) const
+void Mixture::recoverPhaseVelocities(LiquidGrid& liquid) const
 {
     forEachShared([&](int b, int m, int a, int c) {
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
@@ -256,8 +258,8 @@ double Mixture::impulseTaken(int block, int axis, int cell) const
 {
     const double mass = liquidMass_.block(block, axis)[cell], drag = drag_.block(block, axis)[cell];
     double impulse = mass * drag / (mass + drag) * (predicted_.block(block, axis)[cell] - onFaces_.velocity.block(block, axis)[cell]);
-    if (settings_.capillary) impulse -= sucked_.block(block, axis)[cell];
-    if (settings_.pressureOnFabric) impulse -= onFaces_.solid.block(block, axis)[cell] * push_.block(block, axis)[cell];
+    if (settings_.capillary) impulse -= suctionImpulse_.block(block, axis)[cell];
+    if (settings_.pressureOnFabric) impulse -= onFaces_.solid.block(block, axis)[cell] * pressureImpulse_.block(block, axis)[cell];
     return impulse;
 }
 

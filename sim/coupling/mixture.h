@@ -16,34 +16,34 @@ namespace sim {
 /// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off.
 class Mixture {
  public:
-    /// @param around  found before each call of find; goes by it where drag is by the fabric's own fraction
+    /// @param around  found before each call of findSharedFaces; goes by it where drag is by the fabric's own fraction
     Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices);
 
     /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the vertices are sorted and the liquid's
     /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing
     /// else is to be called then.
     /// @param faces  the fabric's velocities, of a solver that has its unknowns on faces; else null
-    bool find(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces, LiquidGrid& liquid);
+    bool findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces, LiquidGrid& liquid);
     /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
-    void blend(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
+    void eliminateDrag(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
     /// After the pressure: what it and drag do to the fabric, by vertices or by faces.
     const LiquidLoads& loads(const LiquidGrid& liquid);
     FaceLoads faceLoads(const LiquidGrid& liquid);
     /// After the fabric: the liquid's own velocities on these faces, given those of the vertices, or of the fabric's faces, at the end of
     /// the step.
-    void separate(const FabricState& state, LiquidGrid& liquid);
-    void separate(const FabricFaces& faces, LiquidGrid& liquid);
+    void recoverPhaseVelocities(const FabricState& state, LiquidGrid& liquid);
+    void recoverPhaseVelocities(const FabricFaces& faces, LiquidGrid& liquid);
 
     /// The mass of the liquid's faces is that of the liquid alone again, where room that fabric takes up counted as full.
-    void takeDisplaced(LiquidGrid& liquid) const;
+    void removeDisplacedMass(LiquidGrid& liquid) const;
     /// Before the fabric's loads are told: masses of these faces become those with which both phases together answer to a push, and changes what
     /// pressure and surface tension did to the mixture [cm/s]; a further change of the mixture's velocity acts on both.
-    void toPairs(LiquidGrid& liquid, BlockArray<double, 3>& change) const;
-    void fromPairs(LiquidGrid& liquid) const;
+    void toMassesOfBoth(LiquidGrid& liquid, BlockArray<double, 3>& change) const;
+    void fromMassesOfBoth(LiquidGrid& liquid) const;
 
-    /// After separate: call f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure took from the
-    /// liquid of each shared face [g cm/s], blocks in parallel.
+    /// After recoverPhaseVelocities: call f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure
+    /// took from the liquid of each shared face [g cm/s], blocks in parallel.
     template <class F>
     void forEachImpulseTaken(F&& f) const
     {
@@ -69,13 +69,13 @@ class Mixture {
 
  private:
     using Faces = BlockArray<double, 3>;
-    bool findShared(const BlockGrid& grid);
+    bool matchBlocks(const BlockGrid& grid);
     void findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
-    void suck(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid);
+    void addSuction(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid);
     void mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
-    void addDisplaced(LiquidGrid& liquid) const;
+    void addDisplacedMass(LiquidGrid& liquid) const;
     void applyPressure(const LiquidGrid& liquid);
-    void separate(LiquidGrid& liquid) const;
+    void recoverPhaseVelocities(LiquidGrid& liquid) const;
     double dragOn(int block, int axis, int cell, double liquidVolume, double room) const;
     bool reacts() const { return settings_.capillary && settings_.capillaryReaction; }
     double speedAt(int block, int axis, int cell) const;
@@ -115,12 +115,12 @@ class Mixture {
     Faces drag_;                    ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
     Faces predicted_;               ///< u_f*, later ũ_f: after the pressure [cm/s]
     Faces mixed_, mobility_;        ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
-    Faces sucked_;                  ///< impulse of suction on the liquid [g cm/s] …
+    Faces suctionImpulse_;          ///< on the liquid [g cm/s] …
     Faces reaction_;                ///< … and on the fabric, of all its faces
     std::vector<Vec3> reactionOf_;  ///< the same of each vertex
     Faces onFabric_;                ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
-    Faces pull_;                    ///< D' ũ_f [g cm/s]
-    Faces push_;                    ///< dt ∇p [g/(cm^2 s)]
+    Faces dragImpulse_;             ///< what drag gives the fabric before its own speed counts: D' ũ_f [g cm/s]
+    Faces pressureImpulse_;         ///< of the pressure, per volume: dt ∇p [g/(cm^2 s)]
     LiquidLoads loads_;
 };
 

@@ -40,9 +40,9 @@ EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<
                 const double mass = liquidMass_.block(b, a)[c];
                 if (!(mass > 0.0)) continue;
                 const double u = liquid.faces.velocity.block(m, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
-                const double push = push_.block(b, a)[c], onLiquid = liquidVolume_.block(b, a)[c] * push;
+                const double push = pressureImpulse_.block(b, a)[c], onLiquid = liquidVolume_.block(b, a)[c] * push;
                 const double onFabric = settings_.pressureOnFabric ? onFaces_.solid.block(b, a)[c] * push : 0.0;
-                const double sucked = settings_.capillary ? sucked_.block(b, a)[c] : 0.0;
+                const double sucked = settings_.capillary ? suctionImpulse_.block(b, a)[c] : 0.0;
                 sum[EnergyChange::Pressure] -= onLiquid * u + onFabric * fabric;
                 sum[EnergyChange::Suction] += sucked * u;
                 sum[EnergyChange::Drag] += drag_.block(b, a)[c] * (fabric - u) * u + onFabric * fabric;

@@ -24,7 +24,7 @@ struct PressureWorkspace {
     PoissonSolver solver;
 };
 
-/// The faces of the pressure system and their coefficients ω dt β / dx², with β = 1 / (ρ fill). Fabric may change them (Mixture::blend).
+/// The faces of the pressure system and their coefficients ω dt β / dx², with β = 1 / (ρ fill). Fabric may change them (Mixture::eliminateDrag).
 ///
 /// The fill of a face is the mass that P2G put there relative to a face amid liquid. At the surface it takes the place of the ghost fluid's
 /// fraction: both are the share of liquid between two cell middles. Only the mass makes this the projection that is orthogonal

@@ -20,7 +20,7 @@ void findSurfaceSteps(const CutGrid& cut, const LiquidSettings& settings, const 
 /// would do. Needs findPressureFaces.
 ///
 /// On faces that fabric is on it acts on both phases as the pressure does, so that the forces on a closed surface add up
-/// to nothing there, too: to be called after Mixture::blend. What reflection reflects knows nothing of it, as of weight:
+/// to nothing there, too: to be called after Mixture::eliminateDrag. What reflection reflects knows nothing of it, as of weight:
 /// its pressure is 0 in the air, and tension is in the velocities that it starts from.
 /// @param share  of the step for which tension acts [-]
 void applySurfaceSteps(const CutGrid& cut, const PressureWorkspace& pressure, double share, const SurfaceTensionWorkspace& work, LiquidGrid& liquid);

@@ -18,7 +18,8 @@ void findMixture(StepContext& c)
     const std::optional<FabricFaces> faces = c.work.fabric->faces();
     // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (liquid/README.md, Reflection).
     c.plan.reflects = false;
-    c.plan.isMixed = c.work.coupling->mixture.find(c.cut(), c.gravityOnFabric(), c.dt, c.state.fabric, faces ? &*faces : nullptr, c.work.grid);
+    c.plan.isMixed =
+        c.work.coupling->mixture.findSharedFaces(c.cut(), c.gravityOnFabric(), c.dt, c.state.fabric, faces ? &*faces : nullptr, c.work.grid);
 }
 
 void advanceFabric(StepContext& c)
@@ -44,8 +45,8 @@ void separateMixture(StepContext& c)
     if (!c.plan.isMixed) return;
     const StageScope scope(c.clock, Stage::Mixture);
     Mixture& mixture = c.work.coupling->mixture;
-    if (const std::optional<FabricFaces> faces = c.work.fabric->faces()) mixture.separate(*faces, c.work.grid);
-    else mixture.separate(c.state.fabric, c.work.grid);
+    if (const std::optional<FabricFaces> faces = c.work.fabric->faces()) mixture.recoverPhaseVelocities(*faces, c.work.grid);
+    else mixture.recoverPhaseVelocities(c.state.fabric, c.work.grid);
 }
 
 void bookSolution(StepContext& c)
@@ -59,7 +60,7 @@ void removeDisplaced(StepContext& c)
 {
     if (!c.plan.isMixed) return;
     const StageScope scope(c.clock, Stage::Mixture);
-    c.work.coupling->mixture.takeDisplaced(c.work.grid);
+    c.work.coupling->mixture.removeDisplacedMass(c.work.grid);
 }
 
 }  // namespace sim

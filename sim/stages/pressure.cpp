@@ -33,10 +33,10 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
     findChange(velocity, grid.count(), work);
     findUnheldFaces(c.cut(), work.free);
     const bool carries = c.plan.isMixed && c.settings().coupling.pressureOnFabric;
-    if (carries) work.coupling->mixture.toPairs(work.grid, work.free.change);
+    if (carries) work.coupling->mixture.toMassesOfBoth(work.grid, work.free.change);
     else if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
     takeMeans(grid, work.pressure, work.grid, work.free.change, work.free, velocity);
-    if (carries) work.coupling->mixture.fromPairs(work.grid);
+    if (carries) work.coupling->mixture.fromMassesOfBoth(work.grid);
     if (c.hasObstacles()) work.gainAtWalls.bound(work.obstacleField, velocity);
 }
 
@@ -106,7 +106,7 @@ void assemblePressure(StepContext& c)
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
     findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
-    if (c.plan.isMixed) work.coupling->mixture.blend(work.obstacleField, work.grid, work.pressure.coefficient);
+    if (c.plan.isMixed) work.coupling->mixture.eliminateDrag(work.obstacleField, work.grid, work.pressure.coefficient);
     preparePressure(c.state.grid, work.grid, work.pressure);
 }
 

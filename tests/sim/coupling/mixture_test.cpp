@@ -52,19 +52,19 @@ struct Bath {
     {
         blendWithoutPressure(mixture);
         moveFabric(mixture.loads(scene.liquid));
-        mixture.separate(state, scene.liquid);
+        mixture.recoverPhaseVelocities(state, scene.liquid);
     }
     void blendWithoutPressure(Mixture& mixture)
     {
         BlockArray<double, 3> noPressure;
         noPressure.resize(scene.grid.count());
         for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
-        mixture.blend(scene.field, scene.liquid, noPressure);
+        mixture.eliminateDrag(scene.field, scene.liquid, noPressure);
     }
     bool find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
-        return mixture.find(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
+        return mixture.findSharedFaces(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
     }
 
     GridScene scene;
@@ -125,7 +125,7 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
                 gained[a] += mass * (u - before);
                 gainedEnergy += 0.5 * mass * (u * u - before * before);
             }
-    mixture.separate(FabricFaces{fabric.grid(), fabric.velocity}, scene.liquid);
+    mixture.recoverPhaseVelocities(FabricFaces{fabric.grid(), fabric.velocity}, scene.liquid);
     const Vec3 lost = liquidBefore - mixture.liquidMomentum(scene.liquid);
     EXPECT_GT(gained.norm(), 1.0e-3 * liquidBefore.norm());
     EXPECT_LT((gained - lost).norm(), 1.0e-13 * (liquidBefore.norm() + gained.norm()));
@@ -141,7 +141,7 @@ TEST(Mixture, PressureActsOnAllTheRoom)
     ASSERT_TRUE(bath.find(mixture));
     findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
     const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
-    mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+    mixture.eliminateDrag(scene.field, scene.liquid, scene.work.coefficient);
     // A pressure that falls evenly along x: what solvePressure would leave on the faces.
     constexpr double kSlope = 300.0;  // dyn/cm^3
     double room = 0.0;
@@ -152,7 +152,7 @@ TEST(Mixture, PressureActsOnAllTheRoom)
         if (k > 0.0 && mixture.isShared(0, c)) room += dx * dx * dx;
     });
     bath.moveFabric(mixture.loads(scene.liquid));
-    mixture.separate(bath.state, scene.liquid);
+    mixture.recoverPhaseVelocities(bath.state, scene.liquid);
     const Vec3 after = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
     EXPECT_NEAR((after - before).x(), kStep * kSlope * room, 1.0e-10 * kStep * kSlope * room);
     EXPECT_NEAR((after - before).y(), 0.0, 1.0e-10 * kStep * kSlope * room);
@@ -179,7 +179,7 @@ TEST(Mixture, PairsAnswerWithTheMassOfBothPhases)
             });
             BlockArray<double, 3> changes;
             changes.resize(scene.grid.count());
-            mixture.toPairs(scene.liquid, changes);
+            mixture.toMassesOfBoth(scene.liquid, changes);
             told = Vec3::Zero();
             scene.forEachCell([&](const Vec3i& c) {
                 const CellRef ref = scene.at(c);
@@ -187,10 +187,10 @@ TEST(Mixture, PairsAnswerWithTheMassOfBothPhases)
                     if (mixture.isShared(a, c))
                         told[a] += scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] * changes.block(ref.block, a)[ref.cell];
             });
-            mixture.fromPairs(scene.liquid);
+            mixture.fromMassesOfBoth(scene.liquid);
             for (std::size_t i = 0; i < massesBefore.size(); ++i) EXPECT_DOUBLE_EQ(scene.liquid.faces.sums.block(0)[i], massesBefore.block(0)[i]);
             bath.moveFabric(mixture.loads(scene.liquid));
-            mixture.separate(bath.state, scene.liquid);
+            mixture.recoverPhaseVelocities(bath.state, scene.liquid);
             return bath.momentum(mixture);
         };
         constexpr double kChange = 5.0;  // cm/s
@@ -271,7 +271,7 @@ TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
                     else EXPECT_EQ(impulse, 0.0);
                 }
         EXPECT_LE(fastestFace, fastest * (1.0 + 1.0e-9)) << n;
-        mixture.separate(FabricFaces{fabric.grid(), fabric.velocity}, bath.scene.liquid);
+        mixture.recoverPhaseVelocities(FabricFaces{fabric.grid(), fabric.velocity}, bath.scene.liquid);
         const Vec3 drawn = mixture.liquidMomentum(bath.scene.liquid);
         EXPECT_LT((sum + drawn).norm(), 1.0e-12 * drawn.norm());
     }

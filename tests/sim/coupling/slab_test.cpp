@@ -41,7 +41,7 @@ struct Stack {
     void find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
-        ASSERT_TRUE(mixture.find(scene.cut(), settings.gravity, kStep, state, nullptr, scene.liquid));
+        ASSERT_TRUE(mixture.findSharedFaces(scene.cut(), settings.gravity, kStep, state, nullptr, scene.liquid));
     }
     /// Liquid on the faces around the fabric, less what the fibres take up.
     void makeRoom()
@@ -94,12 +94,12 @@ TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
         stack.makeRoom();
         stack.find(mixture);
         findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
-        mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+        mixture.eliminateDrag(scene.field, scene.liquid, scene.work.coefficient);
         scene.forEachCell([&](const Vec3i& c) {
             scene.velocity(1, c) += scene.work.coefficient.block(scene.at(c).block, 1)[scene.at(c).cell] * kCell * kCell * kSlope;
         });
         mixture.loads(scene.liquid);
-        mixture.separate(stack.state, scene.liquid);  // of vertices that nothing moves
+        mixture.recoverPhaseVelocities(stack.state, scene.liquid);  // of vertices that nothing moves
     }
     const double fraction = 0.4 * 2.0 * kHalfThickness / (0.5 * kCell);
     const double expected = (1.0 - fraction) * permeability(fraction, 0.01).across / stack.settings.liquid.viscosity * kSlope;
@@ -123,7 +123,7 @@ void pressAndDrag(Stack& stack, Mixture& mixture)
     GridScene& scene = stack.scene;
     stack.find(mixture);
     findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
-    mixture.blend(scene.field, scene.liquid, scene.work.coefficient);
+    mixture.eliminateDrag(scene.field, scene.liquid, scene.work.coefficient);
     preparePressure(scene.grid, scene.liquid, scene.work);
     solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure);
     stack.moveFabric(mixture.loads(scene.liquid));
@@ -137,7 +137,7 @@ double standInTank(Stack& stack)
     stack.scene.setVelocities([&](const Vec3&) { return Vec3(kStep * stack.settings.gravity); });
     Mixture mixture(stack.fabric, stack.around, stack.settings, stack.vertices);
     pressAndDrag(stack, mixture);
-    mixture.separate(stack.state, stack.scene.liquid);
+    mixture.recoverPhaseVelocities(stack.state, stack.scene.liquid);
     return stack.scene.largestError([](const Vec3&) { return Vec3::Zero().eval(); });
 }
 
@@ -200,7 +200,7 @@ void sinkAtTheSpeedOfDrag(DragFraction by)
         pressAndDrag(stack, mixture);
         for (std::size_t v = 0; v < stack.state.v.size(); v += kPerSheet)  // beyond the walls as between them
             std::fill_n(stack.state.v.begin() + v, kPerSheet, stack.state.v[v + kPerSheet / 2]);
-        mixture.separate(stack.state, scene.liquid);
+        mixture.recoverPhaseVelocities(stack.state, scene.liquid);
     }
     const LiquidSettings& liquid = stack.settings.liquid;
     const double envelope = 2.0 * kHalfThickness / (0.5 * kCell), fraction = 0.4 * envelope, weight = fraction * (1.32 - liquid.density) * 981.0;
