@@ -51,9 +51,9 @@ double Capture::demand(std::size_t v, double dt) const
 
 /// body(vertex, stencil) for the vertices of a block that have room.
 template <class Body>
-void Capture::forEachThirsty(const SortedVertices& vertices, int block, Body&& body) const
+void Capture::forEachUnsaturated(const SortedVertices& vertices, int block, Body&& body) const
 {
-    if (!thirsty_[block]) return;
+    if (!hasUnsaturated_[block]) return;
     const Vec3 corner = vertices.grid.lowerCorner(block);
     for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
         const std::size_t v = vertices.particles.id[s];
@@ -70,29 +70,29 @@ void Capture::forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, 
 }
 
 /// The vertices that have room. wanted_ is that room for now.
-bool Capture::findThirsty(const SortedVertices& vertices, const FabricState& state)
+bool Capture::findUnsaturatedVertices(const SortedVertices& vertices, const FabricState& state)
 {
-    thirsty_.assign(vertices.grid.count(), 0);
+    hasUnsaturated_.assign(vertices.grid.count(), 0);
     std::ranges::fill(wanted_, 0.0);
     parallelFor(vertices.order.occupied.size(), [&](std::size_t n) {
         const int block = vertices.order.occupied[n];
         for (int s = vertices.order.begin(block); s < vertices.order.end(block); ++s) {
             const std::size_t v = vertices.particles.id[s];
             wanted_[v] = ratePerVertex_[v] > 0.0 ? std::max(roomOf(v, state), 0.0) : 0.0;
-            if (wanted_[v] > 0.0) thirsty_[block] = 1;
+            if (wanted_[v] > 0.0) hasUnsaturated_[block] = 1;
         }
     });
-    return std::find(thirsty_.begin(), thirsty_.end(), 1) != thirsty_.end();
+    return std::find(hasUnsaturated_.begin(), hasUnsaturated_.end(), 1) != hasUnsaturated_.end();
 }
 
 /// What each vertex wants, and of which cells: in proportion to what it sees of them.
-void Capture::ask(double dt, const SortedVertices& vertices)
+void Capture::computeDemand(double dt, const SortedVertices& vertices)
 {
     parallelFor(wanted_.size(), 4096, [&](std::size_t v) {
         if (wanted_[v] > 0.0) wanted_[v] = std::min(wanted_[v], demand(v, dt));
     });
     forEachColored(vertices.order, [&](int block) {
-        forEachThirsty(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
+        forEachUnsaturated(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                 around_.cell(b, c)[LiquidAround::kDemand] += wanted_[v] / around_.massAt(v) * weight * around_.cell(b, c)[LiquidAround::kMass];
             });
@@ -101,7 +101,7 @@ void Capture::ask(double dt, const SortedVertices& vertices)
 }
 
 /// No cell gives more than it has: demands become shares of the cells' liquid, at most 1 …
-void Capture::settle(const SortedVertices& vertices)
+void Capture::limitDemand(const SortedVertices& vertices)
 {
     parallelFor(vertices.grid.count(), 8, [&](std::size_t n) {
         for (int c = 0; c < kBlockCells; ++c) {
@@ -112,7 +112,7 @@ void Capture::settle(const SortedVertices& vertices)
 }
 
 /// Liquid that comes to a vertex with its momentum.
-void Capture::give(std::size_t v, double mass, const Vec3& momentum, FabricState& state)
+void Capture::deposit(std::size_t v, double mass, const Vec3& momentum, FabricState& state)
 {
     const double before = fabric_.mass[v] + state.absorbed[v];
     state.absorbed[v] += mass;
@@ -120,12 +120,12 @@ void Capture::give(std::size_t v, double mass, const Vec3& momentum, FabricState
     else state.v[v] = (before * state.v[v] + momentum) / (before + mass);
 }
 
-double Capture::wet(const SortedVertices& vertices, FabricState& state)
+double Capture::absorb(const SortedVertices& vertices, FabricState& state)
 {
     std::ranges::fill(got_, 0.0);
     parallelFor(vertices.order.occupied.size(), [&](std::size_t n) {
         const int block = vertices.order.occupied[n];
-        forEachThirsty(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
+        forEachUnsaturated(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
             Pack got{};
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                 const Pack& cell = around_.cell(b, c);
@@ -135,14 +135,14 @@ double Capture::wet(const SortedVertices& vertices, FabricState& state)
             });
             got_[v] = got[LiquidAround::kMass];
             constexpr int kFirst = LiquidAround::kMomentum;
-            give(v, got[LiquidAround::kMass], {got[kFirst], got[kFirst + 1], got[kFirst + 2]}, state);
+            deposit(v, got[LiquidAround::kMass], {got[kFirst], got[kFirst + 1], got[kFirst + 2]}, state);
         });
     });
     return parallelSum(got_.size(), [&](std::size_t v) { return got_[v]; });
 }
 
 /// Particles give what the cells around them gave.
-void Capture::drain(const BlockGrid& grid, LiquidParticles& liquid)
+void Capture::removeFromParticles(const BlockGrid& grid, LiquidParticles& liquid)
 {
     parallelFor(around_.near().size(), [&](std::size_t n) {
         const LiquidAround::Part& part = around_.near()[n];
@@ -156,8 +156,8 @@ void Capture::drain(const BlockGrid& grid, LiquidParticles& liquid)
 }
 
 /// Particles that are hardly there any more go to the nearest vertex with room; few ever are.
-double Capture::takeRemnants(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
-                             FabricState& state)
+double Capture::absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
+                                FabricState& state)
 {
     double sum = 0.0;
     for (const auto& [block, begin, end] : around_.near()) {
@@ -180,7 +180,7 @@ double Capture::takeRemnants(const BlockGrid& grid, const ParticleOrder& order, 
             }
             if (taker == fabric_.vertexCount()) continue;
             const double mass = liquid.mass[s];
-            give(taker, mass, mass * liquid.velocity(order.source[s]), state);
+            deposit(taker, mass, mass * liquid.velocity(order.source[s]), state);
             sum += mass;
             liquid.mass[s] = 0.0;
             emptied_.push_back(s);
@@ -194,15 +194,15 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
 {
     emptied_.clear();
     std::ranges::fill(toPins_, Vec3::Zero());
-    if (!findThirsty(vertices, state)) return 0.0;
-    ask(dt, vertices);
-    settle(vertices);
-    const double mass = wet(vertices, state);
-    drain(grid, liquid);
-    return mass + takeRemnants(grid, order, vertices, liquid, state);
+    if (!findUnsaturatedVertices(vertices, state)) return 0.0;
+    computeDemand(dt, vertices);
+    limitDemand(vertices);
+    const double mass = absorb(vertices, state);
+    removeFromParticles(grid, liquid);
+    return mass + absorbResiduals(grid, order, vertices, liquid, state);
 }
 
-void Capture::dropEmptied(LiquidParticles& liquid)
+void Capture::removeEmptyParticles(LiquidParticles& liquid)
 {
     for (std::size_t n = emptied_.size(); n-- > 0;) {
         if (emptied_[n] != liquid.count - 1) liquid.copy(liquid.count - 1, emptied_[n]);

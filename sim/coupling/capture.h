@@ -29,22 +29,22 @@ class Capture {
     /// The same of each vertex.
     std::span<const Vec3> toPinsByVertex() const { return toPins_; }
     /// Removes the particles that have given all they had; their numbers change.
-    void dropEmptied(LiquidParticles& liquid);
+    void removeEmptyParticles(LiquidParticles& liquid);
 
  private:
     static double rateOf(const FabricMaterial& material, const Settings& settings);
     double demand(std::size_t v, double dt) const;
     double roomOf(std::size_t v, const FabricState& state) const { return capacity_[v] - state.absorbed[v]; }
-    bool findThirsty(const SortedVertices& vertices, const FabricState& state);
-    void ask(double dt, const SortedVertices& vertices);
-    void settle(const SortedVertices& vertices);
-    double wet(const SortedVertices& vertices, FabricState& state);
-    void drain(const BlockGrid& grid, LiquidParticles& liquid);
-    double takeRemnants(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
-                        FabricState& state);
-    void give(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
+    bool findUnsaturatedVertices(const SortedVertices& vertices, const FabricState& state);
+    void computeDemand(double dt, const SortedVertices& vertices);
+    void limitDemand(const SortedVertices& vertices);
+    double absorb(const SortedVertices& vertices, FabricState& state);
+    void removeFromParticles(const BlockGrid& grid, LiquidParticles& liquid);
+    double absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
+                           FabricState& state);
+    void deposit(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
     template <class Body>
-    void forEachThirsty(const SortedVertices& vertices, int block, Body&& body) const;
+    void forEachUnsaturated(const SortedVertices& vertices, int block, Body&& body) const;
     template <class Body>
     void forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, const LiquidAround::Part& part, Body&& body) const;
 
@@ -56,10 +56,10 @@ class Capture {
     double leastMass_;  ///< of a particle that stays [g]
 
     // Of the step.
-    std::vector<double> wanted_, got_;   ///< of each vertex [g]
-    std::vector<Vec3> toPins_;           ///< of each vertex [g cm/s]
-    std::vector<std::uint8_t> thirsty_;  ///< of each block of the vertices: has vertices with room
-    std::vector<std::size_t> emptied_;   ///< particles, ascending
+    std::vector<double> wanted_, got_;          ///< of each vertex [g]
+    std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
+    std::vector<std::uint8_t> hasUnsaturated_;  ///< of each block of the vertices: has vertices with room
+    std::vector<std::size_t> emptied_;          ///< particles, ascending
 };
 
 }  // namespace sim

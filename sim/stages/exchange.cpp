@@ -44,7 +44,7 @@ void deleteCaptured(StepContext& c)
 {
     if (!c.plan.meetsFabric) return;
     const StageScope scope(c.clock, Stage::Capture);
-    c.work.coupling->capture.dropEmptied(c.state.liquid);
+    c.work.coupling->capture.removeEmptyParticles(c.state.liquid);
 }
 
 void wick(StepContext& c)

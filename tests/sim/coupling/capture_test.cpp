@@ -98,7 +98,7 @@ TEST(Capture, TakesWholeParticles)
     EXPECT_NEAR(bath.liquidMass() + captured, mass, 1.0e-13 * mass);
     EXPECT_LT((bath.momentum() - momentum).norm(), 1.0e-12 * momentum.norm());
     bath.liquid.moveModesHome();
-    capture.dropEmptied(bath.liquid.particles);
+    capture.removeEmptyParticles(bath.liquid.particles);
     EXPECT_LT(bath.liquid.particles.count, before);
     for (std::size_t p = 0; p < bath.liquid.particles.count; ++p) EXPECT_GT(bath.liquid.particles.mass[p], 0.0);
     EXPECT_NEAR(bath.liquidMass() + captured, mass, 1.0e-13 * mass);
