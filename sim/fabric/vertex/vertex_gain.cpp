@@ -98,14 +98,14 @@ void VertexSolver::giveNoEnergy(const Part& part)
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.
-void VertexSolver::lookAgain(double h, FabricState& state, StageClock& clock)
+void VertexSolver::findContactsAgain(double h, FabricState& state, StageClock& clock)
 {
     if (!startIsLookedAt_) {
-        look(h, start_.x, {}, clock);
+        findContacts(h, start_.x, {}, clock);
         unseenAtStart_ = std::max(0.0, contactEnergy(h, start_.x, start_).sum() - start_.stored.sum());
         startIsLookedAt_ = true;
     }
-    look(h, state.x, {}, clock);
+    findContacts(h, state.x, {}, clock);
     hasMovedSinceLook_ = false;
     finish(h, state);
 }

@@ -30,7 +30,7 @@ constexpr int kMaxLinearIterations = 1000;
 
 /// What touches at x.
 /// @param expected  ActiveContacts, FabricObstacles::Start
-void VertexSolver::look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock)
+void VertexSolver::findContacts(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock)
 {
     contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(x, clock, expected) : nullptr;
     touching_ = {};
@@ -47,7 +47,7 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     const double h = part.h;
     const FabricState& state = part.state;
     FabricReport& report = part.report;
-    look(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
+    findContacts(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
     hasMovedSinceLook_ = true;
     part.clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
@@ -69,7 +69,7 @@ void VertexSolver::solve(const Part& part, Newton& newton)
 }
 
 /// Has the last move left nothing worth another? One by which nothing moved far, or much less far than before.
-void VertexSolver::judge(double h, Newton& newton) const
+void VertexSolver::checkConvergence(double h, Newton& newton) const
 {
     const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
     const double move = rmsInRadii(move_);
@@ -81,7 +81,7 @@ void VertexSolver::judge(double h, Newton& newton) const
 }
 
 /// Makes the move as far as the limiter lets it.
-void VertexSolver::take(const Part& part, Newton& newton)
+void VertexSolver::applyStep(const Part& part, Newton& newton)
 {
     FabricState& state = part.state;
     limit(state, part.report, part.clock);
@@ -119,8 +119,8 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
     std::optional<Newton> settled;  // before iterations for the energy's sake, which tell nothing of how far a step could be taken
     for (;;) {
         solve(part, newton);
-        judge(h, newton);
-        take(part, newton);
+        checkConvergence(h, newton);
+        applyStep(part, newton);
         const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
         if (!isLastMove) continue;
         const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
@@ -130,7 +130,7 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         if (!settled) settled = newton;
         newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
         if (gain(h, part.gravity, state) <= kNoGain) return;
-        lookAgain(h, state, part.clock);
+        findContactsAgain(h, state, part.clock);
         newton.gain = gain(h, part.gravity, state);
         if (newton.gain <= kNoGain || newton.count >= most) return;
     }

@@ -128,7 +128,7 @@ void VertexSolver::turnHeldEdges(double t, FabricState& state) const
 /// Newton's first point: where nothing but the limiter and the pins hold the fabric. Angles begin next to where they are:
 /// twist is so stiff and light that its rate tells little of where it will be, that of a halved step nothing; from there Newton wound up
 /// the free ends of yarns, a little in every step. False if the attempt should be redone in halves.
-bool VertexSolver::begin(const Part& part, bool isLast)
+bool VertexSolver::beginAttempt(const Part& part, bool isLast)
 {
     const double t = part.t, h = part.h;
     FabricState& state = part.state;
@@ -188,7 +188,7 @@ bool VertexSolver::attempt(const Part& part)
     FabricState& state = part.state;
     FabricReport& report = part.report;
     bool isLast = part.level >= settings_.maxHalvings;
-    if (!begin(part, isLast)) return false;
+    if (!beginAttempt(part, isLast)) return false;
     Newton newton;
     iterate(part, newton);
 

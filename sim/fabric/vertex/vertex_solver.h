@@ -62,13 +62,13 @@ class VertexSolver final : public FabricIntegrator {
     /// One attempt at a part; false if it should be redone in halves.
     bool attempt(const Part& part);
     void advanceInParts(const Part& part);
-    bool begin(const Part& part, bool isLast);
+    bool beginAttempt(const Part& part, bool isLast);
     void predict(const Part& part);
-    void look(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
-    void lookAgain(double h, FabricState& state, StageClock& clock);
+    void findContacts(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
+    void findContactsAgain(double h, FabricState& state, StageClock& clock);
     void solve(const Part& part, Newton& newton);
-    void judge(double h, Newton& newton) const;
-    void take(const Part& part, Newton& newton);
+    void checkConvergence(double h, Newton& newton) const;
+    void applyStep(const Part& part, Newton& newton);
     void commit(FabricState& state, StageClock& clock);
     double rmsInRadii(std::span<const Vec3> move) const;
     bool followSolids(const Part& part, bool isLast);
