@@ -30,7 +30,7 @@ std::optional<Reading> readOnce(const Check& check, double time)
 Finding judge(const Check& check, std::span<const Reading> readings)
 {
     Finding finding;
-    finding.value = take(check.take, readings, check.level);
+    finding.value = statisticOf(check.statistic, readings, check.level);
     if (check.expect && !check.hasCurve() && !readings.empty()) finding.expected = readings.back().expected;
     const double error = std::abs(finding.value - finding.expected);
     finding.passes = std::isfinite(finding.value);

@@ -19,8 +19,8 @@ struct Check {
     sim::Formula against;  ///< what readings are ordered by; the time, unless given
     double from = -std::numeric_limits<double>::infinity(),
            to = std::numeric_limits<double>::infinity();  ///< of `against`
-    Take take = Take::Last;
-    double level = 0.0;                             ///< of Take::Reach
+    Statistic statistic = Statistic::Last;
+    double level = 0.0;                             ///< of Statistic::Reach
     std::string unit = {};                          ///< of what is read
     std::optional<sim::Formula> expect = {};        ///< of the time
     std::vector<std::array<double, 2>> table = {};  ///< measured (against, value), in its place
@@ -29,7 +29,7 @@ struct Check {
     std::optional<double> atMost = {}, atLeast = {};
 
     /// Is what its readings are compared with known at each of them?
-    bool hasCurve() const { return take == Take::MeanError || take == Take::LargestError || take == Take::RmsError; }
+    bool hasCurve() const { return statistic == Statistic::MeanError || statistic == Statistic::LargestError || statistic == Statistic::RmsError; }
     /// NaN beyond the table, and where nothing is expected.
     double expectedAt(double time, double at) const;
 };

@@ -23,7 +23,7 @@ std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& 
 Check readCheck(const Node& node, const std::string& path, const ReadingContext& context, const std::string& name)
 {
     std::string called = name, unit;
-    Take statistic = Take::Last;
+    Statistic statistic = Statistic::Last;
     sim::SectionReader::read(&node, path, [&](auto& v) {
         v.text("name", called, "What tables and plots call it");
         v.text("unit", unit, "As tables and plots show it");
@@ -50,7 +50,7 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
         const Node* at = section.find(key);
         return at ? std::optional(readConstant(*at, section.pathOf(key), context)) : std::nullopt;
     };
-    Check check{.name = called, .read = readings("read", ""), .against = readings("against", "t"), .take = statistic, .unit = unit};
+    Check check{.name = called, .read = readings("read", ""), .against = readings("against", "t"), .statistic = statistic, .unit = unit};
     check.from = constant("from").value_or(check.from);
     check.to = constant("to").value_or(check.to);
     check.level = constant("level").value_or(check.level);

@@ -98,29 +98,29 @@ double reach(std::span<const Reading> all, double level)
 
 }  // namespace
 
-double take(Take what, std::span<const Reading> all, double level)
+double statisticOf(Statistic what, std::span<const Reading> all, double level)
 {
     if (all.empty()) return kNone;
     const auto byValue = [](const Reading& a, const Reading& b) { return a.value < b.value; };
     switch (what) {
-        case Take::First: return all.front().value;
-        case Take::Last: return all.back().value;
-        case Take::Mean: return mean(all);
-        case Take::Smallest: return std::ranges::min_element(all, byValue)->value;
-        case Take::Largest: return std::ranges::max_element(all, byValue)->value;
-        case Take::Change: return all.back().value - all.front().value;
-        case Take::Slope: return slope(all);
-        case Take::Exponent: return slopeOfLogarithm(all, true);
-        case Take::Rate: return -slopeOfLogarithm(all, false);
-        case Take::EnvelopeRate: return -slopeOfLogarithm(swingsOf(all).peaks, false);
-        case Take::Period: return period(all);
-        case Take::MeanError: {
+        case Statistic::First: return all.front().value;
+        case Statistic::Last: return all.back().value;
+        case Statistic::Mean: return mean(all);
+        case Statistic::Smallest: return std::ranges::min_element(all, byValue)->value;
+        case Statistic::Largest: return std::ranges::max_element(all, byValue)->value;
+        case Statistic::Change: return all.back().value - all.front().value;
+        case Statistic::Slope: return slope(all);
+        case Statistic::Exponent: return slopeOfLogarithm(all, true);
+        case Statistic::Rate: return -slopeOfLogarithm(all, false);
+        case Statistic::EnvelopeRate: return -slopeOfLogarithm(swingsOf(all).peaks, false);
+        case Statistic::Period: return period(all);
+        case Statistic::MeanError: {
             const auto of = errors(all);
             return std::accumulate(of.begin(), of.end(), 0.0) / static_cast<double>(of.size());
         }
-        case Take::LargestError: return std::ranges::max(errors(all));
-        case Take::RmsError: return rmsError(all);
-        case Take::Reach: return reach(all, level);
+        case Statistic::LargestError: return std::ranges::max(errors(all));
+        case Statistic::RmsError: return rmsError(all);
+        case Statistic::Reach: return reach(all, level);
     }
     return kNone;
 }

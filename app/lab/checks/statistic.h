@@ -13,7 +13,7 @@ struct Reading {
 };
 
 /// What a check makes of its readings: one number.
-enum class Take {
+enum class Statistic {
     First,
     Last,
     Mean,
@@ -32,28 +32,28 @@ enum class Take {
 };
 
 /// As scene files write them.
-inline std::span<const sim::Choice<Take>> choicesOf(Take)
+inline std::span<const sim::Choice<Statistic>> choicesOf(Statistic)
 {
-    static constexpr sim::Choice<Take> kAll[] = {{"first", Take::First},
-                                                 {"last", Take::Last},
-                                                 {"mean", Take::Mean},
-                                                 {"smallest", Take::Smallest},
-                                                 {"largest", Take::Largest},
-                                                 {"change", Take::Change},
-                                                 {"slope", Take::Slope},
-                                                 {"exponent", Take::Exponent},
-                                                 {"rate", Take::Rate},
-                                                 {"envelope_rate", Take::EnvelopeRate},
-                                                 {"period", Take::Period},
-                                                 {"mean_error", Take::MeanError},
-                                                 {"largest_error", Take::LargestError},
-                                                 {"rms_error", Take::RmsError},
-                                                 {"reach", Take::Reach}};
+    static constexpr sim::Choice<Statistic> kAll[] = {{"first", Statistic::First},
+                                                      {"last", Statistic::Last},
+                                                      {"mean", Statistic::Mean},
+                                                      {"smallest", Statistic::Smallest},
+                                                      {"largest", Statistic::Largest},
+                                                      {"change", Statistic::Change},
+                                                      {"slope", Statistic::Slope},
+                                                      {"exponent", Statistic::Exponent},
+                                                      {"rate", Statistic::Rate},
+                                                      {"envelope_rate", Statistic::EnvelopeRate},
+                                                      {"period", Statistic::Period},
+                                                      {"mean_error", Statistic::MeanError},
+                                                      {"largest_error", Statistic::LargestError},
+                                                      {"rms_error", Statistic::RmsError},
+                                                      {"reach", Statistic::Reach}};
     return kAll;
 }
 
 /// NaN where there are too few readings for it.
-/// @param level  of Take::Reach
-double take(Take what, std::span<const Reading> readings, double level = 0.0);
+/// @param level  of Statistic::Reach
+double statisticOf(Statistic what, std::span<const Reading> readings, double level = 0.0);
 
 }  // namespace app

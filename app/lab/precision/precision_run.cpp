@@ -78,7 +78,7 @@ Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::
 double viscosityOf(const Precision& precision, const std::vector<Reading>& energies)
 {
     if (precision.decay <= 0.0 || energies.empty()) return std::numeric_limits<double>::quiet_NaN();
-    return take(Take::Rate, std::span(energies).subspan(1)) / precision.decay;
+    return statisticOf(Statistic::Rate, std::span(energies).subspan(1)) / precision.decay;
 }
 
 /// Root mean square of the errors.
@@ -139,7 +139,7 @@ AllReadings readErrors(const SceneSetup& setup, const Parts& parts, const std::f
 {
     const Precision precision = *readPrecision(setup);
     std::vector<Check> checks = precision.errors;
-    for (Check& check : checks) check.take = Take::Last;  // nothing to compare with yet: all readings are kept
+    for (Check& check : checks) check.statistic = Statistic::Last;  // nothing to compare with yet: all readings are kept
     return runOnce(setup, precision, checks, parts, stopWanted).errors;
 }
 
@@ -157,7 +157,7 @@ PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& conver
             row.steps = outcome.followed.steps;
             row.cfl = outcome.followed.largestCfl;
             row.error = errorOf(checks, outcome.errors);
-            row.energyLeft = take(Take::Last, outcome.energies) / take(Take::First, outcome.energies);
+            row.energyLeft = statisticOf(Statistic::Last, outcome.energies) / statisticOf(Statistic::First, outcome.energies);
             row.viscosity = viscosityOf(precision, outcome.energies);
         }
         row.dt = run.setup.scene.settings.time.duration / static_cast<double>(std::max<std::int64_t>(1, row.steps));

@@ -28,12 +28,12 @@ std::string deviation(const Finding& finding)
 
 /// Is what is expected drawn beside the readings: where it is known at each, or is what one of them or their mean is
 /// compared with?
-bool hasLine(const Check& check) { return check.hasCurve() || (check.expect && check.take <= Take::Largest); }
+bool hasLine(const Check& check) { return check.hasCurve() || (check.expect && check.statistic <= Statistic::Largest); }
 
 /// Of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
 std::string readingsLabel(const Check& check)
 {
-    const bool isOfReadings = check.take <= Take::Change || check.hasCurve();
+    const bool isOfReadings = check.statistic <= Statistic::Change || check.hasCurve();
     return isOfReadings && !check.unit.empty() ? check.unit : check.read.text();
 }
 
