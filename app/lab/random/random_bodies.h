@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/lab/random/dice.h"
+#include "app/lab/random/random_source.h"
 
 #include <string>
 
@@ -25,12 +25,12 @@ struct RandomPile {
 std::string listText(const sim::Vec3& x);
 
 /// Lists of a scene file, each line behind "  - ".
-std::string randomObstacles(Dice& dice, RandomPile& pile);
-std::string randomFabrics(Dice& dice, RandomPile& pile);
+std::string randomObstacles(RandomSource& random, RandomPile& pile);
+std::string randomFabrics(RandomSource& random, RandomPile& pile);
 /// @param withPool  it lies on the floor
-std::string randomSources(Dice& dice, RandomPile& pile, bool withPool);
+std::string randomSources(RandomSource& random, RandomPile& pile, bool withPool);
 
 /// "{ball: {…}}" around a place, and about so large [cm].
-std::string randomShape(Dice& dice, const sim::Vec3& center, double radius);
+std::string randomShape(RandomSource& random, const sim::Vec3& center, double radius);
 
 }  // namespace app

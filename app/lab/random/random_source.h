@@ -10,11 +10,11 @@
 
 namespace app {
 
-/// Throws of dice, one after the other: the same for the same seed and row, on any machine. Of a call's arguments only
+/// Random numbers, one after the other: the same for the same seed and row, on any machine. Of a call's arguments only
 /// one may throw, since compilers choose their order; lists in braces go from left to right.
-class Dice {
+class RandomSource {
  public:
-    Dice(std::uint64_t seed, std::uint64_t row) : random_(seed, row) {}
+    RandomSource(std::uint64_t seed, std::uint64_t row) : random_(seed, row) {}
 
     double between(double low, double high) { return low + (high - low) * random_.uniform(thrown_++); }
     /// Even over the orders of magnitude between two numbers above 0.
