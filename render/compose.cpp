@@ -89,7 +89,7 @@ Composition compose(std::span<const Image> panels, std::span<const std::string> 
 {
     requireComposable(panels, labels);
     const Plan plan = planFor(panels, !labels.empty(), look);
-    const Rgb ink = inkOn(look.background);
+    const Rgb ink = contrastingColor(look.background);
     Composition result{Image(plan.width(), plan.height(), look.background), {}};
     Image& image = result.image;
     drawHeader(image, font, plan, look, ink);

@@ -26,12 +26,12 @@ DrawOverlay::DrawOverlay(const Gl& gl, const std::filesystem::path& shaderDir)
 {
 }
 
-void DrawOverlay::draw(const Notes& notes, const Font& font, int width, int height)
+void DrawOverlay::draw(const Annotations& annotations, const Font& font, int width, int height)
 {
-    if (notes.empty()) return;
+    if (annotations.empty()) return;
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, texture_.id());
-    if (written_ != notes || width != width_ || height != height_) write(notes, font, width, height);
+    if (written_ != annotations || width != width_ || height != height_) write(annotations, font, width, height);
     program_.use();
     gl_.Uniform1i(program_["notes"], 0);
     gl_.Disable(GL_DEPTH_TEST);
@@ -43,15 +43,15 @@ void DrawOverlay::draw(const Notes& notes, const Font& font, int width, int heig
     requireNoGlError(gl_, "writing over a picture");
 }
 
-void DrawOverlay::write(const Notes& notes, const Font& font, int width, int height)
+void DrawOverlay::write(const Annotations& annotations, const Font& font, int width, int height)
 {
     Image onBlack(width, height, {0, 0, 0}), onWhite(width, height, {255, 255, 255});
-    drawNotes(onBlack, font, notes);
-    drawNotes(onWhite, font, notes);
+    drawAnnotations(onBlack, font, annotations);
+    drawAnnotations(onWhite, font, annotations);
     const std::vector<std::uint8_t> rgba = withoutGround(onBlack, onWhite);
     gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) gl_.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
-    written_ = notes;
+    written_ = annotations;
     width_ = width;
     height_ = height;
 }

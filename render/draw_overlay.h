@@ -13,17 +13,17 @@ class DrawOverlay {
  public:
     DrawOverlay(const Gl& gl, const std::filesystem::path& shaderDir);
     /// Over the framebuffer that is bound, whose viewport has this size [pixels].
-    void draw(const Notes& notes, const Font& font, int width, int height);
+    void draw(const Annotations& annotations, const Font& font, int width, int height);
 
  private:
-    void write(const Notes& notes, const Font& font, int width, int height);
+    void write(const Annotations& annotations, const Font& font, int width, int height);
 
     const Gl& gl_;
     Program program_;
     VertexArray noVertices_;
     Texture texture_;
-    std::optional<Notes> written_;  ///< what the texture holds …
-    int width_ = 0, height_ = 0;    ///< … and its size
+    std::optional<Annotations> written_;  ///< what the texture holds …
+    int width_ = 0, height_ = 0;          ///< … and its size
 };
 
 }  // namespace render

@@ -46,7 +46,7 @@ struct FrameView {
         std::span<const Eigen::Vector3i> triangles;
         bool inside = false;  ///< a container, seen from within
     };
-    /// Segments that are drawn alike: notes over the scene, which the camera does not frame.
+    /// Segments that are drawn alike: annotations over the scene, which the camera does not frame.
     struct Lines {
         std::span<const Eigen::Vector3f> points;  ///< two per segment
         Eigen::Vector3f color = Eigen::Vector3f::Zero();

@@ -38,7 +38,7 @@ float barTextSize(const Image& image) { return 0.9f * textSize(image.width, imag
 
 float textSize(int width, int height) { return std::max(11.0f, static_cast<float>(std::min(height, width)) / 30.0f); }
 
-Rgb inkOn(Rgb background)
+Rgb contrastingColor(Rgb background)
 {
     const double luminance = 0.299 * background.r + 0.587 * background.g + 0.114 * background.b;
     return luminance > 110.0 ? Rgb{32, 36, 42} : Rgb{236, 238, 240};
@@ -110,11 +110,11 @@ void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bar
     }
 }
 
-void drawNotes(Image& image, const Font& font, const Notes& notes)
+void drawAnnotations(Image& image, const Font& font, const Annotations& annotations)
 {
-    drawLabel(image, font, notes.label, Corner::TopLeft, notes.ink);
-    drawLabel(image, font, notes.time, Corner::TopRight, notes.ink);
-    drawColorBars(image, font, notes.bars, notes.ink);
+    drawLabel(image, font, annotations.label, Corner::TopLeft, annotations.ink);
+    drawLabel(image, font, annotations.time, Corner::TopRight, annotations.ink);
+    drawColorBars(image, font, annotations.bars, annotations.ink);
 }
 
 PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size, Rgb ink)

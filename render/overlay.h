@@ -28,7 +28,7 @@ struct ColorBar {
 float textSize(int width, int height);
 
 /// Dark on light and light on dark.
-Rgb inkOn(Rgb background);
+Rgb contrastingColor(Rgb background);
 
 /// "t = 0.124 s"
 std::string timeText(double seconds);
@@ -47,16 +47,16 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
 void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink);
 
 /// All that is written over one picture.
-struct Notes {
+struct Annotations {
     std::string label, time;  ///< at the top left and right; empty: none
     std::vector<ColorBar> bars;
     Rgb ink;
 
-    bool operator==(const Notes&) const = default;
+    bool operator==(const Annotations&) const = default;
     bool empty() const { return label.empty() && time.empty() && bars.empty(); }
 };
 
-void drawNotes(Image& image, const Font& font, const Notes& notes);
+void drawAnnotations(Image& image, const Font& font, const Annotations& annotations);
 
 /// Lying bar in the middle of `box`, title to its left, ticks below; letters of `size` pixels. Returns the box of the
 /// colours alone.

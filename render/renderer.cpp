@@ -120,22 +120,22 @@ FrameView seenIn(FrameView view, const Look& look)
     return view;
 }
 
-Notes notesOn(const FrameView& view, const Look& look)
+Annotations annotationsOf(const FrameView& view, const Look& look)
 {
     const OverlayLook& overlay = look.overlay;
-    Notes notes;
-    notes.ink = inkOn(toRgb(look.background));
-    notes.label = overlay.label;
-    if (overlay.timeStamp) notes.time = timeText(view.time);
-    if (!overlay.colorBar) return notes;
+    Annotations annotations;
+    annotations.ink = contrastingColor(toRgb(look.background));
+    annotations.label = overlay.label;
+    if (overlay.timeStamp) annotations.time = timeText(view.time);
+    if (!overlay.colorBar) return annotations;
     // From the right edge on; what is coloured alike shares one.
     const auto add = [&](const ColorBar& bar) {
-        if (std::ranges::find(notes.bars, bar) == notes.bars.end()) notes.bars.push_back(bar);
+        if (std::ranges::find(annotations.bars, bar) == annotations.bars.end()) annotations.bars.push_back(bar);
     };
     if (overlay.liquidBar && look.liquid.isShown && !look.liquid.flat) add({look.liquid.colorMap, look.liquid.range, overlay.colorBarTitle});
     if (look.yarns.byValue && view.yarns.begin.size() > 1) add({look.yarns.colorMap, look.yarns.range, look.yarns.colorBarTitle});
     if (look.cloth.byValue && !view.cloth.triangles.empty()) add({look.cloth.colorMap, look.cloth.range, look.cloth.colorBarTitle});
-    return notes;
+    return annotations;
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ Image Renderer::draw(const FrameView& view, const Camera& camera, const Look& lo
     const FrameView seen = seenIn(view, look);
     paint(seen, camera, look);
     Image image = parts_->targets->read();
-    drawNotes(image, parts_->font, notesOn(seen, look));
+    drawAnnotations(image, parts_->font, annotationsOf(seen, look));
     return image;
 }
 
@@ -171,7 +171,7 @@ void Renderer::show(const FrameView& view, const Camera& camera, const Look& loo
     fitted.height = part.height;
     const FrameView seen = seenIn(view, look);
     paint(seen, camera, fitted);
-    parts_->overlay.draw(notesOn(seen, look), parts_->font, part.width, part.height);
+    parts_->overlay.draw(annotationsOf(seen, look), parts_->font, part.width, part.height);
     parts_->targets->show(part.x, part.y);
 }
 

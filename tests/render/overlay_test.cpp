@@ -56,13 +56,13 @@ TEST(Overlay, ColorBarRunsFromOneEndOfTheMapToTheOther)
 {
     Image image(640, 360, kPaper);
     const ColorBar bar = {ColorMap::Viridis, {0.0f, 150.0f}, "speed [cm/s]"};
-    const PixelBox box = drawColorBar(image, Font(), bar, inkOn(kPaper));
+    const PixelBox box = drawColorBar(image, Font(), bar, contrastingColor(kPaper));
     const ColorTable table = colorTable(ColorMap::Viridis);
     const auto expectLike = [](Rgb a, Rgb b) { EXPECT_LE(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b), 3); };
     expectLike(image.color(box.x, box.y), toRgb(table.back()));
     expectLike(image.color(box.x + box.width - 1, box.y + box.height - 1), toRgb(table.front()));
 
-    const PixelBox lying = drawLyingColorBar(image, Font(), bar, {0, 300, 640, 60}, 16.0f, inkOn(kPaper));
+    const PixelBox lying = drawLyingColorBar(image, Font(), bar, {0, 300, 640, 60}, 16.0f, contrastingColor(kPaper));
     expectLike(image.color(lying.x, lying.y), toRgb(table.front()));
     expectLike(image.color(lying.x + lying.width - 1, lying.y), toRgb(table.back()));
 }
@@ -83,8 +83,8 @@ TEST(Overlay, TicksAreRoundNumbersInsideTheRange)
 
 TEST(Overlay, InkStandsOutFromPaper)
 {
-    EXPECT_LT(inkOn({255, 255, 255}).g, 100);
-    EXPECT_GT(inkOn({20, 20, 30}).g, 200);
+    EXPECT_LT(contrastingColor({255, 255, 255}).g, 100);
+    EXPECT_GT(contrastingColor({20, 20, 30}).g, 200);
 }
 
 std::vector<Image> panels(int count)

@@ -122,7 +122,7 @@ TEST(Renderer, ColorBarIsTheSameInEveryFrameOfARange)
     drawing.look.overlay.colorBarTitle = "speed [cm/s]";
     Image blank(320, 180);
     const Font font;
-    const PixelBox box = drawColorBar(blank, font, {ColorMap::Jet, {0.0f, 200.0f}, "speed [cm/s]"}, inkOn(kWhite));
+    const PixelBox box = drawColorBar(blank, font, {ColorMap::Jet, {0.0f, 200.0f}, "speed [cm/s]"}, contrastingColor(kWhite));
     for (const float value : {10.0f, 170.0f}) {
         drawing.positions.clear(), drawing.values.clear();
         drawing.add({0.01f * value, 0.0f, 0.0f}, value);
