@@ -1,6 +1,6 @@
 #include "render/draw_cloth.h"
 
-#include "render/fabric_paint.h"
+#include "render/vertex_color.h"
 
 namespace render {
 
@@ -8,7 +8,7 @@ struct DrawCloth::Vertex {
     Eigen::Vector3f position, normal;
     float value;
     float back;  ///< 1 on the back side
-    Paint color;
+    VertexColor color;
 };
 
 DrawCloth::DrawCloth(const Gl& gl, const std::filesystem::path& shaderDir)
@@ -31,7 +31,7 @@ void DrawCloth::draw(const FrameView::Cloth& cloth, const ViewTransforms& transf
     vertices.reserve(mesh_.vertices.size());
     for (const ClothMesh::Vertex& v : mesh_.vertices)
         vertices.push_back({v.position, v.normal, cloth.values.empty() ? 0.0f : cloth.values[v.source], v.isBack ? 1.0f : 0.0f,
-                            paintOf(look, cloth.materials[v.source], cloth.wetness.empty() ? 0.0f : cloth.wetness[v.source])});
+                            vertexColorOf(look, cloth.materials[v.source], cloth.wetness.empty() ? 0.0f : cloth.wetness[v.source])});
 
     colorMap_.bind(look.colorMap);
     program_.use();

@@ -1,6 +1,6 @@
 #include "render/draw_yarns.h"
 
-#include "render/fabric_paint.h"
+#include "render/vertex_color.h"
 
 namespace render {
 
@@ -44,7 +44,7 @@ void DrawYarns::draw(const FrameView::Yarns& yarns, const ViewTransforms& transf
     for (int s = 0; s < strands; ++s) {
         Batch& batch = isThin(yarns, s, detail) ? thin_ : thick_;
         addTube(
-            yarns, s, detail, [&](float wetness) { return paintOf(look, yarns.materials[s], wetness); }, batch.mesh);
+            yarns, s, detail, [&](float wetness) { return vertexColorOf(look, yarns.materials[s], wetness); }, batch.mesh);
         if (batch.mesh.vertices.size() > kVerticesPerBatch) drawMesh(batch);
     }
     drawMesh(thick_);

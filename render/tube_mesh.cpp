@@ -124,7 +124,7 @@ class Fineness {
 /// Writes rings of `sides` + 1 corners (the seam has two) and joins each to the one before it.
 class RingWriter {
  public:
-    RingWriter(const Strand& strand, int sides, const TubePaint& paint, TubeMesh& mesh) : strand_(strand), sides_(sides), paint_(paint), mesh_(mesh)
+    RingWriter(const Strand& strand, int sides, const TubeColor& color, TubeMesh& mesh) : strand_(strand), sides_(sides), color_(color), mesh_(mesh)
     {
         // Seen from all around, a polygon with corners on a circle is narrower than the circle: on average by this.
         const float n = static_cast<float>(sides);
@@ -139,7 +139,7 @@ class RingWriter {
         const float reach = std::min(a, b) * tip;
         const Vector3f center = ring.center + reach * ring.tangent;
         const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-        const std::array<std::uint8_t, 4> color = paint_(ring.wetness);
+        const std::array<std::uint8_t, 4> color = color_(ring.wetness);
         for (int k = 0; k <= sides_; ++k) {
             const float angle = static_cast<float>(k) / static_cast<float>(sides_);
             const float c = std::cos(2.0f * kPi * angle), s = std::sin(2.0f * kPi * angle);
@@ -164,7 +164,7 @@ class RingWriter {
 
     const Strand& strand_;
     int sides_;
-    const TubePaint& paint_;
+    const TubeColor& color_;
     TubeMesh& mesh_;
     float widening_ = 1.0f;
     bool hasBefore_ = false;
@@ -178,12 +178,12 @@ bool isThin(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& de
     return Fineness(strand, detail).radiusPixels() < kThinPixels;
 }
 
-void addTube(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail, const TubePaint& paint, TubeMesh& mesh)
+void addTube(const FrameView::Yarns& yarns, int strandIndex, const TubeDetail& detail, const TubeColor& color, TubeMesh& mesh)
 {
     const Strand strand(yarns, strandIndex);
     if (strand.size() < 2 || !(std::min(strand.a(), strand.b()) > 0.0f)) return;
     const Fineness fineness(strand, detail);
-    RingWriter writer(strand, fineness.sides(), paint, mesh);
+    RingWriter writer(strand, fineness.sides(), color, mesh);
     const int caps = fineness.capRings(), last = strand.size() - 2;
 
     const Ring begin = strand.ring(0, 0.0f);

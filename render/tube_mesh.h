@@ -35,11 +35,11 @@ struct TubeDetail {
 bool isThin(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail);
 
 /// The color of a Vertex by its wetness, 0 = dry … 1 = soaked.
-using TubePaint = std::function<std::array<std::uint8_t, 4>(float)>;
+using TubeColor = std::function<std::array<std::uint8_t, 4>(float)>;
 
 /// Adds one strand: a tube of elliptic section with round ends, through the vertices and round between them. Vertices
 /// that are not finite end the tube; a strand of one vertex or without extent has none.
 /// @param strand  in view.begin
-void addTube(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail, const TubePaint& paint, TubeMesh& mesh);
+void addTube(const FrameView::Yarns& yarns, int strand, const TubeDetail& detail, const TubeColor& color, TubeMesh& mesh);
 
 }  // namespace render

@@ -15,7 +15,7 @@ namespace {
 using namespace render;
 using Eigen::Vector3f;
 
-const TubePaint kBlack = [](float) { return std::array<std::uint8_t, 4>{0, 0, 0, 255}; };
+const TubeColor kBlack = [](float) { return std::array<std::uint8_t, 4>{0, 0, 0, 255}; };
 const TubeDetail kNear = {.eye = {0.0f, 0.0f, 10.0f}, .pixelsPerTangent = 1000.0f, .sides = 24};
 
 /// Volume inside, positive if triangles face outwards.
