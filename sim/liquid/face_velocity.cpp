@@ -5,7 +5,7 @@
 
 namespace sim {
 
-void divideAndAddGravity(const BlockGrid& grid, const Vec3& gravity, double dt, bool keepsAdvected, LiquidGrid& liquid)
+void computeFaceVelocities(const BlockGrid& grid, const Vec3& gravity, double dt, bool keepsAdvected, LiquidGrid& liquid)
 {
     parallelFor(grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);

@@ -23,7 +23,7 @@ void forEachClosedFace(const ObstacleField& field, int block, int axis, F&& f)
 }
 
 /// The velocity of a closed face that goes on straight from those of the open ones beside it; the wall's own where there are none.
-double straightOn(const CutGrid& cut, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b, int axis, int face)
+double extrapolateLinearly(const CutGrid& cut, const BlockBits<3>& valid, const BlockArray<double, 3>& velocity, int b, int axis, int face)
 {
     constexpr double kFarthest = 1.0;  // the mirror image's speed: more would blow up rounding next to walls that almost touch a face
     const Vec3i cell(face & 7, face >> 3 & 7, face >> 6);
@@ -48,7 +48,8 @@ void stick(const CutGrid& cut, bool goesStraight, const BlockBits<3>& valid, Blo
         const int b = cut.field.blocksNearSolid()[n];
         for (int a = 0; a < kAxes; ++a)
             forEachClosedFace(cut.field, b, a, [&](int face) {
-                velocity.block(b, a)[face] = goesStraight ? straightOn(cut, valid, velocity, b, a, face) : cut.field.wallVelocity(b, a)[face];
+                velocity.block(b, a)[face] =
+                    goesStraight ? extrapolateLinearly(cut, valid, velocity, b, a, face) : cut.field.wallVelocity(b, a)[face];
             });
     });
 }
@@ -136,7 +137,7 @@ double wallReach(const CutGrid& cut, int block, int axis, const Vec3i& cell, con
 
 void applyWalls(const CutGrid& cut, double friction, bool goesStraight, WallFaces& followers, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
-    if (!wallsMirror(friction)) {
+    if (!usesMirrorBoundary(friction)) {
         stick(cut, goesStraight, valid, velocity);
         return;
     }

@@ -20,7 +20,7 @@ double faceDistance(const CutGrid& cut, int block, int axis, Vec3i cell);
 double wallReach(const CutGrid& cut, int block, int axis, const Vec3i& cell, const Vec3i& beside);
 
 /// Do plane walls in planes of faces mirror the liquid? Only where it slips along them.
-inline bool wallsMirror(double friction) { return friction < 1.0; }
+inline bool usesMirrorBoundary(double friction) { return friction < 1.0; }
 
 /// After P2G: what particles gave to faces behind plane walls in planes of faces goes to the images of these faces in front, as if every
 /// particle had its mirror image behind the wall. Without it the faces next to a wall know only half of the liquid around them.

@@ -11,7 +11,7 @@ namespace sim {
 namespace {
 
 /// Do walls act on the liquid by its image behind them?
-bool hasImages(const StepContext& c) { return c.hasObstacles() && wallsMirror(c.settings().liquid.wallFriction); }
+bool hasImages(const StepContext& c) { return c.hasObstacles() && usesMirrorBoundary(c.settings().liquid.wallFriction); }
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void applyGravity(StepContext& c)
     const StageScope scope(c.clock, Stage::ParticlesToGrid);
     const BlockGrid& grid = c.state.grid;
     const Vec3& gravity = c.settings().gravity;
-    divideAndAddGravity(grid, gravity, c.fallTime(), c.keepsAdvected(), c.work.grid);
+    computeFaceVelocities(grid, gravity, c.fallTime(), c.keepsAdvected(), c.work.grid);
     if (hasImages(c)) withholdWeightOfImages(grid, c.work.obstacles, gravity, c.fallTime(), c.work.grid);
     c.work.grid.unpressed = c.work.grid.faces.velocity;
     c.energy.onFaces(EnergyChange::Gravity);

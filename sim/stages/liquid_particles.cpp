@@ -9,7 +9,7 @@ namespace sim {
 namespace {
 
 /// Pressure of the last step, in the blocks of this one.
-void carryPressureOver(const BlockGrid& grid, const ParticleOrder& order, BlockArray<double>& old, BlockArray<double>& pressure)
+void remapPressure(const BlockGrid& grid, const ParticleOrder& order, BlockArray<double>& old, BlockArray<double>& pressure)
 {
     if (!order.blocksChanged) return;
     old.swap(pressure);
@@ -45,7 +45,7 @@ void sort(StepContext& c)
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Sort);
     sortParticles(state.liquid, grid, c.scene.domain ? &*c.scene.domain : nullptr, work.order, state.ledger);
-    carryPressureOver(grid, work.order, work.oldPressure, state.pressure);
+    remapPressure(grid, work.order, work.oldPressure, state.pressure);
     work.grid.resize(grid.count(), c.keepsAdvected());
     work.grid.fullMass = work.packing * c.settings().liquid.density * grid.dx * grid.dx * grid.dx;
     work.momentum.left(state);
@@ -59,7 +59,7 @@ void findObstacles(StepContext& c)
     if (c.hasObstacles()) c.clock.start(Stage::Obstacles);
     // Particles are outside the solids where these are when the step begins.
     c.work.obstacles.startAt(c.state.time, c.state.time + c.dt);
-    c.work.obstacleField.update(c.state.grid, c.work.order.previous, c.work.obstacles, wallsMirror(c.settings().liquid.wallFriction));
+    c.work.obstacleField.update(c.state.grid, c.work.order.previous, c.work.obstacles, usesMirrorBoundary(c.settings().liquid.wallFriction));
 }
 
 void relax(StepContext& c)

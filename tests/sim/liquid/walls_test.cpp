@@ -310,7 +310,7 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
         const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
         WallFaces followers;
         foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
-        divideAndAddGravity(scene.grid, gravity, dt, false, scene.liquid);
+        computeFaceVelocities(scene.grid, gravity, dt, false, scene.liquid);
         withholdWeightOfImages(scene.grid, scene.obstacles, gravity, dt, scene.liquid);
         const auto mass = [&](const auto& sums, int a, const Vec3i& c) {
             return sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell];
@@ -349,7 +349,7 @@ TEST(Walls, WeightIsEvenAlongThem)
         const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
         WallFaces followers;
         foldAtWalls(scene.grid, scene.obstacles, std::array{0.0, 0.3, 0.9}[seed % 3], scene.field, followers, scene.liquid);
-        divideAndAddGravity(scene.grid, gravity, 0.01, false, scene.liquid);
+        computeFaceVelocities(scene.grid, gravity, 0.01, false, scene.liquid);
         withholdWeightOfImages(scene.grid, scene.obstacles, gravity, 0.01, scene.liquid);
         scene.forEachFace([&](int a, const Vec3i& c) {
             if (!(scene.open(a, c) > 0.0) || c[a] < 3 || c[a] > size[a] - 3) return;
