@@ -35,7 +35,7 @@ void addTorque(const Pack& torque, const RodEdge<Pack>& e, const RodEdge<Pack>& 
 /// What a yarn that is straighter than at rest opposes to turning about its tangent, beyond |κ|² of Gauss and Newton: with it |κ||κ̄|, so
 /// that where the section is round the energy stays below its quadratic model for any angle. Without it Newton turned straightened
 /// crimped yarns to and fro by a radian and more in every step.
-Pack rollStiffness(const Pack& b00, const Pack& b01, const Pack& b11, const Pack* now, const Pack* rest)
+Pack torsionalCorrection(const Pack& b00, const Pack& b01, const Pack& b11, const Pack* now, const Pack* rest)
 {
     const auto square = [&](const Pack* k) { return (b00 * k[0] + 2.0 * b01 * k[1]) * k[0] + b11 * k[1] * k[1]; };
     const Pack here = square(now);
@@ -49,7 +49,7 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
     constexpr int kBand = StrandMatrix::kBand;
     const StrandLayout::Group& group = layout_.groups[g];
     const Stiffness& k = stiffness_[g];
-    const bool hasTorque = sumLanes(torqueShare_[g]) > 0.0;
+    const bool hasTorque = sumLanes(twistHessianShare_[g]) > 0.0;
     const Pack one = broadcast(1.0), perStep = broadcast(damped_ ? 1.0 / h : 0.0);
     const Pack stretchRate = perStep * k.stretchDamping, bendRate = perStep * k.bendDamping, twistRate = perStep * k.twistDamping;
 
@@ -80,7 +80,7 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
             }
     }
 
-    walkGroup(g, state, [&](const Walk& at) {
+    forEachInnerVertex(g, state, [&](const InnerVertex& at) {
         const Bend& bend = bends_[group.firstVertex + at.j];
         const RodStrain<Pack>& s = at.strain;
         const Pack half = broadcast(0.5) * bend.perLength, twistStiffness = k.twist * bend.perLength;
@@ -116,9 +116,9 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
                 band[(row + r) * kBand + r - c] += e0 * d[0][c] + e1 * d[1][c] + f0 * d[2][c] + f1 * d[3][c] + t * s.twistGradient[c];
         }
         const std::array<Pack, 4>&now = s.curvature, &rest = bend.curvature;
-        band[(row + 3) * kBand] += rollStiffness(b00, b01, b11, &now[0], &rest[0]);
-        band[(row + 7) * kBand] += rollStiffness(b00, b01, b11, &now[2], &rest[2]);
-        if (hasTorque) addTorque(torqueShare_[g] * torque, at.before, at.after, band + row * kBand);
+        band[(row + 3) * kBand] += torsionalCorrection(b00, b01, b11, &now[0], &rest[0]);
+        band[(row + 7) * kBand] += torsionalCorrection(b00, b01, b11, &now[2], &rest[2]);
+        if (hasTorque) addTorque(twistHessianShare_[g] * torque, at.before, at.after, band + row * kBand);
     });
 }
 

@@ -52,17 +52,17 @@ inline void setMaterialFrame(const FabricState& state, const StrandLayout::Lanes
     e.m2 = c * second - s * e.reference;
 }
 
-/// A vertex with an edge on either side, as walkGroup meets it.
-struct Rods::Walk {
+/// A vertex with an edge on either side, as forEachInnerVertex meets it.
+struct Rods::InnerVertex {
     int j;  ///< the vertex within the strands; edge j − 1 ends and edge j begins here
     const RodEdge<Pack>&before, &after;
     RodStrain<Pack> strain;
     Pack twist;  ///< m [rad]
 };
 
-/// Calls visit(Walk) for every vertex between two edges, from the first to the last.
+/// Calls visit(InnerVertex) for every vertex between two edges, from the first to the last.
 template <class Visit>
-void Rods::walkGroup(int g, const FabricState& state, Visit&& visit) const
+void Rods::forEachInnerVertex(int g, const FabricState& state, Visit&& visit) const
 {
     const StrandLayout::Group& group = layout_.groups[g];
     PackTriple from = gathered(state.x, layout_.vertex[group.firstVertex]);
@@ -75,7 +75,7 @@ void Rods::walkGroup(int g, const FabricState& state, Visit&& visit) const
         setMaterialFrame(state, edges, edge);
         const Pack theta = gathered(state.theta, edges);
         if (j > 0) {
-            Walk at{j, before, edge, rodStrain(before, edge), gathered(state.referenceTwist, edges) + theta - thetaBefore};
+            InnerVertex at{j, before, edge, rodStrain(before, edge), gathered(state.referenceTwist, edges) + theta - thetaBefore};
             visit(at);
         }
         before = edge;

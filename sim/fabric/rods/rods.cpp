@@ -48,7 +48,7 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
         stiffness_.push_back(k);
     }
 
-    torqueShare_.assign(layout_.groups.size(), Pack{});
+    twistHessianShare_.assign(layout_.groups.size(), Pack{});
     perRestLength_.resize(layout_.edge.size());
     for (std::size_t i = 0; i < layout_.edge.size(); ++i)
         for (int l = 0; l < kLanes; ++l) {
@@ -59,7 +59,7 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
     bends_.resize(layout_.vertex.size());
     for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
         const StrandLayout::Group& group = layout_.groups[g];
-        walkGroup(static_cast<int>(g), rest, [&](const Walk& at) {
+        forEachInnerVertex(static_cast<int>(g), rest, [&](const InnerVertex& at) {
             Bend& bend = bends_[group.firstVertex + at.j];
             bend.curvature = at.strain.curvature;
             for (int l = 0; l < kLanes; ++l) {
@@ -74,7 +74,7 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
     }
 }
 
-void Rods::useTorque() { std::ranges::fill(torqueShare_, broadcast(1.0)); }
+void Rods::includeTwistHessian() { std::ranges::fill(twistHessianShare_, broadcast(1.0)); }
 
 void Rods::transportFrames(FabricState& state) const
 {
@@ -117,7 +117,7 @@ void Rods::startStep(const FabricState& state)
             const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
             startStretch_[i] = edgeBetween(from, to, layout_.edge[i]).length * perRestLength_[i];
         }
-        walkGroup(static_cast<int>(g), state, [&](const Walk& at) {
+        forEachInnerVertex(static_cast<int>(g), state, [&](const InnerVertex& at) {
             const std::array<Pack, 4>& k = at.strain.curvature;
             startBend_[group.firstVertex + at.j] = {k[0], k[1], k[2], k[3], at.twist};
         });
@@ -140,7 +140,7 @@ std::array<double, 3> Rods::energies(const FabricState& state) const
             const Pack restLength = select(perRestLength_[i] > 0.0, broadcast(1.0) / perRestLength_[i], broadcast(0.0));
             stretching += 0.5 * k.stretch * strain * strain * restLength;
         }
-        walkGroup(static_cast<int>(g), state, [&](const Walk& at) {
+        forEachInnerVertex(static_cast<int>(g), state, [&](const InnerVertex& at) {
             const Bend& bend = bends_[group.firstVertex + at.j];
             for (int c = 0; c < 4; c += 2) {
                 const Pack d0 = at.strain.curvature[c] - bend.curvature[c], d1 = at.strain.curvature[c + 1] - bend.curvature[c + 1];

@@ -35,17 +35,17 @@ class Rods {
     void forces(const FabricState& state, double h, Pack* gradient, StrandMatrix* matrix) const;
     /// From now on the matrix has the torque's part too, the second derivatives of the twist: without it Newton overshoots on rods
     /// that are twisted hard. It may be indefinite.
-    void useTorque();
+    void includeTwistHessian();
     /// … but for the rods that have a 0 in `keep`, as StrandMatrix::definite tells them.
-    void leaveOutTorque(const std::vector<Pack>& keep) { torqueShare_ = keep; }
+    void excludeTwistHessian(const std::vector<Pack>& keep) { twistHessianShare_ = keep; }
     /// Elastic energy [erg]: stretching, bending, twisting.
     std::array<double, 3> energies(const FabricState& state) const;
 
  private:
-    struct Walk;
+    struct InnerVertex;
     void forcesOfGroup(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
     template <class Visit>
-    void walkGroup(int g, const FabricState& state, Visit&& visit) const;
+    void forEachInnerVertex(int g, const FabricState& state, Visit&& visit) const;
 
     /// One per group: of each of its strands, with the packing factor.
     struct Stiffness {
@@ -66,7 +66,7 @@ class Rods {
     std::vector<Bend> bends_;
     bool damped_ = false;
     std::vector<Pack> startStretch_;              ///< l / l̄ of each packed edge
-    std::vector<Pack> torqueShare_;               ///< of each group: 1 in lanes of rods whose torque has its part in the matrix, else 0
+    std::vector<Pack> twistHessianShare_;         ///< of each group: 1 in lanes of rods whose torque has its part in the matrix, else 0
     std::vector<std::array<Pack, 5>> startBend_;  ///< curvatures and twist of each packed vertex
 };
 

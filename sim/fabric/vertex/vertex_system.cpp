@@ -57,10 +57,10 @@ void VertexSystem::findLinks()
 
 void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
-    rods_.useTorque();
+    rods_.includeTwistHessian();
     sumUp(at, obstacles, contacts);
     if (!rods_.empty() && !strands_.factor(rods_.layout())) {
-        rods_.leaveOutTorque(strands_.definite());
+        rods_.excludeTwistHessian(strands_.definite());
         sumUp(at, obstacles, contacts);
         strands_.factor(rods_.layout());
     }

@@ -204,7 +204,7 @@ TEST(Rods, HessianOfATwistedStraightRodIsExact)
     const Fabric fabric = testing::fabricOf(piece);
     const FabricState rest = restState(fabric);
     Rods rods(fabric, rest, FabricSettings{});
-    rods.useTorque();
+    rods.includeTwistHessian();
     FabricState twisted = rest;
     for (std::size_t e = 0; e < twisted.theta.size(); ++e) twisted.theta[e] = 0.8 * static_cast<double>(e);
     EXPECT_LT(hessianError(rods, fabric, twisted), 1.0e-6);
