@@ -18,7 +18,7 @@ constexpr std::size_t kMostSteps = 100'000;  ///< that wait to be taken: of a wi
 }  // namespace
 
 LiveSimulation::LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory)
-    : parts_(parts), settings_(std::move(request), parts.loadScene), moments_(memory), extras_(extrasOf(settings_.setup().pictures.render))
+    : parts_(parts), settings_(std::move(request), parts.loadScene), rewind_(memory), extras_(extrasOf(settings_.setup().pictures.render))
 {
     startAnew();
     publish(true);
@@ -67,13 +67,13 @@ void LiveSimulation::restart()
 {
     ask([this] {
         if (settings_.restart()) startAnew();
-        else goTo(moments_.first());
+        else goTo(rewind_.first());
     });
 }
 
 void LiveSimulation::goBackTo(double time)
 {
-    ask([this, time] { goTo(moments_.latest(time)); });
+    ask([this, time] { goTo(rewind_.latest(time)); });
 }
 
 void LiveSimulation::change(std::vector<std::string> sets)
@@ -220,7 +220,7 @@ void LiveSimulation::advance()
     if (state.step + 1 >= nextChange_) publishScene();
     if (state.time == until) ++frame_;
     if (state.time == until && until < end) {
-        moments_.keep(state, frame_);
+        rewind_.keep(state, frame_);
         if (std::exchange(pausesAtFrame_, false)) mode_ = LiveMode::Paused;
     }
     if (state.time >= end) mode_ = LiveMode::Ended;
@@ -237,14 +237,14 @@ bool LiveSimulation::isAtFrame() const
     return simulation_->state().time == frameTime(settings_.setup(), frame_);
 }
 
-void LiveSimulation::goTo(const Moments::Moment& moment)
+void LiveSimulation::goTo(const RewindBuffer::Moment& moment)
 {
     const double time = moment.state.time;
     frame_ = moment.frame;
     pausesAtFrame_ = false;
     settings_.goBackTo(moment.state.step);
     simulation_ = parts_.resumeSimulation(settings_.setup(), moment.state);
-    moments_.forgetAfter(time);
+    rewind_.forgetAfter(time);
     mode_ = LiveMode::Paused;
     failure_.clear();
     publishScene();
@@ -257,7 +257,7 @@ void LiveSimulation::startAnew()
     simulation_ = parts_.startSimulation(setup);
     shutSources_.emplace(setup.scene);
     placeObstacles_ = parts_.meshObstacles(setup);
-    moments_.begin(simulation_->state());
+    rewind_.begin(simulation_->state());
     frame_ = 0;
     pausesAtFrame_ = false;
     mode_ = LiveMode::Paused;
@@ -297,7 +297,7 @@ void LiveSimulation::publish(bool always)
     status_.failure = failure_;
     status_.step = state.step;
     status_.time = state.time;
-    status_.moments = moments_.times();
+    status_.moments = rewind_.times();
 }
 
 }  // namespace app

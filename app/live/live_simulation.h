@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/live/moments.h"
+#include "app/live/rewind_buffer.h"
 #include "app/parts.h"
 #include "app/reports/shut_sources.h"
 #include "app/scene/changed_scene.h"
@@ -87,7 +87,7 @@ class LiveSimulation {
     void advance();
     bool isAtFrame() const;
     void fail(const std::string& why);
-    void goTo(const Moments::Moment& moment);
+    void goTo(const RewindBuffer::Moment& moment);
     void startAnew();
     void publish(bool always);
     void publishScene();
@@ -100,7 +100,7 @@ class LiveSimulation {
     PlaceObstacles placeObstacles_;
     std::unique_ptr<Steppable> simulation_;
     std::optional<ShutSources> shutSources_;  ///< since it was started
-    Moments moments_;
+    RewindBuffer rewind_;
     std::int64_t frame_ = 0;       ///< the last one that was reached
     std::int64_t nextChange_ = 0;  ///< the step with which settings change next by themselves
     LiveMode mode_ = LiveMode::Paused;

@@ -10,7 +10,7 @@ namespace app {
 
 /// States that a live simulation can go back to, the initial one first. Where their memory is used up every second one
 /// is forgotten, and from there on half as many are kept.
-class Moments {
+class RewindBuffer {
  public:
     struct Moment {
         sim::State state;
@@ -18,7 +18,7 @@ class Moments {
     };
 
     /// @param memory  for all of them [bytes]; the initial state is kept whatever it takes
-    explicit Moments(std::size_t memory) : memory_(memory) {}
+    explicit RewindBuffer(std::size_t memory) : memory_(memory) {}
 
     /// Forget all, and begin with an initial state.
     void begin(const sim::State& state);

@@ -1,4 +1,4 @@
-#include "app/live/moments.h"
+#include "app/live/rewind_buffer.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,14 +19,14 @@ std::size_t bytesOf(const sim::State& state)
 
 }  // namespace
 
-void Moments::begin(const sim::State& state)
+void RewindBuffer::begin(const sim::State& state)
 {
     all_.clear();
     every_ = 1;
     all_.push_back({state, 0});
 }
 
-void Moments::keep(const sim::State& state, std::int64_t frame)
+void RewindBuffer::keep(const sim::State& state, std::int64_t frame)
 {
     if (frame % every_ != 0) return;
     const std::size_t fits = std::max<std::size_t>(1, memory_ / std::max<std::size_t>(1, bytesOf(state)));
@@ -37,18 +37,18 @@ void Moments::keep(const sim::State& state, std::int64_t frame)
     if (frame % every_ == 0 && all_.size() < fits) all_.push_back({state, frame});
 }
 
-const Moments::Moment& Moments::latest(double time) const
+const RewindBuffer::Moment& RewindBuffer::latest(double time) const
 {
     const auto after = std::ranges::find_if(all_, [&](const Moment& m) { return m.state.time > time; });
     return after == all_.begin() ? all_.front() : *std::prev(after);
 }
 
-void Moments::forgetAfter(double time)
+void RewindBuffer::forgetAfter(double time)
 {
     std::erase_if(all_, [&](const Moment& m) { return m.state.time > time; });
 }
 
-std::vector<double> Moments::times() const
+std::vector<double> RewindBuffer::times() const
 {
     std::vector<double> times;
     for (const Moment& moment : all_) times.push_back(moment.state.time);
