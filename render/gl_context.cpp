@@ -13,7 +13,7 @@ bool GlContext::isSoftware() const
     return std::ranges::any_of(kNames, [&](const char* known) { return name.find(known) != std::string::npos; });
 }
 
-std::vector<std::string> GlContext::takeComplaints()
+std::vector<std::string> GlContext::takeGlMessages()
 {
     if (!hasMessages_)
         if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) complain(glErrorName(error));

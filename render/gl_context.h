@@ -27,7 +27,7 @@ class GlContext {
     bool isSoftware() const;
     /// The errors OpenGL has told of since the last call, for tests: its own messages where the context has them (those
     /// of windows, with most drivers), else the error that is pending. The context must be current.
-    std::vector<std::string> takeComplaints();
+    std::vector<std::string> takeGlMessages();
 
  protected:
     void complain(const std::string& message);

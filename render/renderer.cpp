@@ -1,6 +1,5 @@
 #include "render/renderer.h"
 
-#include "render/consistent.h"
 #include "render/draw_cloth.h"
 #include "render/draw_lines.h"
 #include "render/draw_liquid.h"
@@ -13,6 +12,7 @@
 #include "render/draw_yarns.h"
 #include "render/font.h"
 #include "render/overlay.h"
+#include "render/validate_frame_view.h"
 
 #include <algorithm>
 #include <optional>
@@ -177,7 +177,7 @@ void Renderer::show(const FrameView& view, const Camera& camera, const Look& loo
 
 void Renderer::paint(const FrameView& view, const Camera& camera, const Look& look)
 {
-    requireConsistent(view, look);
+    validate(view, look);
     Parts& p = *parts_;
     p.context.makeCurrent();
     const int samples = std::clamp(look.samples, 1, std::max(1, p.maxSamples));

@@ -4,34 +4,34 @@
 
 namespace app {
 
-SceneWishes ScenePanel::draw(const LiveScene& scene, const RecentFiles& recent) const
+SceneCommands ScenePanel::draw(const LiveScene& scene, const RecentFiles& recent) const
 {
-    SceneWishes wishes;
-    wishes.save = ImGui::Button("Save as YAML");
+    SceneCommands commands;
+    commands.save = ImGui::Button("Save as YAML");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("control S: a scene whose run repeats what was done here");
     ImGui::SameLine();
-    wishes.copyCommand = ImGui::Button("Copy command line");
+    commands.copyCommand = ImGui::Button("Copy command line");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("control C: the same as a command");
-    wishes.picture = ImGui::Button("Picture");
+    commands.picture = ImGui::Button("Picture");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("P");
     ImGui::SameLine();
     bool records = isRecording;
-    if (ImGui::Checkbox("record frames", &records)) wishes.record = records;
+    if (ImGui::Checkbox("record frames", &records)) commands.record = records;
 
     const auto& variants = scene.setup.pictures.compare.variants;
     if (!variants.empty() && ImGui::BeginCombo("beside", beside.empty() ? "nothing" : beside.c_str())) {
-        if (ImGui::Selectable("nothing", beside.empty())) wishes.beside = "";
+        if (ImGui::Selectable("nothing", beside.empty())) commands.beside = "";
         for (const Variant& variant : variants)
-            if (ImGui::Selectable(variant.name.c_str(), variant.name == beside)) wishes.beside = variant.name;
+            if (ImGui::Selectable(variant.name.c_str(), variant.name == beside)) commands.beside = variant.name;
         ImGui::EndCombo();
     }
     if (!recent.files().empty() && ImGui::BeginCombo("open", "a recent scene, or drop a file")) {
         for (const std::string& file : recent.files())
-            if (ImGui::Selectable(file.c_str())) wishes.open = file;
+            if (ImGui::Selectable(file.c_str())) commands.open = file;
         ImGui::EndCombo();
     }
     if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());
-    return wishes;
+    return commands;
 }
 
 }  // namespace app

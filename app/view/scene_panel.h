@@ -9,7 +9,7 @@
 namespace app {
 
 /// What the user wants done with the scene as a whole.
-struct SceneWishes {
+struct SceneCommands {
     bool save = false;                       ///< as YAML
     bool copyCommand = false;                ///< into the clipboard
     bool picture = false;                    ///< into a PNG
@@ -22,7 +22,7 @@ struct SceneWishes {
 class ScenePanel {
  public:
     /// Into the window that is begun.
-    SceneWishes draw(const LiveScene& scene, const RecentFiles& recent) const;
+    SceneCommands draw(const LiveScene& scene, const RecentFiles& recent) const;
 
     bool isRecording = false;
     std::string beside;   ///< the variant that stands beside

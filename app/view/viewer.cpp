@@ -93,7 +93,7 @@ struct Viewer::Inner {
     void drawPanels();
     void drawPicturePanel();
     void drawSettings();
-    void follow(const SceneWishes& wishes);
+    void follow(const SceneCommands& commands);
     void record(bool isOn);
     void save();
     void writePictures();
@@ -270,17 +270,17 @@ void Viewer::Inner::drawSettings()
     parameterPanel.draw(tunedSide().live);
 }
 
-void Viewer::Inner::follow(const SceneWishes& wishes)
+void Viewer::Inner::follow(const SceneCommands& commands)
 {
-    if (wishes.save) save();
-    if (wishes.copyCommand) {
+    if (commands.save) save();
+    if (commands.copyCommand) {
         ImGui::SetClipboardText(commandLine(tunedSide().live.scene()->request).c_str());
         scenePanel.message = "copied";
     }
-    if (wishes.picture) pictureFile = freeName(scene().name, ".png");
-    if (wishes.record) record(*wishes.record);
-    if (wishes.beside) putBeside(*wishes.beside);
-    if (wishes.open) open(*wishes.open);  // last: the scene is another one then
+    if (commands.picture) pictureFile = freeName(scene().name, ".png");
+    if (commands.record) record(*commands.record);
+    if (commands.beside) putBeside(*commands.beside);
+    if (commands.open) open(*commands.open);  // last: the scene is another one then
 }
 
 void Viewer::Inner::record(bool isOn)
@@ -366,7 +366,7 @@ std::optional<std::array<float, 2>> Viewer::placeOf(const std::string& setting) 
 
 std::string Viewer::message() const { return inner_->scenePanel.message; }
 
-std::vector<std::string> Viewer::takeComplaints() { return inner_->window.context().takeComplaints(); }
+std::vector<std::string> Viewer::takeGlMessages() { return inner_->window.context().takeGlMessages(); }
 
 void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
 {

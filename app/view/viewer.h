@@ -32,7 +32,7 @@ class Viewer {
     /// Where the value of a setting stands in the window [pixels], if it is to be seen.
     std::optional<std::array<float, 2>> placeOf(const std::string& setting) const;
     std::string message() const;                ///< that the window shows of what was done last
-    std::vector<std::string> takeComplaints();  ///< of OpenGL, since the last call
+    std::vector<std::string> takeGlMessages();  ///< of OpenGL, since the last call
 
  private:
     struct Inner;

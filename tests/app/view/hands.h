@@ -74,7 +74,7 @@ class Desktop {
     Desktop(const SceneRequest& request, const ViewOptions& options) : viewer(request, drenchParts(), options) {}
     ~Desktop()
     {
-        for (const std::string& complaint : viewer.takeComplaints()) ADD_FAILURE() << complaint;
+        for (const std::string& complaint : viewer.takeGlMessages()) ADD_FAILURE() << complaint;
     }
 
     LiveStatus status() { return viewer.pair().first().status(); }

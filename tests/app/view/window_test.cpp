@@ -70,7 +70,7 @@ TEST(Window, HoldsPicturesSideBySide)
     EXPECT_LE(largestDifference(both, 0, 0, left), 1);
     EXPECT_LE(largestDifference(both, kWidth / 2, 0, right), 1);
     EXPECT_GT(largestDifference(both, 0, 0, right), 100);
-    EXPECT_TRUE(p.window.context().takeComplaints().empty());
+    EXPECT_TRUE(p.window.context().takeGlMessages().empty());
 }
 
 TEST(Window, KeepsWhatIsBesideAPart)
@@ -91,12 +91,12 @@ TEST(Window, KeepsWhatIsBesideAPart)
 TEST(Window, TellsWhatOpenGlComplainsAbout)
 {
     Parted p;
-    EXPECT_TRUE(p.window.context().takeComplaints().empty());
+    EXPECT_TRUE(p.window.context().takeGlMessages().empty());
     p.window.context().gl().Enable(0x1);
-    const std::vector<std::string> complaints = p.window.context().takeComplaints();
+    const std::vector<std::string> complaints = p.window.context().takeGlMessages();
     ASSERT_EQ(complaints.size(), 1u);
     EXPECT_NE(complaints[0], "");
-    EXPECT_TRUE(p.window.context().takeComplaints().empty());
+    EXPECT_TRUE(p.window.context().takeGlMessages().empty());
     EXPECT_EQ(p.window.context().gl().GetError(), static_cast<GLenum>(GL_INVALID_ENUM)) << "and is cleared";
 }
 

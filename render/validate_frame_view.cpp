@@ -1,4 +1,4 @@
-#include "render/consistent.h"
+#include "render/validate_frame_view.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -12,7 +12,7 @@ void require(bool isMet, const char* what)
     if (!isMet) throw std::invalid_argument(what);
 }
 
-void requireConsistent(const FrameView::Yarns& yarns, const YarnLook& look)
+void validate(const FrameView::Yarns& yarns, const YarnLook& look)
 {
     if (yarns.begin.empty()) return;
     const std::size_t count = yarns.positions.size(), strands = yarns.begin.size() - 1;
@@ -24,7 +24,7 @@ void requireConsistent(const FrameView::Yarns& yarns, const YarnLook& look)
     require(look.range[0] < look.range[1], "picture: the colour range of yarns must grow from its first to its second number");
 }
 
-void requireConsistent(const FrameView::Cloth& cloth, const FabricLook& look)
+void validate(const FrameView::Cloth& cloth, const FabricLook& look)
 {
     if (cloth.triangles.empty()) return;
     const std::size_t count = cloth.positions.size();
@@ -33,7 +33,7 @@ void requireConsistent(const FrameView::Cloth& cloth, const FabricLook& look)
     require(look.range[0] < look.range[1], "picture: the colour range of cloth must grow from its first to its second number");
 }
 
-void requireConsistent(const FrameView::LiquidSurface& surface, const LiquidLook& look)
+void validate(const FrameView::LiquidSurface& surface, const LiquidLook& look)
 {
     if (surface.triangles.empty()) return;
     const std::size_t count = surface.positions.size();
@@ -46,11 +46,11 @@ void requireConsistent(const FrameView::LiquidSurface& surface, const LiquidLook
 
 }  // namespace
 
-void requireConsistent(const FrameView& view, const Look& look)
+void validate(const FrameView& view, const Look& look)
 {
-    requireConsistent(view.yarns, look.yarns);
-    requireConsistent(view.cloth, look.cloth);
-    requireConsistent(view.surface, look.liquid);
+    validate(view.yarns, look.yarns);
+    validate(view.cloth, look.cloth);
+    validate(view.surface, look.liquid);
     for (const FrameView::Lines& lines : view.lines) require(lines.points.size() % 2 == 0, "picture: lines need two points per segment");
     if (look.width <= 0 || look.height <= 0) throw std::invalid_argument("picture: width and height must be positive");
     if (!look.liquid.flat && view.liquid.values.size() != view.liquid.positions.size())
