@@ -36,7 +36,7 @@ sim::Node toleranceNode(const std::filesystem::path& file, bool isRun)
 Tolerance readTolerance(const std::filesystem::path& file, bool isRun, const std::vector<std::string>& sets)
 {
     sim::Node node = toleranceNode(file, isRun);
-    const bool isSi = node.place.source && node.place.source->isSi;
+    const bool isSi = node.location.source && node.location.source->isSi;
     for (const std::string& set : sets) sim::apply(sim::parseOverride(set, isSi), node);
     Tolerance tolerance;
     sim::SectionReader::read(&node, "tolerance", [&](auto& v) { describe(v, tolerance); });

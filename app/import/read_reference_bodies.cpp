@@ -1,6 +1,6 @@
 #include "app/import/read_reference.h"
 
-#include "sim/scene/place.h"
+#include "sim/scene/source_location.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "app/system/atomic_files.h"
 #include "sim/core/check.h"
-#include "sim/scene/place.h"
+#include "sim/scene/source_location.h"
 
 #include <fmt/format.h>
 

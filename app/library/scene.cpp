@@ -30,12 +30,12 @@ void append(Node& root, std::initializer_list<const char*> path, const Node& ele
 {
     Node* list = &root;
     for (const char* key : path) {
-        if (list->isNull()) *list = Node::map(element.place);
-        if (!list->isMap()) sim::fail(element.place, fmt::format("{} has no place in {}", key, list->called()));
-        list = &list->at(key, element.place);
+        if (list->isNull()) *list = Node::map(element.location);
+        if (!list->isMap()) sim::fail(element.location, fmt::format("{} has no place in {}", key, list->called()));
+        list = &list->at(key, element.location);
     }
     if (list->isNull()) list->kind = Node::Kind::List;
-    if (!list->isList()) sim::fail(element.place, fmt::format("{} is no list", *(path.end() - 1)));
+    if (!list->isList()) sim::fail(element.location, fmt::format("{} is no list", *(path.end() - 1)));
     list->items.push_back(element);
     sim::expandShortForms(root);
 }
@@ -101,7 +101,7 @@ void Scene::set(std::string_view key, std::string_view value)
 {
     toldErrors([&] {
         Node& root = parts_->file.root;
-        sim::apply(sim::parseOverride(fmt::format("{}={}", key, value), root.place.source->isSi), root);
+        sim::apply(sim::parseOverride(fmt::format("{}={}", key, value), root.location.source->isSi), root);
     });
 }
 
@@ -132,7 +132,7 @@ void Scene::addFabric(const std::string& name, const std::string& keys)
     toldErrors([&] {
         const sim::Node own = sim::parseYaml(keys, said("fabric " + name));
         Node fabric = readMap("name: " + name, "fabric " + name);
-        if (!own.isMap()) sim::fail(own.place, fmt::format("needs keys, like {{cloth_grid: {{...}}}}, not {}", own.called()));
+        if (!own.isMap()) sim::fail(own.location, fmt::format("needs keys, like {{cloth_grid: {{...}}}}, not {}", own.called()));
         sim::mergeOver(fabric, own);
         append(parts_->file.root, {"fabrics"}, fabric);
     });

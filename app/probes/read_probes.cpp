@@ -22,7 +22,7 @@ std::string wordIn(const Node& map, const char* key, const std::string& path, co
     const Node* node = map.find(key);
     const std::string text = node ? sim::readText(*node, sim::joinPath(path, key)) : otherwise;
     if (text.find_first_of(",\"\n[]") != std::string::npos)
-        sim::fail(node->place, fmt::format("{}.{}: stands in the head of a CSV file: no commas, quotes and brackets", path, key));
+        sim::fail(node->location, fmt::format("{}.{}: stands in the head of a CSV file: no commas, quotes and brackets", path, key));
     return text;
 }
 
@@ -64,7 +64,7 @@ void readHoops(const Node* node, Measures& measures)
     if (!node) return;
     const std::string path = sim::joinPath(kProbesPath, "hoops");
     if (!node->isMap())
-        sim::fail(node->place, path + ": needs names and hoops, like {outlet: {center: [0, 2, 0], normal: [0, -1, 0]}}, not " + node->called());
+        sim::fail(node->location, path + ": needs names and hoops, like {outlet: {center: [0, 2, 0], normal: [0, -1, 0]}}, not " + node->called());
     for (std::size_t i = 0; i < node->keys.size(); ++i) measures.addHoop(node->keys[i], hoopIn(node->items[i], sim::joinPath(path, node->keys[i])));
 }
 
@@ -109,8 +109,8 @@ std::optional<Probes> readProbes(const SceneSetup& setup)
     const Node* output = setup.file.root.find("output");
     const Node* node = output ? output->find("probes") : nullptr;
     if (!node) return std::nullopt;
-    if (node->place.source && node->place.source->isSi)
-        sim::fail(node->place, fmt::format("{}: formulas know centimetres only; write the file in units: cgs", kProbesPath));
+    if (node->location.source && node->location.source->isSi)
+        sim::fail(node->location, fmt::format("{}: formulas know centimetres only; write the file in units: cgs", kProbesPath));
     sim::SectionReader section(*node, kProbesPath);
     sim::SectionReader::read(node, kProbesPath, [](auto& v) {
         v.formula("every", "Time between readings; left out: that between frames [s]");
@@ -126,7 +126,7 @@ std::optional<Probes> readProbes(const SceneSetup& setup)
     if (node->find("every")) probes.every = readInterval(section, context);
     const std::string path = sim::joinPath(kProbesPath, "readings");
     const Node& readings = *sim::listAt(node, "readings", path, "[{name: height, unit: cm, read: liquid_y}]");
-    if (readings.items.empty()) sim::fail(readings.place, path + ": needs a list of at least one");
+    if (readings.items.empty()) sim::fail(readings.location, path + ": needs a list of at least one");
     for (std::size_t i = 0; i < readings.items.size(); ++i)
         probes.all.push_back(probeIn(readings.items[i], fmt::format("{}.{}", path, i), i + 1, context));
     return probes;

@@ -33,7 +33,7 @@ void readConstants(const Node* let, ReadingContext& context)
 {
     if (!let) return;
     const std::string path = context.path + ".let";
-    if (!let->isMap()) sim::fail(let->place, path + ": needs names and formulas, like {k: pi/10}, not " + let->called());
+    if (!let->isMap()) sim::fail(let->location, path + ": needs names and formulas, like {k: pi/10}, not " + let->called());
     for (std::size_t i = 0; i < let->keys.size(); ++i) define(let->keys[i], readConstant(let->items[i], path + "." + let->keys[i], context), context);
 }
 
@@ -44,7 +44,7 @@ void readFlow(const Node* node, const ReadingContext& context, Measures& measure
     sim::FormulaNames names = context.constant;
     names.variables = {"x", "y", "z", "t"};
     if (!node->isList() || node->items.size() != sim::kAxes)
-        sim::fail(node->place, path + ": needs three formulas of x, y, z, t like [\"-y\", \"x\", \"0\"]");
+        sim::fail(node->location, path + ": needs three formulas of x, y, z, t like [\"-y\", \"x\", \"0\"]");
     const auto at = [&](std::size_t i) { return readFormula(node->items[i], path, names); };
     measures.setFlow({at(0), at(1), at(2)});
 }
@@ -57,7 +57,7 @@ sim::Formula readFormula(const Node& node, const std::string& path, const sim::F
     try {
         return sim::Formula(text, names);
     } catch (const sim::FormulaError& error) {
-        sim::fail(node.place, fmt::format("{}: {}: {}", path, sim::inQuotes(text), error.what()));
+        sim::fail(node.location, fmt::format("{}: {}: {}", path, sim::inQuotes(text), error.what()));
     }
 }
 
@@ -67,7 +67,7 @@ double readConstant(const Node& node, const std::string& path, const ReadingCont
     try {
         return formula();
     } catch (const sim::FormulaError& error) {
-        sim::fail(node.place, fmt::format("{}: {}: {}", path, sim::inQuotes(formula.text()), error.what()));
+        sim::fail(node.location, fmt::format("{}: {}: {}", path, sim::inQuotes(formula.text()), error.what()));
     }
 }
 
@@ -86,7 +86,7 @@ double readInterval(sim::SectionReader& section, const ReadingContext& context)
 {
     section.needs("every", "the time between two readings, like every: 1.0e-2");
     const double every = readConstant(*section.find("every"), section.pathOf("every"), context);
-    if (every <= 0.0) sim::fail(section.placeOf("every"), section.pathOf("every") + ": must be above 0 s");
+    if (every <= 0.0) sim::fail(section.locationOf("every"), section.pathOf("every") + ": must be above 0 s");
     return every;
 }
 

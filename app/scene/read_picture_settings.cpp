@@ -29,7 +29,7 @@ void checkReference(const Node& root, const CompareSettings& compare)
     std::vector<std::string> labels;
     for (const Variant& v : compare.variants) labels.push_back(v.label);
     if (compare.reference.empty() || std::find(labels.begin(), labels.end(), compare.reference) != labels.end()) return;
-    sim::fail(root.find("compare")->find("reference")->place,
+    sim::fail(root.find("compare")->find("reference")->location,
               fmt::format("compare.reference: {} is the label of no variant{}", sim::inQuotes(compare.reference),
                           sim::suggestion(compare.reference, labels)));
 }
@@ -37,7 +37,7 @@ void checkReference(const Node& root, const CompareSettings& compare)
 void checkEnergyPlot(const Node& root, const PictureSettings& settings)
 {
     if (settings.compare.variants.empty() || !settings.compare.energyPlot || settings.output.energy) return;
-    sim::fail(root.find("output")->find("data")->place,
+    sim::fail(root.find("output")->find("data")->location,
               "output.data: has no energy, which compare.products: energy_plot draws; add energy, or take energy_plot out");
 }
 

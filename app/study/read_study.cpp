@@ -28,7 +28,7 @@ std::vector<std::string> setsForAll(const Node& root)
     std::vector<std::string> sets;
     const Node* node = root.find("set");
     if (!node) return sets;
-    if (!node->isMap()) sim::fail(node->place, "set maps dotted keys to values, like {time.duration: 0.1}, not " + node->called());
+    if (!node->isMap()) sim::fail(node->location, "set maps dotted keys to values, like {time.duration: 0.1}, not " + node->called());
     for (const sim::Override& set : sim::overridesOf(*node, {})) sets.push_back(set.text());
     return sets;
 }
@@ -52,7 +52,7 @@ Study readStudy(const std::filesystem::path& file, const std::function<SceneSetu
     Study study = {.name = fields.name, .file = file, .runs = {}, .retries = fields.retries};
     if (study.name.empty() || study.name != sim::asName(study.name)) {
         const Node* name = root.find("study");
-        sim::fail((name ? *name : root).place,
+        sim::fail((name ? *name : root).location,
                   fmt::format("a study's name may have a-z, 0-9 and _ only; study: {} would do", sim::asName(study.name)));
     }
     const std::string sceneFile = (file.parent_path() / fields.scene).string();

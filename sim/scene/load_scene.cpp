@@ -46,8 +46,8 @@ void readNames(const Node& root, const std::string& file, Scene& scene)
     SectionReader::read(section, "scene", [&](auto& v) { describeNames(v, scene); });
     if (scene.name.empty() || scene.name != asName(scene.name)) {
         const Node* name = section ? section->find("name") : nullptr;
-        fail(name ? name->place : root.place, fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
-                                                          scene.name.empty() ? "drop" : asName(scene.name)));
+        fail(name ? name->location : root.location, fmt::format("scene.name: {} may have a-z, 0-9 and _ only; {} would do", inQuotes(scene.name),
+                                                                scene.name.empty() ? "drop" : asName(scene.name)));
     }
 }
 
@@ -99,7 +99,7 @@ void checkCohesion(const Node& root, const Settings& settings)
     const Node* node = coupling ? coupling->find("cohesion") : nullptr;
     const CohesionSettings& cohesion = settings.coupling.cohesion;
     if (!node || !(cohesion.strength > 0.0) || !root.find("fabrics")) return;
-    const auto refuse = [&](const char* why) { fail(node->place, fmt::format("coupling.cohesion: {}", why)); };
+    const auto refuse = [&](const char* why) { fail(node->location, fmt::format("coupling.cohesion: {}", why)); };
     if (settings.fabric.solver == FabricSolver::Grid) refuse("fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0");
     if (!settings.fabric.contact) refuse("acts where fabric touches, and fabric.contact is false; set that true, or strength: 0");
     if (!cohesion.fabric && !cohesion.obstacle) refuse("holds neither fabric nor obstacle; set one of them true, or strength: 0");
@@ -186,7 +186,7 @@ Scene readScene(const SceneFile& file)
         scene.domainText = std::move(shape.text);
     }
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
-    for (SourceSettings& source : scene.sources) checkSource(scene, root.place.source->bounds.regionBoxes, source);
+    for (SourceSettings& source : scene.sources) checkSource(scene, root.location.source->bounds.regionBoxes, source);
     for (const FabricPiece& piece : scene.fabrics) scene.notes.insert(scene.notes.end(), piece.notes.begin(), piece.notes.end());
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());

@@ -7,20 +7,20 @@
 
 namespace sim {
 
-Node Node::scalar(std::string text, const Place& place)
+Node Node::scalar(std::string text, const SourceLocation& location)
 {
     Node n;
     n.kind = Kind::Scalar;
-    n.place = place;
+    n.location = location;
     n.text = std::move(text);
     return n;
 }
 
-Node Node::map(const Place& place)
+Node Node::map(const SourceLocation& location)
 {
     Node n;
     n.kind = Kind::Map;
-    n.place = place;
+    n.location = location;
     return n;
 }
 
@@ -32,11 +32,11 @@ const Node* Node::find(std::string_view key) const
 
 Node* Node::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
 
-Node& Node::at(const std::string& key, const Place& keyPlace)
+Node& Node::at(const std::string& key, const SourceLocation& keyLocation)
 {
     if (Node* there = find(key)) return *there;
     keys.push_back(key);
-    items.emplace_back().place = keyPlace;
+    items.emplace_back().location = keyLocation;
     return items.back();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/scene/place.h"
+#include "sim/scene/source_location.h"
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ struct Node {
     enum class Kind { Null, Scalar, List, Map };
 
     Kind kind = Kind::Null;
-    Place place;                    ///< in a map: the line of the key
+    SourceLocation location;        ///< in a map: the line of the key
     std::string text;               ///< of a scalar
     std::vector<std::string> keys;  ///< of a map, in the order of the file; as many as items
     std::vector<Node> items;        ///< of a list or a map
@@ -24,14 +24,14 @@ struct Node {
     bool isList() const { return kind == Kind::List; }
     bool isMap() const { return kind == Kind::Map; }
 
-    static Node scalar(std::string text, const Place& place);
-    static Node map(const Place& place);
+    static Node scalar(std::string text, const SourceLocation& location);
+    static Node map(const SourceLocation& location);
 
     /// The value behind a key of a map; nullptr if there is none (or this is no map).
     const Node* find(std::string_view key) const;
     Node* find(std::string_view key);
     /// The value behind a key of a map, made (empty) if missing.
-    Node& at(const std::string& key, const Place& keyPlace);
+    Node& at(const std::string& key, const SourceLocation& keyLocation);
     void erase(std::string_view key);
 
     /// The node on one line, as YAML that reads back to the same.

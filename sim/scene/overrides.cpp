@@ -44,9 +44,9 @@ Node& elementOf(Node& list, const std::string& part, const std::string& before, 
         if (!nameOf(element).empty()) names.push_back(nameOf(element));
     }
     if (isNumber || names.empty()) {
-        fail(change.value.place, fmt::format("{} has no element {}; it has {}, counted from 0", before, inQuotes(part), list.items.size()));
+        fail(change.value.location, fmt::format("{} has no element {}; it has {}, counted from 0", before, inQuotes(part), list.items.size()));
     }
-    fail(change.value.place, fmt::format("{} has no element {}{}", before, inQuotes(part), suggestion(part, names)));
+    fail(change.value.location, fmt::format("{} has no element {}{}", before, inQuotes(part), suggestion(part, names)));
 }
 
 /// The key a single word stands for in place of a whole map; "" where there is no short form.
@@ -59,7 +59,7 @@ std::string shortFormKey(const std::vector<std::string>& path)
 
 Node wrapped(const Node& value, const std::string& key)
 {
-    Node map = Node::map(value.place);
+    Node map = Node::map(value.location);
     map.keys.push_back(key);
     map.items.push_back(value);
     return map;
@@ -72,7 +72,7 @@ bool isOfBothPhases(const std::string& path) { return path == "transfer.method" 
 
 Node perPhase(const Node& value)
 {
-    Node map = Node::map(value.place);
+    Node map = Node::map(value.location);
     map.keys = {"liquid", "fabric"};
     map.items = {value, value};
     return map;
@@ -91,11 +91,11 @@ Node longForm(const Node& value, const std::vector<std::string>& path)
 
 }  // namespace
 
-void checkPath(const std::string& path, const Place& place)
+void checkPath(const std::string& path, const SourceLocation& location)
 {
     bool isPath = path.find('=') == std::string::npos;
     for (const std::string& part : splitPath(path)) isPath = isPath && !part.empty();
-    if (!isPath) fail(place, fmt::format("{} is no path of keys; write key.key, like transfer.method", inQuotes(path)));
+    if (!isPath) fail(location, fmt::format("{} is no path of keys; write key.key, like transfer.method", inQuotes(path)));
 }
 
 Override parseOverride(const std::string& text, bool isSi)
@@ -104,11 +104,11 @@ Override parseOverride(const std::string& text, bool isSi)
     source->name = fmt::format("--set {}", text);
     source->numbered = false;
     source->isSi = isSi;
-    const Place place{source, 1};
+    const SourceLocation location{source, 1};
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) fail(place, "an override reads key.key=value, like transfer.method=apic");
+    if (equals == std::string::npos || equals == 0) fail(location, "an override reads key.key=value, like transfer.method=apic");
     Node value = parseYaml(text.substr(equals + 1), source);
-    if (value.isNull()) fail(place, "no value after the = sign");
+    if (value.isNull()) fail(location, "no value after the = sign");
     return {text.substr(0, equals), std::move(value)};
 }
 
@@ -130,8 +130,8 @@ void mergeOver(Node& base, const Node& over)
 
 void apply(const Override& change, Node& root)
 {
-    const Place& place = change.value.place;
-    checkPath(change.path, place);
+    const SourceLocation& location = change.value.location;
+    checkPath(change.path, location);
     const std::vector<std::string> path = splitPath(change.path);
     Node* node = &root;
     std::string before;
@@ -139,15 +139,15 @@ void apply(const Override& change, Node& root)
         if (node->isList()) {
             node = &elementOf(*node, part, before, change);
         } else if (node->isMap()) {
-            node = &node->at(part, place);
+            node = &node->at(part, location);
         } else if (node->isNull()) {
-            *node = Node::map(place);
-            node = &node->at(part, place);
+            *node = Node::map(location);
+            node = &node->at(part, location);
         } else if (isOfBothPhases(before) && isPhase(part)) {
             *node = perPhase(*node);
             node = node->find(part);
         } else {
-            fail(place, fmt::format("{} is {}, it has no key {}", before, node->called(), inQuotes(part)));
+            fail(location, fmt::format("{} is {}, it has no key {}", before, node->called(), inQuotes(part)));
         }
         before = joinPath(before, part);
     }
@@ -170,7 +170,7 @@ std::vector<Override> overridesOf(const Node& map, const std::vector<std::string
     std::vector<Override> changes;
     for (std::size_t i = 0; i < map.keys.size(); ++i) {
         if (std::find(except.begin(), except.end(), map.keys[i]) != except.end()) continue;
-        checkPath(map.keys[i], map.items[i].place);
+        checkPath(map.keys[i], map.items[i].location);
         changes.push_back({map.keys[i], map.items[i]});
     }
     return changes;

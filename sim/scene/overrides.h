@@ -9,14 +9,14 @@ namespace sim {
 /// One dotted override: `transfer.method=apic`, in a variant or behind --set.
 struct Override {
     std::string path;  ///< keys with dots between; an element of a list by its name or its number from 0
-    Node value;        ///< its place is where messages about the value point
+    Node value;        ///< its location is where messages about the value point
 
     /// As it would stand behind --set.
     std::string text() const { return path + "=" + value.flow(); }
 };
 
 /// Throws InputError unless it is words with dots between, without a = sign.
-void checkPath(const std::string& path, const Place& place);
+void checkPath(const std::string& path, const SourceLocation& location);
 
 /// Reads "key.key=value"; the value is YAML on one line. Throws InputError naming the override.
 Override parseOverride(const std::string& text, bool isSi);

@@ -2,7 +2,7 @@
 
 #include "sim/scene/describe.h"
 #include "sim/scene/describe_fabric.h"
-#include "sim/scene/place.h"
+#include "sim/scene/source_location.h"
 
 #include <fmt/format.h>
 

@@ -37,11 +37,11 @@ class TreeBuilder : public YAML::EventHandler {
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override
     {
         const auto found = anchors_.find(anchor);
-        if (found == anchors_.end()) fail(placeOf(mark), "this alias stands inside its own anchor; write the value out");
+        if (found == anchors_.end()) fail(locationOf(mark), "this alias stands inside its own anchor; write the value out");
         count_ += found->second.size;
         checkCount(mark);
         Node copy = found->second.node;
-        copy.place = placeOf(mark);
+        copy.location = locationOf(mark);
         attach(std::move(copy));
     }
 
@@ -63,7 +63,7 @@ class TreeBuilder : public YAML::EventHandler {
         std::size_t countBefore;
         std::map<std::string, int> seen;  ///< keys of a map, and their lines
         std::string key;
-        Place keyPlace;
+        SourceLocation keyLocation;
         bool hasKey = false;
         std::vector<Node> merged = {};  ///< maps behind the key <<
     };
@@ -72,12 +72,12 @@ class TreeBuilder : public YAML::EventHandler {
         std::size_t size;
     };
 
-    Place placeOf(const YAML::Mark& mark) const { return {source_, mark.line + 1}; }
+    SourceLocation locationOf(const YAML::Mark& mark) const { return {source_, mark.line + 1}; }
 
     void checkCount(const YAML::Mark& mark) const
     {
         if (const std::size_t most = source_->bounds.values; count_ > most)
-            fail(placeOf(mark), fmt::format("more than {} values, aliases copied out; a scene has hundreds", most));
+            fail(locationOf(mark), fmt::format("more than {} values, aliases copied out; a scene has hundreds", most));
     }
 
     Node leaf(Node::Kind kind, const YAML::Mark& mark, const std::string& text)
@@ -86,7 +86,7 @@ class TreeBuilder : public YAML::EventHandler {
         checkCount(mark);
         Node n;
         n.kind = kind;
-        n.place = placeOf(mark);
+        n.location = locationOf(mark);
         n.text = text;
         return n;
     }
@@ -99,7 +99,7 @@ class TreeBuilder : public YAML::EventHandler {
 
     void open(Node::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor)
     {
-        if (stack_.size() >= kMaxDepth) fail(placeOf(mark), fmt::format("more than {} levels of nesting", kMaxDepth));
+        if (stack_.size() >= kMaxDepth) fail(locationOf(mark), fmt::format("more than {} levels of nesting", kMaxDepth));
         const std::size_t before = count_;
         Node n = leaf(kind, mark, "");
         stack_.push_back({std::move(n), anchor, before, {}, {}, {}, false});
@@ -127,11 +127,11 @@ class TreeBuilder : public YAML::EventHandler {
         } else if (!parent.hasKey) {
             takeKey(parent, std::move(node));
         } else if (parent.key == kMergeKey) {
-            node.place = parent.keyPlace;
+            node.location = parent.keyLocation;
             parent.merged = mapsToMerge(std::move(node));
             parent.hasKey = false;
         } else {
-            node.place = parent.keyPlace;
+            node.location = parent.keyLocation;
             parent.node.keys.push_back(std::move(parent.key));
             parent.node.items.push_back(std::move(node));
             parent.hasKey = false;
@@ -146,7 +146,7 @@ class TreeBuilder : public YAML::EventHandler {
         else maps.push_back(std::move(node));
         for (const Node& map : maps)
             if (!map.isMap())
-                fail(map.place, fmt::format("<< merges maps, like <<: *sheet with a map that has the anchor &sheet, not {}", map.called()));
+                fail(map.location, fmt::format("<< merges maps, like <<: *sheet with a map that has the anchor &sheet, not {}", map.called()));
         return maps;
     }
 
@@ -155,16 +155,16 @@ class TreeBuilder : public YAML::EventHandler {
     {
         for (const Node& map : maps)
             for (std::size_t i = 0; i < map.keys.size(); ++i)
-                if (!node.find(map.keys[i])) node.at(map.keys[i], map.items[i].place) = map.items[i];
+                if (!node.find(map.keys[i])) node.at(map.keys[i], map.items[i].location) = map.items[i];
     }
 
     void takeKey(Open& parent, Node node)
     {
-        if (!node.isScalar() || node.text.empty()) fail(node.place, fmt::format("a key must be a word, not {}", node.called()));
-        const auto [first, isNew] = parent.seen.emplace(node.text, node.place.line);
-        if (!isNew) fail(node.place, fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
+        if (!node.isScalar() || node.text.empty()) fail(node.location, fmt::format("a key must be a word, not {}", node.called()));
+        const auto [first, isNew] = parent.seen.emplace(node.text, node.location.line);
+        if (!isNew) fail(node.location, fmt::format("key {} is given twice, first in line {}; keep one", inQuotes(node.text), first->second));
         parent.key = std::move(node.text);
-        parent.keyPlace = std::move(node.place);
+        parent.keyLocation = std::move(node.location);
         parent.hasKey = true;
     }
 
@@ -189,16 +189,16 @@ std::size_t characterLength(std::string_view text, std::size_t i)
 /// Refuses bytes that are no text, and tabs where YAML counts spaces.
 void checkText(const std::string& text, const std::shared_ptr<const TextSource>& source)
 {
-    Place place{source, 1};
+    SourceLocation location{source, 1};
     bool inIndentation = true;
     for (std::size_t i = 0; i < text.size();) {
         const auto c = static_cast<unsigned char>(text[i]);
         const std::size_t length = c < 0x80 ? 1 : characterLength(text, i);
         const bool isControl = (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
-        if (length == 0 || isControl) fail(place, "a byte that is no text (not UTF-8); a scene is a YAML text file");
-        if (c == '\t' && inIndentation) fail(place, "a tab in the indentation; YAML wants spaces there");
+        if (length == 0 || isControl) fail(location, "a byte that is no text (not UTF-8); a scene is a YAML text file");
+        if (c == '\t' && inIndentation) fail(location, "a tab in the indentation; YAML wants spaces there");
         if (c == '\n') {
-            ++place.line;
+            ++location.line;
             inIndentation = true;
         } else if (c != ' ') {
             inIndentation = false;
@@ -219,9 +219,9 @@ Node parseYaml(const std::string& text, const std::shared_ptr<const TextSource>&
         parser.HandleNextDocument(tree);
         if (tree.isEmpty) return Node{Node::Kind::Null, {source, 1}, {}, {}, {}};
         TreeBuilder second(source);
-        if (parser.HandleNextDocument(second)) fail(second.root.place, "a second document (after ---); one file holds one scene");
+        if (parser.HandleNextDocument(second)) fail(second.root.location, "a second document (after ---); one file holds one scene");
     } catch (const YAML::Exception& e) {
-        fail(Place{source, std::max(1, e.mark.line + 1)}, fmt::format("not valid YAML: {}", e.msg));
+        fail(SourceLocation{source, std::max(1, e.mark.line + 1)}, fmt::format("not valid YAML: {}", e.msg));
     }
     return std::move(tree.root);
 }

@@ -15,9 +15,9 @@ namespace {
 
 void checkEmission(const Emission& e, const Node& node, const std::string& path, double start)
 {
-    if (e.to < start) fail(node.place, fmt::format("{}: ends at {} s, before the run starts at {} s", path, e.to, start));
+    if (e.to < start) fail(node.location, fmt::format("{}: ends at {} s, before the run starts at {} s", path, e.to, start));
     const bool isInitial = e.from == start && e.to == start;
-    if (!isInitial && !(e.to > e.from)) fail(node.place, fmt::format("{}: to must be after from", path));
+    if (!isInitial && !(e.to > e.from)) fail(node.location, fmt::format("{}: to must be after from", path));
 }
 
 /// Why an emission is asked for nothing, or "".
@@ -35,7 +35,7 @@ std::vector<Emission> readEmissions(const Node& source, const std::string& path,
 {
     const Node* list = listAt(&source, "emit", joinPath(path, "emit"), "[{from: 0, to: 0.5}]");
     if (!list) return {initial};
-    if (list->items.empty()) fail(list->place, fmt::format("{}.emit: is empty; remove it, or give a span like {{from: 0, to: 0.5}}", path));
+    if (list->items.empty()) fail(list->location, fmt::format("{}.emit: is empty; remove it, or give a span like {{from: 0, to: 0.5}}", path));
     std::vector<Emission> all;
     for (std::size_t i = 0; i < list->items.size(); ++i) {
         const std::string itemPath = fmt::format("{}.emit.{}", path, i);
@@ -51,12 +51,12 @@ VelocityField readField(const Node& node, const std::string& path)
 {
     const std::vector<std::string> formulas = readTexts(node, path);
     if (formulas.size() != kAxes)
-        fail(node.place, fmt::format("{}: needs three formulas of x, y, z like [\"-y\", \"x\", \"0\"], not {}", path, formulas.size()));
-    if (node.place.source->isSi) fail(node.place, path + ": knows centimetres only; write the file in units: cgs");
+        fail(node.location, fmt::format("{}: needs three formulas of x, y, z like [\"-y\", \"x\", \"0\"], not {}", path, formulas.size()));
+    if (node.location.source->isSi) fail(node.location, path + ": knows centimetres only; write the file in units: cgs");
     try {
         return VelocityField({formulas[0], formulas[1], formulas[2]});
     } catch (const VelocityField::Mistake& mistake) {
-        fail(node.place, fmt::format("{}: {}: {}", path, inQuotes(formulas[mistake.component]), mistake.what));
+        fail(node.location, fmt::format("{}: {}: {}", path, inQuotes(formulas[mistake.component]), mistake.what));
     }
 }
 
@@ -64,7 +64,7 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
 {
     SourceSettings source;
     source.name = name;
-    source.where = node.place.text();
+    source.where = node.location.text();
     Emission initial;
     initial.from = initial.to = settings.time.start;
     SectionReader::read(&node, path, [&](auto& v) {
@@ -81,14 +81,14 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     source.emissions = readEmissions(node, path, initial);
     const bool isJet = std::ranges::any_of(source.emissions, [](const Emission& e) { return e.from != e.to; });
     if (source.velocityField && isJet)
-        fail(node.find("velocity_field")->place, path + ".velocity_field: goes without emit: it is that of the initial body");
+        fail(node.find("velocity_field")->location, path + ".velocity_field: goes without emit: it is that of the initial body");
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);
     source.shape = std::move(shape.shape);
     source.shapeText = std::move(shape.text);
     source.notes = std::move(shape.notes);
     for (const Emission& e : source.emissions)
         if (const std::string nothing = whyNothing(e, settings.time); !nothing.empty())
-            source.notes.push_back(fmt::format("{}: {}.emit: {}", node.find("emit")->place.text(), path, nothing));
+            source.notes.push_back(fmt::format("{}: {}.emit: {}", node.find("emit")->location.text(), path, nothing));
     return source;
 }
 
@@ -96,7 +96,7 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
 {
     ObstacleSettings obstacle;
     obstacle.name = name;
-    obstacle.where = node.place.text();
+    obstacle.where = node.location.text();
     double friction = 0.0;
     SectionReader::read(&node, path, [&](auto& v) {
         v.other("name", "");
@@ -129,7 +129,7 @@ std::vector<SourceSettings> readSources(const Node& root, const Settings& settin
     const std::string path = "liquid.sources";
     const Node* list = listAt(root.find("liquid"), "sources", path, "[{shape: …}]");
     if (isNeeded && (!list || list->items.empty())) {
-        fail(list ? list->place : root.place,
+        fail(list ? list->location : root.location,
              "liquid.sources: a scene needs at least one source, like - shape: {ball: {center: [0, 5, 0], radius: 1}}");
     }
     for (std::size_t i = 0; list && i < list->items.size(); ++i) {

@@ -31,17 +31,17 @@ void requireSettings(const std::string& path, const Node& value, const std::vect
     const bool isSetting = path == "liquid.preset" ||
                            std::ranges::any_of(parameters, [&](const Parameter& p) { return isBelow(p.path, path) || isBelow(path, p.path); });
     if (!isSetting)
-        fail(value.place, fmt::format("changes: {} cannot change during a run; only settings of time, transfer, liquid, "
-                                      "coupling, fabric, materials, solver and gravity can",
-                                      path));
+        fail(value.location, fmt::format("changes: {} cannot change during a run; only settings of time, transfer, liquid, "
+                                         "coupling, fabric, materials, solver and gravity can",
+                                         path));
 }
 
 /// Refuses settings that hold for a whole run.
-void requireUnchanged(const Place& place, const std::vector<Parameter>& before, const std::vector<Parameter>& after)
+void requireUnchanged(const SourceLocation& location, const std::vector<Parameter>& before, const std::vector<Parameter>& after)
 {
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
         if (before[i].isFixed && before[i].path == after[i].path && before[i].value != after[i].value)
-            fail(place, fmt::format("changes: {} holds for a whole run; give it its value at the start", before[i].path));
+            fail(location, fmt::format("changes: {} holds for a whole run; give it its value at the start", before[i].path));
 }
 
 const std::vector<NamedMaterial>& materialsBefore(const Scene& scene, std::size_t i)
@@ -59,7 +59,7 @@ std::vector<SettingsChange> readChanges(const Node& root, const Scene& scene)
     const Node* list = listAt(&root, "changes", "changes", "- {step: 100, set: {time.dt: 1.0e-3}}");
     if (!list) return changes;
     if (list->items.size() > kMostChanges)
-        fail(list->place, fmt::format("changes: {} are too many; at most {} are possible", list->items.size(), kMostChanges));
+        fail(list->location, fmt::format("changes: {} are too many; at most {} are possible", list->items.size(), kMostChanges));
     Node changed = root;
     const std::vector<Parameter> atStart = parametersOf(scene.settings, scene.materials);
     for (std::size_t i = 0; i < list->items.size(); ++i) {
@@ -73,9 +73,9 @@ std::vector<SettingsChange> readChanges(const Node& root, const Scene& scene)
             v.other("set", "");
         });
         if (i > 0 && step < changes.back().step)
-            fail(item.place, fmt::format("{}.step: {} comes after step {}; write changes in their order", path, step, changes.back().step));
+            fail(item.location, fmt::format("{}.step: {} comes after step {}; write changes in their order", path, step, changes.back().step));
         const Node& set = *item.find("set");
-        if (!set.isMap()) fail(set.place, fmt::format("{}.set: needs a map like {{time.dt: 1.0e-3}}, not {}", path, set.called()));
+        if (!set.isMap()) fail(set.location, fmt::format("{}.set: needs a map like {{time.dt: 1.0e-3}}, not {}", path, set.called()));
         for (const Override& change : overridesOf(set, {})) {
             requireSettings(change.path, change.value, atStart);
             apply(change, changed);
@@ -83,7 +83,7 @@ std::vector<SettingsChange> readChanges(const Node& root, const Scene& scene)
         SettingsChange& next = changes.emplace_back();
         next.step = step;
         readSettings(changed, next.settings, next.materials);
-        requireUnchanged(item.place, atStart, parametersOf(next.settings, next.materials));
+        requireUnchanged(item.location, atStart, parametersOf(next.settings, next.materials));
     }
     return changes;
 }

@@ -27,8 +27,8 @@ struct Context {
     const Node& node;
     std::string path;
 
-    [[noreturn]] void fail(const std::string& message) const { sim::fail(node.place, path + ": " + message); }
-    int mostVertices() const { return node.place.source->bounds.vertices; }
+    [[noreturn]] void fail(const std::string& message) const { sim::fail(node.location, path + ": " + message); }
+    int mostVertices() const { return node.location.source->bounds.vertices; }
 };
 
 /// The fields that every kind has.
@@ -132,7 +132,7 @@ ReadFabricShape readWovenYarns(const Context& context)
 std::vector<Vec3> readPoints(const Node& node, const std::string& path)
 {
     if (!node.isList() || node.items.size() < 2)
-        fail(node.place, fmt::format("{}: needs two or more points, like [[0, 0, 0], [1, 0, 0]], not {}", path, node.called()));
+        fail(node.location, fmt::format("{}: needs two or more points, like [[0, 0, 0], [1, 0, 0]], not {}", path, node.called()));
     std::vector<Vec3> points(node.items.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         readNumbers(node.items[i], path, {points[i].data(), 3}, Quantity::Length, Range::between(-kFarthest, kFarthest));
@@ -179,7 +179,7 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     std::string file;
     constexpr double kUnset = -1.0;
     double weldDistance = kUnset;
-    double scale = parseNumber("1", Quantity::Length, context.node.place.source && context.node.place.source->isSi).value;
+    double scale = parseNumber("1", Quantity::Length, context.node.location.source && context.node.location.source->isSi).value;
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
         v.needs("file", isCloth ? "an OBJ file, relative to the scene, like file: shirt.obj"
@@ -206,7 +206,7 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
             out.strands = std::move(lines.lines);
         }
     } catch (const InputError& e) {
-        fail(name.place, fmt::format("{}: {}", context.path, e.what()));
+        fail(name.location, fmt::format("{}: {}", context.path, e.what()));
     }
     for (Vec3& x : out.points) {
         x *= scale;
@@ -214,11 +214,12 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     }
     std::vector<std::string> notes = tidyMesh(out, isCloth ? weldDistance : 0.0);
     if (isCloth && out.faces.empty())
-        fail(context.node.find("weld") ? context.node.find("weld")->place : name.place, context.path + ".weld: leaves no triangle; ask for less");
-    for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.place.text(), context.path, note);
+        fail(context.node.find("weld") ? context.node.find("weld")->location : name.location,
+             context.path + ".weld: leaves no triangle; ask for less");
+    for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.location.text(), context.path, note);
     requireFew(static_cast<double>(out.points.size()), context);
     if (const std::string problem = orientAlike(out.faces, firstInFile(out)); !problem.empty())
-        fail(name.place, fmt::format("{}.file: {}", context.path, problem));
+        fail(name.location, fmt::format("{}.file: {}", context.path, problem));
     return {std::move(out), radius, flowOf(fields), std::move(notes)};
 }
 

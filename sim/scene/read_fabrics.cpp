@@ -17,10 +17,10 @@ std::string kindOf(const Node& node, const std::string& path)
     std::string kind;
     for (const std::string& candidate : fabricShapeKinds()) {
         if (!node.find(candidate)) continue;
-        if (!kind.empty()) fail(node.place, fmt::format("{}: has both {} and {}; make them two pieces", path, kind, candidate));
+        if (!kind.empty()) fail(node.location, fmt::format("{}: has both {} and {}; make them two pieces", path, kind, candidate));
         kind = candidate;
     }
-    if (kind.empty()) fail(node.place, fmt::format("{}: says no fabric; it takes one of {}", path, listed(fabricShapeKinds())));
+    if (kind.empty()) fail(node.location, fmt::format("{}: says no fabric; it takes one of {}", path, listed(fabricShapeKinds())));
     return kind;
 }
 
@@ -29,19 +29,19 @@ const NamedMaterial& materialOf(const Node& piece, const Node& shape, const std:
 {
     const Node* outside = piece.find("material");
     const Node* name = shape.find("material");
-    if (outside && name) fail(outside->place, fmt::format("{}.material: is given twice; remove one", path));
+    if (outside && name) fail(outside->location, fmt::format("{}.material: is given twice; remove one", path));
     if (outside) name = outside;
     std::vector<std::string> names;
     for (const NamedMaterial& m : materials) names.push_back(m.name);
     if (!name) {
-        fail(piece.place, fmt::format("{}.material is missing; it is the name of one of materials{}", path,
-                                      names.empty() ? ", like material: wool" : suggestion("", names)));
+        fail(piece.location, fmt::format("{}.material is missing; it is the name of one of materials{}", path,
+                                         names.empty() ? ", like material: wool" : suggestion("", names)));
     }
     const std::string& text = readText(*name, path + ".material");
     for (const NamedMaterial& m : materials) {
         if (m.name == text) return m;
     }
-    fail(name->place, fmt::format("{}.material: materials has no {}{}", path, inQuotes(text), suggestion(text, names)));
+    fail(name->location, fmt::format("{}.material: materials has no {}{}", path, inQuotes(text), suggestion(text, names)));
 }
 
 /// Moves the points; returns the words of it.
@@ -75,14 +75,14 @@ void readPieceFields(const Node& node, const std::string& path, FabricPiece& pie
         v.other("transform", "");
         v.number("wetness", piece.wetness, Quantity::None, Range::between(0.0, 1.0), "");
     });
-    if (const Node* group = node.find("group")) requireName(piece.group, group->place, path + ".group");
+    if (const Node* group = node.find("group")) requireName(piece.group, group->location, path + ".group");
 }
 
 FabricPiece readPiece(const Node& node, const std::string& name, const std::string& path, const Scene& scene)
 {
     FabricPiece piece;
     piece.name = name;
-    piece.where = node.place.text();
+    piece.where = node.location.text();
     readPieceFields(node, path, piece);
     const std::string kind = piece.kind = kindOf(node, path);
     ReadFabricShape shape = readFabricShape(*node.find(kind), joinPath(path, kind), kind);
@@ -113,7 +113,7 @@ std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene)
         const FabricPiece& piece = pieces.emplace_back(readPiece(list->items[i], name, joinPath("fabrics", name), scene));
         assembleFabric({&piece, 1});  // complains about what is no fabric
         vertices += piece.points.size();
-        if (const int most = root.place.source->bounds.vertices; vertices > static_cast<std::size_t>(most))
+        if (const int most = root.location.source->bounds.vertices; vertices > static_cast<std::size_t>(most))
             fail(piece.where, fmt::format("fabrics: together have {} vertices; at most {} are possible", vertices, most));
     }
     requireUnique(pieces, "fabrics");

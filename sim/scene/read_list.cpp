@@ -9,7 +9,7 @@ namespace sim {
 const Node* listAt(const Node* map, const char* key, const std::string& path, const char* example)
 {
     const Node* node = map ? map->find(key) : nullptr;
-    if (node && !node->isList()) fail(node->place, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
+    if (node && !node->isList()) fail(node->location, fmt::format("{}: needs a list like {}, not {}", path, example, node->called()));
     return node;
 }
 
@@ -18,15 +18,15 @@ std::string nameIn(const Node& element, std::size_t index, const std::string& pa
     const Node* name = element.find("name");
     if (!name) return std::to_string(index);
     const std::string& text = readText(*name, joinPath(path, std::to_string(index) + ".name"));
-    requireName(text, name->place, fmt::format("{}.{}.name", path, index));
+    requireName(text, name->location, fmt::format("{}.{}.name", path, index));
     return text;
 }
 
-void requireName(const std::string& text, const Place& place, const std::string& path)
+void requireName(const std::string& text, const SourceLocation& location, const std::string& path)
 {
     const auto isAllowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
     if (text.empty() || !std::all_of(text.begin(), text.end(), isAllowed))
-        fail(place, fmt::format("{}: {} may have letters, digits, _ and - only", path, inQuotes(text)));
+        fail(location, fmt::format("{}: {} may have letters, digits, _ and - only", path, inQuotes(text)));
 }
 
 }  // namespace sim

@@ -18,7 +18,7 @@ const Node* listAt(const Node* map, const char* key, const std::string& path, co
 std::string nameIn(const Node& element, std::size_t index, const std::string& path);
 
 /// Refuses what overrides could not address.
-void requireName(const std::string& text, const Place& place, const std::string& path);
+void requireName(const std::string& text, const SourceLocation& location, const std::string& path);
 
 template <class Settings>
 void requireUnique(const std::vector<Settings>& all, const std::string& path)

@@ -11,7 +11,7 @@ void resolvePorous(const SectionReader& section, double poreRadius, double threa
 {
     const bool byDiameter = section.has("fibre_diameter"), byFraction = section.has("volume_fraction");
     const bool byPores = section.has("pore_radius"), byThreads = section.has("thread_count");
-    const auto refuse = [&](const std::string& what) { fail(section.place(), fmt::format("{}: {}", section.path(), what)); };
+    const auto refuse = [&](const std::string& what) { fail(section.location(), fmt::format("{}: {}", section.path(), what)); };
     if (byThreads != section.has("thickness")) refuse("thread_count and thickness need each other");
     if (byThreads) {
         if (!byDiameter || byFraction || byPores) refuse("thread_count needs fibre_diameter, and neither of the others");
@@ -35,12 +35,12 @@ std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings&
     std::vector<NamedMaterial> materials;
     const Node* section = root.find("materials");
     if (!section) return materials;
-    if (!section->isMap()) fail(section->place, fmt::format("materials: needs a map like {{wool: {{young: 6.6e+7}}}}, not {}", section->called()));
+    if (!section->isMap()) fail(section->location, fmt::format("materials: needs a map like {{wool: {{young: 6.6e+7}}}}, not {}", section->called()));
     for (std::size_t i = 0; i < section->keys.size(); ++i) {
         const Node& node = section->items[i];
         NamedMaterial& m = materials.emplace_back();
         m.name = section->keys[i];
-        requireName(m.name, node.place, "materials");
+        requireName(m.name, node.location, "materials");
         m.material.volumeFraction = porous.volumeFraction;
         SectionReader::read(&node, joinPath("materials", m.name), [&](auto& v) { describe(v, m.material); });
     }

@@ -45,7 +45,7 @@ struct Kind {
 Vec3 unit(const Vec3& axis, const Node& node, const std::string& path)
 {
     const double length = axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length)) fail(node.place, path + ": must be a direction, like [0, 1, 0]");
+    if (!(length > 0.0) || !std::isfinite(length)) fail(node.location, path + ": must be a direction, like [0, 1, 0]");
     return axis / length;
 }
 
@@ -70,14 +70,14 @@ void describe(V& v, Piece& p, const Kind& kind)
 std::vector<std::array<double, 4>> readPath(const Node& node, const std::string& path)
 {
     if (!node.isList() || node.items.size() < 2)
-        fail(node.place, fmt::format("{}: needs two or more rows [t, x, y, z], not {}", path, node.called()));
+        fail(node.location, fmt::format("{}: needs two or more rows [t, x, y, z], not {}", path, node.called()));
     std::vector<std::array<double, 4>> rows;
     for (const Node& row : node.items) {
-        if (!row.isList() || row.items.size() != 4) fail(row.place, fmt::format("{}: a row is [t, x, y, z], not {}", path, row.called()));
+        if (!row.isList() || row.items.size() != 4) fail(row.location, fmt::format("{}: a row is [t, x, y, z], not {}", path, row.called()));
         std::array<double, 4>& out = rows.emplace_back();
         out[0] = readNumber(row.items[0], path, Quantity::Time, kTime);
         for (std::size_t i = 1; i < 4; ++i) out[i] = readNumber(row.items[i], path, Quantity::Length, Range::between(-kFarthest, kFarthest));
-        if (rows.size() > 1 && !(out[0] > rows[rows.size() - 2][0])) fail(row.place, fmt::format("{}: times must ascend", path));
+        if (rows.size() > 1 && !(out[0] > rows[rows.size() - 2][0])) fail(row.location, fmt::format("{}: times must ascend", path));
     }
     return rows;
 }
@@ -108,23 +108,24 @@ class PieceReader {
  private:
     Kind kindOf() const
     {
-        if (!node_.isMap()) fail(node_.place, fmt::format("{}: needs a map like {{t: [0, 1], translate: [0, 5, 0]}}, not {}", path_, node_.called()));
+        if (!node_.isMap())
+            fail(node_.location, fmt::format("{}: needs a map like {{t: [0, 1], translate: [0, 5, 0]}}, not {}", path_, node_.called()));
         const Kind kind{node_.find("translate") != nullptr, node_.find("rotate") != nullptr, node_.find("oscillate") != nullptr,
                         node_.find("keys") != nullptr, false};
         if (kind.translates + kind.rotates + kind.oscillates + kind.followsPath != 1) {
-            fail(node_.place, fmt::format("{}: needs one of translate, rotate, oscillate, keys", path_));
+            fail(node_.location, fmt::format("{}: needs one of translate, rotate, oscillate, keys", path_));
         }
         return kind;
     }
 
     void checkSpan()
     {
-        if (!node_.find("t")) fail(node_.place, fmt::format("{}: t is missing; it is the span of time, like t: [0, 0.2]", path_));
+        if (!node_.find("t")) fail(node_.location, fmt::format("{}: t is missing; it is the span of time, like t: [0, 0.2]", path_));
         const double span = piece_.t[1] - piece_.t[0];
-        if (!(span > 0.0)) fail(node_.find("t")->place, fmt::format("{}.t: must end after it begins", path_));
+        if (!(span > 0.0)) fail(node_.find("t")->location, fmt::format("{}.t: must end after it begins", path_));
         const Node* ease = node_.find("ease");
         if (!ease) piece_.ease = {span / 3.0, span / 3.0};
-        if (ease && piece_.ease[0] + piece_.ease[1] > span) fail(ease->place, fmt::format("{}.ease: both together must fit into t", path_));
+        if (ease && piece_.ease[0] + piece_.ease[1] > span) fail(ease->location, fmt::format("{}.ease: both together must fit into t", path_));
     }
 
     std::string addRotation(Motion& motion)
@@ -199,7 +200,7 @@ ReadMotion readMotion(const Node& node, const std::string& path)
         out.text = fmt::format("[{}]", PieceReader(node, path).addTo(out.motion));
         return out;
     }
-    if (node.items.empty()) fail(node.place, fmt::format("{}: is an empty list; remove it", path));
+    if (node.items.empty()) fail(node.location, fmt::format("{}: is an empty list; remove it", path));
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         out.text += (i > 0 ? ", " : "") + PieceReader(node.items[i], joinPath(path, std::to_string(i))).addTo(out.motion);
     }

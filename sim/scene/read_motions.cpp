@@ -36,9 +36,10 @@ std::vector<Movable> everythingNamed(const std::string& name, const Node& node, 
         }
         isPinless = isPinless || ((isNamedItself || isInGroup) && piece.pins.empty());
     }
-    if (found.empty() && isPinless) fail(node.place, fmt::format("motion: fabric {} has no pin; a motion moves pins, give it one", inQuotes(name)));
+    if (found.empty() && isPinless)
+        fail(node.location, fmt::format("motion: fabric {} has no pin; a motion moves pins, give it one", inQuotes(name)));
     if (found.empty()) {
-        fail(node.place, fmt::format("motion: no obstacle, pin or fabric is named {}{}", inQuotes(name), suggestion(name, names)));
+        fail(node.location, fmt::format("motion: no obstacle, pin or fabric is named {}{}", inQuotes(name), suggestion(name, names)));
     }
     return found;
 }
@@ -48,7 +49,8 @@ void giveMotion(const Node& pieces, const std::string& name, const std::string& 
 {
     const ReadMotion read = readMotion(pieces, path);
     for (const Movable& movable : everythingNamed(name, pieces, scene)) {
-        if (!movable.text->empty()) fail(pieces.place, fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
+        if (!movable.text->empty())
+            fail(pieces.location, fmt::format("motion: {} has a motion already; put all pieces into one list", inQuotes(name)));
         *movable.motion = read.motion;
         *movable.text = read.text;
     }
@@ -59,7 +61,7 @@ constexpr const char* kTargets[] = {"obstacle", "group", "pin"};
 /// A list of pieces that each say what they move, as a map {name: [pieces]}.
 Node byName(const Node& list)
 {
-    Node map = Node::map(list.place);
+    Node map = Node::map(list.location);
     for (const Node& item : list.items) {
         const Node* name = nullptr;
         Node piece = item;
@@ -67,8 +69,8 @@ Node byName(const Node& list)
             if (item.find(key)) name = item.find(key);
             piece.erase(key);
         }
-        if (!name) fail(item.place, "motion: obstacle is missing; it is the name of what moves, like obstacle: paddle");
-        Node& pieces = map.at(readText(*name, "motion.obstacle"), item.place);
+        if (!name) fail(item.location, "motion: obstacle is missing; it is the name of what moves, like obstacle: paddle");
+        Node& pieces = map.at(readText(*name, "motion.obstacle"), item.location);
         pieces.kind = Node::Kind::List;
         pieces.items.push_back(std::move(piece));
     }
@@ -96,7 +98,7 @@ void readMotions(const Node& root, Scene& scene)
 {
     if (const Node* section = root.find("motion")) {
         if (!section->isMap() && !section->isList())
-            fail(section->place,
+            fail(section->location,
                  fmt::format("motion: needs a list like [{{obstacle: paddle, t: [0, 1], translate: [0, 5, 0]}}], not {}", section->called()));
         const Node names = section->isMap() ? *section : byName(*section);
         for (std::size_t i = 0; i < names.keys.size(); ++i) giveMotion(names.items[i], names.keys[i], joinPath("motion", names.keys[i]), scene);

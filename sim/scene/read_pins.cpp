@@ -21,7 +21,7 @@ struct EndOfAxis {
 EndOfAxis parseEnd(const std::string& word, const Node& node, const std::string& path)
 {
     if (word.size() == 2 && word[0] >= 'x' && word[0] <= 'z' && (word[1] == '-' || word[1] == '+')) return {word[0] - 'x', word[1] == '+'};
-    fail(node.place, fmt::format("{}: {} is no side; write x-, x+, y-, y+, z- or z+", path, inQuotes(word)));
+    fail(node.location, fmt::format("{}: {} is no side; write x-, x+, y-, y+, z- or z+", path, inQuotes(word)));
 }
 
 /// The corners of a generator's lattice, and where they are.
@@ -30,7 +30,7 @@ class Corners {
     Corners(const FabricGeometry& geometry, const Node& node, const std::string& path) : geometry_(geometry), node_(node), path_(path)
     {
         if (geometry.lattice.empty())
-            fail(node.place, path + ": has corners and sides only with cloth_grid, woven_yarns and strand; use nodes, box or ball");
+            fail(node.location, path + ": has corners and sides only with cloth_grid, woven_yarns and strand; use nodes, box or ball");
         const Vec2i last = geometry.latticeSize - Vec2i::Ones();
         const std::vector<int> rows = last[1] > 0 ? std::vector<int>{0, last[1]} : std::vector<int>{0};
         for (const int row : rows) {
@@ -106,7 +106,7 @@ class PinReader {
     PinGroup read()
     {
         PinGroup pin;
-        pin.where = node_.place.text();
+        pin.where = node_.location.text();
         SectionReader::read(&node_, path_, [&](auto& v) {
             v.text("name", pin.name, "By which motions call it");
             for (const char* key : kSelections) v.other(key, "");
@@ -115,12 +115,12 @@ class PinReader {
             v.flag("twist", pin.twist, "The twist of yarns is held too");
             v.other("motion", "");
         });
-        if (const Node* name = node_.find("name")) requireName(pin.name, name->place, path_ + ".name");
+        if (const Node* name = node_.find("name")) requireName(pin.name, name->location, path_ + ".name");
         pin.text = select();
         for (std::size_t i = 0; i < held_.size(); ++i) {
             if (held_[i]) pin.vertices.push_back(static_cast<int>(i));
         }
-        if (pin.vertices.empty()) fail(node_.place, fmt::format("{}: holds no vertex; move or enlarge what it selects", calledPath(pin)));
+        if (pin.vertices.empty()) fail(node_.location, fmt::format("{}: holds no vertex; move or enlarge what it selects", calledPath(pin)));
         if (const Node* motion = node_.find("motion")) {
             ReadMotion read = readMotion(*motion, joinPath(path_, "motion"));
             pin.motion = std::move(read.motion);
@@ -140,15 +140,15 @@ class PinReader {
         std::string kind;
         for (const char* key : kSelections) {
             if (!node_.find(key)) continue;
-            if (!kind.empty()) fail(node_.place, fmt::format("{}: has both {} and {}; make them two pins in a list", path_, kind, key));
+            if (!kind.empty()) fail(node_.location, fmt::format("{}: has both {} and {}; make them two pins in a list", path_, kind, key));
             kind = key;
         }
         if (kind.empty())
-            fail(node_.place,
+            fail(node_.location,
                  fmt::format("{}: selects nothing; it takes one of {}", path_, listed({std::begin(kSelections), std::end(kSelections)})));
         const bool hasPatches = kind == "corners" || kind == "edge";
-        if (!hasPatches && node_.find("patch")) fail(node_.find("patch")->place, path_ + ".patch: needs corners or edge");
-        if (kind != "corners" && node_.find("border_only")) fail(node_.find("border_only")->place, path_ + ".border_only: needs corners");
+        if (!hasPatches && node_.find("patch")) fail(node_.find("patch")->location, path_ + ".patch: needs corners or edge");
+        if (kind != "corners" && node_.find("border_only")) fail(node_.find("border_only")->location, path_ + ".border_only: needs corners");
         const Node& value = *node_.find(kind);
         const std::string path = joinPath(path_, kind);
         if (kind == "corners") return "corners: " + selectCorners(value, path) + patchText();
@@ -166,7 +166,7 @@ class PinReader {
             for (const Vec2i& corner : corners.corners) holdPatch(corners, corner);
             return "all";
         }
-        if (!value.isList()) fail(value.place, fmt::format("{}: needs all, or a list like [\"x- z-\", \"x- z+\"], not {}", path, value.called()));
+        if (!value.isList()) fail(value.location, fmt::format("{}: needs all, or a list like [\"x- z-\", \"x- z+\"], not {}", path, value.called()));
         for (const Node& item : value.items) {
             const std::string& text = readText(item, path);
             std::istringstream words(text);
@@ -179,7 +179,7 @@ class PinReader {
                 if (isMeant) holdPatch(corners, corners.corners[c]);
                 isAny = isAny || isMeant;
             }
-            if (!isAny) fail(item.place, fmt::format("{}: the piece has no corner {}", path, inQuotes(text)));
+            if (!isAny) fail(item.location, fmt::format("{}: the piece has no corner {}", path, inQuotes(text)));
         }
         return value.flow();
     }
@@ -196,7 +196,7 @@ class PinReader {
         const std::string& text = readText(value, path);
         const Corners corners(geometry_, value, path);
         const auto sides = corners.sidesAt(parseEnd(text, value, path));
-        if (sides.empty()) fail(value.place, fmt::format("{}: the piece has no side {}", path, inQuotes(text)));
+        if (sides.empty()) fail(value.location, fmt::format("{}: the piece has no side {}", path, inQuotes(text)));
         for (const auto& [axis, line] : sides) {
             for (std::size_t i = 0; i < held_.size(); ++i) {
                 if (std::abs(geometry_.lattice[i][axis] - line) < patch_) held_[i] = 1;
@@ -207,13 +207,13 @@ class PinReader {
 
     std::string selectNodes(const Node& value, const std::string& path)
     {
-        if (!value.isList()) fail(value.place, fmt::format("{}: needs a list of numbers of vertices, like [0, 1], not {}", path, value.called()));
+        if (!value.isList()) fail(value.location, fmt::format("{}: needs a list of numbers of vertices, like [0, 1], not {}", path, value.called()));
         const std::vector<int>& points = geometry_.ofFile;
         const auto last = static_cast<std::int64_t>(points.empty() ? held_.size() : points.size()) - 1;
         for (const Node& item : value.items) {
             const std::int64_t number = readInteger(item, path, 0, last), point = points.empty() ? number : points[number];
             if (point < 0)
-                fail(item.place, fmt::format("{}: nothing of the file is at its vertex {}; choose one that a face or a line has", path, number));
+                fail(item.location, fmt::format("{}: nothing of the file is at its vertex {}; choose one that a face or a line has", path, number));
             held_[point] = 1;
         }
         return value.flow();
@@ -223,8 +223,8 @@ class PinReader {
     {
         Node shape = value;
         if (kind != "shape") {
-            shape = Node::map(value.place);
-            shape.at(kind, value.place) = value;
+            shape = Node::map(value.location);
+            shape.at(kind, value.location) = value;
         }
         const ReadShape read = readShape(shape, kind == "shape" ? joinPath(path_, kind) : path_, cell_);
         constexpr double kRoundOff = 1.0e-9;  // [cm]: what lies on the surface is held

@@ -10,24 +10,24 @@ namespace sim {
 
 void requireNear(const Node& node, const std::string& path, const Vec3& x)
 {
-    if (x.cwiseAbs().maxCoeff() > kFarthest) fail(node.place, fmt::format("{}: lies beyond {} cm", path, kFarthest));
+    if (x.cwiseAbs().maxCoeff() > kFarthest) fail(node.location, fmt::format("{}: lies beyond {} cm", path, kFarthest));
 }
 
 Vec3 unitAxis(const Node& node, const std::string& path, const Vec3& axis)
 {
     const double length = axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length)) fail(node.place, fmt::format("{}: must be a direction, like [0, 1, 0]", path));
+    if (!(length > 0.0) || !std::isfinite(length)) fail(node.location, fmt::format("{}: must be a direction, like [0, 1, 0]", path));
     return axis / length;
 }
 
 std::filesystem::path existingFile(const Node& name, const std::string& path)
 {
     namespace fs = std::filesystem;
-    const fs::path directory = name.place.source ? name.place.source->directory : ".";
+    const fs::path directory = name.location.source ? name.location.source->directory : ".";
     const fs::path file = directory / fs::path(readText(name, path));
-    requireAllowed(file, name.place);
+    requireAllowed(file, name.location);
     std::error_code error;
-    if (!fs::is_regular_file(file, error)) fail(name.place, fmt::format("{}: there is no file {}", path, fileInQuotes(file.string())));
+    if (!fs::is_regular_file(file, error)) fail(name.location, fmt::format("{}: there is no file {}", path, fileInQuotes(file.string())));
     return fs::absolute(file, error).lexically_normal();
 }
 

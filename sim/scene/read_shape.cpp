@@ -36,7 +36,8 @@ ReadShape readBox(const Node& node, const Context& context, bool isRound)
         v.whenReading([&](auto& r) {
             const bool byCenter = r.has("center") && r.has("half"), byCorners = r.has("min") && r.has("max");
             const int given = r.has("center") + r.has("half") + r.has("min") + r.has("max");
-            if (given != 2 || byCenter == byCorners) fail(node.place, fmt::format("{}: needs either center and half, or min and max", context.path));
+            if (given != 2 || byCenter == byCorners)
+                fail(node.location, fmt::format("{}: needs either center and half, or min and max", context.path));
             if (byCorners) {
                 center = 0.5 * (low + high);
                 half = 0.5 * (high - low);
@@ -106,7 +107,7 @@ ReadShape readCylinder(const Node& node, const Context& context)
 ReadShape readMesh(const Node& node, const Context& context)
 {
     std::string file;
-    double scale = parseNumber("1", Quantity::Length, node.place.source && node.place.source->isSi).value, cell = 0.5 * context.cell;
+    double scale = parseNumber("1", Quantity::Length, node.location.source && node.location.source->isSi).value, cell = 0.5 * context.cell;
     const auto fields = [&](auto& v) {
         v.needs("file", "an OBJ file, relative to the scene, like file: cow.obj");
         v.text("file", file, "");
@@ -115,23 +116,23 @@ ReadShape readMesh(const Node& node, const Context& context)
         v.later("cache", "this version finds the distances of a mesh anew in every run; remove the key (a larger mesh.cell is faster)");
     };
     SectionReader::read(&node, context.path, fields);
-    if (!(cell > 0.0)) fail(node.place, fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
+    if (!(cell > 0.0)) fail(node.location, fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));
     const Node& name = *node.find("file");
     const std::filesystem::path path = existingFile(name, context.path + ".file");
     file = path.string();
     try {
         std::vector<std::string> notes;
         Shape shape = shapeFromObj(path, scale, cell, &notes);
-        for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.place.text(), context.path, note);
+        for (std::string& note : notes) note = fmt::format("{}: {}.file: {}", name.location.text(), context.path, note);
         return {std::move(shape), flowOf(fields), std::move(notes)};
     } catch (const InputError& e) {
-        fail(name.place, fmt::format("{}: {}", context.path, e.what()));
+        fail(name.location, fmt::format("{}: {}", context.path, e.what()));
     }
 }
 
 ReadShape readParts(const Node& node, const Context& context, const std::string& operation)
 {
-    if (!node.isList() || node.items.empty()) fail(node.place, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
+    if (!node.isList() || node.items.empty()) fail(node.location, fmt::format("{}: needs a list of shapes, not {}", context.path, node.called()));
     std::vector<Shape> shapes;
     std::string texts;
     std::vector<std::string> notes;
@@ -178,17 +179,17 @@ void apply(const ReadTransform& transform, const char* key, ReadShape& body)
 std::string shapeKind(const Node& node, const std::string& path)
 {
     if (!node.isMap())
-        fail(node.place, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path, node.called()));
+        fail(node.location, fmt::format("{}: needs a shape like {{ball: {{center: [0, 5, 0], radius: 1}}}}, not {}", path, node.called()));
     std::vector<std::string> known = shapeKinds();
     known.insert(known.end(), {"rotate", "translate"});
     SectionReader(node, path).refuseKeysBut(known);
     std::string kind;
     for (const std::string& candidate : shapeKinds()) {
         if (!node.find(candidate)) continue;
-        if (!kind.empty()) fail(node.place, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
+        if (!kind.empty()) fail(node.location, fmt::format("{}: has both {} and {}; put them into a union", path, kind, candidate));
         kind = candidate;
     }
-    if (kind.empty()) fail(node.place, fmt::format("{}: names no body; it takes one of {}", path, listed(shapeKinds())));
+    if (kind.empty()) fail(node.location, fmt::format("{}: names no body; it takes one of {}", path, listed(shapeKinds())));
     return kind;
 }
 

@@ -53,7 +53,7 @@ class IncludeReader {
         if (path.has_parent_path()) source->directory = path.parent_path().string();
         Node root = parseYaml(text, source);
         if (root.isNull()) fail(path.string(), "the file is empty; a scene needs at least grid and one source");
-        if (!root.isMap()) fail(root.place, fmt::format("a scene is a map of sections, not {}", root.called()));
+        if (!root.isMap()) fail(root.location, fmt::format("a scene is a map of sections, not {}", root.called()));
         checkVersion(root);
         source->isSi = takeUnits(root);
         expandShortForms(root);
@@ -61,7 +61,7 @@ class IncludeReader {
         const Node* include = root.find("include");
         if (!include) return root;
         open_.push_back(canonicalOf(path));
-        Node merged = Node::map(root.place);
+        Node merged = Node::map(root.location);
         if (!include->isList()) {
             mergeOver(merged, readIncluded(*include, path));
         } else {
@@ -79,16 +79,17 @@ class IncludeReader {
  private:
     Node readIncluded(const Node& name, const fs::path& from)
     {
-        if (!name.isScalar() || name.text.empty()) fail(name.place, fmt::format("include names files, like [dam_break.yaml], not {}", name.called()));
+        if (!name.isScalar() || name.text.empty())
+            fail(name.location, fmt::format("include names files, like [dam_break.yaml], not {}", name.called()));
         const fs::path path = (from.parent_path() / name.text).lexically_normal();
-        requireAllowed(path, name.place);
-        if (++included_ > kMaxIncludes) fail(name.place, fmt::format("more than {} included files", kMaxIncludes));
+        requireAllowed(path, name.location);
+        if (++included_ > kMaxIncludes) fail(name.location, fmt::format("more than {} included files", kMaxIncludes));
         const fs::path canonical = canonicalOf(path);
         for (const fs::path& open : open_) {
             if (open == canonical)
-                fail(name.place, fmt::format("include goes round in a circle: {} is being read already", fileInQuotes(path.string())));
+                fail(name.location, fmt::format("include goes round in a circle: {} is being read already", fileInQuotes(path.string())));
         }
-        return read(readText(path, name.place.text()), path);
+        return read(readText(path, name.location.text()), path);
     }
 
     /// A newer schema may have keys unknown here, so this comes before any complaint about keys.
@@ -98,8 +99,8 @@ class IncludeReader {
         if (!version || version->text == "1") return;
         const bool isNumber = version->isScalar() && !version->text.empty() && version->text.find_first_not_of("0123456789") == std::string::npos &&
                               version->text != "0";
-        if (!isNumber) fail(version->place, fmt::format("drench: {} is no schema version; write drench: {}", version->called(), kSchemaVersion));
-        fail(version->place,
+        if (!isNumber) fail(version->location, fmt::format("drench: {} is no schema version; write drench: {}", version->called(), kSchemaVersion));
+        fail(version->location,
              fmt::format("this scene wants schema version {}, this program reads version {}; use a newer drench", version->text, kSchemaVersion));
     }
 
@@ -109,7 +110,7 @@ class IncludeReader {
         const Node* units = root.find("units");
         if (!units) return false;
         if (!units->isScalar() || (units->text != "cgs" && units->text != "si")) {
-            fail(units->place, fmt::format("units: {} is unknown; write cgs or si", units->called()));
+            fail(units->location, fmt::format("units: {} is unknown; write cgs or si", units->called()));
         }
         const bool isSi = units->text == "si";
         root.erase("units");
@@ -126,7 +127,7 @@ void applyAll(const std::vector<Override>& changes, Node& root)
 {
     for (const Override& change : changes) {
         for (const char* fixed : {"units", "include", "drench"}) {
-            if (change.path == fixed) fail(change.value.place, fmt::format("{} belongs to a file and cannot be overridden", fixed));
+            if (change.path == fixed) fail(change.value.location, fmt::format("{} belongs to a file and cannot be overridden", fixed));
         }
         apply(change, root);
     }
@@ -150,7 +151,7 @@ SceneFile sceneFileFromText(const std::string& text, const fs::path& name, const
 {
     IncludeReader reader(options.bounds);
     Node root = reader.read(text, name);
-    const bool isSi = root.place.source->isSi;
+    const bool isSi = root.location.source->isSi;
     SceneFile file = finish(std::move(root), isSi, name, options);
     file.texts = reader.takeTexts();
     return file;

@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void failAt(const Node& node, const std::string& path, const std::string& message)
 {
-    fail(node.place, fmt::format("{}: {}", path, message));
+    fail(node.location, fmt::format("{}: {}", path, message));
 }
 
 template <class Integer>
@@ -46,7 +46,7 @@ double readNumber(const Node& node, const std::string& path, Quantity quantity, 
 {
     const char* unit = unitOf(quantity);
     if (!node.isScalar()) failAt(node, path, fmt::format("needs {}, not {}", nameOf(quantity), node.called()));
-    const ParsedNumber number = parseNumber(node.text, quantity, node.place.source && node.place.source->isSi);
+    const ParsedNumber number = parseNumber(node.text, quantity, node.location.source && node.location.source->isSi);
     if (!number.problem.empty()) failAt(node, path, number.problem);
     const double inFile = inFileUnits(number.value, quantity);
     if (!range.contains(inFile)) failAt(node, path, fmt::format("{} is out of range; must be {}", inQuotes(node.text), range.text(unit)));
@@ -128,10 +128,10 @@ SectionReader::SectionReader(const Node& node, std::string path) : node_(node), 
     if (!node_.isMap()) failAt(node_, path_, fmt::format("needs a map of keys, not {}", node_.called()));
 }
 
-Place SectionReader::placeOf(const char* key) const
+SourceLocation SectionReader::locationOf(const char* key) const
 {
-    if (const Node* n = find(key)) return n->place;
-    return node_.place;
+    if (const Node* n = find(key)) return n->location;
+    return node_.location;
 }
 
 void SectionReader::numberOrWord(const char* key, const NumberOrWord& out, Quantity quantity, Range range, const char*)
@@ -189,12 +189,12 @@ void SectionReader::later(const char* key, const char* message)
 
 void SectionReader::needs(const char* key, const char* what)
 {
-    if (!has(key)) fail(placeOf(key), fmt::format("{} is missing; it is {}", pathOf(key), what));
+    if (!has(key)) fail(locationOf(key), fmt::format("{} is missing; it is {}", pathOf(key), what));
 }
 
 void SectionReader::require(bool isMet, const char* key, const std::string& message)
 {
-    if (!isMet) fail(placeOf(key), fmt::format("{}: {}", pathOf(key), message));
+    if (!isMet) fail(locationOf(key), fmt::format("{}: {}", pathOf(key), message));
 }
 
 void SectionReader::refuseKeysBut(const std::vector<std::string>& known, const std::vector<std::string>& later) const
@@ -207,7 +207,7 @@ void SectionReader::refuseKeysBut(const std::vector<std::string>& known, const s
         if (isIn(known, key) || isIn(later, key)) continue;
         const std::string where = path_.empty() ? "" : " in " + path_;
         const bool isDotted = key.find('.') != std::string::npos;
-        fail(node_.items[i].place,
+        fail(node_.items[i].location,
              fmt::format("unknown key {}{}{}", inQuotes(key), where,
                          isDotted ? "; dotted keys stand in variants and behind --set, write them as maps here" : suggestion(key, known)));
     }

@@ -38,10 +38,10 @@ class SectionReader {
     bool has(const char* key) const { return find(key) != nullptr; }
     const Node* find(const char* key) const { return node_.find(key); }
     const std::string& path() const { return path_; }
-    const Place& place() const { return node_.place; }
+    const SourceLocation& location() const { return node_.location; }
     std::string pathOf(const char* key) const { return joinPath(path_, key); }
     /// The line of the key, or of the section where the key is missing.
-    Place placeOf(const char* key) const;
+    SourceLocation locationOf(const char* key) const;
 
     void number(const char* key, double& out, Quantity quantity, Range range, const char*)
     {
@@ -164,7 +164,7 @@ class SectionReader {
         SectionReader reader(*node, path);
         KeyList known;
         fields(known);
-        if (const auto& source = node->place.source; source && source->listener) source->listener(known);
+        if (const auto& source = node->location.source; source && source->listener) source->listener(known);
         reader.refuseKeysBut(known.names(), known.laterKeys);
         fields(reader);
     }

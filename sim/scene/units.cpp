@@ -1,7 +1,7 @@
 #include "sim/scene/units.h"
 
 #include "sim/core/units.h"
-#include "sim/scene/place.h"
+#include "sim/scene/source_location.h"
 
 #include <fmt/format.h>
 

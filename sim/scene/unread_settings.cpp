@@ -111,12 +111,12 @@ bool isOfThisRun(const Node& root, const Node& given)
 {
     const Node* compare = root.find("compare");
     const bool isShared = (compare && compare->find("variants")) || root.find("precision");
-    return !isShared || !given.place.source || !given.place.source->numbered;  // of the command line
+    return !isShared || !given.location.source || !given.location.source->numbered;  // of the command line
 }
 
 std::string unreadNote(const Node& given, std::string_view path, std::string_view lacking)
 {
-    return fmt::format("{}: {}: has no effect here; it goes with {}", given.place.text(), path, lacking);
+    return fmt::format("{}: {}: has no effect here; it goes with {}", given.location.text(), path, lacking);
 }
 
 void noteUnreadSettings(const Node& root, Scene& scene)

@@ -14,16 +14,16 @@ std::string textOf(const Node& element, const char* key)
 {
     const Node* node = element.find(key);
     if (!node) return "";
-    if (!node->isScalar() || node->text.empty()) fail(node->place, fmt::format("a variant's {} must be a word, not {}", key, node->called()));
+    if (!node->isScalar() || node->text.empty()) fail(node->location, fmt::format("a variant's {} must be a word, not {}", key, node->called()));
     return node->text;
 }
 
 SceneVariant listedVariant(const Node& element)
 {
     if (!element.isMap())
-        fail(element.place, fmt::format("a variant is a map like {{label: APIC, transfer.method: apic}}, not {}", element.called()));
+        fail(element.location, fmt::format("a variant is a map like {{label: APIC, transfer.method: apic}}, not {}", element.called()));
     SceneVariant variant{textOf(element, "name"), textOf(element, "label"), overridesOf(element, {"name", "label"})};
-    if (variant.name.empty() && variant.label.empty()) fail(element.place, "a variant needs a label, like label: APIC");
+    if (variant.name.empty() && variant.label.empty()) fail(element.location, "a variant needs a label, like label: APIC");
     if (variant.name.empty()) variant.name = asName(variant.label);
     if (variant.label.empty()) variant.label = variant.name;
     return variant;
@@ -32,12 +32,13 @@ SceneVariant listedVariant(const Node& element)
 void checkNames(const std::vector<SceneVariant>& variants, const Node& list)
 {
     for (std::size_t i = 0; i < variants.size(); ++i) {
-        const Place& place = list.isList() ? list.items[i].place : list.place;
+        const SourceLocation& location = list.isList() ? list.items[i].location : list.location;
         const std::string& name = variants[i].name;
-        if (name != asName(name)) fail(place, fmt::format("variant name {} may have a-z, 0-9 and _ only; {} would do", inQuotes(name), asName(name)));
-        if (name == "default") fail(place, "a variant cannot be named default: that is the scene without a variant");
+        if (name != asName(name))
+            fail(location, fmt::format("variant name {} may have a-z, 0-9 and _ only; {} would do", inQuotes(name), asName(name)));
+        if (name == "default") fail(location, "a variant cannot be named default: that is the scene without a variant");
         for (std::size_t k = 0; k < i; ++k) {
-            if (variants[k].name == name) fail(place, fmt::format("two variants are named {}; give one of them another name", inQuotes(name)));
+            if (variants[k].name == name) fail(location, fmt::format("two variants are named {}; give one of them another name", inQuotes(name)));
         }
     }
 }
@@ -49,17 +50,17 @@ std::vector<SceneVariant> product(const Node& map, const std::string& path)
     std::vector<SceneVariant> all(1);
     for (std::size_t k = 0; k < map.keys.size(); ++k) {
         const Node& values = map.items[k];
-        checkPath(map.keys[k], values.place);
+        checkPath(map.keys[k], values.location);
         if (map.keys[k] == "name" || map.keys[k] == "label")
-            fail(values.place, fmt::format("compare.variants.{} is no key of a scene; write one like transfer.method", map.keys[k]));
+            fail(values.location, fmt::format("compare.variants.{} is no key of a scene; write one like transfer.method", map.keys[k]));
         if (!values.isList() || values.items.empty()) {
-            fail(values.place, fmt::format("compare.variants.{} must be a list of values to try, not {}", map.keys[k], values.called()));
+            fail(values.location, fmt::format("compare.variants.{} must be a list of values to try, not {}", map.keys[k], values.called()));
         }
-        if (all.size() * values.items.size() > kMaxVariants) fail(values.place, fmt::format("more than {} variants", kMaxVariants));
+        if (all.size() * values.items.size() > kMaxVariants) fail(values.location, fmt::format("more than {} variants", kMaxVariants));
         std::vector<SceneVariant> next;
         for (const SceneVariant& base : all) {
             for (const Node& value : values.items) {
-                if (value.isNull() || label(value).empty()) fail(value.place, fmt::format("{}.{} has an empty value", path, map.keys[k]));
+                if (value.isNull() || label(value).empty()) fail(value.location, fmt::format("{}.{} has an empty value", path, map.keys[k]));
                 SceneVariant& variant = next.emplace_back(base);
                 if (!base.name.empty()) variant.name += '_';
                 variant.name += asName(label(value));
@@ -98,8 +99,8 @@ std::vector<SceneVariant> readVariants(const Node& root)
 std::vector<SceneVariant> listedVariants(const Node& variants, const std::string& path)
 {
     if (variants.isScalar() || variants.isNull() || variants.items.empty())
-        fail(variants.place, fmt::format("{} must list variants, or map keys to lists of values, not {}", path, variants.called()));
-    if (variants.items.size() > kMaxVariants) fail(variants.place, fmt::format("more than {} variants", kMaxVariants));
+        fail(variants.location, fmt::format("{} must list variants, or map keys to lists of values, not {}", path, variants.called()));
+    if (variants.items.size() > kMaxVariants) fail(variants.location, fmt::format("more than {} variants", kMaxVariants));
     std::vector<SceneVariant> all;
     if (variants.isMap()) {
         all = product(variants, path);

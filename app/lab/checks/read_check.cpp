@@ -11,10 +11,11 @@ using sim::Node;
 
 std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& path)
 {
-    if (!node.isList() || node.items.empty()) sim::fail(node.place, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
+    if (!node.isList() || node.items.empty()) sim::fail(node.location, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
     std::vector<std::array<double, 2>> table;
     for (const Node& row : node.items) sim::readNumbers(row, path, table.emplace_back(), sim::Quantity::None, sim::Range::any());
-    if (!std::ranges::is_sorted(table, {}, [](const auto& row) { return row[0]; })) sim::fail(node.place, path + ": its first numbers must ascend");
+    if (!std::ranges::is_sorted(table, {}, [](const auto& row) { return row[0]; }))
+        sim::fail(node.location, path + ": its first numbers must ascend");
     return table;
 }
 

@@ -19,7 +19,7 @@ PrecisionChoice choiceIn(const Node& node, const std::string& path)
     sim::SectionReader section(node, path);
     section.needs("name", "what tables and plots call it, like {name: APIC, transfer.method: apic}");
     PrecisionChoice choice{.name = sim::readText(*section.find("name"), section.pathOf("name"))};
-    if (choice.name.find_first_of(",\"\n") != std::string::npos) sim::fail(node.place, path + ".name: stands in a CSV file: no commas or quotes");
+    if (choice.name.find_first_of(",\"\n") != std::string::npos) sim::fail(node.location, path + ".name: stands in a CSV file: no commas or quotes");
     section.number("cells", choice.cells, sim::Quantity::None, sim::Range::above(0.0), "");
     for (const sim::Override& change : sim::overridesOf(node, {"name", "cells"})) choice.sets.push_back(change.text());
     return choice;
@@ -31,7 +31,7 @@ Choices choicesIn(const sim::SectionReader& section, const char* key)
     const Node* node = section.find(key);
     if (!node) return {{"-"}};
     if (!node->isList() || node->items.empty())
-        sim::fail(node->place, section.pathOf(key) + ": needs a list like [{name: APIC, transfer.method: apic}]");
+        sim::fail(node->location, section.pathOf(key) + ": needs a list like [{name: APIC, transfer.method: apic}]");
     Choices choices;
     for (const Node& item : node->items) choices.push_back(choiceIn(item, section.pathOf(key)));
     return choices;
@@ -42,7 +42,7 @@ void requireKnown(const std::string& name, const Choices& choices, const Node& n
     std::vector<std::string> names;
     for (const PrecisionChoice& choice : choices) names.push_back(choice.name);
     if (std::ranges::find(names, name) == names.end())
-        sim::fail(node.place, fmt::format("{}: there is no {}: there are {}", path, sim::inQuotes(name), fmt::join(names, ", ")));
+        sim::fail(node.location, fmt::format("{}: there is no {}: there are {}", path, sim::inQuotes(name), fmt::join(names, ", ")));
 }
 
 struct Axis {
@@ -98,14 +98,14 @@ void readQuick(const Node* node, Precision& precision)
 std::vector<Check> errorsIn(const sim::SectionReader& section, const ReadingContext& context)
 {
     const Node& node = *section.find("errors");
-    if (!node.isList() || node.items.empty()) sim::fail(node.place, "precision.errors: needs a list of at least one");
+    if (!node.isList() || node.items.empty()) sim::fail(node.location, "precision.errors: needs a list of at least one");
     std::vector<Check> errors;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         const std::string path = fmt::format("precision.errors.{}", i);
         errors.push_back(readCheck(node.items[i], path, context, fmt::format("error {}", i + 1)));
         const Check& check = errors.back();
         if (!check.expect && !check.hasCurve())
-            sim::fail(node.items[i].place, path + ": needs expect, or take: rms_error to be held against a converged run");
+            sim::fail(node.items[i].location, path + ": needs expect, or take: rms_error to be held against a converged run");
     }
     return errors;
 }
@@ -156,7 +156,7 @@ std::optional<Precision> readPrecision(const SceneSetup& setup)
     if (const Node* at = section.find("converged"))
         for (const sim::Override& change : sim::overridesOf(*at, {})) precision.converged.push_back(change.text());
     if (precision.needsConverged() && precision.converged.empty())
-        sim::fail(node->place,
+        sim::fail(node->location,
                   "precision.converged is missing: what makes the run that the others are held against, like "
                   "{time.cfl: 0.25}");
     precision.question = questionIn(section);

@@ -15,11 +15,11 @@ void requireVerdict(const Check& check, const Node& node, const std::string& pat
 {
     const bool expects = check.expect || !check.table.empty(), hasTolerance = check.tolerance || check.within,
                hasBound = check.atMost || check.atLeast;
-    if (check.hasCurve() && (!expects || !hasBound)) sim::fail(node.place, path + ": an error needs expect or table, and at_most");
+    if (check.hasCurve() && (!expects || !hasBound)) sim::fail(node.location, path + ": an error needs expect or table, and at_most");
     if (check.hasCurve()) return;
-    if (!check.table.empty()) sim::fail(node.place, path + ": a table is compared by take: mean_error, largest_error or rms_error");
-    if (check.expect && !hasTolerance) sim::fail(node.place, path + ": expect needs tolerance (relative) or within (absolute)");
-    if (!expects && !hasBound) sim::fail(node.place, path + ": needs expect with a tolerance, at_most, or at_least");
+    if (!check.table.empty()) sim::fail(node.location, path + ": a table is compared by take: mean_error, largest_error or rms_error");
+    if (check.expect && !hasTolerance) sim::fail(node.location, path + ": expect needs tolerance (relative) or within (absolute)");
+    if (!expects && !hasBound) sim::fail(node.location, path + ": needs expect with a tolerance, at_most, or at_least");
 }
 
 Check checkIn(const Node& node, std::size_t index, const ReadingContext& context)
@@ -54,7 +54,7 @@ std::optional<Validation> readValidation(const SceneSetup& setup)
         for (const sim::Override& change : sim::overridesOf(*quick, {})) validation.quick.push_back(change.text());
     section.needs("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
     const Node& checks = *section.find("checks");
-    if (!checks.isList() || checks.items.empty()) sim::fail(checks.place, "validate.checks: needs a list of at least one check");
+    if (!checks.isList() || checks.items.empty()) sim::fail(checks.location, "validate.checks: needs a list of at least one check");
     for (std::size_t i = 0; i < checks.items.size(); ++i) validation.checks.push_back(checkIn(checks.items[i], i, context));
     return validation;
 }

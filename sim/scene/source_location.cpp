@@ -1,4 +1,4 @@
-#include "sim/scene/place.h"
+#include "sim/scene/source_location.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ std::string withoutControls(std::string text)
 
 }  // namespace
 
-std::string Place::text() const
+std::string SourceLocation::text() const
 {
     if (!source) return "scene";
     return source->numbered ? fmt::format("{}:{}", source->name, line) : source->name;
@@ -52,17 +52,17 @@ std::string Place::text() const
 
 void fail(const std::string& where, const std::string& message) { throw InputError(withoutControls(where + ": " + message)); }
 
-void requireAllowed(const std::filesystem::path& file, const Place& place)
+void requireAllowed(const std::filesystem::path& file, const SourceLocation& location)
 {
-    if (!place.source || place.source->bounds.folder.empty()) return;
+    if (!location.source || location.source->bounds.folder.empty()) return;
     std::error_code error;
-    const auto folder = std::filesystem::weakly_canonical(place.source->bounds.folder, error);
+    const auto folder = std::filesystem::weakly_canonical(location.source->bounds.folder, error);
     const auto whole = std::filesystem::weakly_canonical(file, error);
     if (error || std::ranges::mismatch(folder, whole).in1 != folder.end())
-        fail(place, fmt::format("{} does not lie below the scene's folder", fileInQuotes(file.string())));
+        fail(location, fmt::format("{} does not lie below the scene's folder", fileInQuotes(file.string())));
 }
 
-void fail(const Place& place, const std::string& message) { fail(place.text(), message); }
+void fail(const SourceLocation& location, const std::string& message) { fail(location.text(), message); }
 
 std::string fileInQuotes(const std::string& path)
 {

@@ -33,7 +33,7 @@ struct TextSource {
 };
 
 /// Where in the user's text a value stands. Survives merging, so that every complaint can name a line.
-struct Place {
+struct SourceLocation {
     std::shared_ptr<const TextSource> source;
     int line = 0;
 
@@ -41,11 +41,11 @@ struct Place {
     std::string text() const;
 };
 
-/// Throws InputError where the file does not lie below the folder that the bounds of the place's text name.
-void requireAllowed(const std::filesystem::path& file, const Place& place);
+/// Throws InputError where the file does not lie below the folder that the bounds of the location's text name.
+void requireAllowed(const std::filesystem::path& file, const SourceLocation& location);
 
-/// Throws InputError "place: message", as one line.
-[[noreturn]] void fail(const Place& place, const std::string& message);
+/// Throws InputError "location: message", as one line.
+[[noreturn]] void fail(const SourceLocation& location, const std::string& message);
 [[noreturn]] void fail(const std::string& where, const std::string& message);
 
 /// The text in quotation marks for a message: control characters shown as '?', long ones cut.
