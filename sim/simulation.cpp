@@ -239,8 +239,8 @@ std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
     } catch (const RunError& error) {
         return Fault{work_.failedStage, error.what(), ""};
     }
-    if (auto fault = check_->broken(state_, report)) return fault;
-    return work_.backup ? check_->rash(state_, report) : std::nullopt;
+    if (auto fault = check_->violatedInvariant(state_, report)) return fault;
+    return work_.backup ? check_->rejectionReason(state_, report) : std::nullopt;
 }
 
 /// The step is good.

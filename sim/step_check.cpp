@@ -112,7 +112,7 @@ std::string StepCheck::fastestVertex(const State& state) const
 }
 
 /// What makes explosions less likely.
-std::string StepCheck::calmer(bool isFabrics) const
+std::string StepCheck::remedyFor(bool isFabrics) const
 {
     const Settings& settings = scene_.settings;
     if (settings.time.mode != TimeMode::Adaptive) return "time.mode: adaptive, or a smaller time.dt";
@@ -120,12 +120,12 @@ std::string StepCheck::calmer(bool isFabrics) const
     return settings.transfer.xi != XiMap::Translation ? "transfer.xi: translation" : "fewer transfer.modes, or a smaller time.cfl";
 }
 
-std::optional<Fault> StepCheck::broken(const State& state, const StepReport& report) const
+std::optional<Fault> StepCheck::violatedInvariant(const State& state, const StepReport& report) const
 {
     if (!report.failure.empty()) {
         const bool isFabrics = report.failedStage == Stage::FabricSolve;
         return Fault{report.failedStage, fmt::format("{}: {}", report.failure, isFabrics ? fastestVertex(state) : fastestParticle(state)),
-                     calmer(isFabrics)};
+                     remedyFor(isFabrics)};
     }
     const Ledger& ledger = state.ledger;
     const double missing = ledger.emittedMass - ledger.leftMass - report.liquidMass - report.absorbedMass;
@@ -135,14 +135,14 @@ std::optional<Fault> StepCheck::broken(const State& state, const StepReport& rep
     return std::nullopt;
 }
 
-std::optional<Fault> StepCheck::rash(const State& state, const StepReport& report) const
+std::optional<Fault> StepCheck::rejectionReason(const State& state, const StepReport& report) const
 {
-    if (auto fault = tooFar(state, report)) return fault;
-    if (auto fault = tooDeep(state, report)) return fault;
-    return fromNowhere(state, report);
+    if (auto fault = cflExceeded(state, report)) return fault;
+    if (auto fault = penetrationTooDeep(state, report)) return fault;
+    return energyGrowth(state, report);
 }
 
-std::optional<Fault> StepCheck::tooFar(const State& state, const StepReport& report) const
+std::optional<Fault> StepCheck::cflExceeded(const State& state, const StepReport& report) const
 {
     const TimeSettings& time = scene_.settings.time;
     const double cells = hasLiquid(state) ? report.dt * report.maxSpeed / scene_.settings.cell : 0.0;
@@ -154,7 +154,7 @@ std::optional<Fault> StepCheck::tooFar(const State& state, const StepReport& rep
 }
 
 /// Fabric that is squeezed into an obstacle little by little gets there in short steps too; one that jumps there does not.
-std::optional<Fault> StepCheck::tooDeep(const State& state, const StepReport& report) const
+std::optional<Fault> StepCheck::penetrationTooDeep(const State& state, const StepReport& report) const
 {
     const double depth = report.fabric.deepest - radius_, bound = std::max(radius_, kDepth * scene_.settings.cell);
     if (!(depth > bound && report.fabric.deepest > std::max(state.memory.deepest, 0.0) + bound)) return std::nullopt;
@@ -196,7 +196,7 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
            0.5 * mass * quiet * quiet;
 }
 
-std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport& report) const
+std::optional<Fault> StepCheck::energyGrowth(const State& state, const StepReport& report) const
 {
     const double energy = activeEnergy(report.energies), allowed = energyAllowed(state, report);
     if (energy <= allowed) return std::nullopt;
@@ -205,7 +205,7 @@ std::optional<Fault> StepCheck::fromNowhere(const State& state, const StepReport
     return Fault{isFabrics ? Stage::FabricSolve : Stage::GridToParticles,
                  fmt::format("energy of motion and elasticity came to {:.4g} erg, {:.3g} erg more than there was and was given: {}", energy,
                              energy - allowed, isFabrics ? fastestVertex(state) : fastestParticle(state)),
-                 calmer(isFabrics)};
+                 remedyFor(isFabrics)};
 }
 
 }  // namespace sim

@@ -29,21 +29,21 @@ class StepCheck {
     static void accept(const StepReport& report, StepMemory& memory);
 
     /// What makes the step useless whatever follows: numbers that are not finite, liquid that is not accounted for.
-    std::optional<Fault> broken(const State& state, const StepReport& report) const;
+    std::optional<Fault> violatedInvariant(const State& state, const StepReport& report) const;
 
     /// What a shorter step would have done better. `state` is that after the step.
-    std::optional<Fault> rash(const State& state, const StepReport& report) const;
+    std::optional<Fault> rejectionReason(const State& state, const StepReport& report) const;
 
  private:
-    std::optional<Fault> tooFar(const State& state, const StepReport& report) const;
-    std::optional<Fault> tooDeep(const State& state, const StepReport& report) const;
-    std::optional<Fault> fromNowhere(const State& state, const StepReport& report) const;
+    std::optional<Fault> cflExceeded(const State& state, const StepReport& report) const;
+    std::optional<Fault> penetrationTooDeep(const State& state, const StepReport& report) const;
+    std::optional<Fault> energyGrowth(const State& state, const StepReport& report) const;
     double drivingSpeed(const State& state, const StepReport& report) const;
     double energyAllowed(const State& state, const StepReport& report) const;
     std::string fastestParticle(const State& state) const;
     std::string fastestVertex(const State& state) const;
     std::string nameOf(std::size_t vertex) const;
-    std::string calmer(bool isFabrics) const;
+    std::string remedyFor(bool isFabrics) const;
 
     const Scene& scene_;
     const Fabric& fabric_;

@@ -41,15 +41,15 @@ struct Sample {
         state = simulation->state();
         state.memory = before;
     }
-    std::optional<Fault> rash() const { return check->rash(state, report); }
-    std::optional<Fault> broken() const { return check->broken(state, report); }
+    std::optional<Fault> rejectionReason() const { return check->rejectionReason(state, report); }
+    std::optional<Fault> violatedInvariant() const { return check->violatedInvariant(state, report); }
 };
 
 TEST(StepCheck, FindsNothingInAGoodStep)
 {
     const Sample good;
-    EXPECT_FALSE(good.broken());
-    EXPECT_FALSE(good.rash());
+    EXPECT_FALSE(good.violatedInvariant());
+    EXPECT_FALSE(good.rejectionReason());
 }
 
 TEST(StepCheck, SeesEnergyFromNowhere)
@@ -57,15 +57,15 @@ TEST(StepCheck, SeesEnergyFromNowhere)
     Sample sample;
     const double mass = sample.report.liquidMass;
     sample.report.energies.kinetic = 0.5 * mass * 20.0 * 20.0;  // all at 20 cm/s after a thousandth of a second
-    ASSERT_TRUE(sample.rash());
-    EXPECT_EQ(sample.rash()->stage, Stage::GridToParticles);
-    EXPECT_NE(sample.rash()->what.find("particle "), std::string::npos);
+    ASSERT_TRUE(sample.rejectionReason());
+    EXPECT_EQ(sample.rejectionReason()->stage, Stage::GridToParticles);
+    EXPECT_NE(sample.rejectionReason()->what.find("particle "), std::string::npos);
 
     Sample cloth;
     cloth.report.energies.fabric.membrane = 1.0e6;
-    ASSERT_TRUE(cloth.rash());
-    EXPECT_EQ(cloth.rash()->stage, Stage::FabricSolve);
-    EXPECT_NE(cloth.rash()->what.find(" of sheet at "), std::string::npos) << cloth.rash()->what;
+    ASSERT_TRUE(cloth.rejectionReason());
+    EXPECT_EQ(cloth.rejectionReason()->stage, Stage::FabricSolve);
+    EXPECT_NE(cloth.rejectionReason()->what.find(" of sheet at "), std::string::npos) << cloth.rejectionReason()->what;
 }
 
 TEST(StepCheck, LetsGravityAndSourcesGiveEnergy)
@@ -73,9 +73,9 @@ TEST(StepCheck, LetsGravityAndSourcesGiveEnergy)
     Sample sample;
     const double mass = sample.report.liquidMass, speed = 981.0 * 1.0e-3;
     sample.report.energies.kinetic = 0.5 * mass * speed * speed;  // free fall from rest
-    EXPECT_FALSE(sample.rash());
+    EXPECT_FALSE(sample.rejectionReason());
     sample.report.energies.kinetic = sample.report.emittedKinetic = 1.0e6;
-    EXPECT_FALSE(sample.rash());
+    EXPECT_FALSE(sample.rejectionReason());
 }
 
 TEST(StepCheck, LetsContactGiveBackWhatItTook)
@@ -86,9 +86,9 @@ TEST(StepCheck, LetsContactGiveBackWhatItTook)
     StepCheck::accept(fast, sample.state.memory);
     for (int step = 0; step < 5; ++step) StepCheck::accept(sample.report, sample.state.memory);
     sample.report.energies.fabric.kinetic = 1.0e6;
-    EXPECT_FALSE(sample.rash());
+    EXPECT_FALSE(sample.rejectionReason());
     sample.report.energies.fabric.kinetic = 1.2e6;
-    EXPECT_TRUE(sample.rash());
+    EXPECT_TRUE(sample.rejectionReason());
 }
 
 TEST(StepCheck, LetsPinsDrive)
@@ -97,9 +97,9 @@ TEST(StepCheck, LetsPinsDrive)
     pull.addTranslation(0.0, 1.0, {100.0, 0.0, 0.0}, 0.0, 0.0);
     Sample driven(pull);
     driven.report.energies.fabric.membrane += 1.0e6;  // wound up by the pin
-    EXPECT_FALSE(driven.rash());
+    EXPECT_FALSE(driven.rejectionReason());
     driven.report.energies.fabric.kinetic += 1.0e8;  // far more than being thrown at the pin's speed
-    EXPECT_TRUE(driven.rash());
+    EXPECT_TRUE(driven.rejectionReason());
 }
 
 /// Leaves what is not a number where the next functions have their variables.
@@ -126,7 +126,7 @@ TEST(StepCheck, FindsNothingWhereNothingIsLeft)
     report.dt = 1.0e-3;
     check.start(report.energies, state.memory);
     spoilStack();
-    const std::optional<Fault> fault = check.rash(state, report);
+    const std::optional<Fault> fault = check.rejectionReason(state, report);
     EXPECT_FALSE(fault) << fault->what;
 }
 
@@ -134,34 +134,34 @@ TEST(StepCheck, SeesWhatWentTooFar)
 {
     Sample sample;
     sample.report.maxSpeed = 3000.0;  // 3 cells in the step that was to be at most 1 of them
-    ASSERT_TRUE(sample.rash());
-    EXPECT_NE(sample.rash()->what.find("crossed 3 cells"), std::string::npos) << sample.rash()->what;
+    ASSERT_TRUE(sample.rejectionReason());
+    EXPECT_NE(sample.rejectionReason()->what.find("crossed 3 cells"), std::string::npos) << sample.rejectionReason()->what;
 }
 
 TEST(StepCheck, SeesFabricThatJumpsIntoObstacles)
 {
     Sample sample;
     sample.report.fabric.deepest = 0.3;
-    EXPECT_FALSE(sample.rash()) << "where it begins is the scene's business";
+    EXPECT_FALSE(sample.rejectionReason()) << "where it begins is the scene's business";
     sample.report.fabric.deepest = 0.0;
     StepCheck::accept(sample.report, sample.state.memory);
     sample.report.fabric.deepest = 0.2;
-    EXPECT_FALSE(sample.rash());
+    EXPECT_FALSE(sample.rejectionReason());
     sample.report.fabric.deepest = 0.3;
-    ASSERT_TRUE(sample.rash());
-    EXPECT_EQ(sample.rash()->stage, Stage::FabricContact);
+    ASSERT_TRUE(sample.rejectionReason());
+    EXPECT_EQ(sample.rejectionReason()->stage, Stage::FabricContact);
     sample.report.fabric.deepest = 0.2;
     StepCheck::accept(sample.report, sample.state.memory);
     sample.report.fabric.deepest = 0.3;
-    EXPECT_FALSE(sample.rash()) << "it is squeezed there little by little";
+    EXPECT_FALSE(sample.rejectionReason()) << "it is squeezed there little by little";
 }
 
 TEST(StepCheck, SeesLostLiquid)
 {
     Sample sample;
     sample.report.liquidMass *= 1.0 - 1.0e-8;
-    ASSERT_TRUE(sample.broken());
-    EXPECT_NE(sample.broken()->what.find("are not accounted for"), std::string::npos);
+    ASSERT_TRUE(sample.violatedInvariant());
+    EXPECT_NE(sample.violatedInvariant()->what.find("are not accounted for"), std::string::npos);
 }
 
 TEST(StepCheck, NamesWhatIsNotFinite)
@@ -170,7 +170,7 @@ TEST(StepCheck, NamesWhatIsNotFinite)
     State state = sample.simulation->state();
     state.liquid.mode(1, 0)[7] = std::numeric_limits<double>::quiet_NaN();
     sample.report.failure = "velocities are not finite";
-    const auto fault = sample.check->broken(state, sample.report);
+    const auto fault = sample.check->violatedInvariant(state, sample.report);
     ASSERT_TRUE(fault);
     EXPECT_NE(fault->what.find("particle " + std::to_string(state.liquid.id[7]) + " at "), std::string::npos) << fault->what;
 }
