@@ -140,7 +140,9 @@ void FaceSystem::gather(const BlockArray<double, 3>& u)
         for (int s = vertices.begin(n); s < vertices.end(n); ++s)
             stiffness_.set(in_, vertices.id[s], {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]});
         clearLight(n, tile);
-        forEachPressed([&](auto& pressed) { gatherAlong<pressed.kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried()); });
+        forEachPressed([&](auto& pressed) {
+            gatherAlong<std::remove_reference_t<decltype(pressed)>::kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried());
+        });
     });
 }
 
@@ -154,7 +156,9 @@ void FaceSystem::spread(FaceVector& q)
             for (int i = pushBegin_[s]; i < pushBegin_[s + 1]; ++i) sum += pushes_[pushOf_[i]];
             for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = sum[a];
         }
-        forEachPressed([&](auto& pressed) { scatterAlong<pressed.kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile); });
+        forEachPressed([&](auto& pressed) {
+            scatterAlong<std::remove_reference_t<decltype(pressed)>::kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile);
+        });
         clearLight(n, tile);
         scatterValues(vertices, n, onVertices_, tile);
     });
