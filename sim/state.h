@@ -15,6 +15,7 @@ namespace sim {
 struct SourceMemory {
     double owed = 0.0;     ///< that it was asked for and has not given; negative: given in advance [cm^3]
     double toPress = 0.0;  ///< of it, what is to be pressed into the liquid around [cm^3]
+    double crowded = 0.0;  ///< pressed in, for which the projection has not made room yet [cm^3]
     double freely = 0.0;   ///< that it gave of late where there was room, fading as it moves on by a few pitches [cm^3]
     double covered = 0.0;  ///< share of its inlet that is covered by liquid that does not move along [-]
     double laidAt = -std::numeric_limits<double>::infinity();  ///< when particles were last laid, or would have been [s]

@@ -103,7 +103,7 @@ void visitMemory(V& v, Memory& memory)
     std::size_t sources = memory.sources.size();
     v.number("memory/sources/count", "-", sources);
     if constexpr (V::kFills) memory.sources.resize(sources);
-    v.rows("memory/sources/owed_press_freely_covered_at_shut", "cm^3, s", sources, 6,
+    v.rows("memory/sources/owed_press_crowded_freely_covered_at_shut", "cm^3, s", sources, 7,
            [&](std::size_t source) { return &memory.sources[source].owed; });
 }
 

@@ -97,8 +97,9 @@ class Flow {
         lookWhatCovers();
         owe();
         layFreely(seeds);
-        const double pressed = pressIn(seeds.volume);
-        if (pressed > 0.0 || memory_.isShut) inflows.push_back({source_, region_, pressed});
+        pressIn(seeds.volume);
+        const double room = roomMade();
+        if (room > 0.0 || memory_.isShut) inflows.push_back({source_, region_, room});
     }
 
  private:
@@ -107,6 +108,7 @@ class Flow {
 
     MouthSize measure() const { return {areaAcross(region_, emission_.velocity, pitch_), boundedVolume(region_, plan_.dx)}; }
     double packing() const { return packingOf(plan_.fill.pattern); }
+    double asked() const { return packing() * size_.area * speed_ * time_; }  ///< in the step [cm^3]
     double layer() const { return packing() * size_.area * pitch_; }
     double left() const { return emission_.maxVolume - state_.emittedVolume[source_]; }
 
@@ -150,7 +152,7 @@ class Flow {
     void owe()
     {
         if (memory_.isShut) memory_.owed = std::min(memory_.owed, 0.0);
-        const double asked = memory_.isShut ? 0.0 : packing() * size_.area * speed_ * time_, covered = coveredShare();
+        const double asked = memory_.isShut ? 0.0 : this->asked(), covered = coveredShare();
         memory_.owed += asked;
         // Layers come one by one, of which the first may be late: no more than that and the rounding to steps is no reason to press.
         const double slack = (1.0 - covered) * layer() + 2.0 * asked;
@@ -191,8 +193,7 @@ class Flow {
         seeds.positions = std::move(kept);
     }
 
-    /// Returns the volume that was pressed in [cm³].
-    double pressIn(double particle)
+    void pressIn(double particle)
     {
         const std::size_t count = std::min(wholeParticles(memory_.toPress, particle), countUpTo(left(), particle));
         const std::vector<Vec3> positions = spread(count);
@@ -200,7 +201,17 @@ class Flow {
         const double volume = static_cast<double>(positions.size()) * particle;
         memory_.owed -= volume;
         memory_.toPress -= volume;
-        return volume;
+        memory_.crowded += volume;
+    }
+
+    /// Volume for which the step makes room [cm³]: at about the rate that the source is asked for, be particles larger than what that is in the step.
+    /// At once, the room of one particle in a short step would push the liquid around it away at any speed.
+    double roomMade()
+    {
+        const double rest = 1.0 - std::exp(-speed_ * time_ / pitch_);  // of what is crowded: gone as soon as what came has moved on by its pitch
+        const double room = std::min(memory_.crowded, asked() + rest * memory_.crowded);
+        memory_.crowded -= room;
+        return room;
     }
 
     /// Places spread evenly over the region, over those of several steps, too: an additive sequence in three dimensions (Roberts 2018).

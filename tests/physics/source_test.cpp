@@ -108,6 +108,37 @@ TEST(Source, UnderLiquidGivesAreaTimesSpeedTimesTime)
     }
 }
 
+/// Liquid makes room at the rate that is asked for, in steps of any length: also in one that is short for a particle to come in.
+TEST(Source, UnderLiquidPushesNoFasterInShortSteps)
+{
+    for (std::uint64_t number = 0; number < 12; ++number) {
+        Draw draw(300 + number);
+        Scene scene = pool(9.0);
+        scene.settings.gravity = Vec3::Zero();
+        scene.settings.liquid.viscosity = draw.isTrue() ? 100.0 : 0.01;
+        scene.settings.liquid.solveViscosity = scene.settings.liquid.viscosity > 1.0;
+        if (draw.isTrue()) scene.settings.time.integrator = TimeIntegrator::Reflected;
+        const Vec3 half(draw.between(0.3, 0.8), draw.between(0.1, 0.6), draw.between(0.3, 0.8));
+        const double speed = draw.between(3.0, 30.0);
+        const Vec3 velocity = speed * Vec3(draw.inBox(1.0) + Vec3(0.0, 0.3, 0.0)).normalized();
+        FillSettings fill;
+        fill.spacing = 0.5;
+        const Jet jet = jetOf(Vec3(3.0, 2.2, 3.0) + draw.inBox(0.5), half, Eigen::AngleAxisd::Identity(), velocity, 0.0, 1.0, fill);
+        scene.sources.push_back(jet.source);
+        Simulation simulation(scene);
+        double given = 0.0, fastest = 0.0;
+        for (int step = 0; step < 60; ++step) {
+            const double dt = 2.5e-3 * std::pow(10.0, -draw.between(0.0, 2.0));
+            const double before = simulation.state().emittedVolume[1];
+            simulation.step(simulation.state().time + dt);
+            given += simulation.state().emittedVolume[1] - before;
+            fastest = std::max(fastest, simulation.state().memory.maxSpeed);
+        }
+        EXPECT_GT(given, 0.0) << "case " << number;
+        EXPECT_LT(fastest, 2.0 * speed) << "case " << number;  // its own, and half as much again of the room's
+    }
+}
+
 /// Mouths in the open air, with and without weight, on walls, and partly under water: to within a layer.
 TEST(Source, InAirAtWallsAndAtTheSurfaceGivesAreaTimesSpeedTimesTime)
 {
