@@ -127,7 +127,8 @@ void roomOfFaces(const BlockGrid& grid, int block, const Obstacles& obstacles, b
             for (int other = axis + 1; other < kAxes; ++other) smooth(axis, axis == a, size, nullptr, smoothed.moment[other]);
             size[axis] = kBlockEdge;
         }
-        for (int c = 0; c < kBlockCells; ++c) room[a * kBlockCells + c] = smoothed.share[indexOf({c & 7, c >> 3 & 7, c >> 6})];
+        // Slopes within parts may lead beyond what there can be.
+        for (int c = 0; c < kBlockCells; ++c) room[a * kBlockCells + c] = std::clamp(smoothed.share[indexOf({c & 7, c >> 3 & 7, c >> 6})], 0.0, 1.0);
     }
 }
 

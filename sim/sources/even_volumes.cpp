@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kSweeps = 20;           ///< leave the volume of a cell of the grid within .5 % of what the region has of it, but in slivers
 constexpr double kRight = 2.0e-3;     ///< particles whose first factor is as near to 1 stay as they are, for most of a lattice is even [-]
+constexpr double kLeastShare = 0.02;  ///< volume of a particle in a sliver that the grid does not see, of the mean of all [-]
 constexpr double kLeastSum = 1.0e-6;  ///< a face with less of particles than this tells nothing [cells]
 constexpr int kTileEdge = 11;         ///< nodes −1 … 9 of a block along each axis, which its particles reach
 constexpr int kColors = 8;            ///< blocks of one parity share no face that their particles reach
@@ -232,9 +233,11 @@ class Evening {
 
 std::vector<double> evenVolumes(const Shape& region, std::span<const Vec3> positions, double volume, double dx, const Vec3& origin)
 {
-    std::vector<double> volumes(positions.size(), volume / (static_cast<double>(positions.size()) * dx * dx * dx));
+    const double mean = volume / (static_cast<double>(positions.size()) * dx * dx * dx);
+    std::vector<double> volumes(positions.size(), mean);
     Evening evening(region, positions, dx, origin);
     for (int sweep = 0; sweep < kSweeps; ++sweep) evening.sweep(volumes);
+    for (double& v : volumes) v = std::max(v, kLeastShare * mean);
     const double scale = volume / parallelSum(volumes.size(), [&](std::size_t p) { return volumes[p]; });
     for (double& v : volumes) v *= scale;
     return volumes;

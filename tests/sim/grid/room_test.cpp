@@ -1,5 +1,6 @@
 #include "sim/grid/room.h"
 
+#include "sim/core/random.h"
 #include "tests/sim/liquid/grid_scene.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,25 @@ TEST(Room, BesideAPlaneWallIsTheIntegralOfTheSpline)
         for (int a = 1; a < kAxes; ++a) EXPECT_NEAR(values[a * kBlockCells + c], tangential[i], 1.0e-14) << i;
         if (i < 3) continue;
         for (int a = 0; a < kAxes; ++a) EXPECT_NEAR(mirrored[a * kBlockCells + c], 1.0, 1.0e-14) << "the image counts, " << i;
+    }
+}
+
+/// However thin and bent what is open may be: a share of a volume.
+TEST(Room, IsAShare)
+{
+    const CounterRandom random(3, 1);
+    std::uint64_t next = 0;
+    const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(next++); };
+    for (int n = 0; n < 60; ++n) {
+        GridScene scene({0, 0, 0}, {8, 8, 8});
+        const double dx = scene.grid.dx, radius = draw(0.5, 3.0) * dx;
+        const Vec3 at = scene.corner({4, 4, 4}) + dx * Vec3(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0));
+        const Vec3 hole = at + draw(0.0, 0.8) * dx * Vec3(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0));
+        scene.add(Shape::subtract({Shape::ball(at, radius), Shape::ball(hole, radius)}).inverted());
+        for (const double value : room(scene, 0, false)) {
+            ASSERT_GE(value, 0.0) << "crescent " << n;
+            ASSERT_LE(value, 1.0) << "crescent " << n;
+        }
     }
 }
 

@@ -1,4 +1,5 @@
 #include "sim/sources/seed.h"
+#include "sim/core/random.h"
 
 #include "sim/core/check.h"
 #include "sim/core/units.h"
@@ -320,6 +321,25 @@ TEST(Seed, BodiesFillTheirRegionsEvenly)
                 EXPECT_LT(even, 0.025) << "pattern " << static_cast<int>(pattern) << ", alike " << alike;
                 EXPECT_LT(even, 0.5 * alike + 0.006) << "pattern " << static_cast<int>(pattern);
             }
+}
+
+/// Crescents, shells and slivers, of which the grid sees next to nothing, at any place: every particle has a volume.
+TEST(Seed, ThinBodiesHaveParticlesWithVolumes)
+{
+    const CounterRandom random(7, 1);
+    std::uint64_t next = 0;
+    const auto draw = [&](double low, double high) { return low + (high - low) * random.uniform(next++); };
+    for (int n = 0; n < 100; ++n) {
+        const Vec3 at(draw(-1.0, 1.0), draw(-1.0, 1.0), draw(-1.0, 1.0)), off(draw(-0.5, 0.5), draw(-0.5, 0.5), draw(-0.5, 0.5));
+        const double radius = draw(0.3, 0.8);
+        const Shape hole = n % 3 == 0 ? Shape::ball(at, draw(0.8, 0.97) * radius) : Shape::ball(at + off, radius);
+        const SeedPlan plan = planOf(Shape::subtract({Shape::ball(at, radius), hole}), kPatterns[n % 4], draw(0.3, 0.7));
+        const Seeds seeds = seedParticles(plan);
+        if (seeds.volumes.empty()) continue;
+        const double sum = std::accumulate(seeds.volumes.begin(), seeds.volumes.end(), 0.0);
+        EXPECT_NEAR(sum / (countOf(seeds) * seeds.volume), 1.0, 1e-12) << "body " << n;
+        EXPECT_GT(*std::ranges::min_element(seeds.volumes), 0.005 * seeds.volume) << "body " << n;
+    }
 }
 
 }  // namespace
