@@ -27,12 +27,30 @@ bool isUnderSolid(const CutGrid& cut, const Vec3& gravity, int b, int c)
     return false;
 }
 
+/// Is a cell on a side that is up under a solid, and too empty to press on it?
+bool isUnderGap(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
+{
+    for (int a = 0; a < kAxes; ++a) {
+        if (gravity[a] == 0.0) continue;
+        Vec3i at(c & 7, c >> 3 & 7, c >> 6);
+        at[a] += gravity[a] < 0.0 ? 1 : -1;
+        const CellRef up = cellNear(cut.grid, b, at.x(), at.y(), at.z());
+        if (up.block == cut.grid.count() || !isUnderSolid(cut, gravity, up.block, up.cell)) continue;
+        if (liquid.inside.test(up.block, up.cell) && liquid.fill.block(up.block)[up.cell] < kFillBelowSurface) return true;
+    }
+    return false;
+}
+
 /// Least that a cell holds where there is no hole. Cells at the surface may hold as little as they like, and so may those under a solid: what falls
-/// off a ceiling is not pulled back to it, for nothing would pay for that.
+/// off a ceiling is not pulled back to it, for nothing would pay for that. Cells under such a gap are as those at the surface or beside it.
 double leastFill(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
-    if (liquid.surface.test(b, c) || (cut.field.nearSolid(b) && isUnderSolid(cut, gravity, b, c))) return 0.0;
-    return liquid.deep.test(b, c) ? 1.0 : kFillBelowSurface;
+    if (liquid.surface.test(b, c)) return 0.0;
+    const bool isDeep = liquid.deep.test(b, c);
+    if (!cut.field.nearSolid(b)) return isDeep ? 1.0 : kFillBelowSurface;
+    if (isUnderSolid(cut, gravity, b, c)) return 0.0;
+    if (isUnderGap(cut, gravity, liquid, b, c)) return isDeep ? kFillBelowSurface : 0.0;
+    return isDeep ? 1.0 : kFillBelowSurface;
 }
 
 /// Error of a cell's volume that is noise [-]. Where solids take a part of the cell's room a few particles stand for what is left.

@@ -14,7 +14,7 @@ struct RunCourse {
     double energyGain = 0.0;
     double largestSpeed = 0.0;  ///< of a particle of the liquid [cm/s]
     double commonSpeed = 0.0;   ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
-    double solidSpeed = 0.0;    ///< of the fastest solid at any time of the run [cm/s]
+    double ledSpeed = 0.0;      ///< of the fastest of solids and pins at any time of the run [cm/s]
     double drawnSpeed = 0.0;    ///< to which suction of dry fabric could take liquid [cm/s]
 };
 
