@@ -1,68 +1,37 @@
 #include "app/probes/probe_log.h"
 
-#include "app/parts.h"
 #include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace app {
 
-namespace {
-
-/// A time that is a whole number of intervals but for rounding is the last of them.
-std::int64_t readingsUpTo(double time, double every) { return std::llround(std::floor(time / every + 1.0e-9)); }
-
-}  // namespace
-
-ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, double start) : file_(file), probes_(probes), start_(start)
+ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, double start) : file_(file), reader_(probes, start)
 {
-    file_.add(fmt::format("{}", fmt::join(probes_.columns(), ",")));
+    file_.add(fmt::format("{}", fmt::join(probes.columns(), ",")));
 }
 
 ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, double start, double time, std::uintmax_t bytes,
                    const ForceTotals& sinceReading)
-    : file_(file, bytes), probes_(probes), start_(start), next_(readingsUpTo(time - start, probes.every) + 1)
+    : file_(file, bytes), reader_(probes, start, time, sinceReading)
 {
-    probes_.measures->goOnWith(sinceReading);
 }
 
-void ProbeLog::initial(const Steppable& simulation)
-{
-    probes_.measures->look(simulation);
-    read(simulation);
-}
+void ProbeLog::initial(const Steppable& simulation) { write(reader_.initial(simulation)); }
 
 void ProbeLog::step(const Steppable& simulation, bool isReflected)
 {
-    probes_.measures->goOnLooking(simulation);
-    probes_.measures->tookStep();
-    if (!isReflected && readingsUpTo(simulation.state().time - start_, probes_.every) >= next_) read(simulation);
+    if (const auto reading = reader_.step(simulation, isReflected)) write(*reading);
 }
 
-std::string ProbeLog::valueOf(const Probe& probe, std::span<const double> at)
-try {
-    return fmt::format(",{:.9g}", probe.read(at));
-} catch (const sim::FormulaError& error) {
-    if (valueless_.insert(probe.name).second)
-        spdlog::warn("output.probes: {} has no value at {:.6g} s, its cell stays empty: {}", probe.name, at[0], error.what());
-    return ",";
-}
-
-void ProbeLog::read(const Steppable& simulation)
+void ProbeLog::write(const ProbeReading& reading)
 {
-    const double time = simulation.state().time;
-    std::string row = fmt::format("{:.9g}", time);
-    for (const Probe& probe : probes_.all) {
-        if (probe.points.empty()) row += valueOf(probe, std::array{time});
-        for (const sim::Vec3& x : probe.points) row += valueOf(probe, std::array{time, x[0], x[1], x[2]});
-    }
+    std::string row = fmt::format("{:.9g}", reading.time);
+    for (const std::optional<double>& value : reading.values) row += value ? fmt::format(",{:.9g}", *value) : ",";
     file_.add(row);
-    probes_.measures->startInterval();
-    next_ = readingsUpTo(time - start_, probes_.every) + 1;
 }
 
 void plotProbes(const Probes& probes, const std::string& title, const std::filesystem::path& folder)

@@ -1,12 +1,10 @@
 #pragma once
 
-#include "app/probes/probes.h"
-#include "app/readings/force_log.h"
+#include "app/probes/probe_reader.h"
 #include "app/system/atomic_files.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
 
 namespace app {
@@ -15,8 +13,7 @@ class Steppable;
 
 inline constexpr const char* kProbesFile = "probes.csv";
 
-/// probes.csv: a row of readings at the start and after the first step that gets as far as the next one is due. The steps are those that
-/// they would be without it.
+/// probes.csv: a row for each reading.
 class ProbeLog {
  public:
     /// @param start  of the run, from which readings are counted [s]
@@ -30,19 +27,15 @@ class ProbeLog {
     /// @param isReflected  the state is one of particles that hold no flow: readings wait for the next one
     void step(const Steppable& simulation, bool isReflected);
 
-    bool isNew() const { return next_ == 0; }             ///< nothing was read yet
+    bool isNew() const { return reader_.isNew(); }        ///< nothing was read yet
     std::uintmax_t size() const { return file_.size(); }  ///< of the file [bytes]
-    const ForceTotals& sinceReading() const { return probes_.measures->interval(); }
+    const ForceTotals& sinceReading() const { return reader_.sinceReading(); }
 
  private:
-    void read(const Steppable& simulation);
-    std::string valueOf(const Probe& probe, std::span<const double> at);
+    void write(const ProbeReading& reading);
 
     LineFile file_;
-    Probes probes_;
-    double start_;
-    std::int64_t next_ = 0;            ///< number of the reading that is due next
-    std::set<std::string> valueless_;  ///< names of probes that were told to have none
+    ProbeReader reader_;
 };
 
 /// The table of readings that is in a folder as probes.png, with its script beside it. Throws std::runtime_error with gnuplot's own words.
