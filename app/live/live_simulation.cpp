@@ -209,6 +209,7 @@ void LiveSimulation::advance()
     }
     const sim::State& state = simulation_->state();
     shutSources_->look(state);
+    probes_.step(*simulation_, step.report.isReflected);
     step.step = state.step;
     step.time = state.time;
     step.ledger = state.ledger;
@@ -245,6 +246,8 @@ void LiveSimulation::goTo(const RewindBuffer::Moment& moment)
     settings_.goBackTo(moment.state.step);
     simulation_ = parts_.resumeSimulation(settings_.setup(), moment.state);
     rewind_.forgetAfter(time);
+    if (moment.frame == 0) probes_.begin(settings_.setup(), *simulation_);
+    else probes_.goBack(settings_.setup(), time);
     mode_ = LiveMode::Paused;
     failure_.clear();
     publishScene();
@@ -258,6 +261,7 @@ void LiveSimulation::startAnew()
     shutSources_.emplace(setup.scene);
     placeObstacles_ = parts_.meshObstacles(setup);
     rewind_.begin(simulation_->state());
+    probes_.begin(setup, *simulation_);
     frame_ = 0;
     pausesAtFrame_ = false;
     mode_ = LiveMode::Paused;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/live/live_probes.h"
 #include "app/live/rewind_buffer.h"
 #include "app/parts.h"
 #include "app/reports/shut_sources.h"
@@ -72,6 +73,7 @@ class LiveSimulation {
     std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
     /// What has happened since the last call, oldest first.
     std::vector<LiveStep> takeSteps();
+    LiveReadings takeReadings() { return probes_.take(); }  ///< of output.probes
     /// The latest picture to draw, whole as it was between two steps; `old`, the one that was taken before it, if there
     /// is no newer one.
     std::unique_ptr<FrameSnapshot> takeSnapshot(std::unique_ptr<FrameSnapshot> old = nullptr);
@@ -100,6 +102,7 @@ class LiveSimulation {
     PlaceObstacles placeObstacles_;
     std::unique_ptr<Steppable> simulation_;
     std::optional<ShutSources> shutSources_;  ///< since it was started
+    LiveProbes probes_;                       ///< has a lock of its own
     RewindBuffer rewind_;
     std::int64_t frame_ = 0;       ///< the last one that was reached
     std::int64_t nextChange_ = 0;  ///< the step with which settings change next by themselves

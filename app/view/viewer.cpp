@@ -7,6 +7,7 @@
 #include "app/view/live_panel.h"
 #include "app/view/look_panel.h"
 #include "app/view/parameter_panel.h"
+#include "app/view/probe_panel.h"
 #include "app/view/saved_scene.h"
 #include "app/view/scene_panel.h"
 #include "app/view/view_camera.h"
@@ -61,6 +62,7 @@ struct Viewer::Inner {
     render::Renderer renderer;
     LivePanel livePanel;
     ParameterPanel parameterPanel;
+    ProbePanel probePanel;
     std::optional<LookPanel> lookPanel;
     ScenePanel scenePanel;
     RecentFiles recent;
@@ -148,6 +150,7 @@ void Viewer::Inner::takeNewest()
 {
     pair->takeNewest();
     livePanel.take(*pair);
+    probePanel.take(*pair);
     const auto& shown = pair->sides().front()->shown;
     if (!shown || camera || window.height() == 0 || widthOfSide() == 0) return;
     const CameraSettings& settings = pair->first().scene()->setup.pictures.render.camera;
@@ -246,6 +249,7 @@ void Viewer::Inner::drawPanels()
     ImGui::SetNextWindowSize(ImVec2(width, 0.48f * height), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Settings")) drawSettings();
     ImGui::End();
+    probePanel.draw(*pair);
 }
 
 void Viewer::Inner::drawPicturePanel()

@@ -39,6 +39,28 @@ TEST(Viewer, LooksAsItDidWithItsPanels)
     desktop.expectGolden("start");
 }
 
+/// Without probes the right half has the scene alone.
+TEST(Viewer, ProbesOfASceneHaveAPanel)
+{
+    SceneRequest probed = drop();
+    probed.sets.emplace_back(
+        "output.probes={every: 1.0e-3, readings: [{name: height of the drop, unit: cm, read: liquid_y}, {name: speed, unit: cm/s, read: liquid_vy},"
+        " {name: nowhere, unit: cm, read: 1/(t-t)},"
+        " {name: pressure, unit: dyn/cm^2, read: \"pressure(x, y, z)\", along: {from: [0, 0, 0], to: [0, 3, 0], points: 20}}]}");
+    const auto afterSteps = [](const SceneRequest& request, const char* golden) {
+        Desktop desktop(request, kPaused);
+        desktop.focus();
+        desktop.keys("s s s s s s s s");
+        EXPECT_TRUE(desktop.comesTrue([&] { return desktop.status().step == 8 && desktop.timeShown(0) == desktop.status().time; }));
+        if (golden) desktop.expectGolden(golden);
+        return rightHalf(desktop.shot());
+    };
+    const render::Image with = afterSteps(probed, "probes"), without = afterSteps(drop(), nullptr);
+    const double panel = 0.4 * 0.48;  // of the half, at least
+    EXPECT_GT(render::colorDifference(with, without).share, 0.5 * panel);
+    EXPECT_LT(render::colorDifference(with, without).share, 0.5);
+}
+
 TEST(Viewer, TwoVariantsStandSideBySideAtOneTime)
 {
     Desktop desktop(drop(), {.width = kWidth, .height = kHeight, .paused = true, .beside = "pic"});

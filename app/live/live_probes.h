@@ -1,0 +1,47 @@
+#pragma once
+
+#include "app/probes/probe_reader.h"
+
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace app {
+
+/// What a window tells of a probe beside its values.
+struct ProbeTitle {
+    std::string name, unit;
+    std::size_t points = 0;  ///< along a line; 0: it is read once
+};
+
+/// What was read since it was last taken.
+struct LiveReadings {
+    std::shared_ptr<const std::vector<ProbeTitle>> titles;         ///< of all probes; null where the scene has none
+    double forgetAfter = std::numeric_limits<double>::infinity();  ///< what was taken before and is of a later time does not hold any more [s]
+    std::vector<ProbeReading> readings;                            ///< oldest first
+};
+
+/// The probes of a live simulation: read on its thread, taken on another.
+class LiveProbes {
+ public:
+    /// All is read anew, beginning with the state before the first step. Throws InputError.
+    void begin(const SceneSetup& setup, const Steppable& simulation);
+    /// What was read after a time does not hold [s]; from there on it is read again, forces as means since then.
+    void goBack(const SceneSetup& setup, double time);
+    void step(const Steppable& simulation, bool isReflected);
+
+    LiveReadings take();
+
+ private:
+    void add(ProbeReading reading);
+
+    std::optional<ProbeReader> reader_;  ///< where the scene has probes
+
+    std::mutex mutex_;  ///< guards what follows
+    LiveReadings waiting_;
+};
+
+}  // namespace app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "app/live/live_pair.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace app {
+
+/// What output.probes of a scene read: courses over time, or along a line as it is now, with their latest values.
+class ProbePanel {
+ public:
+    /// Readings that are new.
+    void take(LivePair& pair);
+    /// In a window of its own, where a scene has probes.
+    void draw(const LivePair& pair) const;
+
+ private:
+    /// Of one probe.
+    struct Course {
+        std::vector<double> times;     ///< with a value [s]
+        std::vector<float> values;     ///< at these times; or along the line, where there is one
+        std::optional<double> latest;  ///< value, if there is one; for points along a line that at the first
+        double latestTime = 0.0;       ///< of the last reading [s]
+        void add(const ProbeTitle& title, double time, std::span<const std::optional<double>> read);
+        void forgetAfter(double time);
+        void draw(const ProbeTitle& title) const;
+    };
+    /// Of one simulation.
+    struct Side {
+        std::shared_ptr<const std::vector<ProbeTitle>> titles;  ///< null where it has no probes
+        std::vector<Course> courses;                            ///< one for each of them
+        void add(const LiveReadings& taken);
+        void draw() const;
+    };
+    std::array<Side, 2> sides_;
+};
+
+}  // namespace app
