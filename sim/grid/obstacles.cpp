@@ -11,6 +11,7 @@ void Obstacles::add(const Shape& shape, const Motion& motion)
     body.now = motion.transform(0.0);
     body.other = body.now;
     body.toShape = body.now.inverse();
+    steepest_ = std::max(steepest_, body.shape.steepest());
     bodies_.push_back(std::move(body));
     const auto box = motion.isStatic() ? shape.axisBox() : std::nullopt;
     if (!box || !box->inside) return;

@@ -23,6 +23,7 @@ class Obstacles {
 
     bool empty() const { return bodies_.empty(); }
     int count() const { return static_cast<int>(bodies_.size()); }
+    double steepest() const { return steepest_; }        ///< distances change by no more than this times the way [-]
     bool anyMoving() const { return anyMoving_; }        ///< in the step of the last call of those
     bool anyDisplaced() const { return anyDisplaced_; }  ///< … or in the step before it
 
@@ -103,6 +104,7 @@ class Obstacles {
 
     std::vector<Body> bodies_;
     std::vector<Wall> walls_;
+    double steepest_ = 1.0;
     bool anyMoving_ = false, anyDisplaced_ = false;
     double started_ = std::numeric_limits<double>::infinity();  ///< when the last step began [s] …
     double startedBefore_ = 0.0;                                ///< … and the one before it

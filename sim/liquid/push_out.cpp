@@ -135,6 +135,15 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
     return pushed;
 }
 
+/// Could a particle that has gone straight from its place before to where it is have met a solid, if none comes nearer than `clear` to a point?
+/// @param clear  divided by the steepest slope of distances [cm]
+bool mayMeet(const std::array<AlignedArray<double>, kAxes>* before, const LiquidParticles& particles, std::size_t p, const Vec3& point, double clear)
+{
+    const auto squareFrom = [&](const std::array<AlignedArray<double>, kAxes>& x) { return (Vec3(x[0][p], x[1][p], x[2][p]) - point).squaredNorm(); };
+    const double farthest = std::max(squareFrom(particles.x), before == nullptr ? 0.0 : squareFrom(*before));
+    return !(clear > 0.0 && farthest < clear * clear);
+}
+
 }  // namespace
 
 PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest, const std::array<AlignedArray<double>, kAxes>* before,
@@ -152,7 +161,11 @@ PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, dou
             const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
             const int* start = order.cells(b) + cellRank(i, j, k);
             if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
-            for (int s = start[0]; s < start[1]; ++s) pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, s, particles, impulses);
+            const double clear = cut.field.nearSolid(b) ? (cut.field.centerDistance(b)[c] - sweep) / cut.obstacles.steepest() : 0.0;
+            const Vec3 center = cut.grid.lowerCorner(b) + cut.grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
+            for (int s = start[0]; s < start[1]; ++s)
+                if (mayMeet(before, particles, s, center, clear))
+                    pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, s, particles, impulses);
         }
         return pushed;
     };

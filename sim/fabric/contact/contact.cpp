@@ -26,9 +26,9 @@ void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> m
     p.list.beginStep();
 }
 
-void FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)
+bool FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)
 {
-    parts_->limiter.limit(x, u, parts_->list, report, clock);
+    return parts_->limiter.limit(x, u, parts_->list, report, clock);
 }
 
 void FabricContact::moved() { parts_->list.moved(); }

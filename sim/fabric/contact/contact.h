@@ -50,7 +50,8 @@ class FabricContact {
     void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const Grips& held = {});
     /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
     /// unless everything has to be scaled.
-    void limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
+    /// @return whether it changed any
+    bool limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
     /// To be called once the fabric has been moved from x by the u of the last limit().
     void moved();
     /// Pairs that act at x, with force and stiffness.

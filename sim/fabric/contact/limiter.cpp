@@ -21,16 +21,17 @@ std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3
 
 Limiter::Limiter(const Primitives& primitives) : primitives_(primitives) { motion_.resize(primitives.count()); }
 
-void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
+bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     constexpr int kFilterRounds = 5, kBlendRounds = 8;
-    bool changed = true;  // the moves, since they were looked at
+    bool changed = true, anyChanged = false;  // the moves, since they were looked at, and at all
     for (int round = 0; round < kFilterRounds; ++round) {
         cover(x, u, list, report, clock);
-        if (list.empty()) return;
+        if (list.empty()) return anyChanged;
         findClosing(x, u, list);
-        if (closing_.empty()) return;
+        if (closing_.empty()) return anyChanged;
         const int sweeps = pushApart(u, changed);
+        anyChanged = anyChanged || changed;
         if (sweeps == 1) break;
     }
     double fraction = 1.0;
@@ -40,12 +41,14 @@ void Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
             findClosing(x, u, list);
         }
         fraction = measureFractions(x, u);
-        if (fraction >= 1.0) return;
+        if (fraction >= 1.0) return anyChanged;
+        anyChanged = true;
         if (round + 1 < kBlendRounds) report.blends += blendFailing(u);
     }
     constexpr double kSpare = 0.95;
     parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSpare * fraction; });
     ++report.scalings;
+    return true;
 }
 
 /// Whatever changed the moves may have led them to where the list was not looked up.

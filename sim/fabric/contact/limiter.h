@@ -15,7 +15,8 @@ class Limiter {
 
     /// @param inverseMass  of each vertex; 0 = held [1/g]
     void setMasses(std::span<const double> inverseMass) { inverseMass_ = inverseMass; }
-    void limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
+    /// @return whether it changed any move
+    bool limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
 
  private:
     /// A pair that the move brings near.

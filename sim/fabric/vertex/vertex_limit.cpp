@@ -44,8 +44,8 @@ bool VertexSolver::limitInTurn(const FabricState& state, StageClock& clock)
         if (limited == SolidGuard::Limited::Unsafe) return false;
         guardActed_ = guardActed_ || limited == SolidGuard::Limited::Changed;
         if (limited == SolidGuard::Limited::Unchanged && turn > 0) return true;
-        contact_->limit(state.x, move_, limits_, clock);
-        if (!guard_.isNear()) return true;
+        const bool hasChanged = contact_->limit(state.x, move_, limits_, clock);
+        if (!hasChanged || !guard_.isNear()) return true;
     }
     clock.start(Stage::FabricContact);
     const double part = guard_.safePart(state.x, move_);

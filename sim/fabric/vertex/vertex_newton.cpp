@@ -23,6 +23,7 @@ constexpr double kSmallMove = 0.03;          ///< … or this small, where moves
 constexpr double kContraction = 0.5;         ///< from one iteration's move to the next [-]
 constexpr int kMostNewton = 6;               ///< iterations to get there; more ask for halves
 constexpr double kFrictionError = 0.05;      ///< with which a step may end: more sticks where it should slide [-] …
+constexpr int kMostForFriction = 12;         ///< … and iterations to get there, of which each takes half of it or more: halves would cost more
 constexpr double kFeltFriction = 0.2;        ///< … and below which friction is too little to matter [feltAcceleration]
 constexpr int kMaxLinearIterations = 1000;
 
@@ -124,7 +125,7 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
         if (!isLastMove) continue;
         const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
-        if (frictionError > kFrictionError && newton.count < most) continue;
+        if (frictionError > kFrictionError && newton.count < std::max(most, kMostForFriction)) continue;
         newton.isSettled = newton.isSettled && frictionError <= kFrictionError;
         finish(h, state);
         if (!settled) settled = newton;
