@@ -63,10 +63,11 @@ void Capture::forEachUnsaturated(const SortedVertices& vertices, int block, Body
 
 /// body(particle, stencil) for the particles of a part.
 template <class Body>
-void Capture::forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, const LiquidAround::Part& part, Body&& body) const
+void Capture::forEachNear(const SortedParticles& sorted, const LiquidAround::Part& part, Body&& body) const
 {
-    const Vec3 corner = grid.lowerCorner(part.block);
-    for (int s = part.begin; s < part.end; ++s) body(static_cast<std::size_t>(s), CellStencil(liquid.position(s), corner, grid.dx));
+    const Vec3 corner = sorted.grid.lowerCorner(part.block);
+    LiquidAround::forEachParticle(
+        sorted.order, part, [&](int s) { body(static_cast<std::size_t>(s), CellStencil(sorted.particles.position(s), corner, sorted.grid.dx)); });
 }
 
 /// The vertices that have room. wanted_ is that room for now.
@@ -103,10 +104,12 @@ void Capture::computeDemand(double dt, const SortedVertices& vertices)
 /// No cell gives more than it has: demands become shares of the cells' liquid, at most 1 …
 void Capture::limitDemand(const SortedVertices& vertices)
 {
+    isAsked_.assign(vertices.grid.count() + 1, 0);
     parallelFor(vertices.grid.count(), 8, [&](std::size_t n) {
         for (int c = 0; c < kBlockCells; ++c) {
             Pack& cell = around_.cell(static_cast<int>(n), c);
             cell[LiquidAround::kDemand] = cell[LiquidAround::kMass] > 0.0 ? cell[LiquidAround::kDemand] / cell[LiquidAround::kMass] : 0.0;
+            if (cell[LiquidAround::kDemand] > 0.0) isAsked_[n] = 1;
         }
     });
 }
@@ -142,12 +145,13 @@ double Capture::absorb(const SortedVertices& vertices, FabricState& state)
 }
 
 /// Particles give what the cells around them gave.
-void Capture::removeFromParticles(const BlockGrid& grid, LiquidParticles& liquid)
+void Capture::removeFromParticles(const SortedParticles& sorted, LiquidParticles& liquid)
 {
     parallelFor(around_.near().size(), [&](std::size_t n) {
         const LiquidAround::Part& part = around_.near()[n];
         const std::array<int, 27>& blocks = around_.blocksAround(part.block);
-        forEachNear(grid, liquid, part, [&](std::size_t p, const CellStencil& stencil) {
+        if (std::ranges::none_of(blocks, [&](int b) { return isAsked_[b] != 0; })) return;
+        forEachNear(sorted, part, [&](std::size_t p, const CellStencil& stencil) {
             double share = 0.0;
             stencil.forEach(blocks, [&](int b, int c, double weight) { share += weight * std::min(1.0, around_.cell(b, c)[LiquidAround::kDemand]); });
             liquid.mass[p] *= std::max(0.0, 1.0 - share);
@@ -155,37 +159,41 @@ void Capture::removeFromParticles(const BlockGrid& grid, LiquidParticles& liquid
     });
 }
 
+/// The vertex nearest to a place that has room, of those within a stencil of it; the number of vertices if there is none.
+std::size_t Capture::nearestWithRoom(const Vec3& x, double dx, const std::array<int, 27>& blocks, const SortedVertices& vertices,
+                                     const FabricState& state) const
+{
+    double nearest = 2.25 * dx * dx;  // 1.5 cells: a stencil
+    std::size_t taker = fabric_.vertexCount();
+    for (int b : blocks) {
+        if (b == vertices.grid.count()) continue;
+        for (int n = vertices.order.begin(b); n < vertices.order.end(b); ++n) {
+            const std::size_t v = vertices.particles.id[n];
+            const double distance = (vertices.particles.position(n) - x).squaredNorm();
+            if (distance < nearest && roomOf(v, state) > 0.0) nearest = distance, taker = v;
+        }
+    }
+    return taker;
+}
+
 /// Particles that are hardly there any more go to the nearest vertex with room; few ever are.
 double Capture::absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                                 FabricState& state)
 {
     double sum = 0.0;
-    for (const auto& [block, begin, end] : around_.near()) {
-        for (int s = begin; s < end; ++s) {
-            if (liquid.mass[s] >= leastMass_) continue;
-            if (liquid.mass[s] == 0.0) {
-                emptied_.push_back(s);
-                continue;
+    for (const LiquidAround::Part& part : around_.near())
+        LiquidAround::forEachParticle(order, part, [&](int s) {
+            if (liquid.mass[s] >= leastMass_) return;
+            if (liquid.mass[s] > 0.0) {
+                const std::size_t taker = nearestWithRoom(liquid.position(s), grid.dx, around_.blocksAround(part.block), vertices, state);
+                if (taker == fabric_.vertexCount()) return;
+                const double mass = liquid.mass[s];
+                deposit(taker, mass, mass * liquid.velocity(order.source[s]), state);
+                sum += mass;
+                liquid.mass[s] = 0.0;
             }
-            const Vec3 x = liquid.position(s);
-            double nearest = 2.25 * grid.dx * grid.dx;  // 1.5 cells: a stencil
-            std::size_t taker = fabric_.vertexCount();
-            for (int b : around_.blocksAround(block)) {
-                if (b == vertices.grid.count()) continue;
-                for (int n = vertices.order.begin(b); n < vertices.order.end(b); ++n) {
-                    const std::size_t v = vertices.particles.id[n];
-                    const double distance = (vertices.particles.position(n) - x).squaredNorm();
-                    if (distance < nearest && roomOf(v, state) > 0.0) nearest = distance, taker = v;
-                }
-            }
-            if (taker == fabric_.vertexCount()) continue;
-            const double mass = liquid.mass[s];
-            deposit(taker, mass, mass * liquid.velocity(order.source[s]), state);
-            sum += mass;
-            liquid.mass[s] = 0.0;
             emptied_.push_back(s);
-        }
-    }
+        });
     return sum;
 }
 
@@ -198,7 +206,7 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
     computeDemand(dt, vertices);
     limitDemand(vertices);
     const double mass = absorb(vertices, state);
-    removeFromParticles(grid, liquid);
+    removeFromParticles({liquid, order, grid}, liquid);
     return mass + absorbResiduals(grid, order, vertices, liquid, state);
 }
 

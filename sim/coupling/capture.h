@@ -39,14 +39,16 @@ class Capture {
     void computeDemand(double dt, const SortedVertices& vertices);
     void limitDemand(const SortedVertices& vertices);
     double absorb(const SortedVertices& vertices, FabricState& state);
-    void removeFromParticles(const BlockGrid& grid, LiquidParticles& liquid);
+    void removeFromParticles(const SortedParticles& sorted, LiquidParticles& liquid);
+    std::size_t nearestWithRoom(const Vec3& x, double dx, const std::array<int, 27>& blocks, const SortedVertices& vertices,
+                                const FabricState& state) const;
     double absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                            FabricState& state);
     void deposit(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
     template <class Body>
     void forEachUnsaturated(const SortedVertices& vertices, int block, Body&& body) const;
     template <class Body>
-    void forEachNear(const BlockGrid& grid, const LiquidParticles& liquid, const LiquidAround::Part& part, Body&& body) const;
+    void forEachNear(const SortedParticles& sorted, const LiquidAround::Part& part, Body&& body) const;
 
     const Fabric& fabric_;
     std::vector<double> capacity_;       ///< of each vertex [g]
@@ -59,6 +61,7 @@ class Capture {
     std::vector<double> wanted_, got_;          ///< of each vertex [g]
     std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
     std::vector<std::uint8_t> hasUnsaturated_;  ///< of each block of the vertices: has vertices with room
+    std::vector<std::uint8_t> isAsked_;         ///< of each of them, and of an empty one: vertices want liquid of its cells
     std::vector<std::size_t> emptied_;          ///< particles, ascending
 };
 

@@ -36,6 +36,30 @@ void LiquidAround::findReached(const SortedVertices& vertices)
     });
 }
 
+/// The cells of a block with a cell around them that is reached; `blocks`: the 27 around it.
+LiquidAround::CellMask LiquidAround::cellsNear(const std::array<int, 27>& blocks) const
+{
+    constexpr int kEdge = CellStencil::kTileEdge;
+    // Of each column of a tile along z, whether its cells are reached: a bit each.
+    std::array<std::uint32_t, kEdge * kEdge> columns{};
+    for (int j = -1; j <= kBlockEdge; ++j)
+        for (int i = -1; i <= kBlockEdge; ++i)
+            for (int k = -1; k <= kBlockEdge; ++k) {
+                const int b = blocks[neighbourIndex(i >> 3, j >> 3, k >> 3)];
+                if (blockReached_[b] && reached_.block(b)[cellInBlock(i & 7, j & 7, k & 7)]) columns[(i + 1) * kEdge + j + 1] |= 1u << (k + 1);
+            }
+    CellMask cells{};
+    for (int i = 0; i < kBlockEdge; ++i)
+        for (int j = 0; j < kBlockEdge; ++j) {
+            std::uint32_t around = 0;
+            for (int x = 0; x < 3; ++x)
+                for (int y = 0; y < 3; ++y) around |= columns[(i + x) * kEdge + j + y];
+            const std::uint64_t column = (around | around >> 1 | around >> 2) & 0xffu;
+            cells[cellRank(i, j, 0) / 64] |= column << cellRank(i, j, 0) % 64;
+        }
+    return cells;
+}
+
 /// The particles in blocks that lie at cells that are reached, in parts of similar size.
 bool LiquidAround::findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices)
 {
@@ -55,8 +79,10 @@ bool LiquidAround::findNear(const BlockGrid& grid, const ParticleOrder& order, c
                     if (blockReached_[known]) isNear = true;
                 }
         if (!isNear) continue;
+        const CellMask cells = cellsNear(nearBlocks_[block]);
+        if (std::ranges::all_of(cells, [](std::uint64_t word) { return word == 0; })) continue;
         for (int s = order.begin(block); s < order.end(block); s += kParticlesPerPart)
-            near_.push_back({block, s, std::min(s + kParticlesPerPart, order.end(block))});
+            near_.push_back({block, s, std::min(s + kParticlesPerPart, order.end(block)), cells});
     }
     nearBegin_.push_back(static_cast<int>(near_.size()));
     return !near_.empty();
@@ -84,14 +110,13 @@ void LiquidAround::collect(const BlockGrid& grid, const ParticleOrder& order, co
     parallelFor(near_.size(), [&](std::size_t part) {
         Pack* tile = tileOf(part);
         std::fill_n(tile, kTile, Pack{});
-        const auto [block, begin, end] = near_[part];
-        const Vec3 corner = grid.lowerCorner(block);
-        for (int p = begin; p < end; ++p) {
+        const Vec3 corner = grid.lowerCorner(near_[part].block);
+        forEachParticle(order, near_[part], [&](int p) {
             const Vec3 v = liquid.velocity(order.source[p]), x = liquid.position(p);
             const double mass = liquid.mass[p];
             const Pack all = {mass, mass * v.x(), mass * v.y(), mass * v.z(), mass * x.x(), mass * x.y(), mass * x.z()};
             CellStencil(x, corner, grid.dx).forEachInTile([&](int place, double weight) { tile[place] += weight * all; });
-        }
+        });
     });
     forEachColored(order, [&](int block) {
         for (int part = nearBegin_[block]; part < nearBegin_[block + 1]; ++part) addTile(tileOf(part), nearBlocks_[block]);

@@ -7,6 +7,7 @@
 #include "sim/grid/obstacle_field.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -34,16 +35,23 @@ class LiquidAround {
     bool isReached(int block, int c) const { return reached_.block(block)[c] != 0; }
     bool isBlockReached(int block) const { return blockReached_[block] != 0; }
 
-    /// Particles of one block whose stencils may reach cells that vertices reach.
+    /// Cells of a block, a bit each, by cellRank.
+    using CellMask = std::array<std::uint64_t, kBlockCells / 64>;
+    /// Some particles of one block: those of [begin, end) that lie in these cells, whose stencils may reach cells that vertices reach.
     struct Part {
         int block, begin, end;
+        CellMask cells;
     };
     const std::vector<Part>& near() const { return near_; }
+    /// body(particle), ascending.
+    template <class Body>
+    static void forEachParticle(const ParticleOrder& order, const Part& part, Body&& body);
     /// The vertices' blocks around a block of the liquid that has particles near; empty ones are the vertices' number of blocks.
     const std::array<int, 27>& blocksAround(int block) const { return nearBlocks_[block]; }
 
  private:
     void findReached(const SortedVertices& vertices);
+    CellMask cellsNear(const std::array<int, 27>& blocks) const;
     bool findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
     void addTile(const Pack* tile, const std::array<int, 27>& blocks);
     void collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid);
@@ -61,6 +69,18 @@ class LiquidAround {
     std::vector<int> nearBegin_;                   ///< of each block of the liquid: its first part; it has none if the next block's is the same
     AlignedArray<double> tiles_;                   ///< of each part: what its particles bring to the cells of a tile
 };
+
+template <class Body>
+void LiquidAround::forEachParticle(const ParticleOrder& order, const Part& part, Body&& body)
+{
+    const int* start = order.cells(part.block);
+    for (std::size_t word = 0; word < part.cells.size(); ++word)
+        for (std::uint64_t bits = part.cells[word]; bits != 0; bits &= bits - 1) {
+            const int* cell = start + 64 * word + std::countr_zero(bits);
+            const int end = std::min(cell[1], part.end);
+            for (int s = std::max(cell[0], part.begin); s < end; ++s) body(s);
+        }
+}
 
 /// 1 of liquid that is at most `touching` away, 0 of what is `apart`, even between.
 /// @param distance  LiquidAround::distanceAt, as the others [cells]
