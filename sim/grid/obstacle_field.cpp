@@ -212,6 +212,7 @@ Closing ObstacleField::closing(int block, int axis, int face) const
 void ObstacleField::findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces)
 {
     const auto isClosed = [&](int a, const Vec3i& c) {
+        if (c[a] < kBlockEdge) return closed_.test(slot, cellInBlock(c.x(), c.y(), c.z()), a);
         if (faces.open(a, c.x(), c.y(), c.z()) == 0.0) return true;
         const Vec3 center = grid.lowerCorner(block) + grid.dx * (c.cast<double>() + Vec3::Constant(0.5));
         return isWallBetween(grid, obstacles, center, obstacles.distance(center), a);

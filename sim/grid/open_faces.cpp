@@ -78,9 +78,9 @@ double OpenFaces::openPart(const Part& part, int depth) const
     // Around each corner nothing changes within its distance; four such discs cover the part.
     if (*least > std::sqrt(0.5) * length) return 1.0;
     if (*most < -std::sqrt(0.5) * length) return 0.0;
+    if (depth == 0) return openWithin(part);
     const Vec3 middle = part.low + 0.5 * (part.u + part.v);
     const double atMiddle = distanceAt(middle);
-    if (depth == 0) return openWithin(part);
     const std::array<double, 4> beside = {distanceAt(part.low + 0.5 * part.u), distanceAt(part.low + part.u + 0.5 * part.v),
                                           distanceAt(part.low + 0.5 * part.u + part.v), distanceAt(part.low + 0.5 * part.v)};
     double bend = std::abs(atMiddle - 0.25 * (d[0] + d[1] + d[2] + d[3]));
@@ -109,18 +109,21 @@ double OpenFaces::openWithin(const Part& part) const
     return openFraction(d, cut);
 }
 
-/// Share of the way from one place to another, on two sides of the surface, where it is: as the distances say if it is plane, and bisected
-/// where they are those from two surfaces.
+/// Share of the way from one place to another, on two sides of the surface, where it is: as the distances say if it is plane, and else where the
+/// secants lead, of which one that keeps its end counts for half there (Dowell and Jarratt 1971, "A modified regula falsi method", Illinois).
 double OpenFaces::crossing(const Vec3& from, const Vec3& to, double first, double last) const
 {
-    constexpr int kBisections = 20;
-    constexpr double kOnPlane = 1.0e-6;  // [cells]
-    const double guess = first / (first - last);
-    if (std::abs(obstacles_.distance(from + guess * (to - from), solid_)) < kOnPlane * grid_.dx) return guess;
+    constexpr int kSecants = 30;
+    constexpr double kFound = 1.0e-9;  // [cells], and of the way
     double low = 0.0, high = 1.0;
-    for (int n = 0; n < kBisections; ++n) {
-        const double middle = 0.5 * (low + high);
-        ((obstacles_.distance(from + middle * (to - from), solid_) < 0.0) == (first < 0.0) ? low : high) = middle;
+    for (int n = 0, kept = 0; n < kSecants && high - low > kFound; ++n) {
+        const double share = low + (high - low) * first / (first - last);
+        const double d = obstacles_.distance(from + share * (to - from), solid_);
+        if (std::abs(d) < (n == 0 ? kOnSurface : kFound) * grid_.dx) return share;
+        const bool isFirst = (d < 0.0) == (first < 0.0);
+        if (isFirst) low = share, first = d, last *= kept == 1 ? 0.5 : 1.0;
+        else high = share, last = d, first *= kept == -1 ? 0.5 : 1.0;
+        kept = isFirst ? 1 : -1;
     }
     return 0.5 * (low + high);
 }

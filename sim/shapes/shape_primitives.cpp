@@ -125,8 +125,8 @@ struct Cylinder final : Shape::Body {
         const Vec3 q = x - center;
         const double y = q.dot(axis);
         const double side = (q - y * axis).norm() - (radius - round), top = std::abs(y) - half;
-        const double deepest = std::max(side, top);
-        return (deepest <= 0.0 ? deepest : std::hypot(std::max(side, 0.0), std::max(top, 0.0))) - round;
+        const double deepest = std::max(side, top), besides = std::max(side, 0.0), above = std::max(top, 0.0);
+        return (deepest <= 0.0 ? deepest : std::sqrt(besides * besides + above * above)) - round;
     }
     Vec3 normal(const Vec3& x) const override
     {
