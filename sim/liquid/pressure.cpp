@@ -135,10 +135,15 @@ void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, doubl
     computeCoefficients(cut, dt / (settings.density * cut.grid.dx * cut.grid.dx), settings.full, liquid, work);
 }
 
-void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+void assembleMatrix(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
 {
     work.matrix.resize(grid.count());
     parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, static_cast<int>(b), liquid, work); });
+}
+
+void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+{
+    assembleMatrix(grid, liquid, work);
     work.solver.prepare(grid, work.matrix);
 }
 

@@ -31,7 +31,10 @@ struct PressureWorkspace {
 /// in the kinetic energy of the particles, so that it gains no energy and conserves momentum and angular momentum. Needs findSurface.
 void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work);
 
-/// The matrix of these faces, ready to be solved, and its components. Needs findPressureFaces.
+/// The matrix of these faces. Needs findPressureFaces.
+void assembleMatrix(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work);
+
+/// The same, ready to be solved, and its components. Needs findPressureFaces.
 void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work);
 
 /// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the

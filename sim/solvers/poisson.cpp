@@ -215,9 +215,20 @@ SolveReport PoissonSolver::solvePrepared(const Problem& problem, double toleranc
 
 void PoissonSolver::prepare(const BlockGrid& grid, const PoissonMatrix& matrix)
 {
+    findComponents(grid, matrix);
+    buildHierarchy(grid, matrix);
+}
+
+void PoissonSolver::findComponents(const BlockGrid& grid, const PoissonMatrix& matrix)
+{
+    SIM_CHECK(matrix.values.size() == (grid.count() + std::size_t{1}) * 4 * kBlockCells);
+    components_.find(grid, matrix);
+}
+
+void PoissonSolver::buildHierarchy(const BlockGrid& grid, const PoissonMatrix& matrix)
+{
     SIM_CHECK(matrix.values.size() == (grid.count() + std::size_t{1}) * 4 * kBlockCells);
     multigrid_.build(grid, matrix);
-    components_.find(grid, matrix);
 }
 
 SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance,

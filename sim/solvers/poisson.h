@@ -20,6 +20,10 @@ class PoissonSolver {
  public:
     /// Make ready to solve with this matrix: its hierarchy and its components.
     void prepare(const BlockGrid& grid, const PoissonMatrix& matrix);
+    /// The same in two steps, between which values of the matrix may change: its components …
+    void findComponents(const BlockGrid& grid, const PoissonMatrix& matrix);
+    /// … and its hierarchy.
+    void buildHierarchy(const BlockGrid& grid, const PoissonMatrix& matrix);
 
     /// @param matrix, rhs   on the blocks of the grid; what rhs has in cells that are no unknowns is ignored
     /// @param tolerance     largest residual relative to the largest right-hand side [-]

@@ -1,5 +1,6 @@
 #include "sim/core/parallel.h"
 #include "sim/liquid/cells.h"
+#include "sim/liquid/deep_faces.h"
 #include "sim/liquid/inflow.h"
 #include "sim/liquid/surface_weight.h"
 #include "sim/stages/correction.h"
@@ -52,6 +53,16 @@ void pressIn(StepContext& c)
         c.state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
     }
     c.energy.pressedIn(c.report.inflowWork);
+}
+
+/// Liquid that nothing holds has the masses that P2G gave it amid itself, too. Where fabric goes through liquid they stay full.
+bool weighFreeLiquid(StepContext& c)
+{
+    Workspace& work = c.work;
+    if (c.plan.isMixed || c.settings().liquid.full) return false;
+    findUnheldFaces(c.cut(), work.free);
+    findHeldBodies(c.state.grid, work.pressure, work.grid, work.free);
+    return weighDeepFaces(c.cut(), work.grid, work.free, work.pressure);
 }
 
 /// Is there weight that solids may hold?
@@ -107,7 +118,10 @@ void assemblePressure(StepContext& c)
     Workspace& work = c.work;
     findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
     if (c.plan.isMixed) work.coupling->mixture.eliminateDrag(work.obstacleField, work.grid, work.pressure.coefficient);
-    preparePressure(c.state.grid, work.grid, work.pressure);
+    assembleMatrix(c.state.grid, work.grid, work.pressure);
+    work.pressure.solver.findComponents(c.state.grid, work.pressure.matrix);
+    if (weighFreeLiquid(c)) assembleMatrix(c.state.grid, work.grid, work.pressure);
+    work.pressure.solver.buildHierarchy(c.state.grid, work.pressure.matrix);
 }
 
 void levelWeight(StepContext& c)
