@@ -21,6 +21,7 @@ struct PressureWorkspace {
     PoissonMatrix matrix;
     BlockArray<double> rhs;
     BlockArray<double, 3> coefficient;  ///< ω dt / (ρ dx² fill) of each lower face beside a liquid cell [cm s/g]
+    double ofFull = 0.0;                ///< coefficient of a face that is full and open, dt / (ρ dx²) [cm s/g]
     PoissonSolver solver;
 };
 
@@ -44,6 +45,9 @@ void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWo
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
 SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& work,
                           LiquidGrid& liquid, BlockArray<double>& pressure);
+
+/// u −= dt grad p / (ρ fill) on the faces of the system; they and all others that are open and wet become valid.
+void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const BlockArray<double>& pressure, LiquidGrid& liquid);
 
 /// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S), and the inflow [1/s].
 void findRightHandSide(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity, std::span<const InflowCell> inflow,
