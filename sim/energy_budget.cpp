@@ -8,11 +8,12 @@
 namespace sim {
 
 EnergyBudget::EnergyBudget(const State& state, const Settings& settings, const Workspace& work, StepReport& report)
-    : state_(state), settings_(settings), work_(work), changes_(report.energyChanges)
+    : state_(state), settings_(settings), work_(work), report_(report), changes_(report.energyChanges)
 {
     if (!work.booksEnergy) return;
     changes_.emplace();
     last_ = look();
+    if (settings.liquid.correctsStrain()) strain_ = strainEnergy(state.liquid, state.grid);
     lag_ = potentialLag(state_, settings_);
 }
 
@@ -138,6 +139,24 @@ void EnergyBudget::toGrid()
     last_.liquidKinetic = kinetic;
 }
 
+void EnergyBudget::strainCorrected()
+{
+    if (!changes_) return;
+    const BlockArray<double, 3>& now = work_.grid.faces.velocity;
+    strained_ = parallelSum(state_.grid.count(), [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        double gained = 0.0;
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                if (!work_.strain.acts.test(b, c, a)) continue;
+                const double u = now.block(b, a)[c], before = remembered_.block(b, a)[c];
+                gained += 0.5 * mass_.block(b, a)[c] * (u - before) * (u + before);
+            }
+        return gained;
+    });
+    book(EnergyChange::Strain, strained_);
+}
+
 void EnergyBudget::pressedIn(double work)
 {
     if (!changes_) return;
@@ -231,7 +250,7 @@ void EnergyBudget::solved(bool isMixed, double dt, const Vec3& gravity, const Fa
     book(EnergyChange::SurfaceTension, tension);
     const double solids = workAgainst(state_.pressure, dt);
     book(EnergyChange::Solids, solids);
-    book(EnergyChange::Pressure, alone - tension - solids - pressedIn_);
+    book(EnergyChange::Pressure, alone - tension - solids - pressedIn_ - strained_);
     last_ = now;
 }
 
@@ -262,7 +281,9 @@ void EnergyBudget::toParticles(double dt, const PushedOut& pushed)
 
 void EnergyBudget::finished()
 {
-    if (changes_) book(EnergyChange::Gravity, potentialLag(state_, settings_) - lag_);
+    if (!changes_) return;
+    book(EnergyChange::Gravity, potentialLag(state_, settings_) - lag_);
+    book(EnergyChange::Strain, strain_ - report_.energies.strain);
 }
 
 }  // namespace sim

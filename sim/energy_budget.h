@@ -29,6 +29,8 @@ class EnergyBudget {
     /// Surface tension has acted there, too, but not yet the pressure that holds against it.
     /// On faces that liquid and fabric share its work is part of the pressure's.
     void surfaceTension(bool isMixed);
+    /// The strain correction has acted on faces that only liquid is on, since remember().
+    void strainCorrected();
     /// The pressure has done this work on liquid that sources pressed into liquid [erg].
     void pressedIn(double work);
     /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids and sources.
@@ -75,6 +77,7 @@ class EnergyBudget {
     const State& state_;
     const Settings& settings_;
     const Workspace& work_;
+    const StepReport& report_;
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
     BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
@@ -82,6 +85,8 @@ class EnergyBudget {
     BlockArray<double, 3> pulled_;         ///< by how much surface tension changed velocities [cm/s], if it acts: of faces that only liquid is on,
     BlockArray<double, 3> pulledMixture_;  ///< … and of all, where others are shared
     Energy last_;
+    double strained_ = 0.0;   ///< what the strain correction gave on faces [erg]
+    double strain_ = 0.0;     ///< of stretching, at the beginning of the step [erg]
     double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
     double lag_ = 0.0;        ///< of potential energy behind the present places [erg]
 };

@@ -15,6 +15,7 @@ enum class EnergyChange {
     Viscosity,       ///< of the liquid, on the faces
     SurfaceTension,  ///< its work on the faces: the surface's energy is not in the sum
     Pressure,        ///< on both phases, and what the projection takes from liquid alone
+    Strain,          ///< the strain correction, beyond what stretching has given for it (LiquidEnergies::strain)
     Suction,
     Drag,       ///< between liquid and fabric
     Implicit,   ///< backward Euler: ½ m Δv² of the fabric and of liquid under drag, and what elastic forces did beyond their energy
@@ -34,10 +35,30 @@ enum class EnergyChange {
     Count
 };
 inline constexpr int kEnergyChanges = static_cast<int>(EnergyChange::Count);
-inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {
-    "sources",  "capture",      "to_grid", "gravity",  "viscosity", "surface_tension", "pressure", "suction",        "drag",
-    "implicit", "damping",      "contact", "friction", "obstacles", "solids",          "pins",     "fabric_to_grid", "fabric_to_vertices",
-    "walls",    "to_particles", "places",  "drip",     "wicking"};
+inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames = {"sources",
+                                                                                    "capture",
+                                                                                    "to_grid",
+                                                                                    "gravity",
+                                                                                    "viscosity",
+                                                                                    "surface_tension",
+                                                                                    "pressure",
+                                                                                    "strain",
+                                                                                    "suction",
+                                                                                    "drag",
+                                                                                    "implicit",
+                                                                                    "damping",
+                                                                                    "contact",
+                                                                                    "friction",
+                                                                                    "obstacles",
+                                                                                    "solids",
+                                                                                    "pins",
+                                                                                    "fabric_to_grid",
+                                                                                    "fabric_to_vertices",
+                                                                                    "walls",
+                                                                                    "to_particles",
+                                                                                    "places",
+                                                                                    "drip",
+                                                                                    "wicking"};
 
 /// Energy that each gave, or took if negative [erg].
 struct EnergyChanges {

@@ -82,10 +82,14 @@ struct LiquidSettings {
     int curvatureSmoothing = 7;                ///< Smoothing passes over the fill before its curvature is taken [-]
     double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
     bool full = false;                         ///< The liquid fills a closed box: there is no air
+    int surfaceOrder = 2;                      ///< of the error of a free surface's motion [1..2] (liquid/README.md, Surface of second order)
     double particleSpacing = 0.0;              ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]
     double wallFriction = 0.0;                 ///< 0 = free slip … 1 = the liquid sticks to walls [-]
     VolumeSettings volume;
     RelaxSettings relax;
+
+    /// Is stretching within the reach of a B-spline no inertia to the pressure? Without air it is none in any case.
+    bool correctsStrain() const { return surfaceOrder == 2 && !full; }
 };
 
 enum class FabricSolver { Vertex, Grid, Off };

@@ -188,6 +188,7 @@ Energies Simulation::energies() const
 {
     Energies energies{liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity), {}};
     energies.potential += potentialLag(state_, scene_.settings);
+    if (scene_.settings.liquid.correctsStrain()) energies.storeStrain(strainEnergy(state_.liquid, state_.grid));
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
 }

@@ -22,6 +22,7 @@ namespace sim {
     STAGE(Cells, "cells")                                                                                                    \
     STAGE(SurfaceTension, "surface_tension")                                                                                 \
     STAGE(Pressure, "pressure")                                                                                              \
+    STAGE(StrainCorrection, "strain_correction") /* the pressure again, without the inertia of stretching */                 \
     STAGE(Volume, "volume")                                                                                                  \
     STAGE(FabricCandidates, "fabric_candidates") /* which parts of the fabric may touch within the step */                   \
     STAGE(FabricContact, "fabric_contact")       /* contact forces, and making moves safe */                                 \

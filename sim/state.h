@@ -41,9 +41,10 @@ struct State {
     double lastDt = 0.0;     ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
     bool reflected = false;  ///< the last step was the first of two: particles hold reflected velocities
     LiquidParticles liquid;
-    std::uint32_t nextId = 0;     ///< id of the next particle to be born
-    BlockGrid grid;               ///< the blocks of the last step …
-    BlockArray<double> pressure;  ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
+    std::uint32_t nextId = 0;             ///< id of the next particle to be born
+    BlockGrid grid;                       ///< the blocks of the last step …
+    BlockArray<double> pressure;          ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
+    BlockArray<double> pressureOfStrain;  ///< the part of it that the strain correction called for; empty before there was one [dyn/cm^2]
     FabricState fabric;
     std::vector<double> emittedVolume;  ///< by each source so far [cm^3]
     double unrelaxed = 0.0;             ///< time since the particles were last relaxed [s]

@@ -119,6 +119,9 @@ void visitMatter(V& v, S& state)
     v.number("next_id", "-", state.nextId);
     visitGrid(v, "grid", state.grid);
     visitCells(v, "grid/pressure", "dyn/cm^2", state.grid, 1, state.pressure);
+    std::size_t hasStrain = state.grid.count() > 0 && state.pressureOfStrain.size() > 0 ? 1 : 0;
+    v.number("grid/has_pressure_of_strain", "-", hasStrain);
+    if (hasStrain > 0) visitCells(v, "grid/pressure_of_strain", "dyn/cm^2", state.grid, 1, state.pressureOfStrain);
     visitFabric(v, state.fabric);
     v.list("emitted_volume", "cm^3", state.emittedVolume);
     v.number("unrelaxed", "s", state.unrelaxed);

@@ -78,6 +78,8 @@ void runStages(StepContext& c)
     levelWeight(c);
     applySurfaceTension(c);
     project(c);
+    correctStrain(c);
+    pressIn(c);
     correctVolume(c);
     keepMomentum(c);
 

@@ -8,6 +8,7 @@
 #include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/reflection.h"
+#include "sim/liquid/strain_correction.h"
 #include "sim/liquid/surface_tension.h"
 #include "sim/liquid/viscosity.h"
 #include "sim/liquid/volume.h"
@@ -34,6 +35,7 @@ struct Workspace {
     GatherScratch gather;
     ViscosityWorkspace viscosity;
     PressureWorkspace pressure;
+    StrainWorkspace strain;
     EmissionWorkspace emission;
     std::vector<InflowCell> inflow;  ///< of the sources of this step
     WallFaces wallFaces;

@@ -117,8 +117,8 @@ void tellRun(const ImportedScene& scene, ImportReport& report)
 {
     const reference::Scene& r = scene.reference;
     report.decisions.emplace_back(
-        "steps and transfers are as published: time.integrator plain, transfer.xi translation, and keep for each step "
-        "of the file");
+        "steps and transfers are as published: time.integrator plain, transfer.xi translation, liquid.surface_order 1, and keep "
+        "for each step of the file");
     if (r.run.maxIterations < 200)
         report.decisions.push_back(fmt::format("solver.max_iterations is 200, not maxiters={}: a solve stops when it is done", r.run.maxIterations));
     if (!scene.bodies.sources.empty())

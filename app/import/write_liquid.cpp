@@ -50,6 +50,7 @@ void writeLiquid(const ImportedScene& scene, SceneLines& out)
     if (!scene.bodies.obstacles.empty()) out.add(1, fmt::format("wall_friction: {}", formatPlain(l.wallFriction)));
     out.add(1, fmt::format("relax: {{rate: {}, range: {}}}", formatPlain(l.correctionStrength / (l.correctionStep * scene.reference.run.dt)),
                            formatPlain(l.correctionMultiplier)));
+    out.add(1, "surface_order: 1");
     if (l.solveViscosity) {
         out.add(1, "solve_viscosity: true");
         out.add(1, fmt::format("viscosity_substeps: {}", scene.reference.run.viscositySubsteps));

@@ -43,6 +43,14 @@ double squareNorm(const Basis1D& basis, int degree)
     return norm;
 }
 
+/// Orthogonal coefficients of one component of a particle whose modes are in a row.
+Modes orthogonalModes(const LiquidParticles& particles, int axis, std::size_t row, const Stencil& stencil)
+{
+    Modes c{};
+    for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[row];
+    return toOrthogonal(stencil.basis, c);
+}
+
 }  // namespace
 
 LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order)
@@ -56,9 +64,7 @@ LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid&
         double square = 0.0;
         for (int axis = 0; axis < kAxes; ++axis) {
             const Stencil stencil(grid, axis, particles.position(p));
-            Modes c{};
-            for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[rowOf(p)];
-            c = toOrthogonal(stencil.basis, c);
+            const Modes c = orthogonalModes(particles, axis, rowOf(p), stencil);
             for (int r = 1; r < kMaxModes; ++r) {
                 double norm = c[r] * c[r];
                 for (int a = 0; a < kAxes; ++a) norm *= squareNorm(stencil.basis[a], kDegrees[r][a]);
@@ -68,6 +74,20 @@ LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid&
         return 0.5 * particles.mass[p] * square;
     });
     return total;
+}
+
+double strainEnergy(const LiquidParticles& particles, const BlockGrid& grid, const ParticleOrder* order)
+{
+    if (particles.modeCount == 1) return 0.0;
+    return parallelSum(particles.count, [&](std::size_t p) {
+        const std::size_t row = order ? static_cast<std::size_t>(order->source[p]) : p;
+        Mat3 slope;  // in units of the cell
+        for (int axis = 0; axis < kAxes; ++axis) {
+            const Modes c = orthogonalModes(particles, axis, row, Stencil(grid, axis, particles.position(p)));
+            slope.row(axis) = Vec3(c[1], c[2], c[3]);
+        }
+        return 0.5 * particles.mass[p] * 0.25 * (0.5 * (slope + slope.transpose())).squaredNorm();
+    });
 }
 
 }  // namespace sim

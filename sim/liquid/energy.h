@@ -20,12 +20,23 @@ struct LiquidEnergies {
     double kinetic = 0.0;    ///< of the particles' velocities, ½ m v²
     double modal = 0.0;      ///< of the higher modes around them
     double potential = 0.0;  ///< −m g·x
+    double strain = 0.0;     ///< of stretching, where the pressure takes it for no inertia (storeStrain); not in the total
     double total() const { return kinetic + modal + potential; }
+    /// With a surface of second order stretching is a store beside the total: the pressure neither counts nor keeps it (strainEnergy).
+    void storeStrain(double energy)
+    {
+        modal -= energy;
+        strain = energy;
+    }
 };
 
 /// All energies of the liquid at the present positions, from the modes in the particles' own rows (liquid/README.md, Energy). The step itself
 /// takes kinetic and modal energy from G2P, where they cost nothing; this is for the initial state and for tests.
 /// @param order  of particles whose modes are not sorted yet; else null
 LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);
+
+/// The part of their modal energy that stretching has, Σ ½ m α² |e|² with the symmetric part e of each particle's velocity gradient and the variance
+/// α² = dx²/4 of the B-spline: what the strain correction takes for no inertia (liquid/README.md, Surface of second order) [erg].
+double strainEnergy(const LiquidParticles& particles, const BlockGrid& grid, const ParticleOrder* order = nullptr);
 
 }  // namespace sim

@@ -34,7 +34,7 @@ struct FreeLiquid {
 /// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.
 void findUnheldFaces(const CutGrid& cut, FreeLiquid& work);
 
-/// Which bodies something holds, by `unheld`. Needs preparePressure.
+/// Which bodies something holds, by `unheld`. Needs the components of the pressure's matrix.
 void findHeldBodies(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);
 
 /// From values on the faces of each free piece take the mean, by mass, of others: in sum over the piece, these then did nothing. What gradients

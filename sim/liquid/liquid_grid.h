@@ -8,10 +8,11 @@ namespace sim {
 /// The liquid's fields on the grid during a step. All of it is computed anew from the particles.
 struct LiquidGrid {
     FaceFields faces;
-    BlockBits<3> wet;                  ///< faces that carry liquid mass
-    BlockArray<double, 3> advected;    ///< velocities straight after P2G, of FLIP and of steps that reflect [cm/s] …
-    BlockBits<3> advectedValid;        ///< … and where they mean something
-    BlockArray<double, 3> unpressed;   ///< velocities when weight and viscosity have acted, but not yet pressure and surface tension [cm/s]
+    BlockBits<3> wet;                ///< faces that carry liquid mass
+    BlockArray<double, 3> advected;  ///< velocities straight after P2G, of FLIP, of steps that reflect and of those that correct the strain [cm/s] …
+    BlockBits<3> advectedValid;      ///< … and where they mean something
+    BlockArray<double, 3>
+        unpressed;  ///< velocities when weight, not levelled, and viscosity have acted, but not yet pressure and surface tension [cm/s]
     BlockArray<double, 3> weightless;  ///< mass of each face near plane walls that images behind them hold against weight [g]
     double fullMass = 1.0;             ///< of a face with all its room, amid liquid [g]
     double pitch = 0.5;                ///< of the particles' lattice [cells]

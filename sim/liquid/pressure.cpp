@@ -105,7 +105,31 @@ void assembleBlock(const BlockGrid& grid, int b, const LiquidGrid& liquid, Press
         }
 }
 
-/// u −= dt grad p / (ρ fill) on the faces of the system; they and all others that are open and wet become valid.
+void addInflow(std::span<const InflowCell> inflow, BlockArray<double>& rhs)
+{
+    for (const InflowCell& c : inflow) rhs.block(c.block)[c.cell] += c.rate;
+}
+
+}  // namespace
+
+void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work)
+{
+    work.ofFull = dt / (settings.density * cut.grid.dx * cut.grid.dx);
+    computeCoefficients(cut, work.ofFull, settings.full, liquid, work);
+}
+
+void assembleMatrix(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+{
+    work.matrix.resize(grid.count());
+    parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, static_cast<int>(b), liquid, work); });
+}
+
+void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+{
+    assembleMatrix(grid, liquid, work);
+    work.solver.prepare(grid, work.matrix);
+}
+
 void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const BlockArray<double>& pressure, LiquidGrid& liquid)
 {
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
@@ -121,25 +145,6 @@ void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const B
             });
         }
     });
-}
-
-void addInflow(std::span<const InflowCell> inflow, BlockArray<double>& rhs)
-{
-    for (const InflowCell& c : inflow) rhs.block(c.block)[c.cell] += c.rate;
-}
-
-}  // namespace
-
-void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work)
-{
-    computeCoefficients(cut, dt / (settings.density * cut.grid.dx * cut.grid.dx), settings.full, liquid, work);
-}
-
-void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
-{
-    work.matrix.resize(grid.count());
-    parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, static_cast<int>(b), liquid, work); });
-    work.solver.prepare(grid, work.matrix);
 }
 
 SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& work,

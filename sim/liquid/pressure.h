@@ -21,6 +21,7 @@ struct PressureWorkspace {
     PoissonMatrix matrix;
     BlockArray<double> rhs;
     BlockArray<double, 3> coefficient;  ///< ω dt / (ρ dx² fill) of each lower face beside a liquid cell [cm s/g]
+    double ofFull = 0.0;                ///< coefficient of a face that is full and open, dt / (ρ dx²) [cm s/g]
     PoissonSolver solver;
 };
 
@@ -31,7 +32,10 @@ struct PressureWorkspace {
 /// in the kinetic energy of the particles, so that it gains no energy and conserves momentum and angular momentum. Needs findSurface.
 void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work);
 
-/// The matrix of these faces, ready to be solved, and its components. Needs findPressureFaces.
+/// The matrix of these faces. Needs findPressureFaces.
+void assembleMatrix(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work);
+
+/// The same, ready to be solved, and its components. Needs findPressureFaces.
 void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work);
 
 /// Make the velocities divergence-free: solve div(ω u + (1 − ω) v_S) = 0 for the pressure in all cells inside the liquid, with p = 0 in the
@@ -41,6 +45,9 @@ void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWo
 /// @param pressure  in: a guess, out: the solution [dyn/cm²]
 SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& work,
                           LiquidGrid& liquid, BlockArray<double>& pressure);
+
+/// u −= dt grad p / (ρ fill) on the faces of the system; they and all others that are open and wet become valid.
+void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const BlockArray<double>& pressure, LiquidGrid& liquid);
 
 /// Right-hand side of the system for other velocities on the faces: −div(ω u + (1 − ω) v_S), and the inflow [1/s].
 void findRightHandSide(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity, std::span<const InflowCell> inflow,

@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
 
 namespace sim {
 
@@ -17,6 +21,7 @@ constexpr double kMostWeight = 1.5;
 struct Column {
     std::array<CellRef, kSurfaceColumn> face;
     int size = 0;
+    bool isTopFree = false;  ///< the highest has no pressure
 };
 
 /// Finds the columns of the surface layer along one axis.
@@ -51,7 +56,10 @@ class SurfaceColumns {
             if (!known && (!isWet(at) || isSolid(at))) break;
             if (column.size == kSurfaceColumn || isDeep(at) || (bodies_.hasFabric && !bodies_.bare.test(at.block, at.cell, axis_))) return {};
             column.face[column.size++] = at;
-            if (!known) break;
+            if (!known) {
+                column.isTopFree = true;
+                break;
+            }
         }
         return column;
     }
@@ -92,6 +100,49 @@ class SurfaceColumns {
     int axis_, up_;
 };
 
+/// Share of the mass of even liquid below a level that a quadratic B-spline, so many cells below it, has of its own.
+double shareBelow(double cells)
+{
+    if (std::abs(cells) >= 1.5) return cells > 0.0 ? 1.0 : 0.0;
+    const double rest = 1.5 - std::abs(cells);
+    if (rest > 1.0) return 0.5 + cells * (0.75 - cells * cells / 3.0);
+    return cells > 0.0 ? 1.0 - rest * rest * rest / 6.0 : rest * rest * rest / 6.0;
+}
+
+/// How high, above the lowest face, liquid of this mass stands in a column, if a full face has `full` of it.
+double levelOf(std::span<const double> full, double mass)
+{
+    const double mean = std::accumulate(full.begin(), full.end(), 0.0) / static_cast<double>(full.size());
+    double level = mass / mean - 0.5;  // exact where all faces are as large: the shares add up to half a face more than the level
+    constexpr int kRounds = 8;
+    for (int round = 0; round < kRounds; ++round) {
+        double sum = 0.0, slope = 0.0;
+        for (std::size_t n = 0; n < full.size(); ++n) {
+            const double t = level - static_cast<double>(n), reach = std::max(1.5 - std::abs(t), 0.0);
+            sum += full[n] * shareBelow(t);
+            slope += full[n] * (reach > 1.0 ? 0.75 - t * t : 0.5 * reach * reach);
+        }
+        if (!(slope > 0.1 * mean)) break;
+        level += std::clamp((mass - sum) / slope, -1.0, 1.0);
+    }
+    return level;
+}
+
+/// Weights of the faces of a column that is even: what the splines of its particles would leave there if the liquid filled it up to a level.
+/// @param full  faces' masses when they are full [g]; out: the weights
+/// @param mass  of all [g]
+/// @param free  has the highest face no pressure? Its weight goes to those below it, so that sum and centre stay.
+void fillEvenly(std::span<double> full, double mass, bool free)
+{
+    const double level = levelOf(full, mass);
+    for (std::size_t n = 0; n < full.size(); ++n) full[n] *= shareBelow(level - static_cast<double>(n));
+    if (const std::size_t top = full.size() - 1; free && top > 1) {
+        const double above = std::exchange(full[top], 0.0);
+        full[top - 1] += 2.0 * above;
+        full[top - 2] -= above;
+    }
+}
+
 /// Put the weight of a column where its liquid would be if it were even.
 void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
 {
@@ -99,16 +150,18 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
     double above = 0.0;
     for (int n = 0; n < column.size; ++n)
         above += mass[n] = liquid.faces.sums.block(column.face[n].block, FaceFields::kMass + axis)[column.face[n].cell];
+    std::array<double, kSurfaceColumn> evenly;
+    for (int n = 0; n < column.size; ++n) evenly[n] = liquid.fullMass * obstacles.room(column.face[n].block, axis)[column.face[n].cell];
+    fillEvenly(std::span(evenly).first(column.size), above, column.isTopFree);
     double rest = above;
     for (int n = 0; n < column.size; ++n) {
         const auto [block, cell] = column.face[n];
         above -= mass[n];
-        const double full = liquid.fullMass * obstacles.room(block, axis)[cell], least = rest - kMostWeight * above,
-                     weight = n + 1 == column.size ? rest : std::clamp(full, least, std::min(rest, kMostWeight * mass[n]));
+        const double least = rest - kMostWeight * above,
+                     weight = n + 1 == column.size ? rest : std::clamp(evenly[n], least, std::min(rest, kMostWeight * mass[n]));
         rest -= weight;
         const double change = gravityStep * (weight / mass[n] - 1.0);
         liquid.faces.velocity.block(block, axis)[cell] += change;
-        liquid.unpressed.block(block, axis)[cell] += change;
         if (onSolids != nullptr) onSolids->weightGrew(block, axis, cell, mass[n] * change);
     }
 }

@@ -9,15 +9,15 @@ namespace sim {
 ///
 /// Faces between deep cells count as full; those of the layer above carry what particles brought there, and where that is more than full the
 /// layer is heavier than the liquid below it: it sinks as in a Rayleigh-Taylor instability, and a pool at rest begins to move. So in each
-/// column of faces along gravity, from the first that is not deep up to the air, weight is put where the liquid of the column would be if
-/// it were even: each face bears a full one's until none is left. A face without pressure above them has none then, instead of falling into the
-/// liquid. A column weighs what it did, so that the pressure below it, and all momentum, are the same; inertia stays where it is, so that the
-/// projection stays orthogonal in the kinetic energy.
+/// column of faces along gravity, from the first that is not deep up to the air, weight is put where the particles of the column would leave it if
+/// it were even: each face bears what its B-spline has below the level. A face without pressure above them has none, instead of falling into the
+/// liquid; the two below it bear that, so that the centre stays. A column weighs what it did, so that the pressure below it, and all momentum,
+/// are the same; inertia stays where it is, so that the projection stays orthogonal in the kinetic energy.
 ///
 /// It acts only in bodies that solids hold (FreeLiquid::bodies, by findHeldBodies): in others nothing presses. Columns with fabric in them, thicker
 /// than kSurfaceColumn, or on nothing deep or solid stay as they are.
 /// @param gravityStep  velocity that weight has given to all faces in this step [cm/s]
-/// @param liquid       velocity and unpressed are changed
+/// @param liquid       velocity is changed; `unpressed` is not, for what weight and pressure together do is what moves liquid
 /// @param onSolids     is told, if not null, for what weight gives is not from solids
 void levelWeight(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const Vec3& gravityStep, LiquidGrid& liquid,
                  LiquidOnSolids* onSolids);

@@ -3,6 +3,7 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sim {
@@ -197,9 +198,10 @@ void PoissonSolver::conjugateGradients(const Problem& problem, double target, in
     }
     report.converged = residual <= target;
     report.residual = residual / largestRhs_;
+    report.scale = largestRhs_;
 }
 
-SolveReport PoissonSolver::solvePrepared(const Problem& problem, double tolerance, int maxIterations)
+SolveReport PoissonSolver::solvePrepared(const Problem& problem, SolveTolerance tolerance, int maxIterations)
 {
     SIM_CHECK(problem.rhs.size() == (problem.grid.count() + std::size_t{1}) * kBlockCells);
     start(problem);
@@ -208,26 +210,37 @@ SolveReport PoissonSolver::solvePrepared(const Problem& problem, double toleranc
         forEachBlock(problem.grid.count(), [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
         return report;
     }
-    conjugateGradients(problem, tolerance * largestRhs_, maxIterations, report);
+    conjugateGradients(problem, std::max(tolerance.relative * largestRhs_, tolerance.absolute), maxIterations, report);
     components_.removeMeans(problem.p);
     return report;
 }
 
 void PoissonSolver::prepare(const BlockGrid& grid, const PoissonMatrix& matrix)
 {
+    findComponents(grid, matrix);
+    buildHierarchy(grid, matrix);
+}
+
+void PoissonSolver::findComponents(const BlockGrid& grid, const PoissonMatrix& matrix)
+{
     SIM_CHECK(matrix.values.size() == (grid.count() + std::size_t{1}) * 4 * kBlockCells);
-    multigrid_.build(grid, matrix);
     components_.find(grid, matrix);
 }
 
-SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance,
+void PoissonSolver::buildHierarchy(const BlockGrid& grid, const PoissonMatrix& matrix)
+{
+    SIM_CHECK(matrix.values.size() == (grid.count() + std::size_t{1}) * 4 * kBlockCells);
+    multigrid_.build(grid, matrix);
+}
+
+SolveReport PoissonSolver::solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, SolveTolerance tolerance,
                                  int maxIterations, BlockArray<double>& p)
 {
     prepare(grid, matrix);
     return solvePrepared({grid, matrix, rhs, p}, tolerance, maxIterations);
 }
 
-SolveReport PoissonSolver::solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance,
+SolveReport PoissonSolver::solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, SolveTolerance tolerance,
                                       int maxIterations, BlockArray<double>& p)
 {
     SIM_CHECK(multigrid_.finest().blocks() == grid.count());

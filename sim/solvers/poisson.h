@@ -11,6 +11,13 @@
 
 namespace sim {
 
+/// How large the largest residual of a solution may be: whatever of these allows more.
+struct SolveTolerance {
+    SolveTolerance(double ofRightHandSide, double atLeast = 0.0) : relative(ofRightHandSide), absolute(atLeast) {}
+    double relative;  ///< to the largest right-hand side [-]
+    double absolute;  ///< [the unit of that]
+};
+
 /// Solves A p = rhs by conjugate gradients in double, preconditioned by one multigrid cycle in float. Keeps the
 /// hierarchy and all vectors from call to call: once they have grown to size, nothing is allocated.
 ///
@@ -20,18 +27,21 @@ class PoissonSolver {
  public:
     /// Make ready to solve with this matrix: its hierarchy and its components.
     void prepare(const BlockGrid& grid, const PoissonMatrix& matrix);
+    /// The same in two steps, between which values of the matrix may change: its components …
+    void findComponents(const BlockGrid& grid, const PoissonMatrix& matrix);
+    /// … and its hierarchy.
+    void buildHierarchy(const BlockGrid& grid, const PoissonMatrix& matrix);
 
     /// @param matrix, rhs   on the blocks of the grid; what rhs has in cells that are no unknowns is ignored
-    /// @param tolerance     largest residual relative to the largest right-hand side [-]
     /// @param p             in: a guess (dropped if its residual is larger than the right-hand side), out: the solution; 0 in cells
     ///                      that are no unknowns. If it has not the size of the grid, it is resized and the guess is 0.
     /// Not converged after maxIterations, or numbers that are not finite: told by the report.
-    SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance, int maxIterations,
+    SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, SolveTolerance tolerance, int maxIterations,
                       BlockArray<double>& p);
 
     /// The same for the matrix that was last prepared or solved.
-    SolveReport solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, double tolerance, int maxIterations,
-                           BlockArray<double>& p);
+    SolveReport solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, SolveTolerance tolerance,
+                           int maxIterations, BlockArray<double>& p);
 
     /// The preconditioner, as the last solve left it.
     Multigrid& multigrid() { return multigrid_; }
@@ -47,7 +57,7 @@ class PoissonSolver {
         BlockArray<double>& p;
     };
 
-    SolveReport solvePrepared(const Problem& problem, double tolerance, int maxIterations);
+    SolveReport solvePrepared(const Problem& problem, SolveTolerance tolerance, int maxIterations);
     void start(const Problem& problem);
     double measure(const Problem& problem);
     void startBlock(const Problem& problem, int block, bool isGuessZero, FramedTile<double>& tile);

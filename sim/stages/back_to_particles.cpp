@@ -138,6 +138,7 @@ void gridToParticles(StepContext& c)
     const WeightSums weights = weightSums(particles, c.settings().gravity);
     c.report.maxSpeed = c.plan.reflects ? along : held;
     c.report.energies = {{.kinetic = sums.kinetic, .modal = c.isFlip() ? 0.0 : sums.modal, .potential = weights.potential}, {}};
+    if (c.correctsStrain() && !c.isFlip()) c.report.energies.storeStrain(sums.strain);
     c.report.liquidMass = weights.mass;
     c.report.blocks = grid.count();
     c.report.liquidCells = countLiquidCells(grid, work.grid);

@@ -55,6 +55,12 @@ void applyViscosity(StepContext& c)
     const double bySolids = c.hasObstacles() ? work.onSolids.afterViscosity(c.cut(), work.viscosity.system, work.grid) : 0.0;
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { velocity.block(0)[i] += work.viscosity.withheld.block(0)[i]; });
+    if (c.correctsStrain()) {
+        const double *now = velocity.block(0), *weighed = work.grid.unpressed.block(0), *before = work.grid.advected.block(0);
+        work.strain.viscous.resize(c.state.grid.count());
+        double* viscous = work.strain.viscous.block(0);
+        parallelFor(velocity.size(), 4096, [&](std::size_t i) { viscous[i] = before[i] + (now[i] - weighed[i]); });
+    }
     work.grid.unpressed = velocity;
     c.energy.viscosity(bySolids);
 }

@@ -21,6 +21,16 @@ void remapPressure(const BlockGrid& grid, const ParticleOrder& order, BlockArray
     });
 }
 
+/// The first solve of a step starts from the pressure without what the strain correction added.
+void takeOffStrain(State& state)
+{
+    parallelFor(state.grid.count(), 8, [&](std::size_t b) {
+        double* pressure = state.pressure.block(static_cast<int>(b));
+        const double* strain = state.pressureOfStrain.block(static_cast<int>(b));
+        for (int i = 0; i < kBlockCells; ++i) pressure[i] -= strain[i];
+    });
+}
+
 }  // namespace
 
 void emit(StepContext& c)
@@ -46,6 +56,11 @@ void sort(StepContext& c)
     const StageScope scope(c.clock, Stage::Sort);
     sortParticles(state.liquid, grid, c.scene.domain ? &*c.scene.domain : nullptr, work.order, state.ledger);
     remapPressure(grid, work.order, work.oldPressure, state.pressure);
+    if (state.pressureOfStrain.size() > 0) {
+        remapPressure(grid, work.order, work.oldPressure, state.pressureOfStrain);
+        takeOffStrain(state);
+        if (!c.correctsStrain()) state.pressureOfStrain = {};
+    }
     work.grid.resize(grid.count(), c.keepsAdvected());
     work.grid.fullMass = work.packing * c.settings().liquid.density * grid.dx * grid.dx * grid.dx;
     work.momentum.left(state);

@@ -1,9 +1,12 @@
 #include "sim/core/parallel.h"
 #include "sim/liquid/cells.h"
+#include "sim/liquid/deep_faces.h"
 #include "sim/liquid/inflow.h"
 #include "sim/liquid/surface_weight.h"
 #include "sim/stages/correction.h"
 #include "sim/stages/stages.h"
+
+#include <algorithm>
 
 namespace sim {
 
@@ -40,18 +43,45 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
     if (c.hasObstacles()) work.gainAtWalls.bound(work.obstacleField, velocity);
 }
 
-/// Work of sources that press liquid into liquid, and which of them are shut in.
-void pressIn(StepContext& c)
+/// Settings of a solve that another follows.
+SolverSettings roughly(SolverSettings solver)
+{
+    solver.pressureTolerance = std::max(solver.pressureTolerance, std::min(1.0e-3, 1.0e3 * solver.pressureTolerance));
+    return solver;
+}
+
+/// Faces with a part in the strain correction: all but those that fabric is on.
+void findStrainedFaces(StepContext& c)
+{
+    BlockBits<3>& acts = c.work.strain.acts;
+    acts.resize(c.state.grid.count());
+    std::fill_n(acts.block(0), static_cast<std::size_t>(c.state.grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
+    if (c.plan.isMixed) c.work.coupling->mixture.clearShared(acts);
+}
+
+/// Add the pressure that took out the divergence of the strain correction to that before it.
+void addToPressure(const SolveReport& again, StepContext& c)
+{
+    State& state = c.state;
+    parallelFor(state.grid.count(), 8, [&](std::size_t b) {
+        double* pressure = state.pressure.block(static_cast<int>(b));
+        const double* more = state.pressureOfStrain.block(static_cast<int>(b));
+        for (int i = 0; i < kBlockCells; ++i) pressure[i] += more[i];
+    });
+    SolveReport& report = c.report.pressure;
+    report.iterations += again.iterations;
+    report.converged = again.converged;
+    if (report.scale > 0.0) report.residual = again.residual * again.scale / report.scale;
+}
+
+/// Liquid that nothing holds has the masses that P2G gave it amid itself, too. Where fabric goes through liquid they stay full.
+bool weighFreeLiquid(StepContext& c)
 {
     Workspace& work = c.work;
-    const BlockGrid& grid = c.state.grid;
-    if (work.emission.inflows.empty()) return;
-    c.report.inflowWork = inflowWork(grid, work.inflow, c.state.pressure, c.dt);
-    for (const Inflow& inflow : work.emission.inflows) {
-        const bool isShut = isShutIn(inflow.source, work.inflow, grid, work.grid, work.pressure.solver.components());
-        c.state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
-    }
-    c.energy.pressedIn(c.report.inflowWork);
+    if (c.plan.isMixed || c.settings().liquid.full) return false;
+    findUnheldFaces(c.cut(), work.free);
+    findHeldBodies(c.state.grid, work.pressure, work.grid, work.free);
+    return weighDeepFaces(c.cut(), work.grid, work.free, work.pressure);
 }
 
 /// Is there weight that solids may hold?
@@ -107,7 +137,10 @@ void assemblePressure(StepContext& c)
     Workspace& work = c.work;
     findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
     if (c.plan.isMixed) work.coupling->mixture.eliminateDrag(work.obstacleField, work.grid, work.pressure.coefficient);
-    preparePressure(c.state.grid, work.grid, work.pressure);
+    assembleMatrix(c.state.grid, work.grid, work.pressure);
+    work.pressure.solver.findComponents(c.state.grid, work.pressure.matrix);
+    if (weighFreeLiquid(c)) assembleMatrix(c.state.grid, work.grid, work.pressure);
+    work.pressure.solver.buildHierarchy(c.state.grid, work.pressure.matrix);
 }
 
 void levelWeight(StepContext& c)
@@ -136,8 +169,41 @@ void project(StepContext& c)
     Workspace& work = c.work;
     if (c.hasObstacles()) work.gainAtWalls.begin(work.obstacleField, work.grid.faces.velocity);
     findInflowCells(grid, work.grid, work.emission.inflows, work.packing, c.dt, work.inflow);
-    c.report.pressure = solvePressure(c.cut(), c.settings().solver, work.inflow, work.pressure, work.grid, c.state.pressure);
-    pressIn(c);
+    const SolverSettings solver = c.correctsStrain() ? roughly(c.settings().solver) : c.settings().solver;
+    c.report.pressure = solvePressure(c.cut(), solver, work.inflow, work.pressure, work.grid, c.state.pressure);
+}
+
+void correctStrain(StepContext& c)
+{
+    if (!c.correctsStrain()) return;
+    const StageScope scope(c.clock, Stage::StrainCorrection);
+    Workspace& work = c.work;
+    const SolverSettings& solver = c.settings().solver;
+    PressureWorkspace& pressure = work.pressure;
+    findStrainedFaces(c);
+    c.energy.remember();
+    correctStrain(c.cut(), c.isViscous() ? work.strain.viscous : work.grid.advected, pressure, work.strain, work.grid);
+    findRightHandSide(c.cut(), work.grid, work.grid.faces.velocity, work.inflow, pressure.rhs);
+    const SolveTolerance tolerance(solver.pressureTolerance, solver.pressureTolerance * c.report.pressure.scale);
+    const SolveReport again =
+        pressure.solver.solveAgain(c.state.grid, pressure.matrix, pressure.rhs, tolerance, solver.maxIterations, c.state.pressureOfStrain);
+    subtractGradient(c.cut(), pressure, c.state.pressureOfStrain, work.grid);
+    c.energy.strainCorrected();
+    addToPressure(again, c);
+}
+
+void pressIn(StepContext& c)
+{
+    if (!c.plan.isWet || c.work.emission.inflows.empty()) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    Workspace& work = c.work;
+    const BlockGrid& grid = c.state.grid;
+    c.report.inflowWork = inflowWork(grid, work.inflow, c.state.pressure, c.dt);
+    for (const Inflow& inflow : work.emission.inflows) {
+        const bool isShut = isShutIn(inflow.source, work.inflow, grid, work.grid, work.pressure.solver.components());
+        c.state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
+    }
+    c.energy.pressedIn(c.report.inflowWork);
 }
 
 void correctVolume(StepContext& c)

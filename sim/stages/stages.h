@@ -48,6 +48,10 @@ void levelWeight(StepContext& c);
 void applySurfaceTension(StepContext& c);
 /// Solve for the pressure and subtract its gradient.
 void project(StepContext& c);
+/// Stretching within the reach of a B-spline is no inertia: what the pressure did, without it.
+void correctStrain(StepContext& c);
+/// Work of sources that press liquid into liquid.
+void pressIn(StepContext& c);
 /// Displacements of the faces that bring the liquid back to its volume.
 void correctVolume(StepContext& c);
 /// Pressure and surface tension leave free liquid the momentum that it has, and walls add no energy to it.

@@ -185,6 +185,21 @@ template <class Set>
     }
 }
 
+/// α²|e|² of a particle's velocities, with the symmetric part e of the gradient and the variance α² of the B-spline (strainEnergy), from the
+/// orthogonal coefficients of its components.
+template <class Set>
+[[gnu::always_inline]] inline Pack strainSquare(const Coefficients<Set::kFactors> (&c)[3])
+{
+    Pack sum = broadcast(0.0);
+    unroll<3>([&](auto a) {
+        constexpr int b = (a + 1) % 3;
+        const auto slope = [&](int component, int along) { return c[component][along == 0][along == 1][along == 2]; };
+        const Pack stretch = slope(a, a), shear = slope(a, b) + slope(b, a);
+        sum += stretch * stretch + 0.5 * shear * shear;
+    });
+    return 0.25 * sum;
+}
+
 /// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (liquid/README.md, Energy), from orthogonal coefficients: each square
 /// times the norms of its three factors, gathered axis by axis.
 template <class Set>

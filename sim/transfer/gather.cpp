@@ -41,7 +41,7 @@ struct Context {
 
 struct LaneSums {
     Pack momentum[3] = {broadcast(0.0), broadcast(0.0), broadcast(0.0)};
-    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
+    Pack kinetic = broadcast(0.0), modal = broadcast(0.0), strain = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
 };
 
 /// Up to 8 particles of one cell.
@@ -187,6 +187,7 @@ template <class Set, int kModes, bool kFold, class Rows>
             modal += modalSquare<Set>(r, c[axis]);
         });
         sums.modal += mass * select(lanes, modal, zero);
+        sums.strain += mass * select(lanes, strainSquare<Set>(c), zero);
     }
 }
 
@@ -226,6 +227,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
     for (int a = 0; a < kAxes; ++a) sums.momentum[a] += sumLanes(lanes.momentum[a]);
     sums.kinetic += 0.5 * sumLanes(lanes.kinetic);
     sums.modal += 0.5 * sumLanes(lanes.modal);
+    sums.strain += 0.5 * sumLanes(lanes.strain);
     for (int l = 0; l < kLanes; ++l) {
         sums.maxSpeedSquared = larger(lanes.maxSpeedSquared[l], sums.maxSpeedSquared);
         sums.maxPathSquared = larger(lanes.maxPathSquared[l], sums.maxPathSquared);
@@ -279,6 +281,7 @@ GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order,
         total.momentum += s.momentum;
         total.kinetic += s.kinetic;
         total.modal += s.modal;
+        total.strain += s.strain;
         total.maxSpeedSquared = larger(s.maxSpeedSquared, total.maxSpeedSquared);
         total.maxPathSquared = larger(s.maxPathSquared, total.maxPathSquared);
     }

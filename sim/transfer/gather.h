@@ -38,10 +38,11 @@ struct GatherSettings {
 /// but lose more energy than eight everywhere (tests/bench/results/mode_stability.md).
 inline constexpr int kModesAtSurface = 8;
 
-/// Sums that fall out of G2P, per block: momentum [g cm/s], kinetic and modal energy [erg] and the largest squared speeds [cm²/s²].
+/// Sums that fall out of G2P, per block: momentum [g cm/s], kinetic and modal energy, and of the latter what stretching has (strainEnergy) [erg],
+/// and the largest squared speeds [cm²/s²].
 struct GatherSums {
     Vec3 momentum = Vec3::Zero();
-    double kinetic = 0.0, modal = 0.0, maxSpeedSquared = 0.0;
+    double kinetic = 0.0, modal = 0.0, strain = 0.0, maxSpeedSquared = 0.0;
     double maxPathSquared = 0.0;  ///< the same along their paths, where any move by the midpoint rule; else 0
 };
 

@@ -157,6 +157,63 @@ TEST(Drop, OscillatesAsRayleighSays)
     EXPECT_NEAR(frequency, 1.0, 0.03);
 }
 
+/// A solid harmonic r^l P_l(cos θ) about the z-axis, l = 2 … 4, and its gradient.
+struct Harmonic {
+    int l;
+
+    double operator()(const Vec3& x) const
+    {
+        const double z = x.z(), across = x.x() * x.x() + x.y() * x.y();
+        if (l == 2) return z * z - 0.5 * across;
+        return l == 3 ? z * (z * z - 1.5 * across) : z * z * (z * z - 3.0 * across) + 0.375 * across * across;
+    }
+    Vec3 gradient(const Vec3& x) const
+    {
+        const double z = x.z(), across = x.x() * x.x() + x.y() * x.y();
+        const double side = l == 2 ? -1.0 : l == 3 ? -3.0 * z : -6.0 * z * z + 1.5 * across;
+        return {side * x.x(), side * x.y(), l == 2 ? 2.0 * z : l == 3 ? 3.0 * z * z - 1.5 * across : z * (4.0 * z * z - 6.0 * across)};
+    }
+    /// √(l (l − 1) (l + 2) σ / (ρ R³)) [1/s].
+    double frequency() const { return std::sqrt(l * (l - 1) * (l + 2) * kTension); }
+};
+
+/// Frequency of a mode of the drop, relative to Rayleigh's, from when its part in the shape goes through 0.
+double relativeFrequency(const Harmonic& mode, const Scene& scene)
+{
+    constexpr double kAmplitude = 0.03;
+    const double frequency = mode.frequency(), period = 2.0 * kPi / frequency;
+    Simulation simulation = moving(scene, [&](const Vec3& x) { return Vec3(kAmplitude * frequency / mode.l * mode.gradient(x - kMiddle)); });
+    const auto part = [&] {
+        const State& state = simulation.state();
+        const Vec3 middle = sumsOf(state).middle;
+        double sum = 0.0;
+        for (std::size_t p = 0; p < state.liquid.count; ++p) sum += state.liquid.mass[p] * mode(state.liquid.position(p) - middle);
+        return sum;
+    };
+    const double still = part();
+    std::vector<double> zeros;
+    double before = 0.0, then = 0.0;
+    while (simulation.state().time < 1.7 * period) {
+        if (simulation.step(1.7 * period).isReflected) continue;
+        const double now = simulation.state().time, value = part() - still;
+        if (before * value < 0.0) zeros.push_back(then + (now - then) * before / (before - value));
+        before = value, then = now;
+    }
+    EXPECT_GE(zeros.size(), 3u);
+    return zeros.size() < 3 ? 0.0 : (static_cast<double>(zeros.size()) - 1.0) * 0.5 * period / (zeros.back() - zeros.front());
+}
+
+TEST(Drop, SwingsInTheModesOfRayleigh)
+{
+    Scene scene = dropScene(kPoly8, 10.0);
+    scene.sources[0].fill.spacing = 0.5;
+    for (const int l : {2, 3, 4}) {
+        const double frequency = relativeFrequency(Harmonic{l}, scene);
+        std::printf("mode %d: frequency %.4f of Rayleigh's\n", l, frequency);
+        EXPECT_NEAR(frequency, 1.0, 0.03) << l;
+    }
+}
+
 /// The forces on a closed surface add up to nothing only as far as its curvatures are exact. Seen are 2.6e-4; all of
 /// the curvatures' noise in one direction would make 0.1.
 TEST(Drop, KeepsItsMomentum)

@@ -67,6 +67,7 @@ std::string randomLiquid(RandomSource& random, RandomPile& pile, bool hasTank)
     text += fmt::format("  solve_viscosity: {}\n", isThick || random.chance(0.1));
     text += fmt::format("  surface_tension: {:.3g}\n", random.acrossScales(1.0, 1.0e3));
     text += fmt::format("  surface_tension_force: {}\n", random.chance(0.2));
+    text += fmt::format("  surface_order: {}\n", random.chance(0.2) ? 1 : 2);
     text += fmt::format("  contact_angle: {:.3g}\n", random.between(0.0, 180.0));
     text += fmt::format("  wall_friction: {:.3g}\n", random.chance(0.5) ? 0.0 : random.between(0.0, 1.0));
     if (random.chance(0.4)) text += fmt::format("  particle_spacing: {:.3g}\n", random.between(0.25, 0.7));

@@ -210,6 +210,10 @@ TEST(Energy, GatherCountsWhatTheParticlesThenHave)
             EXPECT_NEAR(sums.kinetic, energies.kinetic, 1e-12 * energies.kinetic);
             EXPECT_NEAR(sums.modal, energies.modal, 1e-12 * energies.modal);
             EXPECT_EQ(energies.modal > 0.0, modes > 1);
+            const double strain = strainEnergy(t.liquid.particles, t.grid());
+            EXPECT_NEAR(sums.strain, strain, 1e-12 * strain);
+            EXPECT_LE(strain, energies.modal);
+            EXPECT_EQ(strain > 0.0, modes > 1);
         }
 }
 
