@@ -38,6 +38,8 @@ void addRun(CLI::App& program, Options& options)
         ->needs(resume);
     run->add_option("--again", options.again, "repeat the run of this report.json, and say whether it ends the same: exit code 0 same, 1 different");
     run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
+    run->add_option("--runs-to-follow", options.runsToFollow, "so many more in the same command: its progress tells the time that is left of all")
+        ->check(CLI::NonNegativeNumber);
     run->callback([&options] {
         options.verb = Verb::Run;
         if (!options.scene.empty() + !options.resume.empty() + !options.again.empty() != 1)
