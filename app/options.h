@@ -46,6 +46,7 @@ struct Options {
     int threads = 1;                    ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
     bool frames = true, video = true;
     bool asPanel = false;                     ///< pictures are to stand beside others: nothing is written over them
+    int runsToFollow = 0;                     ///< run: so many more in the same command, for the time that is left of it
     std::filesystem::path resume;             ///< run: go on with the run in this folder
     std::filesystem::path again;              ///< run: repeat the run of this report.json
     std::optional<std::int64_t> fromFrame;    ///< run: from this frame's checkpoint; nothing: the last one

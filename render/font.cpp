@@ -26,14 +26,6 @@ struct Font::Face {
 
 namespace {
 
-std::filesystem::path fontFile(const std::filesystem::path& wanted)
-{
-    if (!wanted.empty()) return wanted;
-    const char* fromEnvironment = std::getenv("DRENCH_FONT");
-    if (fromEnvironment != nullptr && *fromEnvironment != '\0') return fromEnvironment;
-    return "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-}
-
 /// The code points of UTF-8 text; bytes that are none become U+FFFD.
 std::vector<int> codePoints(std::string_view text)
 {
@@ -79,9 +71,16 @@ void blendGlyph(Image& image, const std::vector<unsigned char>& coverage, const 
 
 }  // namespace
 
+std::filesystem::path usualFontFile()
+{
+    const char* fromEnvironment = std::getenv("DRENCH_FONT");
+    if (fromEnvironment != nullptr && *fromEnvironment != '\0') return fromEnvironment;
+    return "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+}
+
 Font::Font(const std::filesystem::path& wanted) : face_(std::make_unique<Face>())
 {
-    const std::filesystem::path path = fontFile(wanted);
+    const std::filesystem::path path = wanted.empty() ? usualFontFile() : wanted;
     std::ifstream file(path, std::ios::binary);
     face_->file.assign(std::istreambuf_iterator<char>(file), {});
     if (face_->file.empty() || stbtt_InitFont(&face_->info, face_->file.data(), 0) == 0)

@@ -8,10 +8,13 @@
 
 namespace render {
 
+/// The TrueType file that text is drawn with: $DRENCH_FONT, else where Debian's fonts-dejavu-core puts DejaVuSans.ttf.
+std::filesystem::path usualFontFile();
+
 /// DejaVu Sans, drawn into images with smooth edges. Text is UTF-8.
 class Font {
  public:
-    /// @param file  a TrueType file; empty = $DRENCH_FONT, else where Debian's fonts-dejavu-core puts DejaVuSans.ttf
+    /// @param file  a TrueType file; empty = usualFontFile()
     /// Throws std::runtime_error naming the file, and the package that would help, if it cannot be read.
     explicit Font(const std::filesystem::path& file = {});
     ~Font();

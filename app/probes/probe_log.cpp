@@ -1,13 +1,33 @@
 #include "app/probes/probe_log.h"
 
+#include "app/system/csv.h"
 #include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace app {
+
+namespace {
+
+/// Of each column of a table whether any of its cells has a value.
+std::vector<bool> columnsWithValues(const std::filesystem::path& file, std::size_t columns)
+{
+    std::vector<bool> has(columns, false);
+    std::ifstream in(file);
+    std::string line;
+    for (std::getline(in, line); std::getline(in, line);) {
+        const std::vector<std::string> cells = csvCells(line);
+        for (std::size_t c = 0; c < std::min(columns, cells.size()); ++c)
+            if (!cells[c].empty()) has[c] = true;
+    }
+    return has;
+}
+
+}  // namespace
 
 ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, double start) : file_(file), reader_(probes, start)
 {
@@ -38,6 +58,12 @@ void plotProbes(const Probes& probes, const std::string& title, const std::files
 {
     constexpr int kColumns = 2, kWidth = 560, kHeight = 320;
     const int count = static_cast<int>(probes.all.size()), columns = std::min(count, kColumns), rows = (count + columns - 1) / columns;
+    const std::vector<bool> has = columnsWithValues(folder / kProbesFile, probes.columns().size());
+    // of columns as gnuplot counts them, from 1
+    const auto hasNone = [&](std::size_t first, std::size_t last) {
+        return std::none_of(has.begin() + static_cast<std::ptrdiff_t>(first) - 1, has.begin() + static_cast<std::ptrdiff_t>(last),
+                            [](bool one) { return one; });
+    };
     drawPlot(folder, "probes", [&](const std::string& picture) {
         std::string text = fmt::format(
             "set terminal pngcairo size {},{} font 'DejaVu Sans,11' linewidth 1\nset output {}\nset datafile separator ','\n"
@@ -49,7 +75,8 @@ void plotProbes(const Probes& probes, const std::string& title, const std::files
             const std::size_t lines = std::max<std::size_t>(1, probe.points.size()), last = column + lines - 1;
             text += fmt::format("set title {} noenhanced\nset ylabel {} noenhanced\n", gnuplotText(probe.name),
                                 gnuplotText(fmt::format("[{}]", probe.unit)));
-            if (lines == 1)
+            if (hasNone(column, last)) text += "set key center\nplot [0:1] [0:1] -1 title 'no value'\n";  // gnuplot refuses lines without a point
+            else if (lines == 1)
                 text += fmt::format("unset key\nplot 'probes.csv' skip 1 using 1:(valid({0}) ? column({0}) : NaN) with lines lw 2 lc rgb '{1}'\n",
                                     column, kPlotColors[2]);
             else  // along a line from dark to light, with the ends named; where cells are empty lines break off

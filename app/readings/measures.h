@@ -28,6 +28,8 @@ struct Hoop {
 ///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va, spin_a (angular
 ///    momentum about it), speed (largest), rms_speed, kinetic, potential, energy and momentum_a (of everything), wave_a(k) (mean of
 ///    cos k a), mass_a(from, to) (of liquid between two planes);
+///  * heights: surface_x(y, z), surface_y(x, z) and surface_z(x, y) (where the liquid ends on the line through a point, upwards along the axis
+///    [cm]: the highest place where its density, smoothed over a cell, is half of the densest there; no value where there is no liquid);
 ///  * at a point: velocity_a(x, y, z) (mean of the liquid within a cell of it, no value where there is none), saturation_at(x, y, z) (of the
 ///    vertex of fabric next to it); through hoops, in probes: flux("outlet") (liquid that goes through [g/s]);
 ///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
@@ -82,6 +84,7 @@ class Measures {
     double flowError() const;
     double flowPart() const;
     double pressureAt(const sim::Vec3& x) const;
+    double surfaceAt(int axis, double b, double c) const;
     double velocityAt(int axis, const sim::Vec3& x) const;
     double saturationAt(const sim::Vec3& x) const;
     double fluxThrough(const Hoop& hoop) const;

@@ -143,6 +143,12 @@ FrameSequence sequenceOf(const ComparedRun& run)
             .last = frames.empty() ? frameCount(run.setup) : frames.back()};
 }
 
+namespace {
+
+bool isLeftToDo(const ComparedRun& run, const Options& options, bool withFrames) { return options.force || !isDone(run, withFrames); }
+
+}  // namespace
+
 std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
                                 const std::function<bool()>& stopWanted)
 {
@@ -151,12 +157,16 @@ std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Opti
     for (std::size_t n = 0; n < runs.size() && !stopWanted(); ++n) {
         const std::string soFar = n > 0 ? fmt::format(", {} so far", formatDuration(secondsSince(begin))) : "";
         const std::string head = fmt::format("[{}/{}] {}{}", n + 1, runs.size(), runs[n].setup.label, soFar);
-        if (!options.force && isDone(runs[n], withFrames)) {
+        if (!isLeftToDo(runs[n], options, withFrames)) {
             fmt::print("{}: already there, in {}\n", head, runs[n].folder.string());
         } else {
             fmt::print("{}\n", head);
             std::fflush(stdout);
-            if (!runChild("/proc/self/exe", runArguments(runs[n], options), {.folder = {}, .quiet = false}).ok()) continue;
+            std::vector<std::string> arguments = runArguments(runs[n], options);
+            const auto isLeft = [&](const ComparedRun& run) { return isLeftToDo(run, options, withFrames); };
+            const auto toFollow = std::count_if(runs.begin() + static_cast<std::ptrdiff_t>(n) + 1, runs.end(), isLeft);
+            arguments.insert(arguments.end(), {"--runs-to-follow", fmt::format("{}", toFollow)});
+            if (!runChild("/proc/self/exe", arguments, {.folder = {}, .quiet = false}).ok()) continue;
         }
         done.push_back(runs[n]);
     }

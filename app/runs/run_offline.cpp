@@ -86,6 +86,7 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
     const double end = time.start + time.duration;
     ShutSources shut(setup.scene);
     Progress progress(stderr, setup.label, simulation.state().time, end, frames, first);
+    progress.setRunsToFollow(options.runsToFollow);
 
     for (std::int64_t frame = first + 1; frame <= frames; ++frame) {
         stepUntil(std::min(frameTime(setup, frame), end), simulation, reports, progress, shut);

@@ -43,8 +43,10 @@ double secondsLeft(double begin, double now, double end, double wallSeconds)
 
 std::string progressLine(const ProgressState& state)
 {
-    return fmt::format("frame {}/{} · t {:.4g} s · dt {} · {:.3f} s/step · ETA {}", state.frame, state.frames, state.time, shortNumber(state.dt),
-                       state.secondsPerStep, state.secondsLeft < 0.0 ? "?" : formatDuration(state.secondsLeft));
+    const std::string line =
+        fmt::format("frame {}/{} · t {:.4g} s · dt {} · {:.3f} s/step · ETA {}", state.frame, state.frames, state.time, shortNumber(state.dt),
+                    state.secondsPerStep, state.secondsLeft < 0.0 ? "?" : formatDuration(state.secondsLeft));
+    return state.allSecondsLeft < 0.0 ? line : fmt::format("{}, with those to follow {}", line, formatDuration(state.allSecondsLeft));
 }
 
 Progress::Progress(std::FILE* out, std::string label, double begin, double end, std::int64_t frames, std::int64_t frame)
@@ -77,7 +79,10 @@ void Progress::stepDone(double time, double dt, double stepSeconds)
 void Progress::show()
 {
     shown_ = std::chrono::steady_clock::now();
-    state_.secondsLeft = secondsLeft(begin_, state_.time, end_, secondsSince(start_));
+    const double wallSeconds = secondsSince(start_);
+    state_.secondsLeft = secondsLeft(begin_, state_.time, end_, wallSeconds);
+    if (runsToFollow_ > 0 && state_.secondsLeft >= 0.0)
+        state_.allSecondsLeft = state_.secondsLeft + runsToFollow_ * (wallSeconds + state_.secondsLeft);
     const std::string line = (label_.empty() ? "" : label_ + "  ") + progressLine(state_);
     // \033[K wipes what an earlier, longer line left behind.
     if (terminal_) fmt::print(out_, "\r{}\033[K", line);

@@ -17,12 +17,13 @@ double secondsLeft(double begin, double now, double end, double wallSeconds);
 /// Where a run stands.
 struct ProgressState {
     std::int64_t frame = 0, frames = 0;
-    double time = 0.0, dt = 0.0;  ///< simulated [s]
-    double secondsPerStep = 0.0;  ///< wall
-    double secondsLeft = -1.0;    ///< wall; negative: not known yet
+    double time = 0.0, dt = 0.0;   ///< simulated [s]
+    double secondsPerStep = 0.0;   ///< wall
+    double secondsLeft = -1.0;     ///< wall; negative: not known yet
+    double allSecondsLeft = -1.0;  ///< of the whole command, wall; negative: there is nothing but this run, or it is not known yet
 };
 
-/// "frame 37/240 · t 0.62 s · dt 1.9e-4 · 0.031 s/step · ETA 6 m 12 s"
+/// "frame 37/240 · t 0.62 s · dt 1.9e-4 · 0.031 s/step · ETA 6 m 12 s", and where more runs follow ", with those to follow 20 m 05 s"
 std::string progressLine(const ProgressState& state);
 
 /// Tells how a run gets on: one line that is redrawn on a terminal, a new line every few seconds elsewhere.
@@ -39,6 +40,8 @@ class Progress {
     void stepDone(double time, double dt, double stepSeconds);
     void frameDone() { ++state_.frame; }
 
+    /// So many runs follow in the same command, each expected to take as long as this one.
+    void setRunsToFollow(int count) { runsToFollow_ = count; }
     /// Write where it stands now.
     void show();
 
@@ -48,6 +51,7 @@ class Progress {
     const double begin_, end_;
     const bool terminal_;
     bool lineOpen_ = false;
+    int runsToFollow_ = 0;
     ProgressState state_;
     std::chrono::steady_clock::time_point start_, shown_;
 };

@@ -32,6 +32,7 @@ RunOptions runOptions(const Options& options, const SceneSetup& setup)
             .threads = options.threads,
             .frames = options.frames && setup.pictures.output.frames,
             .asPanel = options.asPanel,
+            .runsToFollow = options.runsToFollow,
             .stopWanted = stopWanted};
 }
 

@@ -28,6 +28,16 @@ bool applies(const sim::Parameter& parameter, const SceneContents& contents)
     return isOfFabric ? contents.fabric() : !isOfLiquid || contents.liquid;
 }
 
+/// " [cm]", or nothing for plain numbers.
+std::string inBrackets(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
+
+/// What stands behind its value, under the heading of its group.
+std::string labelOf(const sim::Parameter& parameter)
+{
+    const std::string name = parameter.path.substr(std::min(parameter.path.size(), groupOf(parameter.path).size() + 1));
+    return (name.empty() ? parameter.path : name) + inBrackets(parameter.unit);
+}
+
 /// Name, range and help while the pointer is on it.
 void explain(const sim::Parameter& parameter)
 {
@@ -35,7 +45,7 @@ void explain(const sim::Parameter& parameter)
     const std::string range = parameter.range.text(parameter.unit);
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(parameter.path.c_str());
+    ImGui::TextUnformatted((parameter.path + inBrackets(parameter.unit)).c_str());
     if (!range.empty()) ImGui::TextDisabled("%s", range.c_str());
     ImGui::TextUnformatted(parameter.help.c_str());
     if (parameter.isFixed) ImGui::TextColored(kWaits, "holds for a whole run: a change waits for a restart");
@@ -111,7 +121,9 @@ void ParameterPanel::drawParameter(LiveSimulation& live, const sim::Parameter& p
     using Kind = sim::Parameter::Kind;
     const auto change = [&](const std::string& value) { live.change({sim::overrideText(parameter, value)}); };
     ImGui::PushID(parameter.path.c_str());
-    ImGui::SetNextItemWidth(0.45f * ImGui::GetContentRegionAvail().x);
+    const std::string label = labelOf(parameter);
+    const float all = ImGui::GetContentRegionAvail().x, left = all - ImGui::CalcTextSize(label.c_str()).x - ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetNextItemWidth(std::clamp(left, 0.2f * all, 0.45f * all));
     if (parameter.kind == Kind::Flag) {
         bool isOn = parameter.value == "true";
         if (ImGui::Checkbox("##value", &isOn)) change(isOn ? "true" : "false");
@@ -128,9 +140,6 @@ void ParameterPanel::drawParameter(LiveSimulation& live, const sim::Parameter& p
     if (ImGui::IsItemVisible()) places_[parameter.path] = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
     explain(parameter);
     ImGui::SameLine();
-    const std::string name = parameter.path.substr(std::min(parameter.path.size(), groupOf(parameter.path).size() + 1));
-    const std::string unit = parameter.unit.empty() ? "" : " [" + parameter.unit + "]";
-    const std::string label = (name.empty() ? parameter.path : name) + unit;
     if (parameter.isFixed) ImGui::TextDisabled("%s", label.c_str());
     else ImGui::TextUnformatted(label.c_str());
     explain(parameter);

@@ -1,10 +1,13 @@
 #include "app/view/probe_panel.h"
 
+#include "app/view/readable_number.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cfloat>
+#include <cmath>
 
 namespace app {
 
@@ -13,6 +16,15 @@ namespace {
 constexpr std::size_t kMostReadings = 2000;  ///< of a plot: older ones are forgotten
 constexpr float kWidth = 18.0f;              ///< [font sizes]
 constexpr float kPlotHeight = 2.6f;          ///< [lines of text]
+
+/// "0 to 1072": what rounding leaves beside the largest is nothing.
+std::string rangeOf(const std::vector<float>& values)
+{
+    const auto [low, high] = std::ranges::minmax(values);
+    const double nothing = 1.0e-6 * std::max(std::abs(low), std::abs(high));
+    const auto rounded = [&](double value) { return readableNumber(std::abs(value) < nothing ? 0.0 : value); };
+    return rounded(low) + " to " + rounded(high);
+}
 
 }  // namespace
 
@@ -51,10 +63,9 @@ void ProbePanel::Course::draw(const ProbeTitle& title) const
     const bool isLine = title.points > 0;
     std::string text = title.name;
     if (isLine) text += fmt::format(" at {} points [{}]", title.points, title.unit);
-    else text += latest ? fmt::format(": {:.4g} {}", *latest, title.unit) : fmt::format(": no value [{}]", title.unit);
+    else text += latest ? fmt::format(": {} {}", readableNumber(*latest), title.unit) : fmt::format(": no value [{}]", title.unit);
     ImGui::TextUnformatted(text.c_str());
-    std::string range;
-    if (isLine && !values.empty()) range = fmt::format("{:.4g} to {:.4g}", *std::ranges::min_element(values), *std::ranges::max_element(values));
+    const std::string range = isLine && !values.empty() ? rangeOf(values) : "";
     const ImVec2 size(ImGui::GetContentRegionAvail().x, kPlotHeight * ImGui::GetTextLineHeight());
     ImGui::PlotLines("##course", values.data(), static_cast<int>(values.size()), 0, range.c_str(), FLT_MAX, FLT_MAX, size);
 }

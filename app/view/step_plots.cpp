@@ -1,5 +1,8 @@
 #include "app/view/step_plots.h"
 
+#include "app/view/readable_number.h"
+
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -18,17 +21,26 @@ void addTo(std::vector<float>& values, double value)
     values.push_back(static_cast<float>(value));
 }
 
-/// The course with its last value written into it.
-void plot(const char* label, const std::vector<float>& values)
+/// A quantity of every step.
+struct Course {
+    const char *name, *unit, *help;
+    int digits = 4;  ///< of its values
+};
+
+/// The course over the width of the panel, with its name and last value written into it.
+void plot(const Course& course, const std::vector<float>& values)
 {
-    char last[32] = "";
-    if (!values.empty()) std::snprintf(last, sizeof last, "%.4g", static_cast<double>(values.back()));
-    const float height = 2.6f * ImGui::GetTextLineHeight();
-    ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, last, FLT_MAX, FLT_MAX, ImVec2(0.0f, height));
+    std::string text = course.name;
+    if (!values.empty()) text += fmt::format(": {} {}", readableNumber(values.back(), course.digits), course.unit);
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, 2.6f * ImGui::GetTextLineHeight());
+    ImGui::PushID(course.name);
+    ImGui::PlotLines("##course", values.data(), static_cast<int>(values.size()), 0, text.c_str(), FLT_MAX, FLT_MAX, size);
+    ImGui::PopID();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s%s%s%s", course.help, *course.unit ? " [" : "", course.unit, *course.unit ? "]" : "");
 }
 
-/// Of the liquid that came in, what is in no particle, in no fabric, and has not left [-].
-double waterError(const LiveStep& step)
+/// Of the liquid that came in, what is in no particle, in no fabric, and has not left, negative where it is missing [-].
+double massError(const LiveStep& step)
 {
     const sim::Ledger& ledger = step.ledger;
     if (ledger.emittedMass == 0.0) return 0.0;
@@ -42,7 +54,7 @@ void StepPlots::add(std::vector<LiveStep> steps)
     for (LiveStep& step : steps) {
         const sim::StepReport& report = step.report;
         if (!report.isReflected) addTo(energy_, report.energies.total());
-        addTo(waterError_, waterError(step));
+        addTo(massError_, massError(step));
         addTo(milliseconds_, 1000.0 * report.dt);
         addTo(cfl_, report.cfl);
         addTo(iterations_, report.pressure.iterations + report.fabric.iterations);
@@ -55,13 +67,12 @@ void StepPlots::draw() const
 {
     const sim::StepReport& report = last_.report;
     ImGui::Text("%zu particles, %zu contacts", report.particles, report.fabric.contacts);
-    plot("energy [erg]", energy_);
-    plot("water error", waterError_);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("share of the liquid that is in no particle, in no fabric, and has not left");
-    plot("dt [ms]", milliseconds_);
-    plot("CFL", cfl_);
-    plot("iterations", iterations_);
-    plot("wall [ms]", wall_);
+    plot({"energy", "erg", "kinetic, potential and elastic energy of everything"}, energy_);
+    plot({"mass error", "", "liquid in particles, in fabric and gone, relative to what came in, less 1", 2}, massError_);
+    plot({"dt", "ms", "length of the step"}, milliseconds_);
+    plot({"CFL", "", "cells that the fastest goes in a step"}, cfl_);
+    plot({"iterations", "", "of the solves for pressure and fabric"}, iterations_);
+    plot({"wall time", "ms", "that the step took"}, wall_);
     drawStages();
 }
 

@@ -1,5 +1,6 @@
 #include "app/view/window.h"
 
+#include "render/font.h"
 #include "render/gl_context_glfw.h"
 #include "sim/core/check.h"
 
@@ -7,6 +8,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <spdlog/spdlog.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -26,6 +28,22 @@ std::string lastGlfwError()
 [[noreturn]] void failWithoutWindow()
 {
     throw sim::RunError(fmt::format("no window can be opened ({}); without a display, use drench run", lastGlfwError()));
+}
+
+/// The letters of pictures [pixels], or Dear ImGui's own where they cannot be read, which is told.
+void addFont(float height)
+{
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    const std::filesystem::path file = render::usualFontFile();
+    try {
+        const render::Font isReadable(file);  // Dear ImGui would end the program
+        if (fonts.AddFontFromFileTTF(file.c_str(), height) != nullptr) return;
+    } catch (const std::runtime_error& error) {
+        spdlog::warn("{}; panels have small letters", error.what());
+    }
+    ImFontConfig font;
+    font.SizePixels = height;
+    fonts.AddFontDefault(&font);
 }
 
 }  // namespace
@@ -76,10 +94,8 @@ void Window::scalePanels()
     float scale = 1.0f, across = 1.0f;
     glfwGetWindowContentScale(window_, &across, &scale);
     if (!(scale > 0.0f)) return;
-    constexpr float kPixels = 13.0f;  // height of the font at scale 1
-    ImFontConfig font;
-    font.SizePixels = std::round(kPixels * scale);
-    ImGui::GetIO().Fonts->AddFontDefault(&font);
+    constexpr float kPixels = 14.0f;  // height of the font at scale 1
+    addFont(std::round(kPixels * scale));
     ImGui::GetStyle().ScaleAllSizes(scale);
 }
 

@@ -105,6 +105,47 @@ TEST_F(ProbedRuns, FluxIsTheRateAtWhichMassGoesThrough)
     EXPECT_GT(above.front(), 0.1);
 }
 
+/// A pool in a tank, up to y = 1.3, with a lump of liquid on its left half, up to 2.5. At walls and in corners
+/// heights are those of the middle; along an axis that is not the vertical they are those of the walls.
+TEST_F(ProbedRuns, HeightsAreThoseOfTheSurface)
+{
+    writeFile(folder / "pool.yaml", R"yaml(drench: 1
+scene: {name: pool}
+time: {dt: 1.0e-3, duration: 2.0e-3}
+grid: {cell: 0.4}
+liquid:
+  sources:
+    - {name: pool, shape: {box: {min: [-2, 0, -2], max: [2, 1.3, 2]}}}
+    - {name: lump, shape: {box: {min: [-2, 1.3, -2], max: [0, 2.5, 2]}}}
+obstacles: [{name: tank, shape: {box: {min: [-2, 0, -2], max: [2, 9, 2]}}, inside: true}]
+output:
+  data: [states]
+  probes:
+    every: 1.0e-3
+    readings:
+      - {name: right, unit: cm, read: "surface_y(1.1, 0.13)"}
+      - {name: left, unit: cm, read: "surface_y(-1.07, -0.4)"}
+      - {name: corner, unit: cm, read: "surface_y(2, 2)"}
+      - {name: wall, unit: cm, read: "surface_x(0.7, 0)"}
+      - {name: outside, unit: cm, read: "surface_y(5, 0)"}
+      - {name: row, unit: cm, read: "surface_y(x, z)", along: {from: [-1.5, 0, 0.2], to: [1.5, 0, 0.2], points: 2}}
+)yaml");
+    ASSERT_EQ(drench({"run", "pool.yaml", "--no-video", "--no-frames", "--threads", "1", "--out", "pool"}).code, 0);
+    EXPECT_EQ(canPlot(), std::filesystem::exists(folder / "pool" / "probes.png")) << "of the others, too, where one has no value";
+    ASSERT_EQ(drench({"probe", "pool"}).code, 0);
+    for (const char* file : {"pool/probes.csv", "pool/probes/probes.csv"}) {
+        const auto read = table(file);
+        const double near = 0.05;  // cm: an eighth of a cell, over which particles are not even
+        EXPECT_NEAR(read.at("right [cm]").front(), 1.3, near) << file;
+        EXPECT_NEAR(read.at("left [cm]").front(), 2.5, near) << file;
+        EXPECT_NEAR(read.at("corner [cm]").front(), 1.3, near) << file;
+        EXPECT_NEAR(read.at("wall [cm]").front(), 2.0, near) << file;
+        EXPECT_TRUE(std::isnan(read.at("outside [cm]").front())) << file;
+        EXPECT_NEAR(read.at("row at 0 cm [cm]").front(), 2.5, near) << file;
+        EXPECT_NEAR(read.at("row at 3 cm [cm]").front(), 1.3, near) << file;
+    }
+}
+
 TEST_F(ProbedRuns, MistakesAreToldInOneLineBeforeAnythingIsBegun)
 {
     const auto refused = [&](const std::string& section, const std::string& mentions) {

@@ -13,6 +13,9 @@ TEST(Progress, LineHasFrameTimeStepAndEta)
 {
     const ProgressState state = {.frame = 37, .frames = 240, .time = 0.62, .dt = 1.9e-4, .secondsPerStep = 0.031, .secondsLeft = 372.0};
     EXPECT_EQ(progressLine(state), "frame 37/240 · t 0.62 s · dt 1.9e-4 · 0.031 s/step · ETA 6 m 12 s");
+    ProgressState oneOfMany = state;
+    oneOfMany.allSecondsLeft = 1205.0;
+    EXPECT_EQ(progressLine(oneOfMany), progressLine(state) + ", with those to follow 20 m 05 s");
 }
 
 TEST(Progress, EtaIsTheRestAtThePaceSoFar)
@@ -45,6 +48,25 @@ TEST(Progress, ElsewhereThanOnATerminalLinesEnd)
     const auto lines = test::linesOf(folder / "log");
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_TRUE(lines[0].starts_with("APIC  frame 1/10 · t 0.5 s · dt 1.0e-2 · 0.200 s/step · ETA ")) << lines[0];
+}
+
+/// Half of it is done: two more take as long as this one, of which as much is left as is done.
+TEST(Progress, RunsToFollowCountAsThisOne)
+{
+    TemporaryFolder folder;
+    std::FILE* out = std::fopen((folder / "log").c_str(), "w");
+    {
+        Progress progress(out, "", 0.0, 1.0, 10);
+        progress.setRunsToFollow(2);
+        progress.show();
+        progress.stepDone(0.5, 0.01, 0.2);
+        progress.show();
+    }
+    std::fclose(out);
+    const auto lines = test::linesOf(folder / "log");
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_TRUE(lines[0].ends_with("ETA ?")) << "unknown before the first step: " << lines[0];
+    EXPECT_NE(lines[1].find(", with those to follow "), std::string::npos) << lines[1];
 }
 
 TEST(Statistics, MedianIsTheMiddle)

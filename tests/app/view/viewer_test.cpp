@@ -39,14 +39,16 @@ TEST(Viewer, LooksAsItDidWithItsPanels)
     desktop.expectGolden("start");
 }
 
+constexpr const char* kSomeProbes =
+    "output.probes={every: 1.0e-3, readings: [{name: height of the drop, unit: cm, read: liquid_y}, {name: speed, unit: cm/s, read: liquid_vy},"
+    " {name: nowhere, unit: cm, read: 1/(t-t)},"
+    " {name: pressure, unit: dyn/cm^2, read: \"pressure(x, y, z)\", along: {from: [0, 0, 0], to: [0, 3, 0], points: 20}}]}";
+
 /// Without probes the right half has the scene alone.
 TEST(Viewer, ProbesOfASceneHaveAPanel)
 {
     SceneRequest probed = drop();
-    probed.sets.emplace_back(
-        "output.probes={every: 1.0e-3, readings: [{name: height of the drop, unit: cm, read: liquid_y}, {name: speed, unit: cm/s, read: liquid_vy},"
-        " {name: nowhere, unit: cm, read: 1/(t-t)},"
-        " {name: pressure, unit: dyn/cm^2, read: \"pressure(x, y, z)\", along: {from: [0, 0, 0], to: [0, 3, 0], points: 20}}]}");
+    probed.sets.emplace_back(kSomeProbes);
     const auto afterSteps = [](const SceneRequest& request, const char* golden) {
         Desktop desktop(request, kPaused);
         desktop.focus();
@@ -75,6 +77,23 @@ TEST(Viewer, TwoVariantsStandSideBySideAtOneTime)
     }));
     const auto& sides = desktop.viewer.pair().sides();
     EXPECT_NE(sides[0]->live.scene()->setup.scene.settings.transfer.method, sides[1]->live.scene()->setup.scene.settings.transfer.method);
+}
+
+/// One below the other, each under its letter.
+TEST(Viewer, ProbesOfTwoVariantsStandInOnePanel)
+{
+    SceneRequest probed = drop();
+    probed.sets.emplace_back(kSomeProbes);
+    Desktop desktop(probed, {.width = kWidth, .height = kHeight, .paused = true, .beside = "pic"});
+    desktop.focus();
+    desktop.keys("s s");
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.timeShown(0) == 0.01 && desktop.timeShown(1) == 0.01; }));
+    desktop.expectGolden("beside_probes");
+    desktop.keys("r");
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.timeShown(0) == 0.0 && desktop.timeShown(1) == 0.0; }));
+    desktop.keys("space");
+    ASSERT_TRUE(desktop.comesTrue([&] { return desktop.timeShown(0) >= 0.02 && desktop.timeShown(1) >= 0.02; }));
+    EXPECT_EQ(desktop.status().failure, "");
 }
 
 TEST(Viewer, TinyWindowsAreNoTrouble)
