@@ -112,6 +112,24 @@ double LiquidOnSolids::afterViscosity(const CutGrid& cut, const ViscousSystem& s
     });
 }
 
+void LiquidOnSolids::afterStrain(const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid)
+{
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        const int b = blocks_[n], place = static_cast<int>(n);
+        for (int a = 0; a < kAxes; ++a) {
+            const double *mass = liquid.faces.sums.block(b, FaceFields::kMass + a), *u = liquid.faces.velocity.block(b, a),
+                         *before = before_.block(place, a), *stretch = strain.stretch.block(b, a);
+            double* others = others_.block(place, a);
+            for (int c = 0; c < kBlockCells; ++c) {
+                others[c] += mass[c] * (u[c] - before[c]);
+                if (!isClosed(cut.field, {b, c}, a)) continue;
+                const CellRef below = cellBeside(cut.grid, b, c, a, -1);
+                others[c] += liquid.fullMass * (strain.stretch.block(below.block, a)[below.cell] - stretch[c]);
+            }
+        }
+    });
+}
+
 /// Faces of plane k of a block that a solid is near to, and where there is anything of the liquid, or its viscosity pulls.
 std::uint64_t LiquidOnSolids::wetNear(const BitAccess& bits, const Outcome& outcome, std::size_t place, int axis, int k) const
 {

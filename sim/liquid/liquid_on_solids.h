@@ -3,6 +3,7 @@
 #include "sim/core/chunk_sums.h"
 #include "sim/forces.h"
 #include "sim/liquid/pressure.h"
+#include "sim/liquid/strain_correction.h"
 #include "sim/liquid/viscous_system.h"
 
 #include <vector>
@@ -22,6 +23,9 @@ class LiquidOnSolids {
     void beforeViscosity(const BlockArray<double, 3>& velocity);
     /// @return  work that those of them which move did on the liquid by it [erg]
     double afterViscosity(const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid);
+    /// Around the strain correction, of which solids get what it would give to closed faces.
+    void beforeStrain(const BlockArray<double, 3>& velocity) { beforeViscosity(velocity); }
+    void afterStrain(const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid);
     /// Weight is moved between faces: then tell by how much that of each grew [g cm/s].
     void meetLevelling() { clearOthers(); }
     void weightGrew(int block, int axis, int cell, double impulse)
@@ -94,10 +98,11 @@ class LiquidOnSolids {
     BlockBits<> near_;                 ///< cells whose middles are near a solid
     // By place, of rows with faces near one:
     BlockArray<double, 6> brought_;  ///< by particles: mass [g] and momentum [g cm/s] of each face
-    BlockArray<double, 3> others_;  ///< momentum that a face got of viscous stresses and of levelled weight, less what it gave to fabric [g cm/s] …
+    BlockArray<double, 3>
+        others_;  ///< momentum that a face got of viscous stresses, of the strain correction and of levelled weight, less what it gave to fabric [g cm/s] …
     BlockBits<3> shared_;           ///< … if fabric is on it …
     bool hasOthers_ = false;        ///< … where there are any of both
-    BlockArray<double, 3> before_;  ///< velocities before viscosity [cm/s]
+    BlockArray<double, 3> before_;  ///< velocities before viscosity or the strain correction [cm/s]
     ChunkSums<OnSolid> sums_;
 };
 

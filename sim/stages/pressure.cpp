@@ -182,7 +182,9 @@ void correctStrain(StepContext& c)
     PressureWorkspace& pressure = work.pressure;
     findStrainedFaces(c);
     c.energy.remember();
+    if (c.hasObstacles()) work.onSolids.beforeStrain(work.grid.faces.velocity);
     correctStrain(c.cut(), c.isViscous() ? work.strain.viscous : work.grid.advected, pressure, work.strain, work.grid);
+    if (c.hasObstacles()) work.onSolids.afterStrain(c.cut(), work.strain, work.grid);
     findRightHandSide(c.cut(), work.grid, work.grid.faces.velocity, work.inflow, pressure.rhs);
     const SolveTolerance tolerance(solver.pressureTolerance, solver.pressureTolerance * c.report.pressure.scale);
     const SolveReport again =

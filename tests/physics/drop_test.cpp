@@ -141,20 +141,19 @@ double relativeFrequency(const Scene& scene)
     return zeros.size() < 3 ? 0.0 : (static_cast<double>(zeros.size()) - 1.0) * 0.5 * kPeriod / (zeros.back() - zeros.front());
 }
 
-/// Rayleigh's within 3 %: seen are 1.7 % too little at 10 cells, of which the curvature makes 1.2 and the face masses'
-/// spread, which makes waves slow, the rest. An amplitude of 5 % itself makes 0.2 %.
+/// Rayleigh's within 1.5 %: seen are 1.1 % too little at 10 cells, by the curvature. An amplitude of 5 % itself makes 0.2 %.
 TEST(Drop, OscillatesAsRayleighSays)
 {
     for (const Transfer& transfer : {kApic, kPoly8}) {
         const double frequency = relativeFrequency(dropScene(transfer, 10.0));
         std::printf("%s: frequency %.4f of Rayleigh's\n", transfer.name.c_str(), frequency);
-        EXPECT_NEAR(frequency, 1.0, 0.03) << transfer.name;
+        EXPECT_NEAR(frequency, 1.0, 0.015) << transfer.name;
     }
     Scene reflected = dropScene(kPoly8, 10.0);
     reflected.settings.time.integrator = TimeIntegrator::Reflected;
     const double frequency = relativeFrequency(reflected);
     std::printf("reflected: frequency %.4f of Rayleigh's\n", frequency);
-    EXPECT_NEAR(frequency, 1.0, 0.03);
+    EXPECT_NEAR(frequency, 1.0, 0.015);
 }
 
 /// A solid harmonic r^l P_l(cos θ) about the z-axis, l = 2 … 4, and its gradient.
@@ -203,15 +202,24 @@ double relativeFrequency(const Harmonic& mode, const Scene& scene)
     return zeros.size() < 3 ? 0.0 : (static_cast<double>(zeros.size()) - 1.0) * 0.5 * period / (zeros.back() - zeros.front());
 }
 
+/// Stretching is no inertia: with it mode l of a drop of R/h cells would have (l − 1)(2 l + 1)/4 (h/R)² more than it has. What is left is the
+/// curvature's, of which the smoothing takes the more the shorter the mode: seen are 1.0, 1.0 and 4.4 % too little, and 1.4, 2.3 and 6.3 % with a surface
+/// of first order.
 TEST(Drop, SwingsInTheModesOfRayleigh)
 {
     Scene scene = dropScene(kPoly8, 10.0);
     scene.sources[0].fill.spacing = 0.5;
-    for (const int l : {2, 3, 4}) {
+    double ofThree = 0.0;
+    for (const auto& [l, bound] : {std::pair(2, 0.015), std::pair(3, 0.015), std::pair(4, 0.05)}) {
         const double frequency = relativeFrequency(Harmonic{l}, scene);
         std::printf("mode %d: frequency %.4f of Rayleigh's\n", l, frequency);
-        EXPECT_NEAR(frequency, 1.0, 0.03) << l;
+        EXPECT_NEAR(frequency, 1.0, bound) << l;
+        if (l == 3) ofThree = frequency;
     }
+    scene.settings.liquid.surfaceOrder = 1;
+    const double slower = relativeFrequency(Harmonic{3}, scene);
+    std::printf("mode 3, surface of first order: frequency %.4f of Rayleigh's\n", slower);
+    EXPECT_GT(ofThree, slower + 0.008);
 }
 
 /// The forces on a closed surface add up to nothing only as far as its curvatures are exact. Seen are 2.6e-4; all of
