@@ -15,6 +15,7 @@ namespace app {
 struct ProbeTitle {
     std::string name, unit;
     std::size_t points = 0;  ///< along a line; 0: it is read once
+    friend bool operator==(const ProbeTitle&, const ProbeTitle&) = default;
 };
 
 /// What was read since it was last taken.

@@ -58,17 +58,14 @@ void ProbePanel::Course::forgetAfter(double time)
     latestTime = time;
 }
 
-void ProbePanel::Course::draw(const ProbeTitle& title) const
+void ProbePanel::Course::plot(bool isLine, float width) const
 {
-    const bool isLine = title.points > 0;
-    std::string text = title.name;
-    if (isLine) text += fmt::format(" at {} points [{}]", title.points, title.unit);
-    else text += latest ? fmt::format(": {} {}", readableNumber(*latest), title.unit) : fmt::format(": no value [{}]", title.unit);
-    ImGui::TextUnformatted(text.c_str());
-    const std::string range = isLine && !values.empty() ? rangeOf(values) : "";
-    const ImVec2 size(ImGui::GetContentRegionAvail().x, kPlotHeight * ImGui::GetTextLineHeight());
-    ImGui::PlotLines("##course", values.data(), static_cast<int>(values.size()), 0, range.c_str(), FLT_MAX, FLT_MAX, size);
+    const std::string text = isLine && !values.empty() ? rangeOf(values) : latest ? readableNumber(*latest) : "no value";
+    const ImVec2 size(width, kPlotHeight * ImGui::GetTextLineHeight());
+    ImGui::PlotLines("##course", values.data(), static_cast<int>(values.size()), 0, text.c_str(), FLT_MAX, FLT_MAX, size);
 }
+
+bool ProbePanel::Side::hasTheProbesOf(const Side& other) const { return titles && other.titles && *titles == *other.titles; }
 
 void ProbePanel::Side::add(const LiveReadings& taken)
 {
@@ -87,11 +84,27 @@ void ProbePanel::Side::add(const LiveReadings& taken)
     }
 }
 
-void ProbePanel::Side::draw() const
+void ProbePanel::drawProbe(std::size_t probe, std::span<const Side> sides) const
 {
-    for (std::size_t i = 0; i < courses.size(); ++i) {
-        ImGui::PushID(static_cast<int>(i));
-        courses[i].draw((*titles)[i]);
+    const ProbeTitle& title = (*sides.front().titles)[probe];
+    const std::string text =
+        title.name + (title.points > 0 ? fmt::format(" at {} points [{}]", title.points, title.unit) : fmt::format(" [{}]", title.unit));
+    ImGui::TextUnformatted(text.c_str());
+    const auto count = static_cast<float>(sides.size());
+    const float spacing = ImGui::GetStyle().ItemInnerSpacing.x, width = (ImGui::GetContentRegionAvail().x - (count - 1.0f) * spacing) / count;
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        if (s > 0) ImGui::SameLine(0.0f, spacing);
+        ImGui::PushID(static_cast<int>(s));
+        sides[s].courses[probe].plot(title.points > 0, width);
+        ImGui::PopID();
+    }
+}
+
+void ProbePanel::drawProbes(std::span<const Side> sides) const
+{
+    for (std::size_t probe = 0; probe < sides.front().courses.size(); ++probe) {
+        ImGui::PushID(static_cast<int>(probe));
+        drawProbe(probe, sides);
         ImGui::PopID();
     }
 }
@@ -110,11 +123,18 @@ void ProbePanel::draw(const LivePair& pair) const
     ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - width - 0.4f * unit, 0.4f * unit), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize(ImVec2(width, 0.48f * ImGui::GetIO().DisplaySize.y), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Probes")) {
-        for (std::size_t s = 0; s < count; ++s) {
-            ImGui::PushID(static_cast<int>(s));
-            if (count > 1 && sides_[s].titles) ImGui::TextUnformatted(s == 0 ? "A" : "B");
-            sides_[s].draw();
-            ImGui::PopID();
+        const std::span<const Side> sides = std::span(sides_).first(count);
+        if (count == 1 || sides[0].hasTheProbesOf(sides[1])) {
+            if (count > 1) ImGui::TextDisabled("A left, B right");
+            drawProbes(sides);
+        } else {
+            for (std::size_t s = 0; s < count; ++s) {
+                if (!sides[s].titles) continue;
+                ImGui::PushID(static_cast<int>(s));
+                ImGui::TextDisabled(s == 0 ? "A" : "B");
+                drawProbes(sides.subspan(s, 1));
+                ImGui::PopID();
+            }
         }
     }
     ImGui::End();

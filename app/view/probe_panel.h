@@ -27,15 +27,18 @@ class ProbePanel {
         double latestTime = 0.0;       ///< of the last reading [s]
         void add(const ProbeTitle& title, double time, std::span<const std::optional<double>> read);
         void forgetAfter(double time);
-        void draw(const ProbeTitle& title) const;
+        void plot(bool isLine, float width) const;  ///< with the latest value in it, or the range along the line; so wide [pixels]
     };
     /// Of one simulation.
     struct Side {
         std::shared_ptr<const std::vector<ProbeTitle>> titles;  ///< null where it has no probes
         std::vector<Course> courses;                            ///< one for each of them
         void add(const LiveReadings& taken);
-        void draw() const;
+        bool hasTheProbesOf(const Side& other) const;
     };
+    /// Of sides with the same probes: each probe once, with what it reads in all of them.
+    void drawProbes(std::span<const Side> sides) const;
+    void drawProbe(std::size_t probe, std::span<const Side> sides) const;
     std::array<Side, 2> sides_;
 };
 

@@ -79,7 +79,7 @@ TEST(Viewer, TwoVariantsStandSideBySideAtOneTime)
     EXPECT_NE(sides[0]->live.scene()->setup.scene.settings.transfer.method, sides[1]->live.scene()->setup.scene.settings.transfer.method);
 }
 
-/// One below the other, each under its letter.
+/// Each probe has both of its readings on one line, A left and B right.
 TEST(Viewer, ProbesOfTwoVariantsStandInOnePanel)
 {
     SceneRequest probed = drop();
