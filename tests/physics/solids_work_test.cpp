@@ -16,8 +16,8 @@ constexpr double kCell = 0.5;  // [cm]
 struct Worked {
     double start = 0.0, end = 0.0;  ///< energy [erg]
     double work = 0.0;              ///< of solids on the liquid, as booked [erg]
-    double rise = 0.0;              ///< the largest one of energy less work above the least before it [erg]
-    double most = 0.0;              ///< kinetic energy that ever was [erg]
+    double rise = 0.0;  ///< the largest one of energy, with stretching, less work above the least before it and what stretching got since [erg]
+    double most = 0.0;  ///< kinetic energy that ever was [erg]
 };
 
 Worked follow(const Scene& scene, double duration)
@@ -26,15 +26,15 @@ Worked follow(const Scene& scene, double duration)
     simulation.bookEnergy();
     Worked worked;
     worked.start = worked.end = simulation.energies().total();
-    double least = worked.start;
+    double least = worked.start + simulation.energies().strain, strainThen = simulation.energies().strain;
     while (simulation.state().time < duration) {
         const StepReport report = simulation.step(duration);
         worked.work += (*report.energyChanges).of[static_cast<int>(EnergyChange::Solids)];
         if (report.isReflected) continue;
         worked.end = report.energies.total();
-        const double own = worked.end - worked.work;
-        least = std::min(least, own);
-        worked.rise = std::max(worked.rise, own - least);
+        const double strain = report.energies.strain, own = worked.end + strain - worked.work;
+        if (own < least) least = own, strainThen = strain;
+        worked.rise = std::max(worked.rise, own - least - std::max(0.0, strain - strainThen));
         worked.most = std::max(worked.most, report.energies.kinetic + report.energies.modal);
     }
     return worked;
