@@ -92,7 +92,8 @@ std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at
 
 /// Whether the stresses at the start or at the expected end would be felt: spread over a cell they give accelerations
 /// below 4 |σ| / (m Δx).
-bool ElementContact::isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const
+bool ElementContact::isSignificant(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+                                   const StepOutlook& outlook) const
 {
     const std::array<Vec3, 2> last = {found.stress[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
                                       found.stress[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1]};
@@ -143,7 +144,7 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
         local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
         at.stiffness[n] = volume_[e] * (q * local * q.transpose());
     }
-    found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
+    found.isActive = !outlook || isSignificant(e, at, found, moves, *outlook);
     return found;
 }
 
@@ -171,7 +172,7 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     found.energy = volume_[e] * sheet::energy(m, r);
     found.stress[0] = volume_[e] * (q * held.cwiseProduct(sheet::stress(m, r)));
     at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r, last)).asDiagonal() * q.transpose());
-    found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
+    found.isActive = !outlook || isSignificant(e, at, found, moves, *outlook);
     return found;
 }
 

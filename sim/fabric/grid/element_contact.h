@@ -22,7 +22,7 @@ struct StepOutlook {
     const FabricMotion& motion;
     double h;           ///< [s]
     double cell;        ///< of the grid [cm]
-    double negligible;  ///< acceleration that is not felt [cm/s^2]
+    double negligible;  ///< acceleration that does not count [cm/s^2]
 };
 
 /// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (fabric/grid/README.md, Directions). An
@@ -107,7 +107,7 @@ class ElementContact {
     Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
     std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;
-    bool isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const;
+    bool isSignificant(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const;
 
     std::size_t edges_ = 0;
     std::vector<std::array<int, 3>> corners_;
