@@ -4,6 +4,7 @@
 #include "sim/core/simd.h"
 
 #include <algorithm>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -45,7 +46,11 @@ class BlockMatrix {
             HalfPack x, y, z;  ///< whose sums are the three numbers
         };
         const int first = chunk * kRowsAtOnce, last = std::min(first + kRowsAtOnce, rows());
-        const auto of = [&](int entry, int from) { return *reinterpret_cast<const HalfPack*>(block(entry) + from); };
+        const auto of = [&](int entry, int from) {
+            HalfPack column;  // at any multiple of 8 bytes, which clang forgets of a HalfPack that is pointed to
+            std::memcpy(&column, block(entry) + from, sizeof column);
+            return column;
+        };
         const auto sum = [](const HalfPack& v) { return v[0] + v[1] + v[2]; };
         const auto addTransposed = [&](Columns& to, int entry, const HalfPack& u) {
             to.x += u * of(entry, 0), to.y += u * of(entry, 3), to.z += u * of(entry, 6);

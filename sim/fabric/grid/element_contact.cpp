@@ -80,27 +80,30 @@ std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
     return across;
 }
 
-/// Changes of the directions that the outlook expects, seen from the mesh.
-std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const
+/// Changes of the directions that the prediction expects, seen from the mesh.
+std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at, const PredictedMotion& prediction) const
 {
-    const auto change = [&](int corner) { return toTriple(outlook.motion.velocity[corners_[e][corner]] - outlook.motion.velocity[corners_[e][0]]); };
+    const auto change = [&](int corner) {
+        return toTriple(prediction.motion.velocity[corners_[e][corner]] - prediction.motion.velocity[corners_[e][0]]);
+    };
     const std::array<Triple<double>, 2> reciprocal = {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])};
     const Vec3 turn = toVec3(isEdge(e) ? turnOfEdge(reciprocal[0], change(1)) : turnOfFace(toTriple(at.normal), reciprocal, change(1), change(2)));
-    const Mat3& g = outlook.motion.gradient[e];
-    return {outlook.h * (g * at.d[0] - turn.cross(at.d[0])), outlook.h * (g * at.d[1] - turn.cross(at.d[1]))};
+    const Mat3& g = prediction.motion.gradient[e];
+    return {prediction.h * (g * at.d[0] - turn.cross(at.d[0])), prediction.h * (g * at.d[1] - turn.cross(at.d[1]))};
 }
 
 /// Whether the stresses at the start or at the expected end would be felt: spread over a cell they give accelerations
 /// below 4 |σ| / (m Δx).
-bool ElementContact::isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const
+bool ElementContact::isSignificant(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+                                   const PredictedMotion& prediction) const
 {
     const std::array<Vec3, 2> last = {found.stress[0] + at.stiffness[0] * moves[0] + at.stiffness[1] * moves[1],
                                       found.stress[1] + at.stiffness[1].transpose() * moves[0] + at.stiffness[2] * moves[1]};
     const auto size = [](const std::array<Vec3, 2>& s) { return std::sqrt(s[0].squaredNorm() + s[1].squaredNorm()); };
-    return 4.0 * std::max(size(found.stress), size(last)) > outlook.negligible * mass_[e] * outlook.cell;
+    return 4.0 * std::max(size(found.stress), size(last)) > prediction.negligible * mass_[e] * prediction.cell;
 }
 
-ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
+ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricState& state, const PredictedMotion* prediction, Local& at) const
 {
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3 along = state.x[corners_[e][1]] - state.x[corners_[e][0]];
@@ -114,13 +117,13 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
     yarn::Section section = yarn::sectionOf(r);
     yarn::SectionStiffness k;
     const bool isPressed = yarn::stiffness(m, section, k);
-    if (!isPressed && !outlook) return found;
+    if (!isPressed && !prediction) return found;
     found.energy = volume_[e] * yarn::energy(m, r, section);
 
     std::array<Vec3, 2> moves;
     yarn::Held held;
-    if (outlook) {
-        moves = expectedMoves(e, at, *outlook);
+    if (prediction) {
+        moves = expectedMoves(e, at, *prediction);
         const yarn::Strain expected = r + yarnStrain(q, moves);
         const yarn::Section last = yarn::sectionOf(expected);
         if (!isPressed && !yarn::stiffness(m, yarn::touching(section, last), k)) return found;
@@ -143,11 +146,11 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
         local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
         at.stiffness[n] = volume_[e] * (q * local * q.transpose());
     }
-    found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
+    found.isActive = !prediction || isSignificant(e, at, found, moves, *prediction);
     return found;
 }
 
-ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
+ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricState& state, const PredictedMotion* prediction, Local& at) const
 {
     const ContactModuli& m = moduli_[material_[e]];
     const Vec3& x0 = state.x[corners_[e][0]];
@@ -162,8 +165,8 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     const Vec3 r = q.transpose() * at.d[0];
     std::array<Vec3, 2> moves;
     Vec3 last = r, held = Vec3::Ones();
-    if (outlook) {
-        moves = expectedMoves(e, at, *outlook);
+    if (prediction) {
+        moves = expectedMoves(e, at, *prediction);
         last += q.transpose() * moves[0];
         held.head<2>().setConstant(sheet::held(m, last));
     }
@@ -171,13 +174,13 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     found.energy = volume_[e] * sheet::energy(m, r);
     found.stress[0] = volume_[e] * (q * held.cwiseProduct(sheet::stress(m, r)));
     at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r, last)).asDiagonal() * q.transpose());
-    found.isActive = !outlook || isFelt(e, at, found, moves, *outlook);
+    found.isActive = !prediction || isSignificant(e, at, found, moves, *prediction);
     return found;
 }
 
-void ElementContact::assemble(const FabricState& state, const StepOutlook* outlook)
+void ElementContact::assemble(const FabricState& state, const PredictedMotion* prediction)
 {
-    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assembleElement(e, state, outlook, local_[e]); });
+    parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assembleElement(e, state, prediction, local_[e]); });
     listActive();
 }
 
@@ -189,25 +192,25 @@ void ElementContact::listActive()
 }
 
 /// What an element gains by the moves of its directions, which an inactive one makes freely [erg].
-double ElementContact::energyAfter(std::size_t e, const StepOutlook& outlook) const
+double ElementContact::energyAfter(std::size_t e, const PredictedMotion& prediction) const
 {
     const ContactModuli& m = moduli_[material_[e]];
     const Local& at = local_[e];
-    const std::array<Vec3, 2> moves = expectedMoves(e, at, outlook);
+    const std::array<Vec3, 2> moves = expectedMoves(e, at, prediction);
     if (!isEdge(e)) return volume_[e] * sheet::energy(m, at.frame.transpose() * (at.d[0] + moves[0])) - stress_[e].energy;
     const yarn::Strain r = yarnStrain(at.frame, {at.d[0] + moves[0], at.d[1] + moves[1]});
     return volume_[e] * yarn::energy(m, r, yarn::sectionOf(r)) - stress_[e].energy;
 }
 
-double ElementContact::unforeseen(const StepOutlook& outlook) const
+double ElementContact::unforeseen(const PredictedMotion& prediction) const
 {
-    return parallelSum(size(), [&](std::size_t e) { return stress_[e].isActive ? 0.0 : std::max(0.0, energyAfter(e, outlook)); });
+    return parallelSum(size(), [&](std::size_t e) { return stress_[e].isActive ? 0.0 : std::max(0.0, energyAfter(e, prediction)); });
 }
 
-void ElementContact::takeIn(const FabricState& state, const StepOutlook& outlook)
+void ElementContact::takeIn(const FabricState& state, const PredictedMotion& prediction)
 {
     parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
-        if (!stress_[e].isActive) stress_[e] = assembleElement(e, state, &outlook, local_[e]);
+        if (!stress_[e].isActive) stress_[e] = assembleElement(e, state, &prediction, local_[e]);
     });
     listActive();
 }
@@ -221,7 +224,7 @@ double ElementContact::energy() const
 
 /// What an element may store after a motion: no more than it did, and than the stresses that the step was solved with took [erg].
 /// @param leftOut  share of what they gain that elements may keep which were left out [0..1]
-double ElementContact::mostAfter(std::size_t e, const StepOutlook& moved, double leftOut) const
+double ElementContact::mostAfter(std::size_t e, const PredictedMotion& moved, double leftOut) const
 {
     const Local& at = local_[e];
     if (!stress_[e].isActive) return stress_[e].energy + leftOut * std::max(0.0, energyAfter(e, moved));
@@ -231,12 +234,12 @@ double ElementContact::mostAfter(std::size_t e, const StepOutlook& moved, double
     return std::max(0.0, stress_[e].energy + last0.dot(moves[0]) + last1.dot(moves[1]));
 }
 
-double ElementContact::gain(const StepOutlook& moved) const
+double ElementContact::gain(const PredictedMotion& moved) const
 {
     return parallelSum(size(), [&](std::size_t e) { return std::min(energyAfter(e, moved), mostAfter(e, moved, 1.0) - stress_[e].energy); });
 }
 
-double ElementContact::carry(const StepOutlook& moved, double mostUnforeseen, FabricState& state) const
+double ElementContact::carry(const PredictedMotion& moved, double mostUnforeseen, FabricState& state) const
 {
     const double unmet = unforeseen(moved), leftOut = unmet > mostUnforeseen ? mostUnforeseen / unmet : 1.0;
     return parallelSum(size(), [&](std::size_t e) {

@@ -18,11 +18,11 @@ struct FabricMotion {
 };
 
 /// How a step would go without the fabric's own forces.
-struct StepOutlook {
+struct PredictedMotion {
     const FabricMotion& motion;
     double h;           ///< [s]
     double cell;        ///< of the grid [cm]
-    double negligible;  ///< acceleration that is not felt [cm/s^2]
+    double negligible;  ///< acceleration that does not count [cm/s^2]
 };
 
 /// Contact at the quadrature points of the fabric, one per yarn edge and then one per face (fabric/grid/README.md, Directions). An
@@ -40,17 +40,17 @@ class ElementContact {
     /// Quadrature point of an element [cm].
     Vec3 position(std::size_t e, std::span<const Vec3> x) const { return mean(e, x); }
 
-    /// Energies, stresses and stiffnesses at the present directions and positions. Given an outlook, shear has the
+    /// Energies, stresses and stiffnesses at the present directions and positions. Given a prediction, shear has the
     /// secant of what friction holds in the end, and elements that would accelerate nothing are left out: an elastic
     /// tangent makes what is barely pressed stick, where the return after the step lets it slide.
-    void assemble(const FabricState& state, const StepOutlook* outlook = nullptr);
-    /// Energy that elements would hold after this outlook which assemble() left out, as they were not expected to be pressed [erg]: they would
+    void assemble(const FabricState& state, const PredictedMotion* prediction = nullptr);
+    /// Energy that elements would hold after this prediction which assemble() left out, as they were not expected to be pressed [erg]: they would
     /// be pressed without resistance.
-    double unforeseen(const StepOutlook& outlook) const;
+    double unforeseen(const PredictedMotion& prediction) const;
     /// Energy that all elements would gain by this motion, as far as carry() lets them keep it [erg].
-    double gain(const StepOutlook& moved) const;
-    /// Takes them in, with this outlook.
-    void takeIn(const FabricState& state, const StepOutlook& outlook);
+    double gain(const PredictedMotion& moved) const;
+    /// Takes them in, with this prediction.
+    void takeIn(const FabricState& state, const PredictedMotion& prediction);
     /// Elements that are pressed so that it is felt, ascending.
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble
@@ -75,7 +75,7 @@ class ElementContact {
     /// @param moved           by the step; x of the state is already that of its end
     /// @param mostUnforeseen  energy that elements may come to hold together which were left out [erg]
     /// @return                energy of contact with these directions [erg]
-    double carry(const StepOutlook& moved, double mostUnforeseen, FabricState& state) const;
+    double carry(const PredictedMotion& moved, double mostUnforeseen, FabricState& state) const;
 
     /// Corners of an element; −1 for the third of an edge.
     const std::array<int, 3>& corners(std::size_t e) const { return corners_[e]; }
@@ -98,16 +98,17 @@ class ElementContact {
     /// First of an element's directions in FabricState::across.
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
     void listActive();
-    double energyAfter(std::size_t e, const StepOutlook& outlook) const;
-    double mostAfter(std::size_t e, const StepOutlook& moved, double leftOut) const;
-    Stress assembleElement(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const
+    double energyAfter(std::size_t e, const PredictedMotion& prediction) const;
+    double mostAfter(std::size_t e, const PredictedMotion& moved, double leftOut) const;
+    Stress assembleElement(std::size_t e, const FabricState& state, const PredictedMotion* prediction, Local& at) const
     {
-        return isEdge(e) ? assembleEdge(e, state, outlook, at) : assembleFace(e, state, outlook, at);
+        return isEdge(e) ? assembleEdge(e, state, prediction, at) : assembleFace(e, state, prediction, at);
     }
-    Stress assembleEdge(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
-    Stress assembleFace(std::size_t e, const FabricState& state, const StepOutlook* outlook, Local& at) const;
-    std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const StepOutlook& outlook) const;
-    bool isFelt(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves, const StepOutlook& outlook) const;
+    Stress assembleEdge(std::size_t e, const FabricState& state, const PredictedMotion* prediction, Local& at) const;
+    Stress assembleFace(std::size_t e, const FabricState& state, const PredictedMotion* prediction, Local& at) const;
+    std::array<Vec3, 2> expectedMoves(std::size_t e, const Local& at, const PredictedMotion& prediction) const;
+    bool isSignificant(std::size_t e, const Local& at, const Stress& found, const std::array<Vec3, 2>& moves,
+                       const PredictedMotion& prediction) const;
 
     std::size_t edges_ = 0;
     std::vector<std::array<int, 3>> corners_;

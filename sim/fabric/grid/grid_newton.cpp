@@ -50,7 +50,7 @@ void GridFabricSolver::meetUnforeseen(double h, double kinetic, const FaceTolera
 {
     for (int repeat = 0;; ++repeat) {
         system_.findMotion(velocity_.faces, motion_);
-        const StepOutlook found = outlookOn(h, tolerance);
+        const PredictedMotion found = predictionOn(h, tolerance);
         if (repeat == kMostRepeats || contact_.unforeseen(found) <= kUnforeseen * kinetic) return;
         contact_.takeIn(state, found);
         system_.assemble();
@@ -98,7 +98,7 @@ double GridFabricSolver::gainOfMotion(const Solve& of, double before)
     double contact = 0.0;
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
-        contact = contact_.gain(outlookOn(of.h, of.tolerance));
+        contact = contact_.gain(predictionOn(of.h, of.tolerance));
     }
     const OnFaces onFaces = workOnFaces(of.h, of.gravity, of.state, of.loads);
     return onFaces.kineticAfter - onFaces.kineticBefore + elastic + contact - onFaces.fall - onFaces.drag - holds.pins - holds.obstacles;

@@ -215,7 +215,7 @@ void GridFabricSolver::prepare(FabricState& state, StageClock& clock)
 }
 
 /// How the fabric will move by motion_, where contact matters that makes more than a share of the solve's tolerance.
-StepOutlook GridFabricSolver::outlookOn(double h, const FaceTolerance& tolerance) const
+PredictedMotion GridFabricSolver::predictionOn(double h, const FaceTolerance& tolerance) const
 {
     return {motion_, h, particles_.grid().dx, kNegligible * tolerance.wanted / h};
 }
@@ -238,8 +238,8 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
         if (!obstacles_.empty()) touching = touchObstacles(t, h, gravity, state);
-        const StepOutlook outlook = outlookOn(h, until);
-        contact_.assemble(state, &outlook);
+        const PredictedMotion prediction = predictionOn(h, until);
+        contact_.assemble(state, &prediction);
     }
 
     clock.start(Stage::FabricElastic);
@@ -275,7 +275,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::FabricStrain);
     const ContactEnergy before = state.stored;
     state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
-    if (settings_.contact) state.stored.pressed = contact_.carry(outlookOn(h, until), kUnforeseen * kinetic, state);
+    if (settings_.contact) state.stored.pressed = contact_.carry(predictionOn(h, until), kUnforeseen * kinetic, state);
     if (booksEnergy_) bookVertices(gravity, before, state, *report.energyChanges);
     return report;
 }

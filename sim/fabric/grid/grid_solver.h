@@ -63,7 +63,7 @@ class GridFabricSolver final : public FabricIntegrator {
     void meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     double kineticOfChange();
     double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
-    StepOutlook outlookOn(double h, const FaceTolerance& tolerance) const;
+    PredictedMotion predictionOn(double h, const FaceTolerance& tolerance) const;
     void findGroups(std::span<const ObstacleContact> touching);
     void keepMomentum(std::span<const ObstacleContact> touching);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);

@@ -233,8 +233,8 @@ struct Pressed {
     }
     void assemble(double h, double negligible = 0.0)
     {
-        const StepOutlook outlook{motion, h, kCell, negligible};
-        contact.assemble(state, &outlook);
+        const PredictedMotion prediction{motion, h, kCell, negligible};
+        contact.assemble(state, &prediction);
     }
     /// ∂E/∂d where the step is expected to end, by the stiffness.
     std::array<Vec3, 2> lastStress(std::size_t e, double h) const
