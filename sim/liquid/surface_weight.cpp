@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <utility>
 
 namespace sim {
 
@@ -129,17 +128,23 @@ double levelOf(std::span<const double> full, double mass)
 }
 
 /// Weights of the faces of a column that is even: what the splines of its particles would leave there if the liquid filled it up to a level.
+/// What is about a cell above it goes to the faces below, so that sum and centre stay: the cell below such a face is on the verge of having a
+/// pressure, and weights, which the pressure of its neighbours balances, must not depend on whether it has (Rest.OfALevelInAPlaneOfFacesLasts).
 /// @param full  faces' masses when they are full [g]; out: the weights
 /// @param mass  of all [g]
-/// @param free  has the highest face no pressure? Its weight goes to those below it, so that sum and centre stay.
+/// @param free  has the highest face no pressure? Then all of its weight goes.
 void fillEvenly(std::span<double> full, double mass, bool free)
 {
+    constexpr double kStays = 0.95, kGoes = 1.0;  // above the level [cells]
     const double level = levelOf(full, mass);
     for (std::size_t n = 0; n < full.size(); ++n) full[n] *= shareBelow(level - static_cast<double>(n));
-    if (const std::size_t top = full.size() - 1; free && top > 1) {
-        const double above = std::exchange(full[top], 0.0);
-        full[top - 1] += 2.0 * above;
-        full[top - 2] -= above;
+    for (std::size_t n = full.size() - 1; n > 1; --n) {
+        const double height = static_cast<double>(n) - level;
+        const double part = free && n + 1 == full.size() ? 1.0 : std::clamp((height - kStays) / (kGoes - kStays), 0.0, 1.0);
+        const double moved = part * full[n];
+        full[n] -= moved;
+        full[n - 1] += 2.0 * moved;
+        full[n - 2] -= moved;
     }
 }
 

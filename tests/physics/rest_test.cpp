@@ -54,6 +54,26 @@ TEST(Rest, OfAPoolLasts)
     }
 }
 
+/// Cells above a level in a plane of faces are on the verge of being liquid: that some are and others not moves nothing, and takes no energy.
+TEST(Rest, OfALevelInAPlaneOfFacesLasts)
+{
+    struct Case {
+        Transfer transfer;
+        int order;
+        double dt;
+    };
+    for (const Case& c : {Case{kPoly8, 2, 4.0e-3}, {kPoly8, 2, 2.0e-3}, {kPoly8, 1, 4.0e-3}, {kApic, 2, 4.0e-3}}) {
+        Scene scene = pool(c.transfer, 0.5, 6.0, 0.4, TimeIntegrator::Reflected);
+        scene.settings.liquid.surfaceOrder = c.order;
+        scene.settings.time.dt = c.dt;
+        Simulation simulation(scene);
+        const double start = simulation.energies().total();
+        while (simulation.state().time < 4.0) simulation.step(4.0);
+        // The particles settle by 1.7e-4 of it in the first tenths of a second.
+        EXPECT_NEAR(simulation.energies().total() / start, 1.0, 2.5e-4) << c.transfer.name << ", order " << c.order << ", steps of " << c.dt << " s";
+    }
+}
+
 /// A vessel whose walls go any way through the grid, filled to a level.
 struct Vessel {
     std::string name;
