@@ -108,7 +108,7 @@ const std::map<std::string, Ground> kGrounds = {
     {"fabric.hinge.measure", {kWet, {"fabric.bending=hinge"}}},
     {"fabric.newton", {kWet, {}, "9"}},
     {"fabric.tolerance", {kWet, {}, "1.0e-9"}},
-    {"fabric.max_halvings", {kWet, {"time.dt=5.0e-3"}, "0"}},
+    {"fabric.max_halvings", {kWet, {"time.dt=5.0e-3", "fabrics.1.velocity=[10, -1000, 0]"}, "0"}},
     {"materials.wool.contact_stiffness", {kWet, {kGridSolver}, "10"}},
     {"materials.wool.pin_stiffness", {kWet, {kGridSolver}}},
 };
