@@ -15,6 +15,19 @@ constexpr double kNoMass = 1.0e200;
 
 [[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
 
+/// A row of faces.
+struct FaceRow {
+    int block, axis, j, k;
+};
+
+/// Which faces of a row have a part in the correction: those with a pressure, but for those that fabric or slanted walls are on.
+[[gnu::always_inline]] inline PackMask hasPart(const CutGrid& cut, const PressureWorkspace& pressure, const StrainWorkspace& work, const FaceRow& r)
+{
+    const int row = cellInBlock(0, r.j, r.k);
+    return (loadPack(pressure.coefficient.block(r.block, r.axis) + row) > 0.0) & (loadPack(cut.field.open(r.block, r.axis) + row) == 1.0) &
+           rowOf(work.acts.block(r.block, r.axis), r.j, r.k);
+}
+
 /// Masses of the faces of a row as the pressure has them, relative to a full one [-].
 [[gnu::always_inline]] inline Pack massOf(const CutGrid& cut, const PressureWorkspace& pressure, int block, int axis, int row)
 {
@@ -35,7 +48,7 @@ void findImpulses(const CutGrid& cut, const BlockArray<double, 3>& before, const
                 const std::uint64_t deepFaces = liquid.deep.block(b)[k] & access.below(liquid.deep, 0, a, k);
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
-                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowOf(work.acts.block(b, a), j, k);
+                    const PackMask known = hasPart(cut, pressure, work, {b, a, j, k});
                     const PackMask closed = loadPack(cut.field.open(b, a) + row) == 0.0;
                     Pack inverse = select(closed, broadcast(0.0), broadcast(kNoMass)), impulse = broadcast(0.0);
                     if (maskBits(known) != 0) {
@@ -96,7 +109,7 @@ void applyStrains(const CutGrid& cut, const PressureWorkspace& pressure, const S
             for (int j = 0; j < kBlockEdge; ++j) {
                 const int row = cellInBlock(0, j, k);
                 unroll<3>([&](auto a) {
-                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowOf(work.acts.block(b, a), j, k);
+                    const PackMask known = hasPart(cut, pressure, work, {b, a, j, k});
                     if (maskBits(known) == 0) return;
                     constexpr int c = (a + 1) % 3, d = (a + 2) % 3;
                     Pack sum = rows.below(work.stretch, a, a, j, k) - rows.row(work.stretch, a, j, k);
