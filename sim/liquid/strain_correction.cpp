@@ -3,6 +3,9 @@
 #include "sim/core/parallel.h"
 #include "sim/grid/rows.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace sim {
 
 namespace {
@@ -10,23 +13,13 @@ namespace {
 /// α²/h²: variance of the quadratic B-spline.
 constexpr double kVariance = 0.25;
 
+/// Room of a face that no solid takes any of, but for plane walls in planes of faces [-].
+constexpr double kAllRoom = 1.0 - 1.0e-6;
+
 /// 1/m̂ of faces that have no part in the correction [-]: means with it are 0 for any number that matters.
 constexpr double kNoMass = 1.0e200;
 
 [[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
-
-/// A row of faces.
-struct FaceRow {
-    int block, axis, j, k;
-};
-
-/// Which faces of a row have a part in the correction: those with a pressure, but for those that fabric or slanted walls are on.
-[[gnu::always_inline]] inline PackMask hasPart(const CutGrid& cut, const PressureWorkspace& pressure, const StrainWorkspace& work, const FaceRow& r)
-{
-    const int row = cellInBlock(0, r.j, r.k);
-    return (loadPack(pressure.coefficient.block(r.block, r.axis) + row) > 0.0) & (loadPack(cut.field.open(r.block, r.axis) + row) == 1.0) &
-           rowOf(work.acts.block(r.block, r.axis), r.j, r.k);
-}
 
 /// Masses of the faces of a row as the pressure has them, relative to a full one [-].
 [[gnu::always_inline]] inline Pack massOf(const CutGrid& cut, const PressureWorkspace& pressure, int block, int axis, int row)
@@ -48,7 +41,7 @@ void findImpulses(const CutGrid& cut, const BlockArray<double, 3>& before, const
                 const std::uint64_t deepFaces = liquid.deep.block(b)[k] & access.below(liquid.deep, 0, a, k);
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
-                    const PackMask known = hasPart(cut, pressure, work, {b, a, j, k});
+                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowOf(work.acts.block(b, a), j, k);
                     const PackMask closed = loadPack(cut.field.open(b, a) + row) == 0.0;
                     Pack inverse = select(closed, broadcast(0.0), broadcast(kNoMass)), impulse = broadcast(0.0);
                     if (maskBits(known) != 0) {
@@ -109,7 +102,7 @@ void applyStrains(const CutGrid& cut, const PressureWorkspace& pressure, const S
             for (int j = 0; j < kBlockEdge; ++j) {
                 const int row = cellInBlock(0, j, k);
                 unroll<3>([&](auto a) {
-                    const PackMask known = hasPart(cut, pressure, work, {b, a, j, k});
+                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowOf(work.acts.block(b, a), j, k);
                     if (maskBits(known) == 0) return;
                     constexpr int c = (a + 1) % 3, d = (a + 2) % 3;
                     Pack sum = rows.below(work.stretch, a, a, j, k) - rows.row(work.stretch, a, j, k);
@@ -130,7 +123,40 @@ void resize(int blocks, StrainWorkspace& work)
     std::fill_n(work.inverseMass.block(blocks), BlockArray<double, 3>::kStride, kNoMass);
 }
 
+/// body(face, number of the piece of liquid) for the faces of a block that have a pressure.
+template <class Body>
+void forEachFace(const BlockGrid& grid, const PressureWorkspace& pressure, int block, int axis, Body&& body)
+{
+    const ConnectedComponents& pieces = pressure.solver.components();
+    for (int c = 0; c < kBlockCells; ++c) {
+        if (!(pressure.coefficient.block(block, axis)[c] > 0.0)) continue;
+        Vec3i at(c & 7, c >> 3 & 7, c >> 6);
+        at[axis] -= 1;
+        const CellRef below = cellNear(grid, block, at.x(), at.y(), at.z());
+        const int own = pieces.of(block, c), other = below.block != grid.count() ? pieces.of(below.block, below.cell) : -1;
+        body(c, std::max(own, other));  // the same where both cells have a pressure
+    }
+}
+
 }  // namespace
+
+void leaveOutSlanted(const CutGrid& cut, const PressureWorkspace& pressure, BlockBits<3>& acts)
+{
+    std::vector<char> isSlanted(pressure.solver.components().count(), 0);
+    for (int b : cut.field.blocksNearSolid())
+        for (int a = 0; a < kAxes; ++a)
+            forEachFace(cut.grid, pressure, b, a, [&](int face, int piece) {
+                if (piece >= 0 && cut.field.room(b, a)[face] < kAllRoom) isSlanted[piece] = 1;
+            });
+    if (std::ranges::none_of(isSlanted, [](char c) { return c != 0; })) return;
+    parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        for (int a = 0; a < kAxes; ++a)
+            forEachFace(cut.grid, pressure, b, a, [&](int face, int piece) {
+                if (piece >= 0 && isSlanted[piece]) acts.block(b, a)[face >> 6] &= ~(std::uint64_t{1} << (face & 63));
+            });
+    });
+}
 
 void correctStrain(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureWorkspace& pressure, StrainWorkspace& work,
                    LiquidGrid& liquid)

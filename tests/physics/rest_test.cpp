@@ -74,6 +74,36 @@ TEST(Rest, OfALevelInAPlaneOfFacesLasts)
     }
 }
 
+/// A block of liquid, four cells deep, slides down a frictionless slope as a stone does, whatever the order of the surface.
+TEST(FreeSlip, OnSlantedWallsIsFree)
+{
+    for (const double angle : {20.0, 30.0, 45.0})
+        for (const int order : {1, 2}) {
+            Eigen::Isometry3d tilt = Eigen::Isometry3d::Identity();
+            tilt.linear() = Eigen::AngleAxisd(-angle * kPi / 180.0, Vec3::UnitZ()).toRotationMatrix();
+            Scene scene = tankScene(kPoly8, 0.25, {8.0, 4.0, 8.0}, Vec3::Zero(), {8.0, 4.0, 8.0});
+            scene.settings.time.mode = TimeMode::Fixed;
+            scene.settings.time.dt = 2.0e-3;
+            scene.settings.liquid.surfaceOrder = order;
+            scene.sources[0].shape = Shape::box({0.0, 0.5, 0.0}, {2.0, 0.5, 1.0}).moved(tilt);
+            scene.obstacles.resize(2);
+            scene.obstacles[0].name = "slope";
+            scene.obstacles[0].shape = Shape::box({0.0, -1.0, 0.0}, {80.0, 1.0, 1.0}).moved(tilt);
+            scene.obstacles[1].name = "walls";
+            scene.obstacles[1].shape = Shape::box(Vec3::Zero(), {90.0, 90.0, 1.0}).inverted();
+            Simulation simulation(scene);
+            while (simulation.state().time < 0.2 - 1.0e-9) simulation.step(0.2);
+            const LiquidParticles& liquid = simulation.state().liquid;
+            double mass = 0.0, along = 0.0;
+            for (std::size_t p = 0; p < liquid.count; ++p) {
+                mass += liquid.mass[p];
+                along += liquid.mass[p] * liquid.velocity(p).dot(tilt.linear() * Vec3::UnitX());
+            }
+            // Velocities are those of half a step ago.
+            EXPECT_NEAR(along / mass / (981.0 * std::sin(angle * kPi / 180.0) * 0.199), 1.0, 0.02) << angle << " degrees, order " << order;
+        }
+}
+
 /// A vessel whose walls go any way through the grid, filled to a level.
 struct Vessel {
     std::string name;
@@ -124,11 +154,10 @@ TEST(Rest, OfAPoolInVesselsOfAnyShapeLasts)
                 // Where the level meets slanted walls within a cell it settles, alike for all patterns; the published one has fewer and heavier
                 // particles there.
                 const bool isReference = pattern == Pattern::Reference;
-                // In the one between walls that all go slantwise and slip, columns at the walls are even by rooms that do not change with the height,
-                // and what comes of that takes no inertia from stretching: .57 cm/s and 2.6e-3.
-                const bool isTurned = vessel.name == "tilted and turned tank";
-                EXPECT_LT(fastest, isTurned ? 0.6 : 0.5) << what;
-                EXPECT_NEAR((start - now.potential) / (0.5 * mass * 981.0 * vessel.depth), 0.0, isReference || isTurned ? 3.0e-3 : 2.0e-3) << what;
+                // Weight stands where splines leave it, which at slanted walls, whose rooms are those of one height, is not quite even: .51 cm/s and
+                // 2.2e-3 in the tank that is tilted and turned.
+                EXPECT_LT(fastest, 0.53) << what;
+                EXPECT_NEAR((start - now.potential) / (0.5 * mass * 981.0 * vessel.depth), 0.0, isReference ? 3.0e-3 : 2.4e-3) << what;
             }
 }
 
