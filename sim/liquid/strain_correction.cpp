@@ -4,7 +4,6 @@
 #include "sim/grid/rows.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace sim {
 
@@ -140,9 +139,10 @@ void forEachFace(const BlockGrid& grid, const PressureWorkspace& pressure, int b
 
 }  // namespace
 
-void leaveOutSlanted(const CutGrid& cut, const PressureWorkspace& pressure, BlockBits<3>& acts)
+void leaveOutSlanted(const CutGrid& cut, const PressureWorkspace& pressure, StrainWorkspace& work)
 {
-    std::vector<char> isSlanted(pressure.solver.components().count(), 0);
+    std::vector<char>& isSlanted = work.isSlanted;
+    isSlanted.assign(pressure.solver.components().count(), 0);
     for (int b : cut.field.blocksNearSolid())
         for (int a = 0; a < kAxes; ++a)
             forEachFace(cut.grid, pressure, b, a, [&](int face, int piece) {
@@ -153,7 +153,7 @@ void leaveOutSlanted(const CutGrid& cut, const PressureWorkspace& pressure, Bloc
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a)
             forEachFace(cut.grid, pressure, b, a, [&](int face, int piece) {
-                if (piece >= 0 && isSlanted[piece]) acts.block(b, a)[face >> 6] &= ~(std::uint64_t{1} << (face & 63));
+                if (piece >= 0 && isSlanted[piece]) work.acts.block(b, a)[face >> 6] &= ~(std::uint64_t{1} << (face & 63));
             });
     });
 }
