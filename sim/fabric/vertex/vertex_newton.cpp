@@ -125,7 +125,8 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
         if (!isLastMove) continue;
         const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
-        if (frictionError > kFrictionError && newton.count < std::max(most, kMostForFriction)) continue;
+        // Steps that something drives are halved instead: shorter ones take less energy from it that fabric cannot follow.
+        if (frictionError > kFrictionError && newton.count < (isDriven_ ? most : std::max(most, kMostForFriction))) continue;
         newton.isSettled = newton.isSettled && frictionError <= kFrictionError;
         finish(h, state);
         if (!settled) settled = newton;
