@@ -13,7 +13,7 @@ EnergyBudget::EnergyBudget(const State& state, const Settings& settings, const W
     if (!work.booksEnergy) return;
     changes_.emplace();
     last_ = look();
-    if (settings.liquid.correctsStrain()) strain_ = strainEnergy(state.liquid, state.grid);
+    if (work.correctsStrain) strain_ = strainEnergy(state.liquid, state.grid);
     lag_ = potentialLag(state_, settings_);
 }
 

@@ -87,9 +87,6 @@ struct LiquidSettings {
     double wallFriction = 0.0;                 ///< 0 = free slip … 1 = the liquid sticks to walls [-]
     VolumeSettings volume;
     RelaxSettings relax;
-
-    /// Is stretching within the reach of a B-spline no inertia to the pressure? Without air it is none in any case.
-    bool correctsStrain() const { return surfaceOrder == 2 && !full; }
 };
 
 enum class FabricSolver { Vertex, Grid, Off };

@@ -7,6 +7,7 @@
 #include "sim/fabric/vertex/vertex_solver.h"
 #include "sim/liquid/energy.h"
 #include "sim/particles/velocity_modes.h"
+#include "sim/scene/surface_order.h"
 #include "sim/sources/emit.h"
 #include "sim/sources/seed.h"
 #include "sim/step.h"
@@ -138,6 +139,7 @@ void Simulation::prepareWorkspace()
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
     work_.momentum.prepare(scene_, fabric_);
+    work_.correctsStrain = correctsStrain(scene_);
     work_.relaxReach = relaxReach(scene_);
     work_.packing = packingOfSources(scene_, state_);
     work_.grid.pitch = pitchOfSources(scene_);
@@ -188,7 +190,7 @@ Energies Simulation::energies() const
 {
     Energies energies{liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity), {}};
     energies.potential += potentialLag(state_, scene_.settings);
-    if (scene_.settings.liquid.correctsStrain()) energies.storeStrain(strainEnergy(state_.liquid, state_.grid));
+    if (work_.correctsStrain) energies.storeStrain(strainEnergy(state_.liquid, state_.grid));
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
 }

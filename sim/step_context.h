@@ -35,10 +35,10 @@ struct StepContext {
     bool hasObstacles() const { return !work.obstacles.empty(); }
     bool isFlip() const { return settings().transfer.method == TransferMethod::Flip; }
     bool isViscous() const { return plan.isWet && settings().liquid.solveViscosity && settings().liquid.viscosity > 0.0; }
-    /// Does the free surface move without the inertia of stretching? There is none without air.
-    bool correctsStrain() const { return plan.isWet && settings().liquid.correctsStrain(); }
+    /// Does the free surface move without the inertia of stretching?
+    bool correctsStrain() const { return plan.isWet && work.correctsStrain; }
     /// Are the velocities straight after P2G needed after the pressure?
-    bool keepsAdvected() const { return isFlip() || plan.reflects || settings().liquid.correctsStrain(); }
+    bool keepsAdvected() const { return isFlip() || plan.reflects || work.correctsStrain; }
 
     /// How long weight, viscosity and surface tension act on the velocities of the liquid [s]. With the integrator reflected velocities are
     /// those halfway through the step: steps of any length then fall as far as they should. Not so near fabric, which bears its weight over dt:

@@ -55,6 +55,7 @@ struct Workspace {
     ChunkSums<Impulse> pushedSolids;  ///< … and by particles kept out of solids [g cm/s]
     MomentumBudget momentum;
     Stage failedStage = Stage::Emit;           ///< of the last step that threw
+    bool correctsStrain = false;               ///< the scene's free surfaces are of second order
     bool booksEnergy = false;                  ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;        ///< where there are liquid and fabric
     std::unique_ptr<FabricIntegrator> fabric;  ///< by the scene's fabric.solver, where there is fabric

@@ -61,15 +61,6 @@ void Capture::forEachUnsaturated(const SortedVertices& vertices, int block, Body
     }
 }
 
-/// body(particle, stencil) for the particles of a part.
-template <class Body>
-void Capture::forEachNear(const SortedParticles& sorted, const LiquidAround::Part& part, Body&& body) const
-{
-    const Vec3 corner = sorted.grid.lowerCorner(part.block);
-    LiquidAround::forEachParticle(
-        sorted.order, part, [&](int s) { body(static_cast<std::size_t>(s), CellStencil(sorted.particles.position(s), corner, sorted.grid.dx)); });
-}
-
 /// The vertices that have room. wanted_ is that room for now.
 bool Capture::findUnsaturatedVertices(const SortedVertices& vertices, const FabricState& state)
 {
@@ -145,14 +136,16 @@ double Capture::absorb(const SortedVertices& vertices, FabricState& state)
 }
 
 /// Particles give what the cells around them gave.
-void Capture::removeFromParticles(const SortedParticles& sorted, LiquidParticles& liquid)
+void Capture::removeFromParticles(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid)
 {
     parallelFor(around_.near().size(), [&](std::size_t n) {
         const LiquidAround::Part& part = around_.near()[n];
         const std::array<int, 27>& blocks = around_.blocksAround(part.block);
         if (std::ranges::none_of(blocks, [&](int b) { return isAsked_[b] != 0; })) return;
-        forEachNear(sorted, part, [&](std::size_t p, const CellStencil& stencil) {
+        const Vec3 corner = grid.lowerCorner(part.block);
+        LiquidAround::forEachParticle(order, part, [&](int p) {
             double share = 0.0;
+            const CellStencil stencil(liquid.position(p), corner, grid.dx);
             stencil.forEach(blocks, [&](int b, int c, double weight) { share += weight * std::min(1.0, around_.cell(b, c)[LiquidAround::kDemand]); });
             liquid.mass[p] *= std::max(0.0, 1.0 - share);
         });
@@ -206,7 +199,7 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
     computeDemand(dt, vertices);
     limitDemand(vertices);
     const double mass = absorb(vertices, state);
-    removeFromParticles({liquid, order, grid}, liquid);
+    removeFromParticles(grid, order, liquid);
     return mass + absorbResiduals(grid, order, vertices, liquid, state);
 }
 

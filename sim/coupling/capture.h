@@ -39,7 +39,7 @@ class Capture {
     void computeDemand(double dt, const SortedVertices& vertices);
     void limitDemand(const SortedVertices& vertices);
     double absorb(const SortedVertices& vertices, FabricState& state);
-    void removeFromParticles(const SortedParticles& sorted, LiquidParticles& liquid);
+    void removeFromParticles(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid);
     std::size_t nearestWithRoom(const Vec3& x, double dx, const std::array<int, 27>& blocks, const SortedVertices& vertices,
                                 const FabricState& state) const;
     double absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
@@ -47,8 +47,6 @@ class Capture {
     void deposit(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
     template <class Body>
     void forEachUnsaturated(const SortedVertices& vertices, int block, Body&& body) const;
-    template <class Body>
-    void forEachNear(const SortedParticles& sorted, const LiquidAround::Part& part, Body&& body) const;
 
     const Fabric& fabric_;
     std::vector<double> capacity_;       ///< of each vertex [g]

@@ -86,7 +86,7 @@ double strainEnergy(const LiquidParticles& particles, const BlockGrid& grid, con
             const Modes c = orthogonalModes(particles, axis, row, Stencil(grid, axis, particles.position(p)));
             slope.row(axis) = Vec3(c[1], c[2], c[3]);
         }
-        return 0.5 * particles.mass[p] * 0.25 * (0.5 * (slope + slope.transpose())).squaredNorm();
+        return 0.5 * particles.mass[p] * kSplineVariance * (0.5 * (slope + slope.transpose())).squaredNorm();
     });
 }
 

@@ -2,18 +2,11 @@
 
 #include "sim/core/parallel.h"
 #include "sim/grid/rows.h"
-
-#include <algorithm>
+#include "sim/particles/velocity_modes.h"
 
 namespace sim {
 
 namespace {
-
-/// α²/h²: variance of the quadratic B-spline.
-constexpr double kVariance = 0.25;
-
-/// Room of a face that no solid takes any of, but for plane walls in planes of faces [-].
-constexpr double kAllRoom = 1.0 - 1.0e-6;
 
 /// 1/m̂ of faces that have no part in the correction [-]: means with it are 0 for any number that matters.
 constexpr double kNoMass = 1.0e200;
@@ -78,14 +71,14 @@ void findStrains(const BlockGrid& grid, StrainWorkspace& work)
                 unroll<3>([&](auto a) {
                     const Pack mean = meanAcross(rows.row(work.inverseMass, a, j, k), rows.above(work.inverseMass, a, a, j, k));
                     const Pack step = rows.above(work.impulse, a, a, j, k) - rows.row(work.impulse, a, j, k);
-                    storePack(work.stretch.block(b, a) + row, kVariance * mean * step);
+                    storePack(work.stretch.block(b, a) + row, kSplineVariance * mean * step);
                     constexpr int c = (a + 1) % 3, d = (a + 2) % 3;
                     const Pack m[] = {rows.row(work.inverseMass, c, j, k), rows.below(work.inverseMass, c, d, j, k),
                                       rows.row(work.inverseMass, d, j, k), rows.below(work.inverseMass, d, c, j, k)};
                     const PackMask all = (m[0] > 0.0) & (m[1] > 0.0) & (m[2] > 0.0) & (m[3] > 0.0);
                     const Pack turn = rows.row(work.impulse, c, j, k) - rows.below(work.impulse, c, d, j, k) + rows.row(work.impulse, d, j, k) -
                                       rows.below(work.impulse, d, c, j, k);
-                    const Pack shear = (0.5 * kVariance * 4.0) / ((m[0] + m[1]) + (m[2] + m[3])) * turn;
+                    const Pack shear = (0.5 * kSplineVariance * 4.0) / ((m[0] + m[1]) + (m[2] + m[3])) * turn;
                     storePack(work.shear.block(b, a) + row, select(all, shear, broadcast(0.0)));
                 });
             }
@@ -122,41 +115,7 @@ void resize(int blocks, StrainWorkspace& work)
     std::fill_n(work.inverseMass.block(blocks), BlockArray<double, 3>::kStride, kNoMass);
 }
 
-/// body(face, number of the piece of liquid) for the faces of a block that have a pressure.
-template <class Body>
-void forEachFace(const BlockGrid& grid, const PressureWorkspace& pressure, int block, int axis, Body&& body)
-{
-    const ConnectedComponents& pieces = pressure.solver.components();
-    for (int c = 0; c < kBlockCells; ++c) {
-        if (!(pressure.coefficient.block(block, axis)[c] > 0.0)) continue;
-        Vec3i at(c & 7, c >> 3 & 7, c >> 6);
-        at[axis] -= 1;
-        const CellRef below = cellNear(grid, block, at.x(), at.y(), at.z());
-        const int own = pieces.of(block, c), other = below.block != grid.count() ? pieces.of(below.block, below.cell) : -1;
-        body(c, std::max(own, other));  // the same where both cells have a pressure
-    }
-}
-
 }  // namespace
-
-void leaveOutSlanted(const CutGrid& cut, const PressureWorkspace& pressure, StrainWorkspace& work)
-{
-    std::vector<char>& isSlanted = work.isSlanted;
-    isSlanted.assign(pressure.solver.components().count(), 0);
-    for (int b : cut.field.blocksNearSolid())
-        for (int a = 0; a < kAxes; ++a)
-            forEachFace(cut.grid, pressure, b, a, [&](int face, int piece) {
-                if (piece >= 0 && cut.field.room(b, a)[face] < kAllRoom) isSlanted[piece] = 1;
-            });
-    if (std::ranges::none_of(isSlanted, [](char c) { return c != 0; })) return;
-    parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
-        const int b = static_cast<int>(n);
-        for (int a = 0; a < kAxes; ++a)
-            forEachFace(cut.grid, pressure, b, a, [&](int face, int piece) {
-                if (piece >= 0 && isSlanted[piece]) work.acts.block(b, a)[face >> 6] &= ~(std::uint64_t{1} << (face & 63));
-            });
-    });
-}
 
 void correctStrain(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureWorkspace& pressure, StrainWorkspace& work,
                    LiquidGrid& liquid)

@@ -2,14 +2,11 @@
 
 #include "sim/liquid/pressure.h"
 
-#include <vector>
-
 namespace sim {
 
 /// What the strain correction needs beside the pressure's system.
 struct StrainWorkspace {
     BlockArray<double, 3> viscous;  ///< where viscosity acts: velocities after P2G and it, without weight [cm/s]
-    std::vector<char> isSlanted;    ///< of each piece of liquid: it is at a wall through cells
     BlockBits<3> acts;              ///< faces on which it may act: those that liquid shares with fabric are left out
     BlockArray<double, 3>
         inverseMass;  ///< 1/m̂ of each lower face; 0 where it is closed, kNoMass where it has no part in the correction; relative to full ones [-]
@@ -17,11 +14,6 @@ struct StrainWorkspace {
     BlockArray<double, 3> stretch;  ///< m̂/4 times the step of that from the lower to the upper face of each cell, by axes [cm/s]
     BlockArray<double, 3> shear;    ///< the same of shear, m̂/8, around the lower edges of each cell, by their direction [cm/s]
 };
-
-/// Pieces of liquid with a face whose room solids take some of, unless plane walls in planes of faces do, stay of first order: at walls through
-/// cells the pressure pushes along their normals in the sum over faces only, and what strains of that would push along the walls (a block on a
-/// frictionless slope of 45 degrees became 14 % too fast).
-void leaveOutSlanted(const CutGrid& cut, const PressureWorkspace& pressure, StrainWorkspace& work);
 
 /// Velocities that do not count the stretching of the liquid within the reach of a B-spline as inertia (liquid/README.md, Surface of second
 /// order): u += α² M⁻¹ L a with the change a of velocities by weight, pressure and surface tension, the variance α² = h²/4 of the spline, and uᵀ L u the mass

@@ -58,6 +58,9 @@ inline constexpr std::array<double, kMaxModes> kMeanOfMode = [] {
     return mean;
 }();
 
+/// Variance of the quadratic B-spline [cells^2].
+inline constexpr double kSplineVariance = 0.25;
+
 /// The quadratic B-spline stencil of one particle along one axis; nodes n = 0, 1, 2.
 struct Basis1D {
     /// @param offset  particle − middle node, in cells, in [−1/2, 1/2]

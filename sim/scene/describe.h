@@ -140,8 +140,10 @@ void describe(V& v, LiquidSettings& l)
         w.flag("full", l.full, "The liquid fills a closed box: there is no air");
     });
     v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0), "0 = free slip, 1 = the liquid sticks to walls");
-    v.integer("surface_order", l.surfaceOrder, 1, 2,
-              "2: the free surface moves as it should; 1: waves are too slow by the cells' smearing, as published");
+    v.integer(
+        "surface_order", l.surfaceOrder, 1, 2,
+        "2: the free surface moves as it should, where solids are boxes around it with walls in planes of the grid; 1: waves are too slow by the "
+        "cells' smearing, as published, and as beside other solids");
     v.section("volume", l.volume, "Keeping the liquid's volume");
     v.section("relax", l.relax, "Pushing crowded particles apart");
     v.flag("solve_viscosity", l.solveViscosity, "Viscosity inside the liquid");

@@ -50,14 +50,13 @@ SolverSettings roughly(SolverSettings solver)
     return solver;
 }
 
-/// Faces with a part in the strain correction: all but those that fabric is on, and those of liquid at walls through cells.
+/// Faces with a part in the strain correction: all but those that fabric is on.
 void findStrainedFaces(StepContext& c)
 {
     BlockBits<3>& acts = c.work.strain.acts;
     acts.resize(c.state.grid.count());
     std::fill_n(acts.block(0), static_cast<std::size_t>(c.state.grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
     if (c.plan.isMixed) c.work.coupling->mixture.clearShared(acts);
-    if (c.hasObstacles()) leaveOutSlanted(c.cut(), c.work.pressure, c.work.strain);
 }
 
 /// Add the pressure that took out the divergence of the strain correction to that before it.

@@ -197,7 +197,7 @@ template <class Set>
         const Pack stretch = slope(a, a), shear = slope(a, b) + slope(b, a);
         sum += stretch * stretch + 0.5 * shear * shear;
     });
-    return 0.25 * sum;
+    return kSplineVariance * sum;
 }
 
 /// The part of ⟨U², 1⟩ that the modes above the mean hold at the offsets r (liquid/README.md, Energy), from orthogonal coefficients: each square

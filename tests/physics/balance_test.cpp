@@ -71,7 +71,7 @@ TEST(Energy, DoesNotGrowBetweenWallsAtRest)
                         simulation.energies().total() / start);
             // Plain steps gain nothing. With reflection the liquid's impact on the far wall is split in halves at different times: 5.2e-4 with 27
             // modes, falling with the step (1.8e-3, 7.4e-4, 2.9e-4 at fixed 2, 1, 0.5 ms), and weight is levelled in the surface layer, whose noise
-            // stores as much: 4.3e-4 with 8 modes.
+            // stores as much: 5.9e-4 with 8 modes.
             EXPECT_LT(gain, integrator == TimeIntegrator::Plain ? 1.0e-4 : 1.0e-3) << transfer.name;
         }
 }
