@@ -142,8 +142,8 @@ void describe(V& v, LiquidSettings& l)
     v.number("wall_friction", l.wallFriction, Quantity::None, Range::between(0.0, 1.0), "0 = free slip, 1 = the liquid sticks to walls");
     v.integer(
         "surface_order", l.surfaceOrder, 1, 2,
-        "2: the free surface moves as it should, where solids are boxes around it with walls in planes of the grid; 1: waves are too slow by the "
-        "cells' smearing, as published, and as beside other solids");
+        "2: the free surface moves as it should, where all solids are boxes around it, in planes of the grid, that it slips along; 1: waves are too "
+        "slow by the cells' smearing, as published, and as beside other solids");
     v.section("volume", l.volume, "Keeping the liquid's volume");
     v.section("relax", l.relax, "Pushing crowded particles apart");
     v.flag("solve_viscosity", l.solveViscosity, "Viscosity inside the liquid");

@@ -6,6 +6,9 @@
 
 namespace sim {
 
+namespace {
+
+/// Do all solids of the scene rest, hold the liquid, and have walls in planes of faces?
 bool hasWallsInPlanesOfFaces(const Scene& scene)
 {
     constexpr std::size_t kSides = 2 * kAxes;
@@ -17,10 +20,15 @@ bool hasWallsInPlanesOfFaces(const Scene& scene)
            std::ranges::all_of(obstacles.planeWalls(), [&](const Obstacles::Wall& wall) { return planeOfFaces(grid, wall).has_value(); });
 }
 
-bool correctsStrain(const Scene& scene)
+}  // namespace
+
+bool canCorrectStrain(const Scene& scene)
 {
     const LiquidSettings& liquid = scene.settings.liquid;
-    return liquid.surfaceOrder == 2 && !liquid.full && hasWallsInPlanesOfFaces(scene);
+    if (liquid.full) return false;
+    return scene.obstacles.empty() || (liquid.wallFriction < 1.0 && hasWallsInPlanesOfFaces(scene));
 }
+
+bool correctsStrain(const Scene& scene) { return scene.settings.liquid.surfaceOrder == 2 && canCorrectStrain(scene); }
 
 }  // namespace sim

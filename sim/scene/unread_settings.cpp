@@ -54,8 +54,8 @@ void addLiquidReaders(const Scene& scene, std::vector<Reader>& readers)
     readers.push_back({"solver.viscosity_tolerance", l.solveViscosity, "liquid.solve_viscosity true"});
     readers.push_back({"liquid.viscosity", l.solveViscosity || hasFabric, "liquid.solve_viscosity true, and fabrics"});
     readers.push_back({"liquid.curvature_smoothing", l.surfaceTensionForce, "liquid.surface_tension_force true"});
-    readers.push_back({"liquid.surface_order", !l.full && hasWallsInPlanesOfFaces(scene),
-                       "air, and solids that are resting boxes around it with walls in planes of the grid"});
+    readers.push_back({"liquid.surface_order", canCorrectStrain(scene),
+                       "air, and solids that are resting boxes around it, in planes of the grid, that it slips along"});
     readers.push_back({"liquid.surface_tension", l.surfaceTensionForce || hasFabric, "liquid.surface_tension_force true, and fabrics"});
     readers.push_back({"liquid.contact_angle", hasFabric, "fabrics"});
     readers.push_back({"liquid.relax.range", l.relax.rate > 0.0, "a liquid.relax.rate above 0"});

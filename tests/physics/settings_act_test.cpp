@@ -102,7 +102,7 @@ const std::map<std::string, Ground> kGrounds = {
     {"liquid.curvature_smoothing", {kPool, {"liquid.surface_tension_force=true"}, "1"}},
     {"liquid.viscosity_substeps", {kPool, {"liquid.solve_viscosity=true", "liquid.viscosity=100"}, "3"}},
     {"liquid.solve_viscosity", {kPool}},
-    {"liquid.surface_order", {kPool, {}, "1"}},
+    {"liquid.surface_order", {kPool, {"obstacles.0.shape.rotate.angle=0"}, "1"}},
     {"liquid.surface_tension_force", {kPool}},
     {"fabric.hinge.constant", {kWet, {"fabric.bending=hinge"}}},
     {"fabric.hinge.measure", {kWet, {"fabric.bending=hinge"}}},
