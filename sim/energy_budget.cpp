@@ -80,14 +80,14 @@ void EnergyBudget::levelled()
     last_.liquidKinetic += gained;
 }
 
-void EnergyBudget::surfaceTension(bool isMixed)
+void EnergyBudget::surfaceTension(const std::optional<Mixture::SharedFaces>& shared)
 {
     if (!changes_) return;
     pulled_ = work_.grid.faces.velocity;
     parallelFor(pulled_.size(), 4096, [&](std::size_t i) { pulled_.block(0)[i] -= remembered_.block(0)[i]; });
-    if (!isMixed) return;
+    if (!shared) return;
     pulledMixture_ = pulled_;
-    work_.coupling->mixture.clearShared(pulled_);
+    work_.coupling->mixture.clearShared(*shared, pulled_);
 }
 
 double EnergyBudget::workOfSurfaceTension() const
@@ -229,19 +229,19 @@ void EnergyBudget::solidsGave()
     book(EnergyChange::Pressure, -more);
 }
 
-void EnergyBudget::solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric)
+void EnergyBudget::solved(const std::optional<Mixture::SeparatedPhases>& separated, double dt, const Vec3& gravity, const FabricReport& fabric)
 {
     if (!changes_) return;
     const Energy now = look();
     book(EnergyChange::Gravity, (gravity - settings_.gravity).dot(now.fabricMoment - last_.fabricMoment));
     double alone = now.liquidKinetic - last_.liquidKinetic;  // of faces that only liquid is on
     if (fabric.energyChanges) *changes_ += *fabric.energyChanges;
-    if (isMixed) {
+    if (separated) {
         const Mixture& mixture = work_.coupling->mixture;
-        *changes_ += mixture.energyChanges(work_.grid, fallen_);
-        alone -= mixture.kinetic(work_.grid.faces.velocity) - mixture.kinetic(fallen_);
+        *changes_ += mixture.energyChanges(*separated, work_.grid, fallen_);
+        alone -= mixture.kinetic(*separated, work_.grid.faces.velocity) - mixture.kinetic(*separated, fallen_);
         if (pulledMixture_.size() > 0) {
-            const double tension = mixture.workOf(pulledMixture_, work_.grid);
+            const double tension = mixture.workOf(*separated, pulledMixture_, work_.grid);
             book(EnergyChange::SurfaceTension, tension);
             book(EnergyChange::Pressure, -tension);  // the mixture takes it for a part of the pressure
         }

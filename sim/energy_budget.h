@@ -28,7 +28,7 @@ class EnergyBudget {
     void levelled();
     /// Surface tension has acted there, too, but not yet the pressure that holds against it.
     /// On faces that liquid and fabric share its work is part of the pressure's.
-    void surfaceTension(bool isMixed);
+    void surfaceTension(const std::optional<Mixture::SharedFaces>& shared);
     /// The strain correction has acted on faces that only liquid is on, since remember().
     void strainCorrected();
     /// The pressure has done this work on liquid that sources pressed into liquid [erg].
@@ -43,7 +43,7 @@ class EnergyBudget {
     void taken(EnergyChange change);
     /// Liquid and fabric have been solved for, over dt [s].
     /// @param gravity  that acted on the fabric: meanGravity [cm/s^2]
-    void solved(bool isMixed, double dt, const Vec3& gravity, const FabricReport& fabric);
+    void solved(const std::optional<Mixture::SeparatedPhases>& separated, double dt, const Vec3& gravity, const FabricReport& fabric);
     /// Faces behind walls have got their velocities.
     /// @param read       velocities that the particles get [cm/s]
     /// @param fall       what weight made of velocities [cm/s]

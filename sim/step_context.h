@@ -12,11 +12,18 @@ namespace sim {
 struct StepPlan {
     bool isWet = false;        ///< there is liquid
     bool reflects = false;     ///< it is the first of two steps, whose velocities are reflected about the projected ones
-    bool meetsFabric = false;  ///< liquid is within reach of fabric …
-    bool isMixed = false;      ///< … and both are on some faces
+    bool meetsFabric = false;  ///< liquid is within reach of fabric
     bool relaxes = false;      ///< particles are pushed apart
     bool corrects = false;     ///< the liquid's volume is corrected
     bool fabricIsWet = false;  ///< fabric holds liquid
+    // How far the mixture of liquid and fabric has come, where both are on some faces (Mixture).
+    std::optional<Mixture::SharedFaces> sharedFaces;
+    std::optional<Mixture::EliminatedDrag> eliminatedDrag;
+    std::optional<Mixture::AppliedPressure> appliedPressure;
+    std::optional<Mixture::SeparatedPhases> separatedPhases;
+
+    /// Are liquid and fabric on some faces both?
+    bool isMixed() const { return sharedFaces.has_value(); }
 };
 
 /// A step under way: what it works on, and what its stages tell each other.

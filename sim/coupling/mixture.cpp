@@ -27,7 +27,7 @@ Mixture::Mixture(const Fabric& fabric, const LiquidAround& around, const Setting
 {
     loads_.drag.resize(fabric.vertexCount());
     loads_.impulse.resize(fabric.vertexCount());
-    if (reacts()) reactionOf_.resize(fabric.vertexCount());
+    if (hasReaction()) reactionOf_.resize(fabric.vertexCount());
 }
 
 bool Mixture::matchBlocks(const BlockGrid& grid)
@@ -37,22 +37,22 @@ bool Mixture::matchBlocks(const BlockGrid& grid)
     return std::ranges::any_of(liquidBlock_, [](int b) { return b != BlockGrid::kNone; });
 }
 
-bool Mixture::findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces,
-                              LiquidGrid& liquid)
+std::optional<Mixture::SharedFaces> Mixture::findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state,
+                                                             const FabricFaces* faces, LiquidGrid& liquid)
 {
-    if (!matchBlocks(cut.grid)) return false;
+    if (!matchBlocks(cut.grid)) return std::nullopt;
     dt_ = dt;
     onFaces_.spread(state);
     if (faces) onFaces_.takeVelocity(*faces);
-    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &mixed_, &mobility_, &suctionImpulse_, &reaction_, &onFabric_,
-                     &dragImpulse_, &pressureImpulse_})
+    for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &pressed_, &mixed_, &mobility_, &suctionImpulse_, &reaction_,
+                     &onFabric_, &dragImpulse_, &pressureImpulse_, &faceImpulse_, &scratch_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, cut.field, liquid);
     if (settings_.capillary) addSuction(cut, state, liquid);
-    if (reacts()) react();
-    mix(gravity, cut.field, liquid);
+    if (hasReaction()) applyReaction();
+    mixVelocities(gravity, cut.field, liquid);
     addDisplacedMass(liquid);
-    return true;
+    return SharedFaces();
 }
 
 /// Which faces are shared, and how the phases move past each other there before anything acts on them.
@@ -80,7 +80,7 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
 void Mixture::addSuction(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid)
 {
     suction_.find(vertices_, state, cut.grid, liquidBlock_, liquid);
-    Faces& perSlope = reaction_;  // until it is known
+    Faces& perSlope = scratch_;  // for applyReaction
     parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(perSlope.block(static_cast<int>(b)), Faces::kStride, 0.0); });
     const double cell = std::pow(onFaces_.grid().dx, 3);
     forEachShared([&](int b, int m, int a, int c) {
@@ -97,15 +97,15 @@ void Mixture::addSuction(const CutGrid& cut, const FabricState& state, const Liq
 }
 
 /// … and is drawn by it.
-void Mixture::react()
+void Mixture::applyReaction()
 {
-    suction_.react(vertices_, reaction_, reactionOf_);
+    suction_.applyReaction(vertices_, scratch_, reactionOf_);
     parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(reaction_.block(static_cast<int>(b)), Faces::kStride, 0.0); });
     onFaces_.scatter([&](int v) { return reactionOf_[v]; }, reaction_);
 }
 
 /// Drag, and what both phases together do (MixtureSplit).
-void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
+void Mixture::mixVelocities(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
 {
     const double cell = std::pow(onFaces_.grid().dx, 3);
     forEachShared([&](int b, int m, int a, int c) {
@@ -124,7 +124,7 @@ void Mixture::mix(const Vec3& gravity, const ObstacleField& obstacles, const Liq
         if (!settings_.pressureOnFabric) face.fabricVolume = 0.0;
 
         const MixtureSplit split = splitMixture(face);
-        const double back = reacts() ? reaction_.block(b, a)[c] / face.fabricMass : 0.0;
+        const double back = hasReaction() ? reaction_.block(b, a)[c] / face.fabricMass : 0.0;
         const double fabric = onFaces_.velocity.block(b, a)[c] + dt_ * free * gravity[a] + back;
         liquidVolume_.block(b, a)[c] = face.liquidVolume;
         drag_.block(b, a)[c] = face.drag;
@@ -141,12 +141,14 @@ void Mixture::addDisplacedMass(LiquidGrid& liquid) const
         [&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] += perVolume * onFaces_.solid.block(b, a)[c]; });
 }
 
+void Mixture::removeDisplacedMass(const SharedFaces&, LiquidGrid& liquid) const { removeDisplacedMass(liquid); }
+
 void Mixture::removeDisplacedMass(LiquidGrid& liquid) const
 {
     forEachShared([&](int b, int m, int a, int c) { liquid.faces.sums.block(m, FaceFields::kMass + a)[c] = liquidMass_.block(b, a)[c]; });
 }
 
-void Mixture::toMassesOfBoth(LiquidGrid& liquid, BlockArray<double, 3>& change) const
+void Mixture::toMassesOfBoth(const EliminatedDrag&, LiquidGrid& liquid, BlockArray<double, 3>& change) const
 {
     forEachShared([&](int b, int m, int a, int c) {
         const double mobility = mobility_.block(b, a)[c], pushed = liquidVolume_.block(b, a)[c] + onFaces_.solid.block(b, a)[c];
@@ -155,13 +157,14 @@ void Mixture::toMassesOfBoth(LiquidGrid& liquid, BlockArray<double, 3>& change) 
     });
 }
 
-void Mixture::fromMassesOfBoth(LiquidGrid& liquid) const
+void Mixture::fromMassesOfBoth(const EliminatedDrag&, LiquidGrid& liquid) const
 {
     removeDisplacedMass(liquid);
     addDisplacedMass(liquid);
 }
 
-void Mixture::eliminateDrag(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient)
+Mixture::EliminatedDrag Mixture::eliminateDrag(const SharedFaces&, const ObstacleField& obstacles, LiquidGrid& liquid,
+                                               BlockArray<double, 3>& coefficient)
 {
     const double scale = dt_ / (onFaces_.grid().dx * onFaces_.grid().dx);
     forEachShared([&](int b, int m, int a, int c) {
@@ -169,10 +172,10 @@ void Mixture::eliminateDrag(const ObstacleField& obstacles, LiquidGrid& liquid, 
         double& k = coefficient.block(m, a)[c];
         if (k > 0.0) k = scale * obstacles.open(m, a)[c] * mobility_.block(b, a)[c];
     });
+    return EliminatedDrag();
 }
 
-/// What pressure did to the mixture, from the change of its velocities; what the liquid alone would move at, and pull with.
-void Mixture::applyPressure(const LiquidGrid& liquid)
+Mixture::AppliedPressure Mixture::applyPressure(const EliminatedDrag&, const LiquidGrid& liquid)
 {
     parallelFor(liquidBlock_.size(), [&](std::size_t b) {
         for (Faces* u : {&onFabric_, &dragImpulse_, &pressureImpulse_}) std::fill_n(u->block(static_cast<int>(b)), Faces::kStride, 0.0);
@@ -181,75 +184,83 @@ void Mixture::applyPressure(const LiquidGrid& liquid)
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], mobility = mobility_.block(b, a)[c];
         const double change = liquid.faces.velocity.block(m, a)[c] - mixed_.block(b, a)[c];
         const double push = mobility > 0.0 ? -change / mobility : 0.0;
-        double& u = predicted_.block(b, a)[c];
-        u -= liquidVolume_.block(b, a)[c] / mass * push;
+        const double u = predicted_.block(b, a)[c] - liquidVolume_.block(b, a)[c] / mass * push;
+        pressed_.block(b, a)[c] = u;
         pressureImpulse_.block(b, a)[c] = push;
         onFabric_.block(b, a)[c] = drag * mass / (mass + drag);
         dragImpulse_.block(b, a)[c] = onFabric_.block(b, a)[c] * u;
     });
+    return AppliedPressure();
 }
 
-void Mixture::clearShared(BlockArray<double, 3>& values) const
+void Mixture::clearShared(const SharedFaces&, BlockArray<double, 3>& values) const
 {
     forEachShared([&](int, int m, int a, int c) { values.block(m, a)[c] = 0.0; });
 }
 
-void Mixture::clearShared(BlockBits<3>& faces) const
+void Mixture::clearShared(const SharedFaces&, BlockBits<3>& faces) const
 {
     forEachShared([&](int, int m, int a, int c) { faces.block(m, a)[c >> 6] &= ~(std::uint64_t{1} << (c & 63)); });
 }
 
-const LiquidLoads& Mixture::loads(const LiquidGrid& liquid)
+/// Values of shared faces over the fabric's mass there, for a vertex gets its share of them by mass; 0 on other faces. In scratch_.
+const Mixture::Faces& Mixture::perFabricMass(const Faces& values)
 {
-    applyPressure(liquid);
-    forEachShared([&](int b, int, int a, int c) {  // what a vertex gets of it is by its share of the mass
-        const double mass = onFaces_.mass.block(b, a)[c];
-        onFabric_.block(b, a)[c] /= mass;
-        dragImpulse_.block(b, a)[c] /= mass;
-    });
-    // Vertices far from the liquid are not asked.
+    parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(scratch_.block(static_cast<int>(b)), Faces::kStride, 0.0); });
+    forEachShared([&](int b, int, int a, int c) { scratch_.block(b, a)[c] = values.block(b, a)[c] / onFaces_.mass.block(b, a)[c]; });
+    return scratch_;
+}
+
+const LiquidLoads& Mixture::vertexLoads(const AppliedPressure&)
+{
+    // Vertices far from the liquid are not visited.
     std::ranges::fill(loads_.drag, Vec3::Zero());
     std::ranges::fill(loads_.impulse, Vec3::Zero());
-    onFaces_.gather(onFabric_, [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
-    onFaces_.gather(dragImpulse_, [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
+    onFaces_.gather(perFabricMass(onFabric_), [&](int v, const Vec3& d) { loads_.drag[v] = onFaces_.massOf(v) * d; });
+    onFaces_.gather(perFabricMass(dragImpulse_), [&](int v, const Vec3& f) { loads_.impulse[v] = onFaces_.massOf(v) * f; });
     if (settings_.pressureOnFabric) onFaces_.gather(pressureImpulse_, [&](int v, const Vec3& f) { loads_.impulse[v] -= onFaces_.solidOf(v) * f; });
-    if (reacts())
+    if (hasReaction())
         for (std::size_t v = 0; v < reactionOf_.size(); ++v) loads_.impulse[v] += reactionOf_[v];
     return loads_;
 }
 
-FaceLoads Mixture::faceLoads(const LiquidGrid& liquid)
+FaceLoads Mixture::faceLoads(const AppliedPressure&)
 {
-    applyPressure(liquid);
+    Faces& impulse = faceImpulse_;
+    parallelFor(liquidBlock_.size(), [&](std::size_t n) {
+        const int b = static_cast<int>(n);
+        std::copy_n(dragImpulse_.block(b), Faces::kStride, impulse.block(b));
+    });
     if (settings_.pressureOnFabric)
-        forEachShared(
-            [&](int b, int, int a, int c) { dragImpulse_.block(b, a)[c] -= onFaces_.solid.block(b, a)[c] * pressureImpulse_.block(b, a)[c]; });
-    if (reacts())
+        forEachShared([&](int b, int, int a, int c) { impulse.block(b, a)[c] -= onFaces_.solid.block(b, a)[c] * pressureImpulse_.block(b, a)[c]; });
+    if (hasReaction())
         parallelFor(liquidBlock_.size(), [&](std::size_t b) {
-            double* pull = dragImpulse_.block(static_cast<int>(b));
+            double* pull = impulse.block(static_cast<int>(b));
             const double* reaction = reaction_.block(static_cast<int>(b));
             for (std::size_t i = 0; i < Faces::kStride; ++i) pull[i] += reaction[i];
         });
-    return {onFaces_.grid(), onFabric_, dragImpulse_};
+    return {onFaces_.grid(), onFabric_, impulse};
 }
 
-void Mixture::recoverPhaseVelocities(const FabricState& state, LiquidGrid& liquid)
+Mixture::SeparatedPhases Mixture::recoverPhaseVelocities(const AppliedPressure&, const FabricState& state, LiquidGrid& liquid)
 {
     onFaces_.spreadVelocity(state);
-    recoverPhaseVelocities(liquid);
+    recoverLiquidVelocities(liquid);
+    return SeparatedPhases();
 }
 
-void Mixture::recoverPhaseVelocities(const FabricFaces& faces, LiquidGrid& liquid)
+Mixture::SeparatedPhases Mixture::recoverPhaseVelocities(const AppliedPressure&, const FabricFaces& faces, LiquidGrid& liquid)
 {
     onFaces_.takeVelocity(faces);
-    recoverPhaseVelocities(liquid);
+    recoverLiquidVelocities(liquid);
+    return SeparatedPhases();
 }
 
-void Mixture::recoverPhaseVelocities(LiquidGrid& liquid) const
+void Mixture::recoverLiquidVelocities(LiquidGrid& liquid) const
 {
     forEachShared([&](int b, int m, int a, int c) {
         const double mass = liquidMass_.block(b, a)[c], drag = drag_.block(b, a)[c], fabric = onFaces_.velocity.block(b, a)[c];
-        liquid.faces.velocity.block(m, a)[c] = (mass * predicted_.block(b, a)[c] + drag * fabric) / (mass + drag);
+        liquid.faces.velocity.block(m, a)[c] = (mass * pressed_.block(b, a)[c] + drag * fabric) / (mass + drag);
     });
 }
 
@@ -257,13 +268,13 @@ void Mixture::recoverPhaseVelocities(LiquidGrid& liquid) const
 double Mixture::impulseTaken(int block, int axis, int cell) const
 {
     const double mass = liquidMass_.block(block, axis)[cell], drag = drag_.block(block, axis)[cell];
-    double impulse = mass * drag / (mass + drag) * (predicted_.block(block, axis)[cell] - onFaces_.velocity.block(block, axis)[cell]);
+    double impulse = mass * drag / (mass + drag) * (pressed_.block(block, axis)[cell] - onFaces_.velocity.block(block, axis)[cell]);
     if (settings_.capillary) impulse -= suctionImpulse_.block(block, axis)[cell];
     if (settings_.pressureOnFabric) impulse -= onFaces_.solid.block(block, axis)[cell] * pressureImpulse_.block(block, axis)[cell];
     return impulse;
 }
 
-bool Mixture::isShared(int axis, const Vec3i& cell) const
+bool Mixture::isShared(const SharedFaces&, int axis, const Vec3i& cell) const
 {
     const int block = onFaces_.grid().find(cell.unaryExpr([](int i) { return i >> 3; }));
     return block != BlockGrid::kNone && liquidMass_.block(block, axis)[cellInBlock(cell.x() & 7, cell.y() & 7, cell.z() & 7)] > 0.0;

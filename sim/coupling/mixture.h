@@ -10,77 +10,104 @@
 #include "sim/liquid/liquid_grid.h"
 #include "sim/settings.h"
 
+#include <optional>
+
 namespace sim {
 
 /// Liquid and fabric on the faces that both reach: drag, and the pressure that keeps the mixture's volume (coupling/README.md, Mixture). The fabric's
 /// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off.
+///
+/// The order of a step is in the types: what a function needs of those before it, it takes as an argument that only they return. All of them hold
+/// until the next findSharedFaces.
 class Mixture {
  public:
+    /// There are faces that both phases are on.
+    class SharedFaces {
+        friend Mixture;
+        SharedFaces() = default;
+    };
+    /// The liquid's velocities there are the mixture's.
+    class EliminatedDrag : public SharedFaces {
+        friend Mixture;
+        EliminatedDrag() = default;
+    };
+    /// The pressure's impulses on both phases are known.
+    class AppliedPressure : public EliminatedDrag {
+        friend Mixture;
+        AppliedPressure() = default;
+    };
+    /// The liquid's velocities there are its own again, and the fabric's are those at the end of the step.
+    class SeparatedPhases : public AppliedPressure {
+        friend Mixture;
+        SeparatedPhases() = default;
+    };
     /// @param around  found before each call of findSharedFaces; goes by it where drag is by the fabric's own fraction
     Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices);
 
-    /// The faces that both phases are on, with their drag over a step of dt [s]; to be called when the vertices are sorted and the liquid's
-    /// predicted velocities are known. The volume of the fabric and of what it holds then counts as filled. False if there are none: nothing
-    /// else is to be called then.
+    /// Finds the faces that both phases are on, with their drag over a step of dt [s], of vertices that are sorted and a liquid whose predicted
+    /// velocities are known. The volume of the fabric and of what it holds then counts as filled. Nothing if there are none.
     /// @param faces  the fabric's velocities, of a solver that has its unknowns on faces; else null
-    bool findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces, LiquidGrid& liquid);
-    /// Before the pressure: velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
+    std::optional<SharedFaces> findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces,
+                                               LiquidGrid& liquid);
+    /// Velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
-    void eliminateDrag(const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
-    /// After the pressure: what it and drag do to the fabric, by vertices or by faces.
-    const LiquidLoads& loads(const LiquidGrid& liquid);
-    FaceLoads faceLoads(const LiquidGrid& liquid);
-    /// After the fabric: the liquid's own velocities on these faces, given those of the vertices, or of the fabric's faces, at the end of
-    /// the step.
-    void recoverPhaseVelocities(const FabricState& state, LiquidGrid& liquid);
-    void recoverPhaseVelocities(const FabricFaces& faces, LiquidGrid& liquid);
+    EliminatedDrag eliminateDrag(const SharedFaces&, const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
+    /// Impulses of the pressure on both phases, from the mixture's velocities after its projection.
+    AppliedPressure applyPressure(const EliminatedDrag&, const LiquidGrid& liquid);
+    /// Loads of pressure, drag and suction on the vertices of the fabric, or on its faces.
+    const LiquidLoads& vertexLoads(const AppliedPressure&);
+    FaceLoads faceLoads(const AppliedPressure&);
+    /// The liquid's own velocities on these faces, given those of the vertices, or of the fabric's faces, at the end of the step.
+    SeparatedPhases recoverPhaseVelocities(const AppliedPressure&, const FabricState& state, LiquidGrid& liquid);
+    SeparatedPhases recoverPhaseVelocities(const AppliedPressure&, const FabricFaces& faces, LiquidGrid& liquid);
 
-    /// The mass of the liquid's faces is that of the liquid alone again, where room that fabric takes up counted as full.
-    void removeDisplacedMass(LiquidGrid& liquid) const;
-    /// Before the fabric's loads are told: masses of these faces become those with which both phases together answer to a push, and changes what
-    /// pressure and surface tension did to the mixture [cm/s]; a further change of the mixture's velocity acts on both.
-    void toMassesOfBoth(LiquidGrid& liquid, BlockArray<double, 3>& change) const;
-    void fromMassesOfBoth(LiquidGrid& liquid) const;
+    /// Makes the mass of the liquid's faces that of the liquid alone again, where room that fabric takes up counted as full.
+    void removeDisplacedMass(const SharedFaces&, LiquidGrid& liquid) const;
+    /// Masses of these faces become those with which both phases together respond to an impulse, and changes what pressure and surface tension did
+    /// to the mixture [cm/s]; a further change of the mixture's velocity before applyPressure acts on both.
+    void toMassesOfBoth(const EliminatedDrag&, LiquidGrid& liquid, BlockArray<double, 3>& change) const;
+    void fromMassesOfBoth(const EliminatedDrag&, LiquidGrid& liquid) const;
 
-    /// After recoverPhaseVelocities: call f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure
-    /// took from the liquid of each shared face [g cm/s], blocks in parallel.
+    /// Calls f(liquid's block, axis, cell, impulse) with what drag, suction and the fabric's part of the pressure took from the liquid of each
+    /// shared face [g cm/s], blocks in parallel.
     template <class F>
-    void forEachImpulseTaken(F&& f) const
+    void forEachImpulseTaken(const SeparatedPhases&, F&& f) const
     {
         forEachShared([&](int b, int m, int a, int c) { f(m, a, c, impulseTaken(b, a, c)); });
     }
 
-    /// Set what the liquid has on these faces to 0.
-    void clearShared(BlockArray<double, 3>& values) const;
-    void clearShared(BlockBits<3>& faces) const;
+    /// Sets what the liquid has on these faces to 0.
+    void clearShared(const SharedFaces&, BlockArray<double, 3>& values) const;
+    void clearShared(const SharedFaces&, BlockBits<3>& faces) const;
 
     /// Momentum of the liquid on the shared faces [g cm/s].
-    Vec3 liquidMomentum(const LiquidGrid& liquid) const;
+    Vec3 liquidMomentum(const SharedFaces&, const LiquidGrid& liquid) const;
     /// Where the energy of the liquid on shared faces went in this step, by the impulses on each and the velocities they act at; and its
     /// part of what acted between both: with the work of all that liquid did to the fabric these are pressure, suction and drag.
     /// @param before  the liquid's velocities when nothing but gravity had acted
-    EnergyChanges energyChanges(const LiquidGrid& liquid, const BlockArray<double, 3>& before) const;
+    EnergyChanges energyChanges(const SeparatedPhases&, const LiquidGrid& liquid, const BlockArray<double, 3>& before) const;
     /// Work on liquid and fabric of a pressure that changes the mixture's velocities by so much [erg].
-    double workOf(const BlockArray<double, 3>& change, const LiquidGrid& liquid) const;
+    double workOf(const SeparatedPhases&, const BlockArray<double, 3>& change, const LiquidGrid& liquid) const;
     /// Kinetic energy of the liquid on the shared faces at these velocities [erg].
-    double kinetic(const BlockArray<double, 3>& velocity) const;
+    double kinetic(const SharedFaces&, const BlockArray<double, 3>& velocity) const;
     /// Are both phases on the lower face of a cell?
-    bool isShared(int axis, const Vec3i& cell) const;
+    bool isShared(const SharedFaces&, int axis, const Vec3i& cell) const;
 
  private:
     using Faces = BlockArray<double, 3>;
     bool matchBlocks(const BlockGrid& grid);
     void findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
     void addSuction(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid);
-    void mix(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
+    void mixVelocities(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
     void addDisplacedMass(LiquidGrid& liquid) const;
-    void applyPressure(const LiquidGrid& liquid);
-    void recoverPhaseVelocities(LiquidGrid& liquid) const;
+    void removeDisplacedMass(LiquidGrid& liquid) const;
+    const Faces& perFabricMass(const Faces& values);
+    void recoverLiquidVelocities(LiquidGrid& liquid) const;
     double dragOn(int block, int axis, int cell, double liquidVolume, double room) const;
-    bool reacts() const { return settings_.capillary && settings_.capillaryReaction; }
+    bool hasReaction() const { return settings_.capillary && settings_.capillaryReaction; }
     double speedAt(int block, int axis, int cell) const;
     double impulseTaken(int block, int axis, int cell) const;
-    void react();
+    void applyReaction();
     /// body(block, liquid's block, axis, cell) for the shared faces, blocks in parallel.
     template <class Body>
     void forEachShared(Body&& body) const
@@ -113,14 +140,17 @@ class Mixture {
     Faces relative_;                ///< velocity of the liquid past the fabric [cm/s]
     Faces liquidVolume_;            ///< on which pressure pushes the liquid [cm^3]
     Faces drag_;                    ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
-    Faces predicted_;               ///< u_f*, later ũ_f: after the pressure [cm/s]
+    Faces predicted_;               ///< u_f*: of the liquid before drag and pressure [cm/s]
+    Faces pressed_;                 ///< ũ_f: of the liquid after the pressure, without drag [cm/s]
     Faces mixed_, mobility_;        ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
-    Faces suctionImpulse_;          ///< on the liquid [g cm/s] …
-    Faces reaction_;                ///< … and on the fabric, of all its faces
-    std::vector<Vec3> reactionOf_;  ///< the same of each vertex
+    Faces suctionImpulse_;          ///< of suction on the liquid [g cm/s]
+    Faces reaction_;                ///< of suction on the fabric, of all its faces [g cm/s]
+    std::vector<Vec3> reactionOf_;  ///< of suction on each vertex [g cm/s]
     Faces onFabric_;                ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
     Faces dragImpulse_;             ///< what drag gives the fabric before its own speed counts: D' ũ_f [g cm/s]
     Faces pressureImpulse_;         ///< of the pressure, per volume: dt ∇p [g/(cm^2 s)]
+    Faces faceImpulse_;             ///< of drag, pressure and reaction on the fabric's faces [g cm/s]
+    Faces scratch_;                 ///< of one function at a time
     LiquidLoads loads_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace sim {
 
-Vec3 Mixture::liquidMomentum(const LiquidGrid& liquid) const
+Vec3 Mixture::liquidMomentum(const SharedFaces&, const LiquidGrid& liquid) const
 {
     Vec3 sum = Vec3::Zero();
     for (std::size_t b = 0; b < liquidBlock_.size(); ++b)
@@ -14,7 +14,7 @@ Vec3 Mixture::liquidMomentum(const LiquidGrid& liquid) const
     return sum;
 }
 
-double Mixture::kinetic(const BlockArray<double, 3>& velocity) const
+double Mixture::kinetic(const SharedFaces&, const BlockArray<double, 3>& velocity) const
 {
     double sum = 0.0;
     const auto energy = [](double m, double u) { return 0.5 * m * u * u; };
@@ -23,12 +23,12 @@ double Mixture::kinetic(const BlockArray<double, 3>& velocity) const
     return sum;
 }
 
-EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<double, 3>& before) const
+EnergyChanges Mixture::energyChanges(const SeparatedPhases&, const LiquidGrid& liquid, const BlockArray<double, 3>& before) const
 {
     EnergyChanges sum;
     for (std::size_t n = 0; n < liquidBlock_.size(); ++n) {
         const int b = static_cast<int>(n), m = liquidBlock_[b];
-        if (reacts()) {
+        if (hasReaction()) {
             double byReaction = 0.0;
             for (std::size_t i = 0; i < Faces::kStride; ++i) byReaction += reaction_.block(b)[i] * onFaces_.velocity.block(b)[i];
             sum[EnergyChange::Suction] += byReaction;
@@ -52,7 +52,7 @@ EnergyChanges Mixture::energyChanges(const LiquidGrid& liquid, const BlockArray<
     return sum;
 }
 
-double Mixture::workOf(const BlockArray<double, 3>& change, const LiquidGrid& liquid) const
+double Mixture::workOf(const SeparatedPhases&, const BlockArray<double, 3>& change, const LiquidGrid& liquid) const
 {
     return parallelSum(liquidBlock_.size(), [&](std::size_t n) {
         const int b = static_cast<int>(n), m = liquidBlock_[b];

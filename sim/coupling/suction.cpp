@@ -88,7 +88,7 @@ double Suction::slope(const BlockGrid& grid, int block, int axis, int cell) cons
     return (suction_.block(block)[cell] - suction_.block(ref.block)[ref.cell]) / grid.dx;
 }
 
-void Suction::react(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse)
+void Suction::applyReaction(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse)
 {
     const BlockGrid& grid = vertices.grid;
     back_.resize(grid.count());

@@ -23,7 +23,7 @@ class Suction {
     /// vertices together get what liquid gets, and none more than goes with its volume, however little of it a face with much liquid has.
     /// @param perSlope  of each face: impulse on its liquid for a slope of 1 [g cm/s per dyn/cm^3]
     /// @param impulse   of each vertex [g cm/s]
-    void react(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse);
+    void applyReaction(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse);
 
  private:
     double pullOf(std::size_t vertex) const;

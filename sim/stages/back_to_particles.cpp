@@ -21,7 +21,7 @@ double factorOver(double dt, double factor, const TransferSettings& transfer)
 double flipRatio(const StepContext& c) { return c.isFlip() ? factorOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0; }
 
 /// May what holds liquid move?
-bool isFrameMoving(const StepContext& c) { return c.plan.isMixed || c.work.obstacles.anyMoving(); }
+bool isFrameMoving(const StepContext& c) { return c.plan.isMixed() || c.work.obstacles.anyMoving(); }
 
 /// Velocities of the faces that particles read.
 BlockArray<double, 3>& velocityRead(StepContext& c) { return c.plan.reflects ? c.work.reflection.velocity : c.work.grid.faces.velocity; }
@@ -77,7 +77,7 @@ void findHeld(StepContext& c)
     Workspace& work = c.work;
     findHeldCells(c.state.grid, work.pressure, work.grid, work.free);
     if (!isFrameMoving(c)) return;
-    const Vec3 ofFabric = c.plan.isMixed ? meanVelocity(work.coupling->fabric, c.state.fabric) : Vec3(Vec3::Zero());
+    const Vec3 ofFabric = c.plan.isMixed() ? meanVelocity(work.coupling->fabric, c.state.fabric) : Vec3(Vec3::Zero());
     findFrames(c.cut(), work.pressure, work.grid, ofFabric, work.free);
 }
 
@@ -105,10 +105,10 @@ void pushSolids(StepContext& c)
     if (!c.plan.isWet || !c.hasObstacles()) return;
     const StageScope scope(c.clock, Stage::GridToParticles);
     Workspace& work = c.work;
-    if (c.plan.isMixed) {
+    if (c.plan.separatedPhases) {
         work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseTaken(
-            [&](int block, int axis, int cell, double impulse) { work.onSolids.fabricTook(block, axis, cell, impulse); });
+            *c.plan.separatedPhases, [&](int block, int axis, int cell, double impulse) { work.onSolids.fabricTook(block, axis, cell, impulse); });
     }
     const LiquidOnSolids::Outcome outcome{.velocity = velocityRead(c),
                                           .liquid = work.grid,

@@ -18,7 +18,7 @@ void findMixture(StepContext& c)
     const std::optional<FabricFaces> faces = c.work.fabric->faces();
     // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (liquid/README.md, Reflection).
     c.plan.reflects = false;
-    c.plan.isMixed =
+    c.plan.sharedFaces =
         c.work.coupling->mixture.findSharedFaces(c.cut(), c.gravityOnFabric(), c.dt, c.state.fabric, faces ? &*faces : nullptr, c.work.grid);
 }
 
@@ -31,10 +31,12 @@ void advanceFabric(StepContext& c)
     if (work.coupling) work.coupling->velocityBefore = state.v;
     FabricLoads loads;
     std::optional<FaceLoads> onFaces;
-    if (c.plan.isMixed) {
+    if (c.plan.eliminatedDrag) {
         c.clock.start(Stage::Mixture);
-        if (work.fabric->faces()) loads.onFaces = &onFaces.emplace(work.coupling->mixture.faceLoads(work.grid));
-        else loads.onVertices = &work.coupling->mixture.loads(work.grid);
+        Mixture& mixture = work.coupling->mixture;
+        c.plan.appliedPressure = mixture.applyPressure(*c.plan.eliminatedDrag, work.grid);
+        if (work.fabric->faces()) loads.onFaces = &onFaces.emplace(mixture.faceLoads(*c.plan.appliedPressure));
+        else loads.onVertices = &mixture.vertexLoads(*c.plan.appliedPressure);
     }
     c.report.fabric = work.fabric->advance(c.state.time, c.dt, c.gravityOnFabric(), state, c.clock, loads);
     if (work.backup) c.report.fabric.deepest = work.fabric->deepestInObstacles(state);
@@ -42,25 +44,27 @@ void advanceFabric(StepContext& c)
 
 void separateMixture(StepContext& c)
 {
-    if (!c.plan.isMixed) return;
+    if (!c.plan.appliedPressure) return;
     const StageScope scope(c.clock, Stage::Mixture);
     Mixture& mixture = c.work.coupling->mixture;
-    if (const std::optional<FabricFaces> faces = c.work.fabric->faces()) mixture.recoverPhaseVelocities(*faces, c.work.grid);
-    else mixture.recoverPhaseVelocities(c.state.fabric, c.work.grid);
+    const Mixture::AppliedPressure& pressed = *c.plan.appliedPressure;
+    const std::optional<FabricFaces> faces = c.work.fabric->faces();
+    c.plan.separatedPhases =
+        faces ? mixture.recoverPhaseVelocities(pressed, *faces, c.work.grid) : mixture.recoverPhaseVelocities(pressed, c.state.fabric, c.work.grid);
 }
 
 void bookSolution(StepContext& c)
 {
     const Vec3 gravity = c.gravityOnFabric();
     if (c.work.fabric) c.work.momentum.fabricMoved(c.dt, gravity, c.state);
-    c.energy.solved(c.plan.isMixed, c.dt, gravity, c.report.fabric);
+    c.energy.solved(c.plan.separatedPhases, c.dt, gravity, c.report.fabric);
 }
 
 void removeDisplaced(StepContext& c)
 {
-    if (!c.plan.isMixed) return;
+    if (!c.plan.sharedFaces) return;
     const StageScope scope(c.clock, Stage::Mixture);
-    c.work.coupling->mixture.removeDisplacedMass(c.work.grid);
+    c.work.coupling->mixture.removeDisplacedMass(*c.plan.sharedFaces, c.work.grid);
 }
 
 }  // namespace sim

@@ -35,11 +35,11 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
     Workspace& work = c.work;
     findChange(velocity, grid.count(), work);
     findUnheldFaces(c.cut(), work.free);
-    const bool carries = c.plan.isMixed && c.settings().coupling.pressureOnFabric;
-    if (carries) work.coupling->mixture.toMassesOfBoth(work.grid, work.free.change);
-    else if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
+    const bool carries = c.plan.eliminatedDrag && c.settings().coupling.pressureOnFabric;
+    if (carries) work.coupling->mixture.toMassesOfBoth(*c.plan.eliminatedDrag, work.grid, work.free.change);
+    else if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
     takeMeans(grid, work.pressure, work.grid, work.free.change, work.free, velocity);
-    if (carries) work.coupling->mixture.fromMassesOfBoth(work.grid);
+    if (carries) work.coupling->mixture.fromMassesOfBoth(*c.plan.eliminatedDrag, work.grid);
     if (c.hasObstacles()) work.gainAtWalls.bound(work.obstacleField, velocity);
 }
 
@@ -56,7 +56,7 @@ void findStrainedFaces(StepContext& c)
     BlockBits<3>& acts = c.work.strain.acts;
     acts.resize(c.state.grid.count());
     std::fill_n(acts.block(0), static_cast<std::size_t>(c.state.grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-    if (c.plan.isMixed) c.work.coupling->mixture.clearShared(acts);
+    if (c.plan.sharedFaces) c.work.coupling->mixture.clearShared(*c.plan.sharedFaces, acts);
 }
 
 /// Add the pressure that took out the divergence of the strain correction to that before it.
@@ -78,7 +78,7 @@ void addToPressure(const SolveReport& again, StepContext& c)
 bool weighFreeLiquid(StepContext& c)
 {
     Workspace& work = c.work;
-    if (c.plan.isMixed || c.settings().liquid.full) return false;
+    if (c.plan.isMixed() || c.settings().liquid.full) return false;
     findUnheldFaces(c.cut(), work.free);
     findHeldBodies(c.state.grid, work.pressure, work.grid, work.free);
     return weighDeepFaces(c.cut(), work.grid, work.free, work.pressure);
@@ -95,11 +95,11 @@ void levelHeldWeight(StepContext& c, LiquidOnSolids* onSolids)
     Workspace& work = c.work;
     findUnheldFaces(c.cut(), work.free);
     findHeldBodies(grid, work.pressure, work.grid, work.free);
-    work.free.hasFabric = c.plan.isMixed;
+    work.free.hasFabric = c.plan.isMixed();
     if (work.free.hasFabric) {
         work.free.bare.resize(grid.count());
         std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-        work.coupling->mixture.clearShared(work.free.bare);
+        work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.bare);
     }
     levelWeight(c.cut(), work.pressure, work.free, c.fallTime() * c.settings().gravity, work.grid, onSolids);
 }
@@ -136,7 +136,8 @@ void assemblePressure(StepContext& c)
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
     findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
-    if (c.plan.isMixed) work.coupling->mixture.eliminateDrag(work.obstacleField, work.grid, work.pressure.coefficient);
+    if (c.plan.sharedFaces)
+        c.plan.eliminatedDrag = work.coupling->mixture.eliminateDrag(*c.plan.sharedFaces, work.obstacleField, work.grid, work.pressure.coefficient);
     assembleMatrix(c.state.grid, work.grid, work.pressure);
     work.pressure.solver.findComponents(c.state.grid, work.pressure.matrix);
     if (weighFreeLiquid(c)) assembleMatrix(c.state.grid, work.grid, work.pressure);
@@ -158,7 +159,7 @@ void applySurfaceTension(StepContext& c)
     const StageScope scope(c.clock, Stage::SurfaceTension);
     c.energy.remember();
     applySurfaceSteps(c.cut(), c.work.pressure, c.fallTime() / c.dt, c.work.surfaceTension, c.work.grid);
-    c.energy.surfaceTension(c.plan.isMixed);
+    c.energy.surfaceTension(c.plan.sharedFaces);
 }
 
 void project(StepContext& c)
@@ -222,7 +223,7 @@ void correctVolume(StepContext& c)
     c.report.volume = correctVolume(c.cut(), c.settings(), strength, work.grid, work.pressure, work.volume);
     state.uncorrected = 0.0;
     findUnheldFaces(c.cut(), work.free);
-    if (c.plan.isMixed) work.coupling->mixture.clearShared(work.free.unheld);
+    if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
     takeMeans(state.grid, work.pressure, work.grid, work.volume.displacement, work.free, work.volume.displacement);
 }
 

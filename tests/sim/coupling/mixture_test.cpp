@@ -46,25 +46,28 @@ struct Bath {
         }
     }
 
-    Vec3 momentum(const Mixture& mixture) const { return fabricMomentum() + mixture.liquidMomentum(scene.liquid); }
+    Vec3 momentum(const Mixture& mixture) const { return fabricMomentum() + mixture.liquidMomentum(*shared, scene.liquid); }
     /// A step of the two without pressure.
-    void exchange(Mixture& mixture)
+    void exchange(Mixture& mixture) { finish(mixture, eliminateDragWithoutPressure(mixture)); }
+    /// Moves the fabric under the liquid's loads alone, and separates the phases.
+    void finish(Mixture& mixture, const Mixture::EliminatedDrag& eliminated)
     {
-        blendWithoutPressure(mixture);
-        moveFabric(mixture.loads(scene.liquid));
-        mixture.recoverPhaseVelocities(state, scene.liquid);
+        const Mixture::AppliedPressure applied = mixture.applyPressure(eliminated, scene.liquid);
+        moveFabric(mixture.vertexLoads(applied));
+        mixture.recoverPhaseVelocities(applied, state, scene.liquid);
     }
-    void blendWithoutPressure(Mixture& mixture)
+    Mixture::EliminatedDrag eliminateDragWithoutPressure(Mixture& mixture)
     {
         BlockArray<double, 3> noPressure;
         noPressure.resize(scene.grid.count());
         for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
-        mixture.eliminateDrag(scene.field, scene.liquid, noPressure);
+        return mixture.eliminateDrag(*shared, scene.field, scene.liquid, noPressure);
     }
     bool find(Mixture& mixture)
     {
         vertices.sort(scene.grid, state);
-        return mixture.findSharedFaces(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
+        shared = mixture.findSharedFaces(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
+        return shared.has_value();
     }
 
     GridScene scene;
@@ -73,6 +76,7 @@ struct Bath {
     SortedVertices vertices;
     FabricState state;
     Settings settings;
+    std::optional<Mixture::SharedFaces> shared;  ///< of the last find()
 };
 
 /// What drag takes from one phase it gives to the other, and it makes no energy.
@@ -82,12 +86,12 @@ TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
     Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     ASSERT_TRUE(reachesLiquid(bath.scene.grid, bath.state));
     ASSERT_TRUE(bath.find(mixture));
-    const Vec3 liquidBefore = mixture.liquidMomentum(bath.scene.liquid), fabricBefore = bath.fabricMomentum();
+    const Vec3 liquidBefore = mixture.liquidMomentum(*bath.shared, bath.scene.liquid), fabricBefore = bath.fabricMomentum();
     const double size = fabricBefore.norm() + liquidBefore.norm();
     const auto energy = [&] {
         double sum = 0.0;
         for (std::size_t v = 0; v < bath.state.v.size(); ++v) sum += 0.5 * bath.fabric.mass[v] * bath.state.v[v].squaredNorm();
-        return sum + mixture.kinetic(bath.scene.liquid.faces.velocity);
+        return sum + mixture.kinetic(*bath.shared, bath.scene.liquid.faces.velocity);
     };
     const double before = energy();
 
@@ -95,7 +99,7 @@ TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
 
     const Vec3 moved = bath.fabricMomentum() - fabricBefore;
     EXPECT_GT(moved.norm(), 1.0e-3 * size);
-    EXPECT_LT((mixture.liquidMomentum(bath.scene.liquid) + bath.fabricMomentum() - liquidBefore - fabricBefore).norm(), 1.0e-13 * size);
+    EXPECT_LT((mixture.liquidMomentum(*bath.shared, bath.scene.liquid) + bath.fabricMomentum() - liquidBefore - fabricBefore).norm(), 1.0e-13 * size);
     EXPECT_LT(energy(), before);
 }
 
@@ -108,10 +112,10 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
     ASSERT_TRUE(bath.find(mixture));
     FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
     fabric.spread(bath.state);
-    const Vec3 liquidBefore = mixture.liquidMomentum(scene.liquid);
-    const double energyBefore = mixture.kinetic(scene.liquid.faces.velocity);
-    bath.blendWithoutPressure(mixture);
-    const FaceLoads loads = mixture.faceLoads(scene.liquid);
+    const Vec3 liquidBefore = mixture.liquidMomentum(*bath.shared, scene.liquid);
+    const double energyBefore = mixture.kinetic(*bath.shared, scene.liquid.faces.velocity);
+    const Mixture::AppliedPressure applied = mixture.applyPressure(bath.eliminateDragWithoutPressure(mixture), scene.liquid);
+    const FaceLoads loads = mixture.faceLoads(applied);
     Vec3 gained = Vec3::Zero();
     double gainedEnergy = 0.0;
     for (int b = 0; b < fabric.grid().count(); ++b)
@@ -125,11 +129,11 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
                 gained[a] += mass * (u - before);
                 gainedEnergy += 0.5 * mass * (u * u - before * before);
             }
-    mixture.recoverPhaseVelocities(FabricFaces{fabric.grid(), fabric.velocity}, scene.liquid);
-    const Vec3 lost = liquidBefore - mixture.liquidMomentum(scene.liquid);
+    mixture.recoverPhaseVelocities(applied, FabricFaces{fabric.grid(), fabric.velocity}, scene.liquid);
+    const Vec3 lost = liquidBefore - mixture.liquidMomentum(*bath.shared, scene.liquid);
     EXPECT_GT(gained.norm(), 1.0e-3 * liquidBefore.norm());
     EXPECT_LT((gained - lost).norm(), 1.0e-13 * (liquidBefore.norm() + gained.norm()));
-    EXPECT_LT(mixture.kinetic(scene.liquid.faces.velocity) + gainedEnergy, energyBefore);
+    EXPECT_LT(mixture.kinetic(*bath.shared, scene.liquid.faces.velocity) + gainedEnergy, energyBefore);
 }
 
 /// Pressure moves both phases: what both get is minus its gradient over all the room.
@@ -140,8 +144,8 @@ TEST(Mixture, PressureActsOnAllTheRoom)
     GridScene& scene = bath.scene;
     ASSERT_TRUE(bath.find(mixture));
     findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
-    const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
-    mixture.eliminateDrag(scene.field, scene.liquid, scene.work.coefficient);
+    const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(*bath.shared, scene.liquid);
+    const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(*bath.shared, scene.field, scene.liquid, scene.work.coefficient);
     // A pressure that falls evenly along x: what solvePressure would leave on the faces.
     constexpr double kSlope = 300.0;  // dyn/cm^3
     double room = 0.0;
@@ -149,11 +153,10 @@ TEST(Mixture, PressureActsOnAllTheRoom)
         const CellRef ref = scene.at(c);
         const double k = scene.work.coefficient.block(ref.block, 0)[ref.cell], dx = scene.grid.dx;
         scene.velocity(0, c) += k * dx * dx * kSlope;
-        if (k > 0.0 && mixture.isShared(0, c)) room += dx * dx * dx;
+        if (k > 0.0 && mixture.isShared(*bath.shared, 0, c)) room += dx * dx * dx;
     });
-    bath.moveFabric(mixture.loads(scene.liquid));
-    mixture.recoverPhaseVelocities(bath.state, scene.liquid);
-    const Vec3 after = bath.fabricMomentum() + mixture.liquidMomentum(scene.liquid);
+    bath.finish(mixture, eliminated);
+    const Vec3 after = bath.fabricMomentum() + mixture.liquidMomentum(*bath.shared, scene.liquid);
     EXPECT_NEAR((after - before).x(), kStep * kSlope * room, 1.0e-10 * kStep * kSlope * room);
     EXPECT_NEAR((after - before).y(), 0.0, 1.0e-10 * kStep * kSlope * room);
 }
@@ -171,26 +174,25 @@ TEST(Mixture, PairsAnswerWithTheMassOfBothPhases)
                 for (int i = 0; i < 3 * kBlockCells; ++i) scene.liquid.faces.sums.block(b)[i] *= std::pow(10.0, -3.0 + 3.0 * noise());
             Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
             EXPECT_TRUE(bath.find(mixture));
-            bath.blendWithoutPressure(mixture);
+            const Mixture::EliminatedDrag eliminated = bath.eliminateDragWithoutPressure(mixture);
             const auto massesBefore = scene.liquid.faces.sums;
             scene.forEachCell([&](const Vec3i& c) {
                 for (int a = 0; a < kAxes; ++a)
-                    if (mixture.isShared(a, c)) scene.velocity(a, c) += change * noise();
+                    if (mixture.isShared(eliminated, a, c)) scene.velocity(a, c) += change * noise();
             });
             BlockArray<double, 3> changes;
             changes.resize(scene.grid.count());
-            mixture.toMassesOfBoth(scene.liquid, changes);
+            mixture.toMassesOfBoth(eliminated, scene.liquid, changes);
             told = Vec3::Zero();
             scene.forEachCell([&](const Vec3i& c) {
                 const CellRef ref = scene.at(c);
                 for (int a = 0; a < kAxes; ++a)
-                    if (mixture.isShared(a, c))
+                    if (mixture.isShared(eliminated, a, c))
                         told[a] += scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] * changes.block(ref.block, a)[ref.cell];
             });
-            mixture.fromMassesOfBoth(scene.liquid);
+            mixture.fromMassesOfBoth(eliminated, scene.liquid);
             for (std::size_t i = 0; i < massesBefore.size(); ++i) EXPECT_DOUBLE_EQ(scene.liquid.faces.sums.block(0)[i], massesBefore.block(0)[i]);
-            bath.moveFabric(mixture.loads(scene.liquid));
-            mixture.recoverPhaseVelocities(bath.state, scene.liquid);
+            bath.finish(mixture, eliminated);
             return bath.momentum(mixture);
         };
         constexpr double kChange = 5.0;  // cm/s
@@ -216,21 +218,21 @@ void fillBelow(Bath& bath, double height)
 /// Model-fluid 6.1: liquid under dry fabric is drawn up, by as much as the fabric is drawn down where the reaction is asked for.
 TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
 {
-    for (const bool reacts : {false, true}) {
+    for (const bool hasReaction : {false, true}) {
         Bath bath(DragLaw::Off);
         for (Vec3& v : bath.state.v) v.setZero();
         bath.settings.coupling.capillary = true;
-        bath.settings.coupling.capillaryReaction = reacts;
+        bath.settings.coupling.capillaryReaction = hasReaction;
         double middle = 0.0;
         for (const Vec3& x : bath.state.x) middle += x.y() / static_cast<double>(bath.state.x.size());
         fillBelow(bath, middle - 0.5 * bath.scene.grid.dx);
         Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
         ASSERT_TRUE(bath.find(mixture));
         bath.exchange(mixture);
-        const Vec3 up = mixture.liquidMomentum(bath.scene.liquid);
+        const Vec3 up = mixture.liquidMomentum(*bath.shared, bath.scene.liquid);
         EXPECT_GT(up.y(), 1.0e-4);
         EXPECT_GT(up.y(), std::abs(up.x()) + std::abs(up.z()));
-        if (reacts) EXPECT_LT(bath.momentum(mixture).norm(), 1.0e-13 * up.norm());
+        if (hasReaction) EXPECT_LT(bath.momentum(mixture).norm(), 1.0e-13 * up.norm());
         else EXPECT_EQ(bath.fabricMomentum(), Vec3::Zero().eval());
     }
 }
@@ -251,15 +253,15 @@ TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
         fillBelow(bath, bath.scene.corner(Vec3i(8, 8, 8)).y() + dx * noise());
         Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
         ASSERT_TRUE(bath.find(mixture));
-        bath.blendWithoutPressure(mixture);
+        const Mixture::AppliedPressure applied = mixture.applyPressure(bath.eliminateDragWithoutPressure(mixture), bath.scene.liquid);
         double fastest = 0.0;  // cm/s
-        const LiquidLoads& loads = mixture.loads(bath.scene.liquid);
+        const LiquidLoads& loads = mixture.vertexLoads(applied);
         for (std::size_t v = 0; v < bath.fabric.vertexCount(); ++v)
             fastest = std::max(fastest, loads.impulse[v].cwiseAbs().maxCoeff() / bath.fabric.mass[v]);
         ASSERT_GT(fastest, 0.0);
         FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
         fabric.spread(bath.state);
-        const FaceLoads onFaces = mixture.faceLoads(bath.scene.liquid);
+        const FaceLoads onFaces = mixture.faceLoads(applied);
         double fastestFace = 0.0;
         Vec3 sum = Vec3::Zero();
         for (int b = 0; b < fabric.grid().count(); ++b)
@@ -271,8 +273,8 @@ TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
                     else EXPECT_EQ(impulse, 0.0);
                 }
         EXPECT_LE(fastestFace, fastest * (1.0 + 1.0e-9)) << n;
-        mixture.recoverPhaseVelocities(FabricFaces{fabric.grid(), fabric.velocity}, bath.scene.liquid);
-        const Vec3 drawn = mixture.liquidMomentum(bath.scene.liquid);
+        mixture.recoverPhaseVelocities(applied, FabricFaces{fabric.grid(), fabric.velocity}, bath.scene.liquid);
+        const Vec3 drawn = mixture.liquidMomentum(*bath.shared, bath.scene.liquid);
         EXPECT_LT((sum + drawn).norm(), 1.0e-12 * drawn.norm());
     }
 }
@@ -286,7 +288,7 @@ TEST(Mixture, FullPoresDoNotSuck)
     Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     ASSERT_TRUE(bath.find(mixture));
     bath.exchange(mixture);
-    EXPECT_LT(mixture.liquidMomentum(bath.scene.liquid).norm(), 1.0e-12);
+    EXPECT_LT(mixture.liquidMomentum(*bath.shared, bath.scene.liquid).norm(), 1.0e-12);
 }
 
 TEST(Mixture, FarFabricIsLeftAlone)
