@@ -3,6 +3,7 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/shapes/volume.h"
+#include "sim/sources/fill_up.h"
 #include "sim/sources/lay.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace sim {
 
 namespace {
 
-bool isInstant(const Emission& e) { return e.to <= e.from; }
-
 bool isActive(const Emission& e, double timeFrom, double timeTo)
 {
     const bool runs = e.from <= timeFrom && timeFrom <= e.to && !isInstant(e);
@@ -23,39 +22,11 @@ bool isActive(const Emission& e, double timeFrom, double timeTo)
     return runs || isShort;
 }
 
-/// How many particles of a volume there are until a volume is reached: the last one may pass it.
-std::size_t countUpTo(double volume, double perParticle)
-{
-    const double most = std::ceil(volume / perParticle);
-    constexpr double kAny = 1.0e15;
-    return most < kAny ? static_cast<std::size_t>(std::max(0.0, most)) : static_cast<std::size_t>(kAny);
-}
-
 /// How many whole particles there are in a volume, be it negative.
 std::size_t wholeParticles(double volume, double perParticle)
 {
     constexpr double kRoundOff = 1.0e-9;
     return static_cast<std::size_t>(std::max(0.0, std::floor(volume / perParticle + kRoundOff)));
-}
-
-/// A body that is laid once, or liquid at rest that fills its source up again as it leaves.
-void fillUp(const Scene& scene, std::size_t source, const Emission& emission, double time, State& state)
-{
-    const SeedPlan plan = planFor(scene, source, time, state);
-    const Seeds seeds = seedsFor(scene, source, plan, liquidNear(state.liquid, plan, scene.settings.liquid.density));
-    if (seeds.positions.empty()) {
-        if (!isInstant(emission)) return;
-        throw InputError(nameOf(scene, source) + "has no room for a particle: it is empty, smaller than " +
-                         std::to_string(particleSpacing(plan.fill, plan.dx)) + " cm, inside an obstacle, or full already");
-    }
-    const double most = emission.maxVolume - state.emittedVolume[source];
-    if (seeds.volumes.empty()) {
-        lay(scene, source, emission, firstOf(seeds, countUpTo(most, seeds.volume)), state);
-        return;
-    }
-    std::size_t count = 0;
-    for (double volume = 0.0; count < seeds.volumes.size() && volume < most; ++count) volume += seeds.volumes[count];
-    lay(scene, source, emission, firstOf(seeds, count), state);
 }
 
 /// One step of a source that flows. What it is asked for, its area times its speed times the step, it owes. Where its pattern finds the

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sim {
@@ -56,6 +57,13 @@ void addField(const VelocityField& field, std::size_t first, State& state)
 }
 
 }  // namespace
+
+std::size_t countUpTo(double volume, double perParticle)
+{
+    const double most = std::ceil(volume / perParticle);
+    constexpr double kAny = 1.0e15;
+    return most < kAny ? static_cast<std::size_t>(std::max(0.0, most)) : static_cast<std::size_t>(kAny);
+}
 
 std::string nameOf(const Scene& scene, std::size_t source)
 {

@@ -37,6 +37,12 @@ struct NewParticles {
     }
 };
 
+/// Does it lay a body at once?
+inline bool isInstant(const Emission& e) { return e.to <= e.from; }
+
+/// How many particles of a volume there are until a volume is reached: the last one may pass it.
+std::size_t countUpTo(double volume, double perParticle);
+
 /// The first of some seeds.
 NewParticles firstOf(const Seeds& seeds, std::size_t most);
 

@@ -7,8 +7,10 @@ void Rods::forces(const FabricState& state, double h, Pack* gradient, StrandMatr
 {
     if (matrix) matrix->clear();
     parallelFor(layout_.groups.size(), [&](std::size_t g) {
-        const int firstRow = layout_.groups[g].firstRow;
-        forcesOfGroup(static_cast<int>(g), state, h, gradient + firstRow, matrix ? matrix->rows(firstRow) : nullptr);
+        const int group = static_cast<int>(g), firstRow = layout_.groups[g].firstRow;
+        Pack *rows = gradient + firstRow, *band = matrix ? matrix->rows(firstRow) : nullptr;
+        addStretching(group, state, h, rows, band);
+        addBendingAndTwisting(group, state, h, rows, band);
     });
 }
 
@@ -44,14 +46,13 @@ Pack torsionalCorrection(const Pack& b00, const Pack& b01, const Pack& b11, cons
 
 }  // namespace
 
-void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const
+/// @param band  of the group's Hessian, or null
+void Rods::addStretching(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const
 {
     constexpr int kBand = StrandMatrix::kBand;
     const StrandLayout::Group& group = layout_.groups[g];
     const Stiffness& k = stiffness_[g];
-    const bool hasTorque = sumLanes(twistHessianShare_[g]) > 0.0;
-    const Pack one = broadcast(1.0), perStep = broadcast(damped_ ? 1.0 / h : 0.0);
-    const Pack stretchRate = perStep * k.stretchDamping, bendRate = perStep * k.bendDamping, twistRate = perStep * k.twistDamping;
+    const Pack one = broadcast(1.0), stretchRate = broadcast(damped_ ? 1.0 / h : 0.0) * k.stretchDamping;
 
     for (int j = 0; j < group.edges(); ++j) {
         const int i = group.firstEdge + j, row = 4 * j;
@@ -79,7 +80,17 @@ void Rods::forcesOfGroup(int g, const FabricState& state, double h, Pack* gradie
                 band[(row + 4 + a) * kBand + 4 + a - b] -= entry;
             }
     }
+}
 
+/// @param band  of the group's Hessian, or null
+void Rods::addBendingAndTwisting(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const
+{
+    constexpr int kBand = StrandMatrix::kBand;
+    const StrandLayout::Group& group = layout_.groups[g];
+    const Stiffness& k = stiffness_[g];
+    const bool hasTorque = sumLanes(twistHessianShare_[g]) > 0.0;
+    const Pack one = broadcast(1.0), perStep = broadcast(damped_ ? 1.0 / h : 0.0);
+    const Pack bendRate = perStep * k.bendDamping, twistRate = perStep * k.twistDamping;
     forEachInnerVertex(g, state, [&](const InnerVertex& at) {
         const Bend& bend = bends_[group.firstVertex + at.j];
         const RodStrain<Pack>& s = at.strain;

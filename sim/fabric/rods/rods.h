@@ -43,7 +43,8 @@ class Rods {
 
  private:
     struct InnerVertex;
-    void forcesOfGroup(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
+    void addStretching(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
+    void addBendingAndTwisting(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
     template <class Visit>
     void forEachInnerVertex(int g, const FabricState& state, Visit&& visit) const;
 

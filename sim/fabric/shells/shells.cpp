@@ -1,8 +1,6 @@
 #include "sim/fabric/shells/shells.h"
 
-#include "sim/core/check.h"
 #include "sim/core/parallel.h"
-#include "sim/fabric/shells/shell_rest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +9,6 @@
 namespace sim {
 
 namespace {
-
-constexpr std::size_t kBatchesPerTask = 16;
-
-/// Number of the block (i, j), i ≤ j, of the upper half.
-constexpr int blockOf(int i, int j) { return i * kShellVertices - i * (i - 1) / 2 + j - i; }
 
 template <class Batch>
 ShellCorners<Pack> cornersOf(const Batch& batch, std::span<const Vec3> x)
@@ -36,100 +29,6 @@ ShellCorners<Pack> cornersOf(const Batch& batch, std::span<const Vec3> x)
 }
 
 }  // namespace
-
-Shells::Shells(const Fabric& fabric, const FabricSettings& settings) : settings_(settings)
-{
-    const std::span<const Vec3i> faces = fabric.faces.vertices;
-    if (faces.empty()) return;
-    across_ = verticesAcross(faces);
-    row_.assign(fabric.vertexCount(), -1);
-    for (const Vec3i& f : faces)
-        for (int k = 0; k < 3; ++k) row_[f[k]] = 0;
-    for (std::size_t v = 0; v < row_.size(); ++v)
-        if (row_[v] == 0) {
-            row_[v] = static_cast<int>(vertices_.size());
-            vertices_.push_back(static_cast<int>(v));
-        }
-
-    pattern_.resize(vertices_.size());
-    const auto sixOf = [&](std::size_t f) {
-        std::array<int, kShellVertices> six{};
-        for (int k = 0; k < 3; ++k) {
-            six[k] = row_[faces[f][k]];
-            six[3 + k] = across_[f][k] >= 0 ? row_[across_[f][k]] : -1;
-        }
-        return six;
-    };
-    neighbors_.resize(vertices_.size());
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const std::array<int, kShellVertices> six = sixOf(f);
-        for (int i = 0; i < kShellVertices; ++i)
-            for (int j = 0; j < kShellVertices; ++j) {
-                if (six[i] < 0 || six[j] < 0 || !areTied(i, j)) continue;
-                pattern_[six[i]].push_back(six[j]);
-                if (i < 3 && j < 3) neighbors_[six[i]].push_back(six[j]);
-            }
-    }
-    for (auto* rows : {&pattern_, &neighbors_})
-        for (std::vector<int>& columns : *rows) {
-            std::ranges::sort(columns);
-            columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-        }
-
-    const BlockMatrix pattern(pattern_);
-    for (std::size_t begin = 0; begin < faces.size(); begin += kLanes)
-        fill(fabric, settings, begin, std::min(faces.size(), begin + kLanes), pattern, batches_.emplace_back());
-    colorTasks(fabric.vertexCount());
-    for (const FabricMaterial& m : fabric.materials) damped_ = damped_ || (m.dampingViscosity > 0.0 && (m.dampBending || m.dampStretching));
-}
-
-/// Greedy: each task takes the first colour that none before it with a vertex of its own has.
-void Shells::colorTasks(std::size_t vertices)
-{
-    std::vector<std::vector<int>> colorsAt(vertices);
-    const int tasks = static_cast<int>((batches_.size() + kBatchesPerTask - 1) / kBatchesPerTask);
-    for (int task = 0; task < tasks; ++task) {
-        std::vector<int> own;
-        for (std::size_t b = task * kBatchesPerTask; b < std::min(batches_.size(), (task + 1) * kBatchesPerTask); ++b)
-            for (const Lanes& lanes : batches_[b].vertex) std::ranges::copy_if(lanes, std::back_inserter(own), [](int v) { return v >= 0; });
-        std::vector<char> isTaken(tasks_.size() + 1, 0);
-        for (int v : own)
-            for (int color : colorsAt[v]) isTaken[color] = 1;
-        const int color = static_cast<int>(std::ranges::find(isTaken, 0) - isTaken.begin());
-        if (color == static_cast<int>(tasks_.size())) tasks_.emplace_back();
-        tasks_[color].push_back(task);
-        for (int v : own)
-            if (colorsAt[v].empty() || colorsAt[v].back() != color) colorsAt[v].push_back(color);
-    }
-}
-
-/// The faces from number begin to end, a pack of them at most.
-void Shells::fill(const Fabric& fabric, const FabricSettings& settings, std::size_t begin, std::size_t end, const BlockMatrix& pattern,
-                  Batch& batch) const
-{
-    for (auto& lanes : batch.vertex) lanes.fill(-1);
-    for (auto& lanes : batch.entry) lanes.fill(-1);
-    batch.isTransposed.fill(0);
-    for (std::size_t f = begin; f < end; ++f) {
-        const int l = static_cast<int>(f - begin);
-        const FabricMaterial& material = fabric.materials[fabric.faces.material[f]];
-        for (int k = 0; k < 3; ++k) {
-            batch.vertex[k][l] = fabric.faces.vertices[f][k];
-            batch.vertex[3 + k][l] = across_[f][k];
-        }
-        setLane(batch.rest, l, shellRest(fabric, static_cast<int>(f), across_[f], settings));
-        const double viscous = 3.0 * material.dampingViscosity / material.young;
-        batch.damping[l] = material.dampStretching ? viscous : 0.0;
-        batch.bendDamping[l] = material.dampBending ? viscous : 0.0;
-        for (int i = 0; i < kShellVertices; ++i)
-            for (int j = i; j < kShellVertices; ++j) {
-                if (batch.vertex[i][l] < 0 || batch.vertex[j][l] < 0 || !areTied(i, j)) continue;
-                const int ri = row_[batch.vertex[i][l]], rj = row_[batch.vertex[j][l]];
-                batch.entry[blockOf(i, j)][l] = pattern.find(std::min(ri, rj), std::max(ri, rj));
-                if (ri > rj) batch.isTransposed[blockOf(i, j)] |= 1u << l;
-            }
-    }
-}
 
 MembraneStress<Pack> Shells::stressOf(const Batch& batch, const MembraneStrain<Pack>& strain) const
 {
@@ -172,64 +71,78 @@ void Shells::startStep(std::span<const Vec3> x)
     });
 }
 
-void Shells::forces(std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const
-{
-    for (const std::vector<int>& color : tasks_)
-        parallelFor(color.size(), [&](std::size_t n) {
-            const std::size_t begin = color[n] * kBatchesPerTask, end = std::min(batches_.size(), begin + kBatchesPerTask);
-            for (std::size_t b = begin; b < end; ++b) addForces(batches_[b], x, h, slot, gradient, matrix);
-        });
-}
+/// Stresses and moments of kLanes triangles, and what they depend on.
+struct Shells::Forces {
+    MembraneStress<Pack> elastic;                       ///< of the membrane, without damping
+    std::array<Pack, 3> stress;                         ///< of the membrane, with it
+    std::array<std::array<PackTriple, 3>, 3> byStrain;  ///< of each own vertex: ∂ε/∂x for the three strains
+    ShellBend<Pack> bend;
+    BendMeasure measure;
+    std::array<Pack, 3> moment;  ///< ∂E/∂θ of each edge
+    Pack rate, bendRate;         ///< damping of membrane and bending over the step [-]
+};
 
-void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const
+[[gnu::always_inline]] inline Shells::Forces Shells::forcesOf(const Batch& batch, std::span<const Vec3> x, double h) const
 {
+    Forces forces;
     const ShellRest<Pack>& rest = batch.rest;
     const ShellCorners<Pack> corners = cornersOf(batch, x);
-    const Pack zero{}, one = broadcast(1.0), perStep = broadcast(damped_ ? 1.0 / h : 0.0);
+    const Pack perStep = broadcast(damped_ ? 1.0 / h : 0.0);
 
     const MembraneStrain<Pack> strain = membraneStrain(rest, corners);
-    const MembraneStress<Pack> elastic = stressOf(batch, strain);
-    const std::array<Pack, 6>& c = elastic.tangent;
-    const Pack rate = perStep * batch.damping;
-    std::array<Pack, 3> stress = elastic.stress;
+    forces.elastic = stressOf(batch, strain);
+    const std::array<Pack, 6>& c = forces.elastic.tangent;
+    forces.rate = perStep * batch.damping;
+    std::array<Pack, 3>& stress = forces.stress = forces.elastic.stress;
     if (damped_) {
-        const Pack d0 = rate * (strain.green[0] - batch.startGreen[0]), d1 = rate * (strain.green[1] - batch.startGreen[1]);
-        const Pack d2 = rate * (strain.green[2] - batch.startGreen[2]);
+        const Pack d0 = forces.rate * (strain.green[0] - batch.startGreen[0]), d1 = forces.rate * (strain.green[1] - batch.startGreen[1]);
+        const Pack d2 = forces.rate * (strain.green[2] - batch.startGreen[2]);
         stress[0] += c[0] * d0 + c[3] * d1 + c[4] * d2;
         stress[1] += c[3] * d0 + c[1] * d1 + c[5] * d2;
         stress[2] += c[4] * d0 + c[5] * d1 + c[2] * d2;
     }
 
-    const ShellBend<Pack> bend = shellBend(rest, corners);
-    const BendMeasure measure = measured(batch, bend);
-    const Pack bendRate = perStep * batch.bendDamping;
-    std::array<Pack, 3> change = measure.change;
+    forces.bend = shellBend(rest, corners);
+    forces.measure = measured(batch, forces.bend);
+    forces.bendRate = perStep * batch.bendDamping;
+    std::array<Pack, 3> change = forces.measure.change;
     if (damped_)
-        for (int k = 0; k < 3; ++k) change[k] += bendRate * measure.slope[k] * (bend.angle[k] - batch.startAngle[k]);
-    std::array<Pack, 3> moment = timesBending(rest.bending, change);
-    for (int k = 0; k < 3; ++k) moment[k] *= measure.slope[k];
+        for (int k = 0; k < 3; ++k) change[k] += forces.bendRate * forces.measure.slope[k] * (forces.bend.angle[k] - batch.startAngle[k]);
+    forces.moment = timesBending(rest.bending, change);
+    for (int k = 0; k < 3; ++k) forces.moment[k] *= forces.measure.slope[k];
 
-    std::array<std::array<PackTriple, 3>, 3> byStrain;  // of each own vertex: ∂ε/∂x for the three strains
-    for (int i = 0; i < 3; ++i) byStrain[i] = {rest.ru[i] * strain.u, rest.rw[i] * strain.w, rest.ru[i] * strain.w + rest.rw[i] * strain.u};
+    for (int i = 0; i < 3; ++i) forces.byStrain[i] = {rest.ru[i] * strain.u, rest.rw[i] * strain.w, rest.ru[i] * strain.w + rest.rw[i] * strain.u};
+    return forces;
+}
 
+[[gnu::always_inline]] inline void Shells::addGradient(const Batch& batch, const Forces& forces, std::span<const int> slot, double* gradient) const
+{
+    const Pack zero{};
     for (int i = 0; i < kShellVertices; ++i) {
         PackTriple g{zero, zero, zero};
-        for (int k = 0; k < 3; ++k) g += moment[k] * bend.gradient[k][i];
+        for (int k = 0; k < 3; ++k) g += forces.moment[k] * forces.bend.gradient[k][i];
         if (i < 3)
-            for (int s = 0; s < 3; ++s) g += (rest.area * stress[s]) * byStrain[i][s];
+            for (int s = 0; s < 3; ++s) g += (batch.rest.area * forces.stress[s]) * forces.byStrain[i][s];
         for (int l = 0; l < kLanes; ++l) {
             if (batch.vertex[i][l] < 0) continue;
             double* at = gradient + slot[batch.vertex[i][l]];
             for (int a = 0; a < 3; ++a) at[a * kLanes] += g[a][l];
         }
     }
-    if (!matrix) return;
+}
 
-    const std::array<Pack, 3> tension = positivePart(elastic.stress);
-    const Pack stiff = rest.area * (one + rate);
+[[gnu::always_inline]] inline void Shells::addHessian(const Batch& batch, const Forces& forces, BlockMatrix& matrix) const
+{
+    const ShellRest<Pack>& rest = batch.rest;
+    const ShellBend<Pack>& bend = forces.bend;
+    const std::array<Pack, 6>& c = forces.elastic.tangent;
+    const auto& byStrain = forces.byStrain;
+    const Pack one = broadcast(1.0);
+    const std::array<Pack, 3> tension = positivePart(forces.elastic.stress);
+    const Pack stiff = rest.area * (one + forces.rate);
     std::array<Pack, 6> q = rest.bending;
-    q[0] *= measure.curvature[0], q[1] *= measure.curvature[1], q[2] *= measure.curvature[2];
-    for (Pack& entry : q) entry *= one + bendRate;
+    for (int k = 0; k < 3; ++k) q[k] *= forces.measure.curvature[k];
+    for (Pack& entry : q) entry *= one + forces.bendRate;
     for (int i = 0; i < kShellVertices; ++i) {
         std::array<PackTriple, 3> bendRow;  // Q times the derivatives by vertex i
         for (int a = 0; a < 3; ++a) {
@@ -256,9 +169,22 @@ void Shells::addForces(const Batch& batch, std::span<const Vec3> x, double h, st
                                                     tension[2] * (rest.ru[i] * rest.rw[j] + rest.rw[i] * rest.ru[j]));
                 for (int a = 0; a < 3; ++a) block[4 * a] += geometric;
             }
-            addBlock(batch, blockOf(i, j), block, *matrix);
+            addBlock(batch, blockOf(i, j), block, matrix);
         }
     }
+}
+
+void Shells::forces(std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const
+{
+    for (const std::vector<int>& color : tasks_)
+        parallelFor(color.size(), [&](std::size_t n) {
+            const std::size_t begin = color[n] * kBatchesPerTask, end = std::min(batches_.size(), begin + kBatchesPerTask);
+            for (std::size_t b = begin; b < end; ++b) {
+                const Forces at = forcesOf(batches_[b], x, h);
+                addGradient(batches_[b], at, slot, gradient);
+                if (matrix) addHessian(batches_[b], at, *matrix);
+            }
+        });
 }
 
 /// Row-major block number n of eight triangles to where each has it in the matrix.

@@ -42,13 +42,17 @@ class Shells {
     static constexpr int kBlocks = kShellVertices * (kShellVertices + 1) / 2;
 
  private:
+    static constexpr std::size_t kBatchesPerTask = 16;
+    /// Number of the block (i, j), i ≤ j, of the upper half.
+    static constexpr int blockOf(int i, int j) { return i * kShellVertices - i * (i - 1) / 2 + j - i; }
+
     using Lanes = std::array<int, kLanes>;
     /// kLanes triangles of one colour.
     struct Batch {
         std::array<Lanes, kShellVertices> vertex;  ///< −1 where there is none
         ShellRest<Pack> rest{};
-        Pack damping{};                                  ///< 3η/E if the membrane is damped [s] …
-        Pack bendDamping{};                              ///< … and bending
+        Pack damping{};                                  ///< 3η/E of the membrane if it is damped, else 0 [s]
+        Pack bendDamping{};                              ///< 3η/E of bending if it is damped, else 0 [s]
         std::array<Lanes, kBlocks> entry;                ///< where a block, or its transpose, stands in the matrix; −1 for no block
         std::array<unsigned, kBlocks> isTransposed;      ///< bit l: of lane l it is the transpose
         std::array<Pack, 3> startGreen{}, startAngle{};  ///< at the start of the step
@@ -56,7 +60,10 @@ class Shells {
     void fill(const Fabric& fabric, const FabricSettings& settings, std::size_t begin, std::size_t end, const BlockMatrix& pattern,
               Batch& batch) const;
     void colorTasks(std::size_t vertices);
-    void addForces(const Batch& batch, std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const;
+    struct Forces;
+    Forces forcesOf(const Batch& batch, std::span<const Vec3> x, double h) const;
+    void addGradient(const Batch& batch, const Forces& forces, std::span<const int> slot, double* gradient) const;
+    void addHessian(const Batch& batch, const Forces& forces, BlockMatrix& matrix) const;
     /// Whether the Hessian has a block of vertices i and j of a triangle: hinges tie none that lie across different edges.
     bool areTied(int i, int j) const { return i == j || std::min(i, j) < 3 || settings_.bending != BendingModel::Hinge; }
     void addBlock(const Batch& batch, int n, const std::array<Pack, 9>& block, BlockMatrix& matrix) const;
