@@ -3,7 +3,7 @@
 #include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/fabric/grid/grid_solver.h"
-#include "sim/fabric/led_fabric.h"
+#include "sim/fabric/prescribed_fabric.h"
 #include "sim/fabric/vertex/vertex_solver.h"
 #include "sim/liquid/energy.h"
 #include "sim/particles/velocity_modes.h"
@@ -151,7 +151,7 @@ void Simulation::prepareWorkspace()
     if (!fabric_.empty() && (isWet || !scene_.sources.empty()))
         work_.coupling = std::make_unique<Coupling>(fabric_, scene_.settings, nominalMass(scene_));
     if (!fabric_.empty()) work_.fabric = makeIntegrator();
-    if (work_.fabric) work_.fabric->tellForces(work_.momentum.forces());
+    if (work_.fabric) work_.fabric->reportForces(work_.momentum.forces());
 }
 
 std::unique_ptr<FabricIntegrator> Simulation::makeIntegrator() const
@@ -162,7 +162,7 @@ std::unique_ptr<FabricIntegrator> Simulation::makeIntegrator() const
         case FabricSolver::Grid: return std::make_unique<GridFabricSolver>(fabric_, settings, scene_.obstacles, work_.coupling != nullptr);
         case FabricSolver::Off: break;
     }
-    return std::make_unique<LedFabric>(fabric_, settings.fabric);
+    return std::make_unique<PrescribedFabric>(fabric_, settings.fabric);
 }
 
 /// What holds wet fabric, if anything does and there is liquid to wet it.

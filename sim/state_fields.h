@@ -55,7 +55,7 @@ void visitCells(V& v, const std::string& name, std::string_view unit, const Bloc
 }
 
 template <class V, class Held>
-void visitGrips(V& v, const std::string& name, Held& grips)
+void visitFriction(V& v, const std::string& name, Held& grips)
 {
     v.list(name + "/between", "-", grips.between);
     v.list(name + "/force", "dyn", grips.force);
@@ -74,7 +74,7 @@ void visitFabric(V& v, Fabric& fabric)
     v.list("fabric/frame_twist", "rad", fabric.referenceTwist);
     v.list("fabric/acceleration", "cm/s^2", fabric.acceleration);
     v.list("fabric/held", "-", fabric.held);
-    visitGrips(v, "fabric/friction_on_obstacles", fabric.onObstacles);
+    visitFriction(v, "fabric/friction_on_obstacles", fabric.onObstacles);
     v.number("fabric/energy_of_pressed_fabric", "erg", fabric.stored.pressed);
     v.number("fabric/energy_of_friction", "erg", fabric.stored.gripped);
     v.number("fabric/energy_at_obstacles", "erg", fabric.stored.solids);
@@ -83,7 +83,7 @@ void visitFabric(V& v, Fabric& fabric)
     v.number("fabric/taken_fraction", "-", fabric.vertexSolver.lastFraction);
     v.number("fabric/owed_energy", "erg", fabric.vertexSolver.owed);
     v.number("fabric/most_kinetic_energy", "erg", fabric.mostKinetic);
-    visitGrips(v, "fabric/friction_on_fabric", fabric.vertexSolver.onFabric);
+    visitFriction(v, "fabric/friction_on_fabric", fabric.vertexSolver.onFabric);
     v.list("fabric/across", "-", fabric.gridSolver.across);
     v.list("fabric/velocity_modes", "cm/s", fabric.gridSolver.modes);
     v.number("fabric/since_gather", "s", fabric.gridSolver.sinceGather);

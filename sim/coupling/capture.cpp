@@ -46,7 +46,7 @@ double Capture::demand(std::size_t v, double dt) const
 {
     const double share = std::min(1.0, ratePerVertex_[v] * dt);
     if (law_ == CaptureLaw::Published) return share * around_.massAt(v);
-    return around_.massAt(v) > 0.0 ? share * capacity_[v] * touchedPart(around_.distanceAt(v), kFullUptake, kNoUptake) : 0.0;
+    return around_.massAt(v) > 0.0 ? share * capacity_[v] * wettedPart(around_.distanceAt(v), kFullUptake, kNoUptake) : 0.0;
 }
 
 /// body(vertex, stencil) for the vertices of a block that have room.

@@ -64,9 +64,9 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, const L
     hasYarns_ = fabric.edges.size() > 0;
     if (around && hasYarns_) {
         diameterOf_ = yarnDiameters(fabric);
-        narrowingOf_ = narrowings(fabric, diameterOf_);
+        constrictionOf_ = constrictions(fabric, diameterOf_);
         isOneDiameter_ = isUniformIn(diameterOf_);
-        isOneNarrowing_ = isUniformIn(narrowingOf_);
+        isOneNarrowing_ = isUniformIn(constrictionOf_);
     }
     const double first = fibresOf_[0] / fabric.mass[0];
     bool isUniform = true;
@@ -143,7 +143,7 @@ void FabricOnFaces::spread(const FabricState& state)
         parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
     }
     particlesToFaces({particles, vertices_.order, grid()}, scatter_, sums_);
-    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &narrowing, &solid, &shape, &squares})
+    for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &constriction, &solid, &shape, &squares})
         u->resize(grid().count());
     parallelFor(grid().count(), 8, [&](std::size_t i) {
         const int b = static_cast<int>(i);
@@ -158,12 +158,12 @@ void FabricOnFaces::spread(const FabricState& state)
     findVolumes(state);
     if (around_) {
         scatter([&](int v) { return Vec3::Constant(envelopeOf_[v]); }, envelope);
-        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * touchedPart(around_->distanceAt(v), kFullDrag, kNoDrag)); }, touched);
+        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * wettedPart(around_->distanceAt(v), kFullDrag, kNoDrag)); }, touched);
     }
-    takeMean(shapeOf_, isOneShape_, shape);
+    averageOverMass(shapeOf_, isOneShape_, shape);
     if (around_ && hasYarns_) {
-        takeMean(diameterOf_, isOneDiameter_, diameter);
-        takeMean(narrowingOf_, isOneNarrowing_, narrowing);
+        averageOverMass(diameterOf_, isOneDiameter_, diameter);
+        averageOverMass(constrictionOf_, isOneNarrowing_, constriction);
     }
     findHeld(state);
 }
@@ -176,7 +176,7 @@ void FabricOnFaces::findHeld(const FabricState& state)
 }
 
 /// Mean over the mass on each face.
-void FabricOnFaces::takeMean(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean)
+void FabricOnFaces::averageOverMass(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean)
 {
     if (!isUniform) {
         scatter([&](int v) { return Vec3::Constant(massOf_[v] * ofVertex[v]); }, mean);

@@ -29,17 +29,17 @@ class FabricOnFaces {
     double solidOf(int vertex) const { return solidOf_[vertex]; }  ///< volume of its fibres and of that [cm^3]
 
     // Of each face; of its own component where there are several.
-    BlockArray<double, 3> mass;       ///< with what has been absorbed [g]
-    BlockArray<double, 3> velocity;   ///< [cm/s]
-    BlockArray<double, 3> fibres;     ///< volume of the fibres [cm^3]
-    BlockArray<double, 3> envelope;   ///< volume of fibres and pores, as the fabric is stretched now [cm^3]; where it is asked for
-    BlockArray<double, 3> touched;    ///< that of the fabric that liquid touches [cm^3]; likewise
-    BlockArray<double, 3> solid;      ///< volume of them and of what has been absorbed [cm^3]
-    BlockArray<double, 3> shape;      ///< 1 = yarns, 0 = cloth, or between
-    BlockArray<double, 3> diameter;   ///< of yarns [cm]; with envelopes, where there are yarns
-    BlockArray<double, 3> narrowing;  ///< of the flow between them (narrowings) [-]; likewise
-    BlockArray<double, 3> held;       ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
-    BlockArray<double, 3> squares;    ///< o_a² of the direction o: tangent of yarns, normal of cloth
+    BlockArray<double, 3> mass;          ///< with what has been absorbed [g]
+    BlockArray<double, 3> velocity;      ///< [cm/s]
+    BlockArray<double, 3> fibres;        ///< volume of the fibres [cm^3]
+    BlockArray<double, 3> envelope;      ///< volume of fibres and pores, as the fabric is stretched now [cm^3]; where it is asked for
+    BlockArray<double, 3> touched;       ///< that of the fabric that liquid touches [cm^3]; likewise
+    BlockArray<double, 3> solid;         ///< volume of them and of what has been absorbed [cm^3]
+    BlockArray<double, 3> shape;         ///< 1 = yarns, 0 = cloth, or between
+    BlockArray<double, 3> diameter;      ///< of yarns [cm]; with envelopes, where there are yarns
+    BlockArray<double, 3> constriction;  ///< of the flow between them (narrowings) [-]; likewise
+    BlockArray<double, 3> held;          ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
+    BlockArray<double, 3> squares;       ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
     /// Wᵀ: of(v) is what vertex v gives to the faces normal to each axis. Faces without mass stay as they are.
     template <class Of>
@@ -50,7 +50,7 @@ class FabricOnFaces {
 
  private:
     void findVolumes(const FabricState& state);
-    void takeMean(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean);
+    void averageOverMass(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean);
     void findHeld(const FabricState& state);
     void findDirections(const FabricState& state);
     void divideByMass(BlockArray<double, 3>& u) const;
@@ -59,7 +59,7 @@ class FabricOnFaces {
     double liquidDensity_;  ///< [g/cm^3]
     const LiquidAround* around_;
     bool hasYarns_ = false;
-    std::vector<double> diameterOf_, narrowingOf_;  ///< of each vertex [cm, -]
+    std::vector<double> diameterOf_, constrictionOf_;  ///< of each vertex [cm, -]
     SortedVertices& vertices_;
     std::vector<double> fibresOf_, shapeOf_;     ///< of each vertex [cm^3, -]
     std::vector<double> restLength_, restArea_;  ///< of the edges and faces at each vertex, summed [cm, cm^2]

@@ -124,8 +124,8 @@ void LiquidAround::collect(const BlockGrid& grid, const ParticleOrder& order, co
 }
 
 /// Mean place of the room outside solids that a point sees, against the point [cells].
-Vec3 LiquidAround::middleOfRoom(const ObstacleField& obstacles, const SortedVertices& vertices, int block, const CellStencil& stencil,
-                                const Vec3& x) const
+Vec3 LiquidAround::centroidOfRoom(const ObstacleField& obstacles, const SortedVertices& vertices, int block, const CellStencil& stencil,
+                                  const Vec3& x) const
 {
     const BlockGrid& grid = vertices.grid;
     const std::array<int, 27>& around = grid.neighbours(block);
@@ -147,7 +147,7 @@ Vec3 LiquidAround::middleOfRoom(const ObstacleField& obstacles, const SortedVert
 }
 
 /// What each vertex sees of it.
-void LiquidAround::see(const BlockGrid& grid, const ObstacleField& obstacles, const SortedVertices& vertices)
+void LiquidAround::sampleAtVertices(const BlockGrid& grid, const ObstacleField& obstacles, const SortedVertices& vertices)
 {
     solidBlock_.resize(vertices.grid.count());
     for (int b = 0; b < vertices.grid.count(); ++b) {
@@ -167,7 +167,7 @@ void LiquidAround::see(const BlockGrid& grid, const ObstacleField& obstacles, co
             distance_[v] = std::numeric_limits<double>::infinity();
             if (!(mass_[v] > 0.0)) continue;
             const Vec3 middle = Vec3(sum[kMoment], sum[kMoment + 1], sum[kMoment + 2]) / mass_[v];
-            distance_[v] = ((middle - x) / vertices.grid.dx - middleOfRoom(obstacles, vertices, block, stencil, x)).norm();
+            distance_[v] = ((middle - x) / vertices.grid.dx - centroidOfRoom(obstacles, vertices, block, stencil, x)).norm();
         }
     });
 }
@@ -178,7 +178,7 @@ bool LiquidAround::find(const BlockGrid& grid, const ParticleOrder& order, const
     findReached(vertices);
     if (!findNear(grid, order, vertices)) return false;
     collect(grid, order, liquid);
-    see(grid, obstacles, vertices);
+    sampleAtVertices(grid, obstacles, vertices);
     return true;
 }
 

@@ -55,8 +55,8 @@ class LiquidAround {
     bool findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
     void addTile(const Pack* tile, const std::array<int, 27>& blocks);
     void collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid);
-    void see(const BlockGrid& grid, const ObstacleField& obstacles, const SortedVertices& vertices);
-    Vec3 middleOfRoom(const ObstacleField& obstacles, const SortedVertices& vertices, int block, const CellStencil& stencil, const Vec3& x) const;
+    void sampleAtVertices(const BlockGrid& grid, const ObstacleField& obstacles, const SortedVertices& vertices);
+    Vec3 centroidOfRoom(const ObstacleField& obstacles, const SortedVertices& vertices, int block, const CellStencil& stencil, const Vec3& x) const;
 
     // Of the vertices' blocks.
     AlignedArray<double> cells_;        ///< a pack (Lane) for each cell, and for those of an empty block behind the last
@@ -84,7 +84,7 @@ void LiquidAround::forEachParticle(const ParticleOrder& order, const Part& part,
 
 /// 1 of liquid that is at most `touching` away, 0 of what is `apart`, even between.
 /// @param distance  LiquidAround::distanceAt, as the others [cells]
-inline double touchedPart(double distance, double touching, double apart) { return std::clamp((apart - distance) / (apart - touching), 0.0, 1.0); }
+inline double wettedPart(double distance, double touching, double apart) { return std::clamp((apart - distance) / (apart - touching), 0.0, 1.0); }
 
 /// body(block) for all blocks of an order that hold something, those of a colour in parallel: they reach no common cell.
 template <class Body>

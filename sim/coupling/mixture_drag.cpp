@@ -59,7 +59,7 @@ double Mixture::dragOn(int b, int a, int c, double liquidVolume, double room) co
     PorousLaw::Drag drag = law_.drag(own, speed);
     double alongAxis = shape < 1.0 ? (1.0 - shape) * dragAlongAxis(drag, 0.0, square) : 0.0;
     if (shape > 0.0) {
-        const DragAround around = dragAround(liquid_, settings_.drag, onFaces_.diameter.block(b, a)[c], onFaces_.narrowing.block(b, a)[c], speed);
+        const DragAround around = dragAround(liquid_, settings_.drag, onFaces_.diameter.block(b, a)[c], onFaces_.constriction.block(b, a)[c], speed);
         const auto sideBySide = [](double one, double other) { return one > 0.0 && other > 0.0 ? one * other / (one + other) : 0.0; };
         drag = {sideBySide(drag.along, around.along), sideBySide(drag.across, around.across)};
         alongAxis += shape * dragAlongAxis(drag, 1.0, square);

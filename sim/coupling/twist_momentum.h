@@ -10,13 +10,13 @@ namespace sim {
 class TwistMomentum {
  public:
     /// Before the fabric takes up water.
-    void note(const Fabric& fabric, const FabricState& state)
+    void store(const Fabric& fabric, const FabricState& state)
     {
         before_.resize(fabric.edges.size());
         for (std::size_t e = 0; e < before_.size(); ++e) before_[e] = twistInertia(fabric, state.absorbed, e);
     }
     /// When it has taken it up.
-    void keep(const Fabric& fabric, FabricState& state) const
+    void restore(const Fabric& fabric, FabricState& state) const
     {
         for (std::size_t e = 0; e < before_.size(); ++e)
             if (!fabric.edges.twistHeld[e]) state.omega[e] *= before_[e] / twistInertia(fabric, state.absorbed, e);

@@ -43,8 +43,8 @@ class Wicking {
     WickingSettings settings_;
     double density_;                       ///< [g/cm^3]
     double longest_ = 0.0;                 ///< stable substep [s]
-    std::vector<PorousLaw> laws_;          ///< of each material …
-    std::vector<double> suction_, along_;  ///< … its suction when dry [dyn/cm^2], permeability along fibres [cm^2]
+    std::vector<PorousLaw> laws_;          ///< of each material
+    std::vector<double> suction_, along_;  ///< of each material: suction when dry [dyn/cm^2], permeability along fibres [cm^2]
     std::vector<double> capacity_;         ///< of each vertex [g]
     int leastSubsteps_;                    ///< of a step [-]
 

@@ -34,12 +34,12 @@ double acrossAt(const LiquidSettings& liquid, double diameter, double speed)
 
 }  // namespace
 
-DragAround dragAround(const LiquidSettings& liquid, DragLaw law, double diameter, double narrowing, double speed)
+DragAround dragAround(const LiquidSettings& liquid, DragLaw law, double diameter, double constriction, double speed)
 {
     if (law == DragLaw::Off || !(liquid.viscosity > 0.0)) return {0.0, 0.0};
     const double slowest = kCreeping * liquid.viscosity / (liquid.density * diameter);
     const double creeping = acrossAt(liquid, diameter, slowest);
-    return {0.5 * creeping, narrowing * (law == DragLaw::Linear ? creeping : acrossAt(liquid, diameter, std::max(speed, slowest)))};
+    return {0.5 * creeping, constriction * (law == DragLaw::Linear ? creeping : acrossAt(liquid, diameter, std::max(speed, slowest)))};
 }
 
 std::vector<double> yarnDiameters(const Fabric& fabric)
@@ -52,7 +52,7 @@ std::vector<double> yarnDiameters(const Fabric& fabric)
     return diameter;
 }
 
-std::vector<double> narrowings(const Fabric& fabric, const std::vector<double>& diameter)
+std::vector<double> constrictions(const Fabric& fabric, const std::vector<double>& diameter)
 {
     std::vector<double> out(fabric.vertexCount(), 1.0);
     if (fabric.edges.size() == 0) return out;

@@ -17,13 +17,13 @@ struct DragAround {
 /// @param diameter   of the yarn [cm]
 /// @param narrowing  mean speed in the gaps that neighbours leave, over that far away, squared [-]
 /// @param speed      of the liquid past the yarn [cm/s]
-DragAround dragAround(const LiquidSettings& liquid, DragLaw law, double diameter, double narrowing, double speed);
+DragAround dragAround(const LiquidSettings& liquid, DragLaw law, double diameter, double constriction, double speed);
 
 /// Of each vertex the diameter of its yarns: of a circle as large as the section; 0 where there are none [cm].
 std::vector<double> yarnDiameters(const Fabric& fabric);
 
 /// Of each vertex 1/(1 - s)², with the part s of the view along the fabric's normal that neighbouring yarns cover; of a lone yarn 1. Yarns
 /// within kReach diameters count, as two crossing sets of which each covers half of c: s = 1 - (1 - c/2)².
-std::vector<double> narrowings(const Fabric& fabric, const std::vector<double>& diameter);
+std::vector<double> constrictions(const Fabric& fabric, const std::vector<double>& diameter);
 
 }  // namespace sim

@@ -36,7 +36,7 @@ Cohesion::Cohesion(const Fabric& fabric, const LiquidSettings& liquid, const Coh
     }
 }
 
-void Cohesion::takeUp(std::span<const double> absorbed)
+void Cohesion::setAbsorbed(std::span<const double> absorbed)
 {
     parallelFor(absorbed.size(), 1024, [&](std::size_t v) {
         const double saturation = capacity_[v] > 0.0 ? std::clamp(absorbed[v] / capacity_[v], 0.0, 1.0) : 0.0;

@@ -26,8 +26,9 @@ class Cohesion {
  public:
     Cohesion(const Fabric& fabric, const LiquidSettings& liquid, const CohesionSettings& settings);
 
-    /// From now on forces are those of fabric that holds this: of each vertex [g].
-    void takeUp(std::span<const double> absorbed);
+    /// Sets the liquid that the fabric holds, on which the forces depend.
+    /// @param absorbed  of each vertex [g]
+    void setAbsorbed(std::span<const double> absorbed);
     bool isOnFabric() const { return settings_.fabric && isWet_; }
     bool isOnObstacles() const { return settings_.obstacle && isWet_; }
 

@@ -35,8 +35,8 @@ FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, co
     return e;
 }
 
-InnerGradient innerGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
-                            const Shells& shells)
+InternalGradient internalGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
+                                  const Shells& shells)
 {
     AlignedArray<double> all;
     all.resize(unknowns.size);
@@ -44,7 +44,7 @@ InnerGradient innerGradient(const Fabric& fabric, const FabricState& state, doub
     if (!rods.empty()) rods.forces(state, h, reinterpret_cast<Pack*>(all.data()), nullptr);
     if (!shells.empty()) shells.forces(state.x, h, unknowns.slot, all.data(), nullptr);
 
-    InnerGradient gradient{std::vector<Vec3>(fabric.vertexCount(), Vec3::Zero()), std::vector<double>(fabric.edges.size())};
+    InternalGradient gradient{std::vector<Vec3>(fabric.vertexCount(), Vec3::Zero()), std::vector<double>(fabric.edges.size())};
     const auto add = [&](int v, int slot) { gradient.byPosition[v] += Vec3(all[slot], all[slot + kLanes], all[slot + 2 * kLanes]); };
     const StrandLayout& layout = rods.layout();
     for (const StrandLayout::Group& group : layout.groups)  // a vertex on several strands has a part in each

@@ -27,13 +27,13 @@ class ElasticEnergies {
 FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const FabricEnergies& elastic, const Vec3& gravity);
 
 /// Gradient of the elastic and viscous energy by positions [dyn] and twist angles [dyn cm].
-struct InnerGradient {
+struct InternalGradient {
     std::vector<Vec3> byPosition;
     std::vector<double> byAngle;
 };
 
 /// At a state whose step of length h [s] began when the rods and shells were told; with an infinite h the elastic gradient alone.
-InnerGradient innerGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
-                            const Shells& shells);
+InternalGradient internalGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
+                                  const Shells& shells);
 
 }  // namespace sim

@@ -43,7 +43,7 @@ struct Fabric {
         std::vector<double> thickness;  ///< [cm]
         std::size_t size() const { return vertices.size(); }
     };
-    /// Held vertices (Dirichlet).
+    /// Vertices with prescribed positions (Dirichlet).
     struct Pins {
         std::vector<int> vertex;  ///< ascending
         std::vector<int> motion;  ///< of each, in `motions`
@@ -91,26 +91,26 @@ struct FabricState {
     std::vector<double> referenceTwist;  ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
 
     std::vector<Vec3> acceleration;  ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
-    std::vector<Vec3> held;          ///< of each vertex and axis: how far the fabric's own forces held it in the last step …
-                                     ///< (heldShare), and pins do; solver grid: 0 [0..1]
-    Grips onObstacles;               ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
-    ContactEnergy stored;            ///< at the end of the last step, with the stiffnesses that contact had in it …
-    double springStep = 0.0;         ///< … which goes by mass over the square of this (springStepFor); 0 before the first [s]
+    std::vector<Vec3> held;          ///< of each vertex and axis: fraction of it that pins and the fabric's own forces (heldShare) held
+                                     ///< in the last step; solver grid: 0 [0..1]
+    FrictionForces onObstacles;      ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
+    ContactEnergy stored;            ///< energy of contact at the end of the last step, with its stiffnesses
+    double springStep = 0.0;         ///< step that those stiffnesses go by, as mass over its square (springStepFor); 0 before the first [s]
     double mostKinetic = 0.0;        ///< largest kinetic energy of all steps' starts [erg]
 
     /// Of solver vertex only.
     struct VertexSolverPart {
         double owed = 0.0;          ///< energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
         double lastFraction = 1.0;  ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
-        Grips onFabric;             ///< friction between primitives, as contact/primitives.h counts them
+        FrictionForces onFabric;    ///< friction between primitives, as contact/primitives.h counts them
     };
     /// Of solver grid only; empty until its first step.
     struct GridSolverPart {
         std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
         std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
         double sinceGather = 0.0;          ///< for how long the vertices have moved since their modes were gathered [s]
-        BlockGrid faceBlocks;              ///< of the grid in the last step, and …
-        BlockArray<double, 3> faceChange;  ///< … by how much forces on the fabric changed the velocities of its faces [cm/s]
+        BlockGrid faceBlocks;              ///< blocks of the grid in the last step
+        BlockArray<double, 3> faceChange;  ///< change of the velocities of its faces by forces on the fabric [cm/s]
     };
     VertexSolverPart vertexSolver;
     GridSolverPart gridSolver;

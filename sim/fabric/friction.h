@@ -10,7 +10,7 @@
 namespace sim {
 
 /// Forces of friction that were held at the end of a step, by the numbers of the two that touch there: ascending, no two alike.
-struct Grips {
+struct FrictionForces {
     std::vector<Vec2i> between;
     std::vector<Vec3> force;  ///< its gradient: by the position of the first against the second [dyn]
 

@@ -16,8 +16,8 @@ namespace sim {
 /// Friction of two that touch, and how it answers to their slip. All of it is across the normal.
 struct Friction {
     Vec3 force;                     ///< gradient by the position of the first against the second [dyn]
-    double stiffness = 0.0;         ///< [dyn/cm] …
-    double along = 0.0;             ///< … but for slip along `direction` [dyn/cm]
+    double stiffness = 0.0;         ///< against slip across `direction` [dyn/cm]
+    double along = 0.0;             ///< against slip along `direction` [dyn/cm]
     Vec3 direction = Vec3::Zero();  ///< unit; 0 where both are the same
     bool slides = false;            ///< it is at its bound
 
@@ -35,7 +35,7 @@ inline Vec3 atMost(double bound, const Vec3& force)
 }
 
 /// A spring that friction holds, and by what it can be held.
-struct GripSpring {
+struct FrictionSpring {
     Vec3 held;         ///< its force at the start of the step [dyn]
     double stiffness;  ///< [dyn/cm]
     double bound;      ///< Coulomb's coefficient times the normal force [dyn]
@@ -56,7 +56,7 @@ struct GripSpring {
     Friction expected(const Vec3& slip, const Vec3& expectedSlip, double perMass) const;
 };
 
-inline Friction GripSpring::expected(const Vec3& slip, const Vec3& expectedSlip, double perMass) const
+inline Friction FrictionSpring::expected(const Vec3& slip, const Vec3& expectedSlip, double perMass) const
 {
     const Vec3 smooth = trial(expectedSlip), free = smooth + perMass * held;
     const double size = free.norm();

@@ -51,8 +51,8 @@ class FabricIntegrator {
 
     /// From now on reports tell where energy goes, which takes about as long as an iteration of a solve.
     void bookEnergy() { booksEnergy_ = true; }
-    /// From now on steps add there what acts between the fabric and what it touches, hangs on and meets of the liquid.
-    void tellForces(Forces& forces) { forces_ = &forces; }
+    /// From now on steps add to `forces` what acts between the fabric and solids, pins and liquid.
+    void reportForces(Forces& forces) { forces_ = &forces; }
 
  protected:
     bool booksEnergy_ = false;

@@ -18,7 +18,7 @@ constexpr double kMostOwed = 0.01;  ///< with which a run may go on, of the larg
 
 }  // namespace
 
-double workFromOutside(const EnergyChanges& changes)
+double externalWork(const EnergyChanges& changes)
 {
     return changes[EnergyChange::Pins] + changes[EnergyChange::Obstacles] + changes[EnergyChange::Drag];
 }
@@ -48,7 +48,7 @@ double payOwed(double due, const Fabric& fabric, const FabricGroups& groups, std
     return paid;
 }
 
-void refuseJam(const Fabric& fabric, const FabricState& state, double kinetic)
+void throwJammed(const Fabric& fabric, const FabricState& state, double kinetic)
 {
     if (state.vertexSolver.owed <= std::max(kinetic, kMostOwed * state.mostKinetic)) return;
     Vec3 place = state.x[0];

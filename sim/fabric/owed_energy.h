@@ -12,7 +12,7 @@ namespace sim {
 // it; what that cannot pay stays owed (FabricState::owed), and later steps pay. Where more is owed than can ever be paid, fabric is jammed.
 
 /// Work of pins, solids and the liquid on the fabric in a step [erg].
-double workFromOutside(const EnergyChanges& changes);
+double externalWork(const EnergyChanges& changes);
 
 /// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift. Returns what
 /// it took.
@@ -24,6 +24,6 @@ double payOwed(double due, const Fabric& fabric, const FabricGroups& groups, std
 
 /// Throws RunError if the fabric owes more than all of its motion has, and than can be let pass.
 /// @param kinetic  energy of its motion, or of one that is not felt [erg]
-void refuseJam(const Fabric& fabric, const FabricState& state, double kinetic);
+void throwJammed(const Fabric& fabric, const FabricState& state, double kinetic);
 
 }  // namespace sim

@@ -65,8 +65,8 @@ class BlockGrid {
  private:
     std::vector<Vec3i> coords_;
     std::vector<std::array<int, 27>> neighbours_;
-    std::vector<std::uint64_t> keys_;  ///< open-addressing hash table of the coordinates …
-    std::vector<int> values_;          ///< … to block numbers; size a power of two
+    std::vector<std::uint64_t> keys_;  ///< keys of an open-addressing hash table, from coordinates to block numbers; size a power of two
+    std::vector<int> values_;          ///< values of that table: block numbers
 };
 
 /// kKinds numbers for each cell of each block: block-major, so that one block is one contiguous piece. There is one

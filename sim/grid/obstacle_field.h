@@ -84,8 +84,8 @@ class ObstacleField {
     BlockArray<double> centerDistance_;
     BlockArray<std::uint16_t> owner_;
     std::vector<std::uint8_t> shared_;     ///< per slot
-    BlockArray<std::uint16_t, 6> closer_;  ///< of shared slots: first and second solid of each face, where there is a second …
-    BlockArray<double, 3> ofSecond_;       ///< … and what that closes
+    BlockArray<std::uint16_t, 6> closer_;  ///< of shared slots: first and second solid that close each face, where there is a second
+    BlockArray<double, 3> ofSecond_;       ///< of shared slots: area that the second solid closes of each face [-]
 };
 
 }  // namespace sim

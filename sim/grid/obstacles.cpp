@@ -115,7 +115,7 @@ constexpr double kBarelyInside = 1.0e-3;  ///< as little in a solid is on its su
 
 /// start(body): where the path starts, in the space of the body's shape.
 template <class Start>
-std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolution, Start&& start) const
+std::optional<Obstacles::Contact> Obstacles::findContact(const Vec3& to, double resolution, Start&& start) const
 {
     std::optional<Contact> first;
     double earliest = 1.0;  // share of the path: until then it is outside of all bodies
@@ -145,18 +145,18 @@ std::optional<Obstacles::Contact> Obstacles::meet(const Vec3& to, double resolut
     return first;
 }
 
-std::optional<Obstacles::Contact> Obstacles::firstContact(const Way& way, const Vec3& to, double resolution) const
+std::optional<Obstacles::Contact> Obstacles::firstContact(const Path& way, const Vec3& to, double resolution) const
 {
-    return meet(to, resolution, [&](const Body& body) {
+    return findContact(to, resolution, [&](const Body& body) {
         Vec3 x = body.moving ? Vec3(body.other.inverse() * way.start_) : Vec3(body.toShape * way.start_);
-        for (int n = 0; n < way.count_; ++n) x += way.legs_[n].share * (body.toShape * way.legs_[n].to - x);
+        for (int n = 0; n < way.count_; ++n) x += way.segments_[n].share * (body.toShape * way.segments_[n].to - x);
         return x;
     });
 }
 
 std::optional<Obstacles::Contact> Obstacles::firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const
 {
-    return meet(to, resolution, [&](const Body& body) -> Vec3 { return body.toShape * from; });
+    return findContact(to, resolution, [&](const Body& body) -> Vec3 { return body.toShape * from; });
 }
 
 double Obstacles::farthestMove(const Vec3& x, double halfEdge) const

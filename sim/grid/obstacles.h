@@ -25,7 +25,7 @@ class Obstacles {
     int count() const { return static_cast<int>(bodies_.size()); }
     double steepest() const { return steepest_; }        ///< distances change by no more than this times the way [-]
     bool anyMoving() const { return anyMoving_; }        ///< in the step of the last call of those
-    bool anyDisplaced() const { return anyDisplaced_; }  ///< … or in the step before it
+    bool anyDisplaced() const { return anyDisplaced_; }  ///< in that step or in the one before it
 
     double distance(const Vec3& x) const;  ///< to the nearest solid [cm], negative inside; infinite without any
     enum class Which { All, Displaced };
@@ -49,27 +49,30 @@ class Obstacles {
         double share;  ///< of the way that the point has gone until then
     };
     /// The way of a point through a step, straight as seen from each solid from where it is to where it wants to be at the step's end.
-    class Way {
+    class Path {
      public:
-        explicit Way(const Vec3& start) : start_(start) {}
+        explicit Path(const Vec3& start) : start_(start) {}
         /// Go the first `share` of the way to a place.
-        void go(const Vec3& to, double share) { legs_[count_++] = {to, share}; }
-        static constexpr int kMostLegs = 6;
+        void addSegment(const Vec3& to, double share) { segments_[count_++] = {to, share}; }
+        static constexpr int kMaxSegments = 6;
 
      private:
         friend class Obstacles;
-        struct Leg {
+        struct Segment {
             Vec3 to;
             double share;
         };
         Vec3 start_;  ///< at the start of the step [cm]
-        std::array<Leg, kMostLegs> legs_;
+        std::array<Segment, kMaxSegments> segments_;
         int count_ = 0;
     };
     /// First contact of what goes on from there to another place; nothing if it meets none. Solids in which it is by more than a thousandth of
     /// `resolution` [cm] let it pass. Walls thinner than `resolution` may be missed.
-    std::optional<Contact> firstContact(const Way& way, const Vec3& to, double resolution) const;
-    std::optional<Contact> firstContact(const Vec3& from, const Vec3& to, double resolution) const { return firstContact(Way(from), to, resolution); }
+    std::optional<Contact> firstContact(const Path& way, const Vec3& to, double resolution) const;
+    std::optional<Contact> firstContact(const Vec3& from, const Vec3& to, double resolution) const
+    {
+        return firstContact(Path(from), to, resolution);
+    }
     /// The same where all solids rest in their places at the end of the step.
     std::optional<Contact> firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const;
 
@@ -97,7 +100,7 @@ class Obstacles {
     const Body* nearestBody(const Vec3& x) const;
     Vec3 velocityOf(const Body& body, const Vec3& x) const;
     template <class Start>
-    std::optional<Contact> meet(const Vec3& to, double resolution, Start&& start) const;
+    std::optional<Contact> findContact(const Vec3& to, double resolution, Start&& start) const;
 
     void begin(double t0, double t1);
     void place(double there, double now);
@@ -106,8 +109,8 @@ class Obstacles {
     std::vector<Wall> walls_;
     double steepest_ = 1.0;
     bool anyMoving_ = false, anyDisplaced_ = false;
-    double started_ = std::numeric_limits<double>::infinity();  ///< when the last step began [s] …
-    double startedBefore_ = 0.0;                                ///< … and the one before it
+    double started_ = std::numeric_limits<double>::infinity();  ///< start of the last step [s]
+    double startedBefore_ = 0.0;                                ///< start of the step before it [s]
     double interval_ = 0.0;                                     ///< from the other end of the step until now [s]
 };
 

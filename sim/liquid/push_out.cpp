@@ -87,7 +87,7 @@ Vec3 slide(const Obstacles& obstacles, double dx, const Vec3& from, const Vec3& 
 {
     constexpr double kOnPlane = 1.0e-6;  // [cells]
     const double inFront = kPushedInFront * dx, resolution = kResolution * dx;
-    Obstacles::Way way(from);
+    Obstacles::Path way(from);
     Fronts fronts;
     Vec3 end = to, at = to;
     for (int n = 0; n < kContacts; ++n) {
@@ -97,7 +97,7 @@ Vec3 slide(const Obstacles& obstacles, double dx, const Vec3& from, const Vec3& 
         at = contact->x + inFront * normal;
         if (obstacles.distance(at) <= 0.0) at = contact->x;
         fronts.add(normal, contact->x + inFront * normal);
-        way.go(end, contact->share);
+        way.addSegment(end, contact->share);
         const Vec3 along = fronts.nearest(to, kOnPlane * dx).value_or(at), moved = outside(obstacles, inFront, along);
         // Not out of one solid into or through another: that one is then met on the way.
         end = fronts.hold(moved, kOnPlane * dx) ? moved : along;

@@ -53,7 +53,7 @@ struct Push {
 };
 
 /// Directions away from particles of the same cell that are at the same place, as far as floats can tell.
-Vec3 leaveCoincident(const LiquidParticles& particles, const LocalPositions& local, int self, int first, int last)
+Vec3 separateCoincident(const LiquidParticles& particles, const LocalPositions& local, int self, int first, int last)
 {
     const auto samePlace = [&](int s) { return local.x[s] == local.x[self] && local.y[s] == local.y[self] && local.z[s] == local.z[self]; };
     Vec3 sum = Vec3::Zero();
@@ -105,11 +105,11 @@ struct Neighbourhood {
 }
 
 /// Pushes the particles of one cell after another.
-class Crowd {
+class Repulsion {
  public:
     /// @param reach  of a push [cm]
     /// @param scale  displacement per push [cm]
-    Crowd(const SortedParticles& sorted, const LocalPositions& local, double reach, double scale)
+    Repulsion(const SortedParticles& sorted, const LocalPositions& local, double reach, double scale)
         : sorted_(sorted), local_(local), cellsPerReach_(static_cast<float>(reach / sorted.grid.dx)), scale_(scale)
     {
     }
@@ -131,7 +131,7 @@ class Crowd {
             for (int j = low[1]; j <= high[1]; ++j)
                 for (int i = low[0]; i <= high[0]; ++i) addColumn(local_, around.columns[3 * j + i], at, low[2], high[2], push);
             Vec3 sum = push.sum();
-            if (sumFloatLanes(push.same) != -1) sum += leaveCoincident(sorted_.particles, local_, s, start[0], start[1]);
+            if (sumFloatLanes(push.same) != -1) sum += separateCoincident(sorted_.particles, local_, s, start[0], start[1]);
             for (int a = 0; a < kAxes; ++a) displacement[a][s] = scale_ * sum[a];
         }
     }
@@ -162,7 +162,7 @@ void relaxationDisplacements(const SortedParticles& sorted, double rate, double 
                 scratch.local[a][s] = static_cast<float>((particles.x[a][s] - corner[a]) * (1.0 / reach));
     });
     const LocalPositions local{scratch.local[0].data(), scratch.local[1].data(), scratch.local[2].data()};
-    const Crowd crowd(sorted, local, reach, std::min(1.0, rate * interval) * reach);
+    const Repulsion crowd(sorted, local, reach, std::min(1.0, rate * interval) * reach);
     parallelFor(order.occupied.size(), [&](std::size_t n) {
         for (int c = 0; c < kBlockCells; ++c) crowd.push(order.occupied[n], {c >> 6, c >> 3 & 7, c & 7}, displacement);
     });

@@ -32,9 +32,9 @@ void capture(StepContext& c)
     c.plan.meetsFabric = findVerticesInLiquid(c);
     if (!c.plan.meetsFabric) return;
     const ExchangeWatch watch(coupling.fabric, state, &c.work.order);
-    coupling.twist.note(coupling.fabric, state.fabric);
+    coupling.twist.store(coupling.fabric, state.fabric);
     c.report.capturedMass = coupling.capture.capture(c.dt, state.grid, c.work.order, coupling.vertices, state.liquid, state.fabric);
-    coupling.twist.keep(coupling.fabric, state.fabric);
+    coupling.twist.restore(coupling.fabric, state.fabric);
     watch.expectKept(coupling.capture.toPins());
     c.work.momentum.exchanged(state, coupling.capture.toPinsByVertex());
     c.energy.taken(EnergyChange::Capture);

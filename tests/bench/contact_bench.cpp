@@ -142,7 +142,7 @@ void distances(benchmark::State& state)
     contact::CandidateList list(fabric);
     std::array<std::vector<Vec3>, 2> x = {fabric.rest, fabric.rest};
     for (Vec3& v : x[1]) v.y() *= 1.001;
-    list.coverPlace(x[0]);
+    list.coverPositions(x[0]);
     double passes = 0.0;
     const std::clock_t before = std::clock();
     for (auto _ : state) {

@@ -153,7 +153,7 @@ int main(int argc, char** argv)
     if (card != Card::None) --argc, ++argv;
     const std::string scene = argc > 1 ? argv[1] : "scenes/dam_break_small.yaml";
     const double seconds = argc > 2 ? std::atof(argv[2]) : 20.0;
-    app::Viewer viewer({.file = scene, .variant = "", .sets = {}}, app::drenchParts(), {.width = 1280, .height = 800});
+    app::Viewer viewer({.file = scene, .variant = "", .sets = {}}, app::drenchBackends(), {.width = 1280, .height = 800});
     app::LivePair& pair = viewer.pair();
     while (!pair.sides().front()->shown || pair.first().status().step < 2) viewer.frame();
     if (card == Card::Counted) {

@@ -10,7 +10,7 @@ void FabricContact::Parts::forEachSeeker(Body&& body) const
 {
     const Primitives& primitives = list.primitives();
     for (std::size_t i = 0; i < active.size(); ++i) {
-        if (!(grips[i].bridge > 0.0)) continue;
+        if (!(frictionPairs[i].bridge > 0.0)) continue;
         const int a = active.between[i][0], b = active.between[i][1];
         const bool areEdges = primitives.kind(a) == PairKind::EdgeEdge;
         if (areEdges && (primitives.strand[a] < 0 || primitives.strand[b] < 0)) continue;
@@ -20,7 +20,7 @@ void FabricContact::Parts::forEachSeeker(Body&& body) const
 }
 
 /// A seeker's part of the force of a pair's bridge [dyn]. Yarns that cross touch along their width.
-double FabricContact::Parts::pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const
+double FabricContact::Parts::bridgeForceOf(int seeker, std::size_t i, std::span<const Vec3> x) const
 {
     const Primitives& primitives = list.primitives();
     const std::array<int, 4>& v = active.vertices[i];
@@ -37,7 +37,9 @@ double FabricContact::Parts::pullOf(int seeker, std::size_t i, std::span<const V
 void FabricContact::Parts::findBridges(std::span<const Vec3> x)
 {
     for (std::vector<int>* best : {&nearest, &opposite}) best->assign(list.primitives().firstFace(), -1);
-    const auto isNearer = [&](std::size_t i, int than) { return than < 0 || grips[i].apart.squaredNorm() < grips[than].apart.squaredNorm(); };
+    const auto isNearer = [&](std::size_t i, int than) {
+        return than < 0 || frictionPairs[i].apart.squaredNorm() < frictionPairs[than].apart.squaredNorm();
+    };
     const auto direction = [&](int seeker, int i) -> Vec3 { return active.between[i][0] == seeker ? Vec3(-active.normal[i]) : active.normal[i]; };
     forEachSeeker([&](int seeker, std::size_t i, const Vec3&) {
         if (isNearer(i, nearest[seeker])) nearest[seeker] = static_cast<int>(i);
@@ -47,9 +49,9 @@ void FabricContact::Parts::findBridges(std::span<const Vec3> x)
     });
     forEachSeeker([&](int seeker, std::size_t i, const Vec3&) {
         const int slot = static_cast<int>(i);
-        if (slot == nearest[seeker] || slot == opposite[seeker]) grips[i].pull += pullOf(seeker, i, x);
+        if (slot == nearest[seeker] || slot == opposite[seeker]) frictionPairs[i].pull += bridgeForceOf(seeker, i, x);
     });
-    for (std::size_t i = 0; i < active.size(); ++i) active.force[i] += grips[i].pull * active.normal[i];
+    for (std::size_t i = 0; i < active.size(); ++i) active.force[i] += frictionPairs[i].pull * active.normal[i];
 }
 
 }  // namespace sim

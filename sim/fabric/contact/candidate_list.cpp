@@ -33,18 +33,18 @@ CandidateList::CandidateList(const Fabric& fabric, bool bridges) : primitives_(f
 {
     const std::size_t n = fabric.vertexCount();
     for (double r : leastRadius(primitives_)) {
-        stray_.push_back(ListMargin::stray(r));
-        strayAtRest_.push_back(ListMargin::strayAtRest(r) - (bridges ? ListMargin::bridge(r) : 0.0));
+        drift_.push_back(VerletMargin::drift(r));
+        driftAtRest_.push_back(VerletMargin::driftAtRest(r) - (bridges ? VerletMargin::bridge(r) : 0.0));
     }
     sweep_.from.resize(n), sweep_.move.resize(n), measuredAt_.resize(n), ahead_.resize(n);
-    dirtyVertices_.resize(n), strayed_.resize(n);
+    dirtyVertices_.resize(n), drifted_.resize(n);
     dirty_.resize(primitives_.count());
     findRestPairs(fabric.rest);
 }
 
 void CandidateList::findRestPairs(std::span<const Vec3> rest)
 {
-    coverPlace(rest);
+    coverPositions(rest);
     measure(rest);
     std::vector<PairPlace> places;
     RestPairs found;
@@ -72,9 +72,9 @@ void CandidateList::beginStep()
     isStepStart_ = true;
     if (stepsAhead_ > 0) return;
     // All pairs are known where the fabric is, for no move.
-    parallelFor(strayed_.size(), kGrain, [&](std::size_t v) {
+    parallelFor(drifted_.size(), kGrain, [&](std::size_t v) {
         ahead_.set(v, Vec3::Zero());
-        strayed_[v] = 0;
+        drifted_[v] = 0;
     });
 }
 
@@ -82,7 +82,7 @@ bool CandidateList::cover(std::span<const Vec3> x, std::span<const Vec3> u)
 {
     const bool looksAhead = isStepStart_ && stepsAhead_ == 0;
     if (looksAhead) stepsAhead_ = stepsToLookAhead(u);
-    const int strays = findStrays(x, u, looksAhead ? stepsAhead_ : 1);
+    const int strays = findDrifted(x, u, looksAhead ? stepsAhead_ : 1);
     if (strays == 0) return false;
     if (!built_ || strays > kMostDirty * static_cast<double>(x.size())) {
         stepsAhead_ = isStepStart_ ? stepsToLookAhead(u) : 0;
@@ -94,7 +94,7 @@ bool CandidateList::cover(std::span<const Vec3> x, std::span<const Vec3> u)
 
 int CandidateList::stepsToLookAhead(std::span<const Vec3> u) const
 {
-    const double largest = parallelMax(u.size(), [&](std::size_t v) { return u[v].norm() / stray_[v]; });
+    const double largest = parallelMax(u.size(), [&](std::size_t v) { return u[v].norm() / drift_[v]; });
     int steps = 1;
     while (steps < kMostStepsAhead && (steps + 1) * largest <= kFarAhead) ++steps;
     return steps;
@@ -102,16 +102,16 @@ int CandidateList::stepsToLookAhead(std::span<const Vec3> u) const
 
 /// Vertices too far from where their pairs were searched, or that would be after so many moves, become dirty and start
 /// from here.
-int CandidateList::findStrays(std::span<const Vec3> x, std::span<const Vec3> u, int moves)
+int CandidateList::findDrifted(std::span<const Vec3> x, std::span<const Vec3> u, int moves)
 {
-    const std::vector<double>& limit = u.empty() ? strayAtRest_ : stray_;
+    const std::vector<double>& limit = u.empty() ? driftAtRest_ : drift_;
     const Chunks chunks(x.size());
     std::array<int, kMaxChunks> strays{};
     parallelFor(chunks.count(), [&](std::size_t c) {
         for (std::size_t v = chunks.begin(c); v < chunks.end(c); ++v) {
             const double most = limit[v] * limit[v];
             const Vec3 move = u.empty() ? Vec3::Zero().eval() : u[v];
-            const bool isKnown = built_ && !(isStepStart_ && strayed_[v]);
+            const bool isKnown = built_ && !(isStepStart_ && drifted_[v]);
             const bool stays = (x[v] - sweep_.from[v]).squaredNorm() <= most && (u.empty() || (moves * (move - expected(v))).squaredNorm() <= most);
             dirtyVertices_[v] = 0;
             if (isKnown && stays) continue;
@@ -129,7 +129,7 @@ void CandidateList::setDirty(std::size_t v, const Vec3& x, const Vec3& move)
     dirtyVertices_[v] = 1;
     sweep_.from.set(v, x);
     (isStepStart_ ? ahead_ : sweep_.move).set(v, move);
-    strayed_[v] = !isStepStart_;
+    drifted_[v] = !isStepStart_;
 }
 
 void CandidateList::build()
@@ -139,7 +139,7 @@ void CandidateList::build()
     markDirtyPrimitives();
     for (CandidatePool* pool : {&edgePairs_, &facePairs_}) {
         if (!built_) pool->clear();
-        if (!pool->fresh.empty()) measured_ = false;  // pairs of an earlier build have not been measured yet
+        if (!pool->unmeasured.empty()) measured_ = false;  // pairs of an earlier build have not been measured yet
         pool->replace(primitives_, dirty_, search_);
     }
     built_ = true;

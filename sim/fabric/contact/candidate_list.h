@@ -8,10 +8,10 @@
 
 namespace sim::contact {
 
-/// The pairs that may act or be hit, kept from move to move: only those of vertices that stray are searched anew. At
+/// Verlet list of the pairs that may act or be hit, kept from move to move: only those of vertices that have drifted are searched anew. At
 /// the start of a step they are searched along the moves of some steps ahead, as if vertices went on; where they do,
 /// the next steps find their pairs there. Whatever its past, it holds all pairs that act at x or that the move u brings
-/// near (ListMargin); others among them are inactive.
+/// near (VerletMargin); others among them are inactive.
 class CandidateList {
  public:
     /// @param bridges  it holds all pairs within the length of liquid bridges as well
@@ -22,9 +22,9 @@ class CandidateList {
     void beginStep();
     /// Makes the list good for where the fabric is.
     /// @return whether it had to be built
-    bool coverPlace(std::span<const Vec3> x) { return cover(x, {}); }
+    bool coverPositions(std::span<const Vec3> x) { return cover(x, {}); }
     /// Makes it good for the moves u from x as well [cm].
-    bool coverMove(std::span<const Vec3> x, std::span<const Vec3> u) { return cover(x, u); }
+    bool coverMoves(std::span<const Vec3> x, std::span<const Vec3> u) { return cover(x, u); }
     /// The fabric has been moved by the moves last covered.
     void moved();
     /// Brings distances up to x.
@@ -49,7 +49,7 @@ class CandidateList {
     static constexpr double kNearAtRest = 2.0;  ///< lengths of a bridge [-]
 
     bool cover(std::span<const Vec3> x, std::span<const Vec3> u);
-    int findStrays(std::span<const Vec3> x, std::span<const Vec3> u, int moves);
+    int findDrifted(std::span<const Vec3> x, std::span<const Vec3> u, int moves);
     int stepsToLookAhead(std::span<const Vec3> u) const;
     Vec3 expected(std::size_t v) const { return isStepStart_ ? ahead_[v] : sweep_.move[v]; }
     void setDirty(std::size_t v, const Vec3& x, const Vec3& move);
@@ -61,14 +61,14 @@ class CandidateList {
     bool bridges_;
     PairSearch search_;
     RestPairs restPairs_;
-    std::vector<double> stray_, strayAtRest_;  ///< of each vertex (ListMargin) [cm]
+    std::vector<double> drift_, driftAtRest_;  ///< of each vertex (VerletMargin) [cm]
 
     bool built_ = false;
     Sweep sweep_;  ///< from where each vertex's pairs are known, and the move to search along
     bool isStepStart_ = false;
     int stepsAhead_ = 0;                       ///< whose first moves the list is good for
-    Points ahead_;                             ///< the first move that was expected of each of these steps [cm] …
-    std::vector<char> strayed_;                ///< … but not of vertices whose pairs were searched at one place since
+    Points ahead_;                             ///< the first expected move of each of the steps ahead [cm]
+    std::vector<char> drifted_;                ///< of each vertex: its pairs were searched at one place since, without the steps ahead
     std::vector<char> dirtyVertices_, dirty_;  ///< of vertices, of primitives
     CandidatePool edgePairs_{PairKind::EdgeEdge}, facePairs_{PairKind::VertexFace};
 

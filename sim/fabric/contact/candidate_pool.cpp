@@ -31,7 +31,7 @@ void CandidatePool::moveTo(std::size_t place, std::size_t from)
 void CandidatePool::clear()
 {
     resize(0);
-    fresh.clear();
+    unmeasured.clear();
 }
 
 void CandidatePool::replace(const Primitives& primitives, std::span<const char> dirty, const PairSearch& search)
@@ -53,10 +53,10 @@ void CandidatePool::replace(const Primitives& primitives, std::span<const char> 
             if (primitives.kind(f.a) == kind) found_.push_back(&f);
 
     const std::size_t before = size(), filled = std::min(holes_.size(), found_.size());
-    fresh.assign(holes_.begin(), holes_.begin() + filled);
-    for (std::size_t i = filled; i < found_.size(); ++i) fresh.push_back(static_cast<int>(before + i - filled));
+    unmeasured.assign(holes_.begin(), holes_.begin() + filled);
+    for (std::size_t i = filled; i < found_.size(); ++i) unmeasured.push_back(static_cast<int>(before + i - filled));
     if (found_.size() > filled) resize(before + found_.size() - filled);
-    parallelFor(found_.size(), 1024, [&](std::size_t i) { set(fresh[i], *found_[i], primitives); });
+    parallelFor(found_.size(), 1024, [&](std::size_t i) { set(unmeasured[i], *found_[i], primitives); });
 
     // Holes left over are closed by the last pairs; holes among those are cut off with them.
     std::size_t end = size(), last = holes_.size();

@@ -16,7 +16,7 @@ struct CandidatePool {
     AlignedArray<double> reach, core;  ///< as in PairRange [cm]
     AlignedArray<double> distance;     ///< of the two where they were last measured [cm]
     AlignedArray<double> p, q;         ///< and their nearest points (Closest)
-    std::vector<int> fresh;            ///< places of pairs that have not been measured yet
+    std::vector<int> unmeasured;       ///< places of pairs that have not been measured yet
 
     std::size_t size() const { return a.size(); }
     PairRange range(std::size_t i) const { return {reach[i], core[i]}; }

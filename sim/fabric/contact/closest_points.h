@@ -161,7 +161,7 @@ inline double sweptGap(PairKind kind, const std::array<Vec3, 4>& x, const std::a
 }
 
 /// Could the move u bring a pair that is `distance` apart nearer than `bound` [cm]? A quick answer that is never falsely no.
-inline bool mayComeNearer(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double distance, double bound)
+inline bool mayApproach(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double distance, double bound)
 {
     const double motion = relativeMotion(kind, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2]), toTriple(u[3])});
     return motion >= distance - bound && sweptGap(kind, x, u) <= bound;

@@ -12,7 +12,7 @@ using namespace contact;
 FabricContact::FabricContact(const Fabric& fabric, const Cohesion* cohesion) : parts_(std::make_unique<Parts>(fabric, cohesion)) {}
 FabricContact::~FabricContact() = default;
 
-void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const Grips& held)
+void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const FrictionForces& held)
 {
     Parts& p = *parts_;
     p.held = held;
@@ -37,7 +37,7 @@ const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageCloc
 {
     Parts& p = *parts_;
     clock.start(Stage::FabricCandidates);
-    p.list.coverPlace(x);
+    p.list.coverPositions(x);
     if (p.list.empty()) {
         p.resizeActive(0);
         return p.active;
@@ -84,7 +84,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
 void FabricContact::Parts::resizeActive(std::size_t n)
 {
     active.vertices.resize(n), active.firstSide.resize(n), active.weights.resize(n), active.normal.resize(n), active.force.resize(n);
-    active.stiffness.resize(n), active.frictionStiffness.resize(n), active.between.resize(n), grips.resize(n);
+    active.stiffness.resize(n), active.frictionStiffness.resize(n), active.between.resize(n), frictionPairs.resize(n);
     heldForce.resize(n);
 }
 
@@ -116,21 +116,22 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.weights[slot] = c;
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
-    grips[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b), h * h * mobility, false};
+    frictionPairs[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b),
+                           h * h * mobility,   false};
     if (bridges()) {
         Vec3 before = Vec3::Zero();
         for (std::size_t k = 0; k < 4; ++k) before += c[k] * start[v[k]];
         const double longest = list.bridge(a, b);  // a bridge comes about between steps, so that Newton's iterations do not make and break it
-        if (before.norm() < pairs.reach[place] + longest) grips[slot].bridge = longest;
+        if (before.norm() < pairs.reach[place] + longest) frictionPairs[slot].bridge = longest;
     }
     const Friction sideways = friction(x, expected, energy, distance, slot);
-    grips[slot].slides = sideways.slides;
+    frictionPairs[slot].slides = sideways.slides;
     active.force[slot] = energy.slope * normal + sideways.force;
     active.stiffness[slot] = energy.curvature;
     active.frictionStiffness[slot] = sideways.along;
 }
 
-ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& held) const
+ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const
 {
     const Parts& p = *parts_;
     const auto sumOver = [&](auto&& of) {
@@ -140,16 +141,18 @@ ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const Grips& 
             return of(i, apart.norm());
         });
     };
-    const auto press = [&](std::size_t i, double distance) { return pairEnergy(distance, p.grips[i].range, p.grips[i].stiffness); };
+    const auto press = [&](std::size_t i, double distance) { return pairEnergy(distance, p.frictionPairs[i].range, p.frictionPairs[i].stiffness); };
     ContactEnergy stored;
     if (p.bridges())
-        stored.bridges = -sumOver(
-            [&](std::size_t i, double distance) { return p.grips[i].pull * std::max(0.0, p.grips[i].range.reach + p.grips[i].bridge - distance); });
+        stored.bridges = -sumOver([&](std::size_t i, double distance) {
+            return p.frictionPairs[i].pull * std::max(0.0, p.frictionPairs[i].range.reach + p.frictionPairs[i].bridge - distance);
+        });
     stored.pressed = stored.bridges + sumOver([&](std::size_t i, double distance) { return press(i, distance).energy; });
     stored.gripped = sumOver([&](std::size_t i, double distance) {
-        const double pressed = p.grips[i].range.reach - distance;
+        const double pressed = p.frictionPairs[i].range.reach - distance;
         if (!(pressed > 0.0)) return 0.0;
-        return 0.5 * held.at(p.active.between[i]).squaredNorm() / gripStiffness(-press(i, distance).slope, pressed, p.grips[i].perStep);
+        return 0.5 * held.at(p.active.between[i]).squaredNorm() /
+               pairFrictionStiffness(-press(i, distance).slope, pressed, p.frictionPairs[i].perStep);
     });
     return stored;
 }

@@ -47,7 +47,7 @@ class FabricContact {
 
     /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and springStep [s] (springStepFor), friction
     /// acts against the motion since these positions and goes on from what is held.
-    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const Grips& held = {});
+    void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const FrictionForces& held = {});
     /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
     /// unless everything has to be scaled.
     /// @return whether it changed any
@@ -63,10 +63,10 @@ class FabricContact {
     double frictionError(std::span<const Vec3> x, double acceleration);
     /// What of the friction of the pairs found last is held at the end of the step, at x: what acted there according to their forces and
     /// stiffnesses.
-    void keepFriction(std::span<const Vec3> x, Grips& held);
+    void storeFriction(std::span<const Vec3> x, FrictionForces& held);
 
     /// Energy that the pairs found last hold at x, in what presses and in the friction that is held there.
-    ContactEnergy storedEnergy(std::span<const Vec3> x, const Grips& held) const;
+    ContactEnergy storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const;
 
     std::size_t candidates() const;  ///< pairs in the list
     double leastDistance() const;    ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]

@@ -14,7 +14,7 @@ struct FabricContact::Parts {
     Parts(const Fabric& fabric, const Cohesion* c) : cohesion(c), list(fabric, c != nullptr), limiter(list.primitives()), start(fabric.rest) {}
 
     /// What the friction of an active pair goes by.
-    struct Grip {
+    struct FrictionPair {
         contact::PairRange range;
         Vec3 apart;           ///< separation where it was looked at last [cm]
         double stiffness;     ///< of the pair [dyn/cm]
@@ -22,8 +22,8 @@ struct FabricContact::Parts {
         double coefficient;   ///< Coulomb's [-]
         double perMass;       ///< h² over the mass that its separation has [cm/dyn]
         bool slides;          ///< friction is at its bound
-        double bridge = 0.0;  ///< longest beyond the reach [cm] …
-        double pull = 0.0;    ///< … and what it holds with [dyn]
+        double bridge = 0.0;  ///< longest length of its liquid bridge beyond the reach [cm]
+        double pull = 0.0;    ///< force of its liquid bridge [dyn]
     };
     /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
     struct Acted {
@@ -43,7 +43,7 @@ struct FabricContact::Parts {
     void findHeld();
     template <class Body>
     void forEachSeeker(Body&& body) const;
-    double pullOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
+    double bridgeForceOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
     void findBridges(std::span<const Vec3> x);
     Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
     double touchingMass();
@@ -58,12 +58,12 @@ struct FabricContact::Parts {
     std::vector<contact::PairPlace> edgePairs, facePairs;  ///< that act, sorted
     contact::PairSorter sorter;
     ActiveContacts active;
-    std::vector<Grip> grips;             ///< of the active pairs
-    Grips held;                          ///< at the start of the step
-    std::vector<Vec3> heldForce;         ///< of it on the active pairs [dyn]
-    std::vector<char> isTouching;        ///< of each vertex
-    std::vector<int> nearest, opposite;  ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
-    std::vector<Vec3> keptForce;         ///< of friction on the active pairs, at the end of the step [dyn]
+    std::vector<FrictionPair> frictionPairs;  ///< of the active pairs
+    FrictionForces held;                      ///< at the start of the step
+    std::vector<Vec3> heldForce;              ///< of it on the active pairs [dyn]
+    std::vector<char> isTouching;             ///< of each vertex
+    std::vector<int> nearest, opposite;       ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
+    std::vector<Vec3> keptForce;              ///< of friction on the active pairs, at the end of the step [dyn]
 };
 
 }  // namespace sim

@@ -28,9 +28,9 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
     for (int round = 0; round < kFilterRounds; ++round) {
         cover(x, u, list, report, clock);
         if (list.empty()) return anyChanged;
-        findClosing(x, u, list);
-        if (closing_.empty()) return anyChanged;
-        const int sweeps = pushApart(u, changed);
+        findApproaching(x, u, list);
+        if (approaching_.empty()) return anyChanged;
+        const int sweeps = projectApproach(u, changed);
         anyChanged = anyChanged || changed;
         if (sweeps == 1) break;
     }
@@ -38,12 +38,12 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
     for (int round = 0; round < kBlendRounds; ++round) {
         if (changed || round > 0) {
             cover(x, u, list, report, clock);
-            findClosing(x, u, list);
+            findApproaching(x, u, list);
         }
         fraction = measureFractions(x, u);
         if (fraction >= 1.0) return anyChanged;
         anyChanged = true;
-        if (round + 1 < kBlendRounds) report.blends += blendFailing(u);
+        if (round + 1 < kBlendRounds) report.blends += averageFailingPairs(u);
     }
     constexpr double kSpare = 0.95;
     parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSpare * fraction; });
@@ -55,7 +55,7 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
 void Limiter::cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     clock.start(Stage::FabricCandidates);
-    report.listBuilds += list.coverMove(x, u);
+    report.listBuilds += list.coverMoves(x, u);
     if (list.empty()) return;
     clock.start(Stage::FabricContact);
     list.measure(x);
@@ -80,14 +80,14 @@ void Limiter::motionOfPrimitives(std::span<const Vec3> u)
 
 /// Pairs whose distance could fall below their floor (or by more than 3 %) in this move; all others are safe. This depends on the pair, x and u
 /// alone, not on what else is in the list.
-void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list)
+void Limiter::findApproaching(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list)
 {
     motionOfPrimitives(u);
-    closing_.clear();
-    for (const CandidatePool* pairs : {&list.edgePairs(), &list.facePairs()}) findClosing(x, u, *pairs);
+    approaching_.clear();
+    for (const CandidatePool* pairs : {&list.edgePairs(), &list.facePairs()}) findApproaching(x, u, *pairs);
 }
 
-void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs)
+void Limiter::findApproaching(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs)
 {
     const Chunks chunks(pairs.size());
     std::array<int, kMaxChunks> count{};
@@ -115,7 +115,7 @@ void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, cons
                 if (i > last) break;
                 const std::array<int, 4>& v = pairs.vertices[i];
                 const double d = pairs.distance[i], bound = std::min(floorOf(pairs.reach[i], pairs.core[i]), kKept * d);
-                if (mayComeNearer(pairs.kind, atVertices(v, x), atVertices(v, u), d, bound))
+                if (mayApproach(pairs.kind, atVertices(v, x), atVertices(v, u), d, bound))
                     out[count[chunk]++] = {pairs.a[i], pairs.b[i], static_cast<int>(i)};
             }
         }
@@ -124,12 +124,12 @@ void Limiter::findClosing(std::span<const Vec3> x, std::span<const Vec3> u, cons
     for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
         places_.insert(places_.end(), near_.begin() + chunks.begin(chunk), near_.begin() + chunks.begin(chunk) + count[chunk]);
     sorter_.sort(places_, primitives_.firstFace());
-    for (const PairPlace& place : places_) closing_.push_back(closing(x, pairs, place.place));
+    for (const PairPlace& place : places_) approaching_.push_back(closing(x, pairs, place.place));
 }
 
-Limiter::Closing Limiter::closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const
+Limiter::ApproachingPair Limiter::closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const
 {
-    Closing c;
+    ApproachingPair c;
     c.kind = pairs.kind;
     c.vertices = pairs.vertices[place];
     c.weights = pairWeights(c.kind, pairs.p[place], pairs.q[place]);
@@ -151,15 +151,15 @@ Limiter::Closing Limiter::closing(std::span<const Vec3> x, const CandidatePool& 
 /// Gauss-Seidel with the closest points of x: approaches along the normal beyond what is allowed become blows without bounce.
 /// @param changed  becomes whether any move has
 /// @return sweeps it took
-int Limiter::pushApart(std::span<Vec3> u, bool& changed)
+int Limiter::projectApproach(std::span<Vec3> u, bool& changed)
 {
     constexpr int kMostSweeps = 30;
     constexpr double kTolerance = 1.0e-3, kLeast = 1.0e-5;  // of the radii: what ends the sweeps, what is not worth a push
     changed = false;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
         bool settled = true;
-        for (std::size_t i = 0; i < closing_.size(); ++i) {  // to and fro: blows travel both ways
-            const Closing& c = closing_[sweep % 2 == 0 ? i : closing_.size() - 1 - i];
+        for (std::size_t i = 0; i < approaching_.size(); ++i) {  // to and fro: blows travel both ways
+            const ApproachingPair& c = approaching_[sweep % 2 == 0 ? i : approaching_.size() - 1 - i];
             double apart = 0.0;
             for (std::size_t k = 0; k < 4; ++k) apart += c.weights[k] * c.normal.dot(u[c.vertices[k]]);
             const double excess = -c.allowed - apart;
@@ -178,10 +178,10 @@ int Limiter::pushApart(std::span<Vec3> u, bool& changed)
 /// @return the least
 double Limiter::measureFractions(std::span<const Vec3> x, std::span<const Vec3> u)
 {
-    fraction_.resize(closing_.size());
-    parallelFor(closing_.size(), 64, [&](std::size_t i) {
-        const Closing& c = closing_[i];
-        fraction_[i] = safeFraction(c.kind, atVertices(c.vertices, x), atVertices(c.vertices, u), c.separation);
+    fraction_.resize(approaching_.size());
+    parallelFor(approaching_.size(), 64, [&](std::size_t i) {
+        const ApproachingPair& c = approaching_[i];
+        fraction_[i] = collisionFreeFraction(c.kind, atVertices(c.vertices, x), atVertices(c.vertices, u), c.separation);
     });
     double least = 1.0;
     for (double f : fraction_) least = std::min(least, f);
@@ -190,14 +190,14 @@ double Limiter::measureFractions(std::span<const Vec3> x, std::span<const Vec3> 
 
 /// Draws the four vertices of each failing pair towards their common motion: without bounce, momentum kept, held vertices unmoved.
 /// @return pairs
-int Limiter::blendFailing(std::span<Vec3> u) const
+int Limiter::averageFailingPairs(std::span<Vec3> u) const
 {
     constexpr double kBlend = 0.3;
     int pairs = 0;
-    for (std::size_t i = 0; i < closing_.size(); ++i) {
+    for (std::size_t i = 0; i < approaching_.size(); ++i) {
         if (fraction_[i] >= 1.0) continue;
         ++pairs;
-        const std::array<int, 4>& vertices = closing_[i].vertices;
+        const std::array<int, 4>& vertices = approaching_[i].vertices;
         const bool held = std::ranges::any_of(vertices, [&](int v) { return inverseMass_[v] == 0.0; });
         Vec3 mean = Vec3::Zero();
         double mass = 0.0;

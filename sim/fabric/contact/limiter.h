@@ -20,7 +20,7 @@ class Limiter {
 
  private:
     /// A pair that the move brings near.
-    struct Closing {
+    struct ApproachingPair {
         PairKind kind;
         std::array<int, 4> vertices;
         std::array<double, 4> weights;
@@ -32,13 +32,13 @@ class Limiter {
     };
 
     void cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
-    void findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list);
+    void findApproaching(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list);
     void motionOfPrimitives(std::span<const Vec3> u);
-    void findClosing(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs);
-    Closing closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const;
-    int pushApart(std::span<Vec3> u, bool& changed);
+    void findApproaching(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs);
+    ApproachingPair closing(std::span<const Vec3> x, const CandidatePool& pairs, int place) const;
+    int projectApproach(std::span<Vec3> u, bool& changed);
     double measureFractions(std::span<const Vec3> x, std::span<const Vec3> u);
-    int blendFailing(std::span<Vec3> u) const;
+    int averageFailingPairs(std::span<Vec3> u) const;
 
     const Primitives& primitives_;
     std::span<const double> inverseMass_;
@@ -46,12 +46,12 @@ class Limiter {
     std::vector<PairPlace> near_;  ///< by chunks: what the quick look left
     std::vector<PairPlace> places_;
     PairSorter sorter_;
-    std::vector<Closing> closing_;  ///< sorted: edges with edges first
-    std::vector<double> fraction_;  ///< of each: safe part of the move [0..1]
+    std::vector<ApproachingPair> approaching_;  ///< sorted: edges with edges first
+    std::vector<double> fraction_;              ///< of each: safe part of the move [0..1]
 };
 
 /// Safe part of the move u of four vertices: on the way to it they never come nearer than `separation` [cm].
 /// Common motion does not count. Source: Li et al. 2021, "Codimensional Incremental Potential Contact", additive CCD.
-double safeFraction(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double separation);
+double collisionFreeFraction(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double separation);
 
 }  // namespace sim::contact

@@ -71,7 +71,7 @@ template <PairKind kKind>
 void measurePool(const Points& x, bool all, CandidatePool& pairs)
 {
     if (all) forEachPack(pairs.size(), [&](std::size_t first, std::size_t n) { measureFollowing<kKind>(x, first, n, pairs); });
-    else forEachPack(pairs.fresh.size(), [&](std::size_t first, std::size_t n) { measureListed<kKind>(x, &pairs.fresh[first], n, pairs); });
+    else forEachPack(pairs.unmeasured.size(), [&](std::size_t first, std::size_t n) { measureListed<kKind>(x, &pairs.unmeasured[first], n, pairs); });
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void CandidatePool::measure(const Points& x, bool all)
 {
     if (kind == PairKind::EdgeEdge) measurePool<PairKind::EdgeEdge>(x, all, *this);
     else measurePool<PairKind::VertexFace>(x, all, *this);
-    fresh.clear();
+    unmeasured.clear();
 }
 
 }  // namespace sim::contact

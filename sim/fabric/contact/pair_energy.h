@@ -55,6 +55,9 @@ inline double pairStiffness(double young, double touching, double mass, double s
 /// @param normalForce  [dyn]
 /// @param pressed      how far the pair is below its reach [cm]
 /// @param perStep      mean mass of the four vertices over step² [dyn/cm]
-inline double gripStiffness(double normalForce, double pressed, double perStep) { return std::max(kFirmPerStep * perStep, normalForce / pressed); }
+inline double pairFrictionStiffness(double normalForce, double pressed, double perStep)
+{
+    return std::max(kFirmPerStep * perStep, normalForce / pressed);
+}
 
 }  // namespace sim::contact

@@ -13,7 +13,7 @@ void FabricContact::Parts::findHeld()
     const auto find = [&](std::span<const PairPlace> places, std::size_t first) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const Vec2i pair(places[i].a, places[i].b);
-            while (next < held.between.size() && Grips::isBefore(held.between[next], pair)) ++next;
+            while (next < held.between.size() && FrictionForces::isBefore(held.between[next], pair)) ++next;
             heldForce[first + i] = next < held.between.size() && held.between[next] == pair ? held.force[next] : Vec3::Zero().eval();
         }
     };
@@ -25,7 +25,7 @@ void FabricContact::Parts::findHeld()
 Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
                                         std::size_t slot) const
 {
-    const Grip& grip = grips[slot];
+    const FrictionPair& grip = frictionPairs[slot];
     const double pressed = grip.range.reach - distance;
     if (!(grip.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
     const std::array<int, 4>& v = active.vertices[slot];
@@ -40,7 +40,8 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
-    const GripSpring spring{along(turn * heldForce[slot]), gripStiffness(-energy.slope, pressed, grip.perStep), grip.coefficient * -energy.slope};
+    const FrictionSpring spring{along(turn * heldForce[slot]), pairFrictionStiffness(-energy.slope, pressed, grip.perStep),
+                                grip.coefficient * -energy.slope};
     if (expected.empty()) return spring.at(along(apart - carried));
     return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
 }
@@ -50,9 +51,9 @@ FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::sp
     const Vec3& n = active.normal[i];
     Vec3 apart = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) apart += active.weights[i][k] * x[active.vertices[i][k]];
-    const Vec3 moved = apart - grips[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
-    const double normalForce = grips[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
-    return {apart, acted - acted.dot(n) * n, grips[i].coefficient * std::max(normalForce, 0.0)};
+    const Vec3 moved = apart - frictionPairs[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
+    const double normalForce = frictionPairs[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
+    return {apart, acted - acted.dot(n) * n, frictionPairs[i].coefficient * std::max(normalForce, 0.0)};
 }
 
 /// Mass of the vertices of the active pairs that are not pinned [g].
@@ -73,7 +74,7 @@ double FabricContact::frictionError(std::span<const Vec3> x, double acceleration
         [&](std::size_t i) {
             const Parts::Acted acted = p.actedOn(i, x);
             const double beyond = acted.friction.norm() - acted.bound;
-            return Sums{p.grips[i].slides ? std::abs(beyond) : std::max(beyond, 0.0), acted.bound};
+            return Sums{p.frictionPairs[i].slides ? std::abs(beyond) : std::max(beyond, 0.0), acted.bound};
         },
         [](const Sums& a, const Sums& b) {
             return Sums{a[0] + b[0], a[1] + b[1]};
@@ -81,14 +82,14 @@ double FabricContact::frictionError(std::span<const Vec3> x, double acceleration
     return wrong > 0.0 ? wrong / std::max(bound, acceleration * p.touchingMass()) : 0.0;
 }
 
-void FabricContact::keepFriction(std::span<const Vec3> x, Grips& held)
+void FabricContact::storeFriction(std::span<const Vec3> x, FrictionForces& held)
 {
     Parts& p = *parts_;
     std::vector<Vec3>& force = p.keptForce;
     force.resize(p.active.size());
     parallelFor(force.size(), 512, [&](std::size_t i) {
         const Parts::Acted acted = p.actedOn(i, x);
-        const bool touches = acted.apart.dot(p.active.normal[i]) < p.grips[i].range.reach;
+        const bool touches = acted.apart.dot(p.active.normal[i]) < p.frictionPairs[i].range.reach;
         force[i] = touches ? atMost(acted.bound, acted.friction) : Vec3::Zero().eval();
     });
     held.clear();

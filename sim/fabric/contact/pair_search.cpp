@@ -80,7 +80,7 @@ class PairSearch::Filter {
 
 PairSearch::PairSearch(const Primitives& primitives, std::span<const Vec3> rest) : primitives_(primitives)
 {
-    for (double r : primitives.radius) reach_.push_back(ListMargin::reach(r));
+    for (double r : primitives.radius) reach_.push_back(VerletMargin::reach(r));
     const auto reachOf = [&](int first, int count) { return std::vector<double>(reach_.begin() + first, reach_.begin() + first + count); };
     edges_ = BoxTree(flat(primitives.edges), 2, rest, reachOf(0, primitives.edgeCount));
     if (primitives.faceCount == 0) return;

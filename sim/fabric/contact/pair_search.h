@@ -15,17 +15,18 @@ struct FoundPair {
     PairRange range;
 };
 
-/// How far two primitives may be apart and still make a candidate, and how far vertices may stray before it could be missed. With R and
+/// Margins of the Verlet list of pairs: how far two primitives may be apart and still make a candidate, and how far vertices may drift before
+/// a pair could be missed. With R and
 /// the floor of a pair at most kMostReach and kMostFloor of the radii's sum:
 /// A pair outside the list had d(from) − rel(move) > Σ reach, or boxes further apart. With vertices astray by s in position and in
 /// displacement, on each side, d falls by s and rel(u) grows by 5/3 s at most (3/2 s for edges), the gap of the boxes falls by 2 s. So
-/// d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor, or the gap is: such a move is harmless at first glance (mayComeNearer). And at x alone
+/// d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor, or the gap is: such a move is harmless at first glance (mayApproach). And at x alone
 /// d > Σ (reach − s') ≥ R for s' ≤ margin: it does not act.
-struct ListMargin {
+struct VerletMargin {
     static constexpr double kMargin = 0.7;  ///< of the radius [-]
     static double reach(double radius) { return (kMostReach + kMargin) * radius; }
-    static double stray(double radius) { return (kMostReach + kMargin - kMostFloor) / (1.0 + 5.0 / 3.0) * radius; }
-    static double strayAtRest(double radius) { return kMargin * radius; }
+    static double drift(double radius) { return (kMostReach + kMargin - kMostFloor) / (1.0 + 5.0 / 3.0) * radius; }
+    static double driftAtRest(double radius) { return kMargin * radius; }
     /// A bridge is as long as kBridgeLength of the thinner one's radius: on each side half of that at most.
     static double bridge(double radius) { return 0.5 * kBridgeLength * radius; }
     static_assert(kMostReach + kMargin > kMostFloor, "vertices may stray before a pair is missed");

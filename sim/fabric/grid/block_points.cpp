@@ -236,13 +236,13 @@ void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>
 
 template <int kDirections>
 [[gnu::flatten]] void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
-                                  PointArray<3 * kDirections>& carried)
+                                  PointArray<3 * kDirections>& rates)
 {
     gather<ModeSet<4>>(tile, points, n, [&](int a, int s, int count, const Coefficients<2>& found) {
         unroll<kDirections>([&](auto k) {
             const auto direction = [&](int b) { return loadPack(d.of[3 * k + b].data() + s); };
-            storeFirst(carried.of[3 * k + a].data() + s,
-                       found[1][0][0] * direction(0) + found[0][1][0] * direction(1) + found[0][0][1] * direction(2), count);
+            storeFirst(rates.of[3 * k + a].data() + s, found[1][0][0] * direction(0) + found[0][1][0] * direction(1) + found[0][0][1] * direction(2),
+                       count);
         });
     });
 }

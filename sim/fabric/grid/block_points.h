@@ -65,7 +65,7 @@ void scatterValues(const BlockPoints& points, std::size_t n, const PointArray<3>
 /// G d for kDirections directions d of each point, over the cell size: component 3 k + a is ∂u_a along d_k.
 template <int kDirections>
 void gatherAlong(const FaceTile& tile, const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d,
-                 PointArray<3 * kDirections>& carried);
+                 PointArray<3 * kDirections>& rates);
 /// Transpose of gatherAlong.
 template <int kDirections>
 void scatterAlong(const BlockPoints& points, std::size_t n, const PointArray<3 * kDirections>& d, const PointArray<3 * kDirections>& f,

@@ -52,21 +52,21 @@ Vec3 stiffness(const ContactModuli& m, const Vec3& r, const Vec3& last)
     return {m.shear, m.shear, m.normal() * (first + pressed)};
 }
 
-double held(const ContactModuli& m, const Vec3& r)
+double stickFraction(const ContactModuli& m, const Vec3& r)
 {
     const double pressed = 1.0 - std::clamp(r[2], kLeastThickness, 1.0);
     const double friction = m.shear * std::hypot(r[0], r[1]), bound = m.coulomb * m.normal() * pressed * pressed;
     return friction > bound ? bound / friction : 1.0;
 }
 
-Vec3 returned(const ContactModuli& m, const Vec3& r)
+Vec3 returnMapping(const ContactModuli& m, const Vec3& r)
 {
     if (r[2] >= 1.0) return Vec3::UnitZ();
-    const double share = held(m, r);
+    const double share = stickFraction(m, r);
     return {share * r[0], share * r[1], std::max(r[2], kLeastThickness)};
 }
 
-Vec3 eased(const Vec3& r, double share) { return {share * r[0], share * r[1], 1.0 - share * (1.0 - r[2])}; }
+Vec3 scaledStrain(const Vec3& r, double share) { return {share * r[0], share * r[1], 1.0 - share * (1.0 - r[2])}; }
 
 }  // namespace sheet
 
@@ -165,24 +165,24 @@ bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness&
     return true;
 }
 
-Section touching(const Section& section, const Section& last)
+Section onsetOfContact(const Section& section, const Section& last)
 {
-    Section touching = section;
-    touching.log.setConstant(last.log.sum() > -kLeastCompression ? 0.0 : -kLeastCompression);
-    touching.sigma = touching.log.array().exp();
-    return touching;
+    Section onsetOfContact = section;
+    onsetOfContact.log.setConstant(last.log.sum() > -kLeastCompression ? 0.0 : -kLeastCompression);
+    onsetOfContact.sigma = onsetOfContact.log.array().exp();
+    return onsetOfContact;
 }
 
-Section slid(const Section& section, double across)
+Section withDeviatoric(const Section& section, double across)
 {
-    Section slid = section;
+    Section withDeviatoric = section;
     const Vector2d middle = Vector2d::Constant(0.5 * section.log.sum());
-    slid.log = middle + across * (section.log - middle);
-    slid.sigma = slid.log.array().exp();
-    return slid;
+    withDeviatoric.log = middle + across * (section.log - middle);
+    withDeviatoric.sigma = withDeviatoric.log.array().exp();
+    return withDeviatoric;
 }
 
-void slide(const Section& section, double across, SectionStiffness& k)
+void scaleDeviatoric(const Section& section, double across, SectionStiffness& k)
 {
     const Eigen::Vector4d scaled = entries(section.u * section.sigma.asDiagonal() * section.vt), answer = k * scaled;
     const double own = scaled.dot(answer);
@@ -190,39 +190,39 @@ void slide(const Section& section, double across, SectionStiffness& k)
     if (own > 0.0) k += (1.0 - across) / own * answer * answer.transpose();
 }
 
-Held held(const ContactModuli& m, const Strain& r, const Section& section)
+StickFractions stickFraction(const ContactModuli& m, const Strain& r, const Section& section)
 {
     const double sum = section.log.sum();
     if (sum >= 0.0) return {0.0, 0.0};
-    Held held;
+    StickFractions stickFraction;
     const double deviator = std::abs(0.5 * (section.log[0] - section.log[1])) * std::sqrt(2.0);
     const double excess = deviator + (m.lame + m.shear) / m.shear * sum * m.cone;
-    if (excess > 0.0) held.across = (deviator - excess) / deviator;
+    if (excess > 0.0) stickFraction.across = (deviator - excess) / deviator;
     const double friction = m.shear * r.row(0).norm();
-    const double bound = m.coulomb * 0.5 * principal(m, slid(section, held.across).log).norm();
-    if (friction > bound) held.along = bound / friction;
-    return held;
+    const double bound = m.coulomb * 0.5 * principal(m, withDeviatoric(section, stickFraction.across).log).norm();
+    if (friction > bound) stickFraction.along = bound / friction;
+    return stickFraction;
 }
 
-Strain returned(const ContactModuli& m, const Strain& r)
+Strain returnMapping(const ContactModuli& m, const Strain& r)
 {
     const Section section = sectionOf(r);
-    const Held share = held(m, r, section);
+    const StickFractions share = stickFraction(m, r, section);
     Strain kept;
     kept.row(0) = share.along * r.row(0);
     if (section.log.sum() >= 0.0) kept.bottomRows<2>() = section.u * section.vt;
-    else kept.bottomRows<2>() = section.u * slid(section, share.across).sigma.asDiagonal() * section.vt;
+    else kept.bottomRows<2>() = section.u * withDeviatoric(section, share.across).sigma.asDiagonal() * section.vt;
     return kept;
 }
 
-Strain eased(const Strain& r, double share)
+Strain scaledStrain(const Strain& r, double share)
 {
     if (share == 1.0) return r;
     const Section section = sectionOf(r);
-    Strain eased;
-    eased.row(0) = share * r.row(0);
-    eased.bottomRows<2>() = section.u * Vector2d((share * section.log).array().exp()).asDiagonal() * section.vt;
-    return eased;
+    Strain scaledStrain;
+    scaledStrain.row(0) = share * r.row(0);
+    scaledStrain.bottomRows<2>() = section.u * Vector2d((share * section.log).array().exp()).asDiagonal() * section.vt;
+    return scaledStrain;
 }
 
 }  // namespace yarn

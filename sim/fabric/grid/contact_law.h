@@ -44,12 +44,12 @@ Vec3 stress(const ContactModuli& m, const Vec3& r);
 /// Diagonal of ∂²ψ/∂r², which has nothing beside it and nothing negative; where it is pressed harder at `last`, of the chord to there, as what
 /// only comes to touch would else be pressed for a step without any resistance [dyn/cm^2].
 Vec3 stiffness(const ContactModuli& m, const Vec3& r, const Vec3& last);
-/// Share of the shear stress at r that friction holds [0..1].
-double held(const ContactModuli& m, const Vec3& r);
-/// r after separation and friction.
-Vec3 returned(const ContactModuli& m, const Vec3& r);
-/// r with a share of its strain, which has at most the square of that share of its energy.
-Vec3 eased(const Vec3& r, double share);
+/// Fraction of the shear stress at r that friction can hold [0..1].
+double stickFraction(const ContactModuli& m, const Vec3& r);
+/// Return mapping: r after separation and frictional slip.
+Vec3 returnMapping(const ContactModuli& m, const Vec3& r);
+/// r with its strain scaled by `share`, whose energy is at most share² of that of r.
+Vec3 scaledStrain(const Vec3& r, double share);
 
 }  // namespace sheet
 
@@ -79,20 +79,20 @@ Strain stress(const ContactModuli& m, const Strain& r, const Section& section);
 /// without compression.
 bool stiffness(const ContactModuli& m, const Section& section, SectionStiffness& k);
 
-/// Shares that friction holds [0..1]: of the shear along the yarn, and of what makes log σ1 and log σ2 differ.
-struct Held {
+/// Fractions that friction can hold [0..1]: of the shear along the yarn, and of the deviatoric part of log σ.
+struct StickFractions {
     double along = 1.0, across = 1.0;
 };
-Held held(const ContactModuli& m, const Strain& r, const Section& section);
-/// An unpressed section when it comes to touch, if it does on its way to the last; else one that does not.
-Section touching(const Section& section, const Section& last);
-/// The section with `across` of the difference of its log σ.
-Section slid(const Section& section, double across);
-/// Leaves `across` of what K has beside the answer to scaling the whole section.
-void slide(const Section& section, double across, SectionStiffness& k);
-Strain returned(const ContactModuli& m, const Strain& r);
-/// R with a share of its strain and of log σ, which has the square of that share of its energy.
-Strain eased(const Strain& r, double share);
+StickFractions stickFraction(const ContactModuli& m, const Strain& r, const Section& section);
+/// Of an uncompressed section: the section at the onset of contact on the way to `last`, or one without contact if there is none.
+Section onsetOfContact(const Section& section, const Section& last);
+/// The section with the deviatoric part of its log σ scaled by `across`.
+Section withDeviatoric(const Section& section, double across);
+/// Scales the part of K by `across` that does not respond to scaling the whole section.
+void scaleDeviatoric(const Section& section, double across, SectionStiffness& k);
+Strain returnMapping(const ContactModuli& m, const Strain& r);
+/// R with its shear and its log σ scaled by `share`, whose energy is share² of that of R.
+Strain scaledStrain(const Strain& r, double share);
 
 }  // namespace yarn
 

@@ -1,7 +1,7 @@
 #include "sim/fabric/grid/element_contact.h"
 
 #include "sim/core/parallel.h"
-#include "sim/fabric/grid/contact_push.h"
+#include "sim/fabric/grid/contact_response.h"
 
 #include <Eigen/Geometry>
 
@@ -87,7 +87,8 @@ std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at
         return toTriple(prediction.motion.velocity[corners_[e][corner]] - prediction.motion.velocity[corners_[e][0]]);
     };
     const std::array<Triple<double>, 2> reciprocal = {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])};
-    const Vec3 turn = toVec3(isEdge(e) ? turnOfEdge(reciprocal[0], change(1)) : turnOfFace(toTriple(at.normal), reciprocal, change(1), change(2)));
+    const Vec3 turn = toVec3(isEdge(e) ? angularVelocityOfEdge(reciprocal[0], change(1))
+                                       : angularVelocityOfNormal(toTriple(at.normal), reciprocal, change(1), change(2)));
     const Mat3& g = prediction.motion.gradient[e];
     return {prediction.h * (g * at.d[0] - turn.cross(at.d[0])), prediction.h * (g * at.d[1] - turn.cross(at.d[1]))};
 }
@@ -121,19 +122,19 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
     found.energy = volume_[e] * yarn::energy(m, r, section);
 
     std::array<Vec3, 2> moves;
-    yarn::Held held;
+    yarn::StickFractions stickFraction;
     if (prediction) {
         moves = expectedMoves(e, at, *prediction);
         const yarn::Strain expected = r + yarnStrain(q, moves);
         const yarn::Section last = yarn::sectionOf(expected);
-        if (!isPressed && !yarn::stiffness(m, yarn::touching(section, last), k)) return found;
-        held = yarn::held(m, expected, last);
-        yarn::slide(section, held.across, k);
+        if (!isPressed && !yarn::stiffness(m, yarn::onsetOfContact(section, last), k)) return found;
+        stickFraction = yarn::stickFraction(m, expected, last);
+        yarn::scaleDeviatoric(section, stickFraction.across, k);
         // What parts takes its stress along no further than to 0.
         const double sum = section.log.sum(), change = last.log.sum() - sum;
         if (isPressed && change > -sum) k *= -sum / change;
-        section = yarn::slid(section, held.across);
-        r.row(0) *= held.along;
+        section = yarn::withDeviatoric(section, stickFraction.across);
+        r.row(0) *= stickFraction.along;
     }
     const yarn::Strain p = yarn::stress(m, r, section);
     for (int n = 0; n < 3; ++n) {
@@ -141,7 +142,7 @@ ElementContact::Stress ElementContact::assembleEdge(std::size_t e, const FabricS
         Mat3 local = Mat3::Zero();
         if (column == other) {
             found.stress[column] = volume_[e] * (q * p.col(column));
-            local(0, 0) = held.along * m.shear;
+            local(0, 0) = stickFraction.along * m.shear;
         }
         local.bottomRightCorner<2, 2>() = k.block<2, 2>(2 * column, 2 * other);
         at.stiffness[n] = volume_[e] * (q * local * q.transpose());
@@ -164,16 +165,16 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     Stress found{{Vec3::Zero(), Vec3::Zero()}, 0.0, false};
     const Vec3 r = q.transpose() * at.d[0];
     std::array<Vec3, 2> moves;
-    Vec3 last = r, held = Vec3::Ones();
+    Vec3 last = r, stickFraction = Vec3::Ones();
     if (prediction) {
         moves = expectedMoves(e, at, *prediction);
         last += q.transpose() * moves[0];
-        held.head<2>().setConstant(sheet::held(m, last));
+        stickFraction.head<2>().setConstant(sheet::stickFraction(m, last));
     }
     if (1.0 - std::min(r[2], last[2]) < kLeastCompression) return found;
     found.energy = volume_[e] * sheet::energy(m, r);
-    found.stress[0] = volume_[e] * (q * held.cwiseProduct(sheet::stress(m, r)));
-    at.stiffness[0] = volume_[e] * (q * held.cwiseProduct(sheet::stiffness(m, r, last)).asDiagonal() * q.transpose());
+    found.stress[0] = volume_[e] * (q * stickFraction.cwiseProduct(sheet::stress(m, r)));
+    at.stiffness[0] = volume_[e] * (q * stickFraction.cwiseProduct(sheet::stiffness(m, r, last)).asDiagonal() * q.transpose());
     found.isActive = !prediction || isSignificant(e, at, found, moves, *prediction);
     return found;
 }
@@ -202,12 +203,12 @@ double ElementContact::energyAfter(std::size_t e, const PredictedMotion& predict
     return volume_[e] * yarn::energy(m, r, yarn::sectionOf(r)) - stress_[e].energy;
 }
 
-double ElementContact::unforeseen(const PredictedMotion& prediction) const
+double ElementContact::omittedEnergy(const PredictedMotion& prediction) const
 {
     return parallelSum(size(), [&](std::size_t e) { return stress_[e].isActive ? 0.0 : std::max(0.0, energyAfter(e, prediction)); });
 }
 
-void ElementContact::takeIn(const FabricState& state, const PredictedMotion& prediction)
+void ElementContact::activate(const FabricState& state, const PredictedMotion& prediction)
 {
     parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
         if (!stress_[e].isActive) stress_[e] = assembleElement(e, state, &prediction, local_[e]);
@@ -224,7 +225,7 @@ double ElementContact::energy() const
 
 /// What an element may store after a motion: no more than it did, and than the stresses that the step was solved with took [erg].
 /// @param leftOut  share of what they gain that elements may keep which were left out [0..1]
-double ElementContact::mostAfter(std::size_t e, const PredictedMotion& moved, double leftOut) const
+double ElementContact::energyBound(std::size_t e, const PredictedMotion& moved, double leftOut) const
 {
     const Local& at = local_[e];
     if (!stress_[e].isActive) return stress_[e].energy + leftOut * std::max(0.0, energyAfter(e, moved));
@@ -236,31 +237,31 @@ double ElementContact::mostAfter(std::size_t e, const PredictedMotion& moved, do
 
 double ElementContact::gain(const PredictedMotion& moved) const
 {
-    return parallelSum(size(), [&](std::size_t e) { return std::min(energyAfter(e, moved), mostAfter(e, moved, 1.0) - stress_[e].energy); });
+    return parallelSum(size(), [&](std::size_t e) { return std::min(energyAfter(e, moved), energyBound(e, moved, 1.0) - stress_[e].energy); });
 }
 
-double ElementContact::carry(const PredictedMotion& moved, double mostUnforeseen, FabricState& state) const
+double ElementContact::advectDirections(const PredictedMotion& moved, double maxOmitted, FabricState& state) const
 {
-    const double unmet = unforeseen(moved), leftOut = unmet > mostUnforeseen ? mostUnforeseen / unmet : 1.0;
+    const double unmet = omittedEnergy(moved), leftOut = unmet > maxOmitted ? maxOmitted / unmet : 1.0;
     return parallelSum(size(), [&](std::size_t e) {
         const ContactModuli& m = moduli_[material_[e]];
         const Mat3 step = moved.h * moved.motion.gradient[e], carried = Mat3::Identity() + step + 0.5 * (step * step);
         const Vec3& x0 = state.x[corners_[e][0]];
         const Vec3 t0 = state.x[corners_[e][1]] - x0;
-        const double most = mostAfter(e, moved, leftOut);
+        const double most = energyBound(e, moved, leftOut);
         const auto excess = [&](double energy) { return energy > most ? std::sqrt(most / energy) : 1.0; };
         Vec3* d = state.gridSolver.across.data() + direction(e);
         if (isEdge(e)) {
             const std::array<Vec3, 2> between = {carried * d[0], carried * d[1]};
             const Mat3 q = yarn::frameOf(t0, between[0]);
-            yarn::Strain r = yarn::returned(m, yarnStrain(q, between));
-            r = yarn::eased(r, excess(volume_[e] * yarn::energy(m, r, yarn::sectionOf(r))));
+            yarn::Strain r = yarn::returnMapping(m, yarnStrain(q, between));
+            r = yarn::scaledStrain(r, excess(volume_[e] * yarn::energy(m, r, yarn::sectionOf(r))));
             for (int k = 0; k < 2; ++k) d[k] = q * r.col(k);
             return volume_[e] * yarn::energy(m, r, yarn::sectionOf(r));
         }
         const Mat3 q = sheet::frameOf(t0, state.x[corners_[e][2]] - x0);
-        Vec3 r = sheet::returned(m, q.transpose() * (carried * d[0]));
-        r = sheet::eased(r, excess(volume_[e] * sheet::energy(m, r)));
+        Vec3 r = sheet::returnMapping(m, q.transpose() * (carried * d[0]));
+        r = sheet::scaledStrain(r, excess(volume_[e] * sheet::energy(m, r)));
         d[0] = q * r;
         return volume_[e] * sheet::energy(m, r);
     });

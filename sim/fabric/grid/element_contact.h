@@ -44,14 +44,14 @@ class ElementContact {
     /// secant of what friction holds in the end, and elements that would accelerate nothing are left out: an elastic
     /// tangent makes what is barely pressed stick, where the return after the step lets it slide.
     void assemble(const FabricState& state, const PredictedMotion* prediction = nullptr);
-    /// Energy that elements would hold after this prediction which assemble() left out, as they were not expected to be pressed [erg]: they would
-    /// be pressed without resistance.
-    double unforeseen(const PredictedMotion& prediction) const;
-    /// Energy that all elements would gain by this motion, as far as carry() lets them keep it [erg].
+    /// Contact energy after this prediction of the elements that assemble() left out because it expected no compression of them [erg]. They
+    /// would be compressed without resistance.
+    double omittedEnergy(const PredictedMotion& prediction) const;
+    /// Energy that all elements would gain by this motion, as far as advectDirections() lets them keep it [erg].
     double gain(const PredictedMotion& moved) const;
-    /// Takes them in, with this prediction.
-    void takeIn(const FabricState& state, const PredictedMotion& prediction);
-    /// Elements that are pressed so that it is felt, ascending.
+    /// Assembles those elements too, with this prediction.
+    void activate(const FabricState& state, const PredictedMotion& prediction);
+    /// Elements whose contact is active and significant, ascending.
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble
 
@@ -73,9 +73,9 @@ class ElementContact {
     /// Carries the directions with A = I + hG + ½h²G² and lets contact separate and slide (fabric/grid/README.md, Contact law). What is stored of
     /// it grows by no more than the work that the solved stresses took: where the motion went further than its linearisation, strain yields.
     /// @param moved           by the step; x of the state is already that of its end
-    /// @param mostUnforeseen  energy that elements may come to hold together which were left out [erg]
+    /// @param maxOmitted  energy that elements may come to hold together which were left out [erg]
     /// @return                energy of contact with these directions [erg]
-    double carry(const PredictedMotion& moved, double mostUnforeseen, FabricState& state) const;
+    double advectDirections(const PredictedMotion& moved, double maxOmitted, FabricState& state) const;
 
     /// Corners of an element; −1 for the third of an edge.
     const std::array<int, 3>& corners(std::size_t e) const { return corners_[e]; }
@@ -99,7 +99,7 @@ class ElementContact {
     std::size_t direction(std::size_t e) const { return e < edges_ ? 2 * e : edges_ + e; }
     void listActive();
     double energyAfter(std::size_t e, const PredictedMotion& prediction) const;
-    double mostAfter(std::size_t e, const PredictedMotion& moved, double leftOut) const;
+    double energyBound(std::size_t e, const PredictedMotion& moved, double leftOut) const;
     Stress assembleElement(std::size_t e, const FabricState& state, const PredictedMotion* prediction, Local& at) const
     {
         return isEdge(e) ? assembleEdge(e, state, prediction, at) : assembleFace(e, state, prediction, at);

@@ -24,7 +24,7 @@ FaceSystem::FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const E
     out_.resize(stiffness.unknowns().size);
 }
 
-void FaceSystem::takeUp(std::span<const double> absorbed)
+void FaceSystem::setAbsorbed(std::span<const double> absorbed)
 {
     parallelFor(edges(), 4096, [&](std::size_t e) { inertia_[e] = twistInertia(fabric_, absorbed, e); });
 }
@@ -45,13 +45,13 @@ void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoa
     for (FaceVector* v : {&residual_, &p_, &q_}) v->resize(blocks(), edges());
     rows_.find(mass_);
     onVertices_.resize(particles.vertices().size());
-    findMissing();
+    findMissingParts();
 }
 
 void FaceSystem::assemble()
 {
-    findPushes();
-    stiffness_.balanceTwist(inertia_, h_);
+    findNodalForces();
+    stiffness_.factorTwist(inertia_, h_);
 }
 
 /// ∇u of all elements times the cell size.
@@ -61,7 +61,7 @@ void FaceSystem::gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3
     onElements_.resize(elements.size());
     gradients.resize(contact_.size());
     forEachBlock(particles_->order(), *grid_, u, [&](std::size_t n, FaceTile& tile) {
-        clearLight(n, tile);
+        clearSmallMasses(n, tile);
         gatherGradients(tile, elements, n, onElements_);
         for (int s = elements.begin(n); s < elements.end(n); ++s)
             for (int i = 0; i < 9; ++i) gradients[elements.id[s]](i / 3, i % 3) = onElements_.of[i][s];
@@ -69,15 +69,15 @@ void FaceSystem::gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3
 }
 
 /// Which faces elements feel. The stiffness of contact over a mass that is next to none would be an eigenvalue which round-off makes negative.
-void FaceSystem::findMissing()
+void FaceSystem::findMissingParts()
 {
-    counts_.resize(blocks());
+    isFelt_.resize(blocks());
     const double least = kLeastMass * totalMass_ / static_cast<double>(fabric_.vertexCount());
     const double* mass = mass_.block(0);
     parallelFor(mass_.size() / kBlockCells, 8, [&](std::size_t c) {
-        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) counts_.block(0)[i] = mass[i] > least ? 1.0 : 0.0;
+        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) isFelt_.block(0)[i] = mass[i] > least ? 1.0 : 0.0;
     });
-    hasLight_.resize(particles_->order().occupied.size());
+    hasSmallMasses_.resize(particles_->order().occupied.size());
     forEachBlock(particles_->order(), *grid_, mass_, [&](std::size_t n, const FaceTile& tile) {
         const OccupiedBox box(particles_->order().cells(particles_->order().occupied[n]));
         bool any = false;
@@ -88,50 +88,50 @@ void FaceSystem::findMissing()
                         const double m = field[tileIndex(x, y, z)];
                         any = any || (m > 0.0 && m <= least);
                     }
-        hasLight_[n] = any;
+        hasSmallMasses_[n] = any;
     });
-    gatherElements(counts_, missing_);
+    gatherElements(isFelt_, missing_);
     constexpr double kRoundOff = 1.0e-12;
     for (Mat3& missing : missing_)
         if (missing.cwiseAbs().maxCoeff() <= kRoundOff) missing.setZero();
 }
 
-/// What elements do not feel, or do not push, in the tile of occupied block n becomes 0.
-void FaceSystem::clearLight(std::size_t n, FaceTile& tile) const
+/// Sets faces with too little mass to act on elements to 0 in the tile of occupied block n.
+void FaceSystem::clearSmallMasses(std::size_t n, FaceTile& tile) const
 {
-    if (!hasLight_[n]) return;
+    if (!hasSmallMasses_[n]) return;
     const ParticleOrder& order = particles_->order();
     const int block = order.occupied[n];
     forEachTileRow(*grid_, block, OccupiedBox(order.cells(block)), [&](int piece, int cell, int node, auto length) {
         for (int a = 0; a < kAxes; ++a)
-            for (int i = 0; i < length; ++i) tile.v[a][node + i] *= counts_.block(piece, a)[cell + i];
+            for (int i = 0; i < length; ++i) tile.v[a][node + i] *= isFelt_.block(piece, a)[cell + i];
     });
 }
 
-/// The pressed elements, and which of their pushes act on each vertex.
-void FaceSystem::findPushes()
+/// Assembles the active elements, and lists which of their nodal forces act on each vertex.
+void FaceSystem::findNodalForces()
 {
     const BlockPoints& elements = particles_->elements();
-    pressedEdges_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, 0);
-    pressedFaces_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, static_cast<int>(pressedEdges_.pushes()));
-    const int none = static_cast<int>(pressedEdges_.pushes() + pressedFaces_.pushes());
-    pushes_.resize(none);
+    activeEdges_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, 0);
+    activeFaces_.assemble(contact_, stiffness_, elements, missing_, grid_->dx, static_cast<int>(activeEdges_.forceCount()));
+    const int none = static_cast<int>(activeEdges_.forceCount() + activeFaces_.forceCount());
+    nodalForces_.resize(none);
     first_.assign(contact_.size(), none);
-    forEachPressed([&](auto& pressed) { pressed.tellPushes(first_); });
+    forEachActive([&](auto& active) { active.listFirstForces(first_); });
     const BlockPoints& vertices = particles_->vertices();
     const std::vector<int>& begin = contact_.incidenceBegin();
-    pushOf_.clear();
-    pushBegin_.assign(1, 0);
+    forceOf_.clear();
+    forceBegin_.assign(1, 0);
     for (int v : vertices.id) {
         for (int i = begin[v]; i < begin[v + 1]; ++i) {
             const int at = contact_.incidence()[i], first = first_[at / 3];
-            if (first != none) pushOf_.push_back(first + at % 3);
+            if (first != none) forceOf_.push_back(first + at % 3);
         }
-        pushBegin_.push_back(static_cast<int>(pushOf_.size()));
+        forceBegin_.push_back(static_cast<int>(forceOf_.size()));
     }
 }
 
-/// Velocities of the vertices into in_, gradients of the pressed elements.
+/// Interpolates u: velocities of the vertices into in_, rates of the directions into the active elements.
 void FaceSystem::gather(const BlockArray<double, 3>& u)
 {
     const BlockPoints& vertices = particles_->vertices();
@@ -139,33 +139,33 @@ void FaceSystem::gather(const BlockArray<double, 3>& u)
         gatherValues(tile, vertices, n, onVertices_);
         for (int s = vertices.begin(n); s < vertices.end(n); ++s)
             stiffness_.set(in_, vertices.id[s], {onVertices_.of[0][s], onVertices_.of[1][s], onVertices_.of[2][s]});
-        clearLight(n, tile);
-        forEachPressed([&](auto& pressed) {
-            gatherAlong<std::remove_reference_t<decltype(pressed)>::kDirections>(tile, pressed.points(), n, pressed.across(), pressed.carried());
+        clearSmallMasses(n, tile);
+        forEachActive([&](auto& active) {
+            gatherAlong<std::remove_reference_t<decltype(active)>::kDirections>(tile, active.points(), n, active.across(), active.directionRates());
         });
     });
 }
 
-/// Wᵀ out_ with the elements' pushes, and Gᵀ of what they give to the faces.
+/// q = Wᵀ (out_ + nodal forces) + Gᵀ stresses, on the faces and on twist.
 void FaceSystem::spread(FaceVector& q)
 {
     const BlockPoints& vertices = particles_->vertices();
     sumOverBlocks(particles_->order(), *grid_, rows_, q.faces, [&](std::size_t n, FaceTile& tile) {
         for (int s = vertices.begin(n); s < vertices.end(n); ++s) {
             Vec3 sum = stiffness_.at(out_, vertices.id[s]);
-            for (int i = pushBegin_[s]; i < pushBegin_[s + 1]; ++i) sum += pushes_[pushOf_[i]];
+            for (int i = forceBegin_[s]; i < forceBegin_[s + 1]; ++i) sum += nodalForces_[forceOf_[i]];
             for (int a = 0; a < kAxes; ++a) onVertices_.of[a][s] = sum[a];
         }
-        forEachPressed([&](auto& pressed) {
-            scatterAlong<std::remove_reference_t<decltype(pressed)>::kDirections>(pressed.points(), n, pressed.across(), pressed.carried(), tile);
+        forEachActive([&](auto& active) {
+            scatterAlong<std::remove_reference_t<decltype(active)>::kDirections>(active.points(), n, active.across(), active.stresses(), tile);
         });
-        clearLight(n, tile);
+        clearSmallMasses(n, tile);
         scatterValues(vertices, n, onVertices_, tile);
     });
     forEachTwist([&](std::size_t e, int slot) { q.twist[e] = out_[slot]; });
 }
 
-AlignedArray<double>& FaceSystem::onVertices(const FaceVector& u)
+AlignedArray<double>& FaceSystem::vertexVelocities(const FaceVector& u)
 {
     forEachTwist([&](std::size_t e, int slot) { in_[slot] = u.twist[e]; });
     gather(u.faces);
@@ -174,38 +174,39 @@ AlignedArray<double>& FaceSystem::onVertices(const FaceVector& u)
 
 double FaceSystem::contactWork(const FaceVector& u)
 {
-    onVertices(u);
+    vertexVelocities(u);
     out_.fill(0.0);
     const auto power = [&] {
         spread(q_);
         return forEachPack([&](auto isFace, std::size_t i, Pack& sum) { sum += u.pack(isFace, i) * q_.pack(isFace, i); });
     };
-    forEachPressed([&](auto& pressed) { pressed.multiply(in_, pushes_); });
+    forEachActive([&](auto& active) { active.multiply(in_, nodalForces_); });
     const double byStiffness = power();
-    forEachPressed([&](auto& pressed) { pressed.impulses(contact_, pushes_); });
+    forEachActive([&](auto& active) { active.impulses(contact_, nodalForces_); });
     return h_ * power() - h_ * h_ * byStiffness;
 }
 
 void FaceSystem::multiply(const FaceVector& p, FaceVector& q)
 {
-    onVertices(p);
-    finishProduct(p, q);
+    vertexVelocities(p);
+    completeProduct(p, q);
 }
 
-/// q = A p where twist follows: that of p becomes what leaves none in q. Returns p·q.
-double FaceSystem::multiplyFollowed(FaceVector& p, FaceVector& q)
+/// Product with the Schur complement of A in which twist is eliminated: sets the twist of p to the value that leaves none in q = A p.
+/// Returns p·q.
+double FaceSystem::applySchurComplement(FaceVector& p, FaceVector& q)
 {
     gather(p.faces);
-    stiffness_.followWithTwist(in_);
+    stiffness_.backSubstituteTwist(in_);
     forEachTwist([&](std::size_t e, int slot) { p.twist[e] = in_[slot]; });
-    return finishProduct(p, q);
+    return completeProduct(p, q);
 }
 
 /// q = A p of a p that has been gathered; returns p·q.
-double FaceSystem::finishProduct(const FaceVector& p, FaceVector& q)
+double FaceSystem::completeProduct(const FaceVector& p, FaceVector& q)
 {
     stiffness_.multiply(in_, out_);
-    forEachPressed([&](auto& pressed) { pressed.multiply(in_, pushes_); });
+    forEachActive([&](auto& active) { active.multiply(in_, nodalForces_); });
     spread(q);
     const double h2 = h_ * h_;
     return forEachPack([&](auto isFace, std::size_t i, Pack& product) {
@@ -216,11 +217,11 @@ double FaceSystem::finishProduct(const FaceVector& p, FaceVector& q)
     });
 }
 
-/// The twist of p: rates that take up what is left of its equations, faces at rest.
-void FaceSystem::takeUpTwist(const FaceVector& residual, FaceVector& p)
+/// Solves the equations of twist for this residual with the faces at rest; the rates become the twist of p.
+void FaceSystem::solveTwist(const FaceVector& residual, FaceVector& p)
 {
     forEachTwist([&](std::size_t e, int slot) { in_[slot] = residual.twist[e]; });
-    stiffness_.takeUpTwist(in_);
+    stiffness_.solveTwist(in_);
     forEachTwist([&](std::size_t e, int slot) { p.twist[e] = in_[slot]; });
 }
 
@@ -229,7 +230,7 @@ void FaceSystem::impulses(FaceVector& q)
     q.resize(blocks(), edges());
     const AlignedArray<double>& gradient = stiffness_.gradient();
     for (std::size_t i = 0; i < out_.size(); ++i) out_[i] = -gradient[i];
-    forEachPressed([&](auto& pressed) { pressed.impulses(contact_, pushes_); });
+    forEachActive([&](auto& active) { active.impulses(contact_, nodalForces_); });
     spread(q);
     forEachPack([&](auto isFace, std::size_t i, Pack&) {
         const Pack m = mass(isFace, i);

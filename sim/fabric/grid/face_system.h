@@ -2,9 +2,9 @@
 
 #include "sim/core/parallel.h"
 #include "sim/core/simd.h"
+#include "sim/fabric/grid/active_elements.h"
 #include "sim/fabric/grid/element_contact.h"
 #include "sim/fabric/grid/fabric_particles.h"
-#include "sim/fabric/grid/pressed_elements.h"
 #include "sim/fabric/grid/vertex_stiffness.h"
 #include "sim/fabric/liquid_loads.h"
 
@@ -28,13 +28,13 @@ struct FaceVector {
     const Pack& pack(bool isFace, std::size_t i) const { return *reinterpret_cast<const Pack*>((isFace ? faces.block(0) : twist.data()) + i); }
 };
 
-/// When a linear solve on the faces is good enough.
+/// Stopping criterion of a linear solve on the faces.
 struct FaceTolerance {
-    double wanted;    ///< rms error [cm/s] …
-    int patience;     ///< … and after so many iterations
-    double bearable;  ///< this [cm/s]
-    int most;         ///< iterations
-    double after(int iterations) const { return iterations < patience ? wanted : bearable; }
+    double target;         ///< rms error at which the first iterations stop [cm/s]
+    int targetIterations;  ///< iterations for which that holds
+    double acceptable;     ///< rms error at which later iterations stop [cm/s]
+    int maxIterations;
+    double after(int iterations) const { return iterations < targetIterations ? target : acceptable; }
 };
 
 /// A linear solve on the faces.
@@ -52,8 +52,9 @@ class FaceSystem {
  public:
     FaceSystem(const Fabric& fabric, VertexStiffness& stiffness, const ElementContact& contact);
 
-    /// The inertia of twist is that of yarns which hold this water: of each vertex [g].
-    void takeUp(std::span<const double> absorbed);
+    /// Sets the liquid that the yarns hold, which adds to the inertia of their twist.
+    /// @param absorbed  of each vertex [g]
+    void setAbsorbed(std::span<const double> absorbed);
     /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
     void begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
@@ -74,14 +75,14 @@ class FaceSystem {
     ///                  nearest to the solution in A's norm; or null
     FaceSolveReport solve(const FaceTolerance& tolerance, FaceVector& v, const BlockArray<double, 3>* expected = nullptr);
 
-    /// Moves the faces of each group of blocks alike, so that its momentum is that which it started with and the impulses: the fabric's own forces
-    /// do not change it, but what iterations leave of their balance does.
+    /// Restores the momentum of each group of blocks to that of its start and the impulses, by one change of velocity for all its faces. The
+    /// fabric's own forces do not change it, but the residual that iterations leave does.
     /// @param start         velocities that the last solve started from [cm/s]
     /// @param groupOfBlock  below `groups`; −1 for blocks that are left alone
-    void balance(const BlockArray<double, 3>& start, std::span<const int> groupOfBlock, int groups, FaceVector& v);
+    void balanceMomentum(const BlockArray<double, 3>& start, std::span<const int> groupOfBlock, int groups, FaceVector& v);
 
-    /// Velocities of the vertices, and those of the twist [cm/s, 1/s], laid out by VertexUnknowns.
-    AlignedArray<double>& onVertices(const FaceVector& u);
+    /// Interpolates u to the vertices: their velocities, with the rates of twist [cm/s, 1/s], laid out by VertexUnknowns.
+    AlignedArray<double>& vertexVelocities(const FaceVector& u);
     /// Energy that contact gives to moves h u in the step of assemble, by its stress at the state and its stiffness
     /// [erg].
     double contactWork(const FaceVector& u);
@@ -93,22 +94,22 @@ class FaceSystem {
  private:
     void clearInactive(BlockArray<double, 3>& u) const;
     void gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3>& gradients);
-    void findMissing();
-    void clearLight(std::size_t n, FaceTile& tile) const;
-    void findPushes();
+    void findMissingParts();
+    void clearSmallMasses(std::size_t n, FaceTile& tile) const;
+    void findNodalForces();
     void gather(const BlockArray<double, 3>& u);
     void spread(FaceVector& q);
-    double multiplyFollowed(FaceVector& p, FaceVector& q);
-    double finishProduct(const FaceVector& p, FaceVector& q);
-    void takeUpTwist(const FaceVector& residual, FaceVector& p);
+    double applySchurComplement(FaceVector& p, FaceVector& q);
+    double completeProduct(const FaceVector& p, FaceVector& q);
+    void solveTwist(const FaceVector& residual, FaceVector& p);
     void startSolve(FaceVector& v);
-    void goAlong(const BlockArray<double, 3>& expected, FaceVector& v);
+    void projectInitialGuess(const BlockArray<double, 3>& expected, FaceVector& v);
     Pack mass(bool isFace, std::size_t i) const { return loadPack((isFace ? mass_.block(0) : inertia_.data()) + i); }
-    /// body(pressed elements of one kind).
-    void forEachPressed(auto&& body)
+    /// Calls body(active elements of one kind) for edges and for faces.
+    void forEachActive(auto&& body)
     {
-        body(pressedEdges_);
-        body(pressedFaces_);
+        body(activeEdges_);
+        body(activeFaces_);
     }
     /// body(e, slot of its twist in a vector of VertexUnknowns), in parallel.
     void forEachTwist(auto&& body) const
@@ -137,16 +138,16 @@ class FaceSystem {
     double totalMass_;              ///< [g]
     FaceRows rows_;
 
-    BlockArray<double, 3> counts_;  ///< of each face: 1 if it has mass enough for elements to feel it, else 0 [-]
-    std::vector<char> hasLight_;    ///< of each occupied block: have faces with too little mass for that any at all?
-    std::vector<Mat3> missing_;     ///< of each element: gradient of a 1 on faces that count; 0 if all do [-]
-    PressedElements<EdgeContact<Pack>> pressedEdges_;
-    PressedElements<FaceContact<Pack>> pressedFaces_;
-    std::vector<Vec3> pushes_;             ///< of the pressed elements on their corners
-    std::vector<int> pushBegin_, pushOf_;  ///< on each vertex in the order of the blocks: in pushes_
-    PointArray<3> onVertices_;             ///< of each vertex, in the order of the blocks
+    BlockArray<double, 3> isFelt_;      ///< of each face: 1 if it has enough mass to act on elements, else 0 [-]
+    std::vector<char> hasSmallMasses_;  ///< of each occupied block: has it faces with less mass than that, but some?
+    std::vector<Mat3> missing_;         ///< of each element: gradient of a 1 on faces that act on it; 0 if all do [-]
+    ActiveElements<EdgeContact<Pack>> activeEdges_;
+    ActiveElements<FaceContact<Pack>> activeFaces_;
+    std::vector<Vec3> nodalForces_;          ///< forces of the active elements on their corners
+    std::vector<int> forceBegin_, forceOf_;  ///< of each vertex in the order of the blocks: the nodal forces on it, as indices in nodalForces_
+    PointArray<3> onVertices_;               ///< of each vertex, in the order of the blocks
     PointArray<9> onElements_;
-    std::vector<int> first_;         ///< of each element: its first push
+    std::vector<int> first_;         ///< of each element: index of its first nodal force
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
     FaceVector residual_, p_, q_;      ///< of the solve

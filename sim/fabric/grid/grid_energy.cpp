@@ -42,7 +42,7 @@ void GridFabricSolver::bookSolve(double h, const Vec3& gravity, const FabricStat
     const OnFaces onFaces = workOnFaces(h, gravity, state, loads);
     changes[EnergyChange::Drag] += onFaces.drag;
     changes[EnergyChange::Contact] = system_.contactWork(velocity_);
-    const VertexStiffness::Work work = stiffness_.work(h, system_.onVertices(velocity_));
+    const VertexStiffness::Work work = stiffness_.work(h, system_.vertexVelocities(velocity_));
     changes[EnergyChange::Damping] = work.damping;
     changes[EnergyChange::Obstacles] = work.obstacles;
     changes[EnergyChange::Pins] = work.pins;

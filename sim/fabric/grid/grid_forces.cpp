@@ -5,10 +5,10 @@
 namespace sim {
 
 /// What pins and solids got in the solve; the state is still that of before.
-void GridFabricSolver::tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching)
+void GridFabricSolver::reportSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching)
 {
     if (fabric_.pins.vertex.empty() && touching.empty()) return;
-    const AlignedArray<double>& u = system_.onVertices(velocity_);
+    const AlignedArray<double>& u = system_.vertexVelocities(velocity_);
     const auto placeOf = [&](int v) -> Vec3 { return state.x[v] + h * stiffness_.at(u, v); };
     const auto onPin = [&](std::size_t i, const Vec3& impulse) {
         forces_->pins[fabric_.pins.motion[i]] += Impulse::at(placeOf(fabric_.pins.vertex[i]), impulse);
@@ -23,11 +23,11 @@ void GridFabricSolver::tellSprings(double h, const FabricState& state, std::span
         const Vec3 place = share[0] * placeOf(v[0]) + share[1] * placeOf(v[1]) + share[2] * placeOf(v[2]);
         forces_->touch(fabric_.pieceOf(v[0]), obstacles_.inScene(contact.between[1]), Impulse::at(place, impulse));
     };
-    stiffness_.pulls(h, u, onPin, onEdge, onObstacle);
+    stiffness_.forEachReaction(h, u, onPin, onEdge, onObstacle);
 }
 
 /// What solids made of the moves that velocities follow.
-void GridFabricSolver::tellGuard(double h, const FabricState& state) const
+void GridFabricSolver::reportSolidLimiter(double h, const FabricState& state) const
 {
     for (std::size_t v = 0; v < move_.size(); ++v) {
         if (move_[v] == wanted_[v]) continue;
@@ -37,7 +37,7 @@ void GridFabricSolver::tellGuard(double h, const FabricState& state) const
 }
 
 /// Vertices share what the liquid does to a face by their masses on it.
-void GridFabricSolver::tellLiquid(const FabricState& state, const FaceLoads& loads)
+void GridFabricSolver::reportLiquid(const FabricState& state, const FaceLoads& loads)
 {
     const auto& sums = particles_.faces().sums;
     BlockArray<double, 3>& perMass = acceleration_;

@@ -36,7 +36,7 @@ void GridFabricSolver::findGroups(std::span<const ObstacleContact> touching)
 void GridFabricSolver::keepMomentum(std::span<const ObstacleContact> touching)
 {
     findGroups(touching);
-    if (groups_.anyFree()) system_.balance(start_, groupOfBlock_, groups_.pieces(), velocity_);
+    if (groups_.anyFree()) system_.balanceMomentum(start_, groupOfBlock_, groups_.pieces(), velocity_);
 }
 
 }  // namespace sim

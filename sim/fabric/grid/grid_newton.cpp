@@ -13,7 +13,7 @@ namespace sim {
 namespace {
 
 /// Elastic energy from nothing that a step may leave, relative to that of the motion: more asks for another iteration [-].
-constexpr double kNoGain = 1.0e-3;
+constexpr double kNegligibleGain = 1.0e-3;
 constexpr double kTighter = 0.1;  ///< what the errors of the next solve must keep within, relative to those of one that gave energy [-]
 constexpr int kMostNewton = 8;    ///< iterations
 constexpr int kMostRepeats = 3;   ///< of a solve, to take contact in that was not expected
@@ -46,13 +46,13 @@ void GridFabricSolver::solveAgain(const FaceTolerance& tolerance, const FabricSt
 
 /// Elements that are pressed by the solved motion though nobody expected it, by the fabric's own forces, would store energy that nothing has
 /// given: with them among the others the step is solved again. Leaves in motion_ what was solved for.
-void GridFabricSolver::meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report)
+void GridFabricSolver::addOmittedContacts(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report)
 {
     for (int repeat = 0;; ++repeat) {
         system_.findMotion(velocity_.faces, motion_);
         const PredictedMotion found = predictionOn(h, tolerance);
-        if (repeat == kMostRepeats || contact_.unforeseen(found) <= kUnforeseen * kinetic) return;
-        contact_.takeIn(state, found);
+        if (repeat == kMostRepeats || contact_.omittedEnergy(found) <= kOmittedEnergy * kinetic) return;
+        contact_.activate(state, found);
         system_.assemble();
         solveAgain(tolerance, state, report);
     }
@@ -92,9 +92,9 @@ double GridFabricSolver::kineticOfChange()
 /// @param before  elastic energy at the start of the step [erg]
 double GridFabricSolver::gainOfMotion(const Solve& of, double before)
 {
-    AlignedArray<double>& u = system_.onVertices(velocity_);
+    AlignedArray<double>& u = system_.vertexVelocities(velocity_);
     const double elastic = tryMove(of.h, u, of.state) - before;
-    const VertexStiffness::Work holds = stiffness_.workOfHolds(of.h, u);
+    const VertexStiffness::Work holds = stiffness_.workOfConstraints(of.h, u);
     double contact = 0.0;
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
@@ -111,7 +111,7 @@ void GridFabricSolver::shortenMotion(const Solve& of, double before)
     for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0}) {
         for (std::size_t i = 0; i < whole.faces.size(); ++i) velocity_.faces.block(0)[i] = share * whole.faces.block(0)[i];
         for (std::size_t e = 0; e < whole.twist.size(); ++e) velocity_.twist[e] = share * whole.twist[e];
-        if (gainOfMotion(of, before) <= kNoGain * of.kinetic) return;
+        if (gainOfMotion(of, before) <= kNegligibleGain * of.kinetic) return;
     }
 }
 
@@ -124,14 +124,14 @@ void GridFabricSolver::solve(const Solve& of, FabricReport& report)
     solveOnce(tolerance, expectedChange(state), report);
     const double before = elastic_.at(state, stiffness_.rods(), stiffness_.shells()).elastic();
     for (int n = 1;; ++n) {
-        if (settings_.contact) meetUnforeseen(h, kinetic, tolerance, state, report);
-        AlignedArray<double>& u = system_.onVertices(velocity_);
+        if (settings_.contact) addOmittedContacts(h, kinetic, tolerance, state, report);
+        AlignedArray<double>& u = system_.vertexVelocities(velocity_);
         const double reached = tryMove(h, u, state);
         // What elastic forces gave, against what they had, and what the solve's error did; backward Euler loses the energy of the change of
         // velocities beside.
-        const double gain = reached - before + stiffness_.innerWork(h, u) - kineticOfChange() + errorWork_;
-        if (isSolved_ && gain <= kNoGain * kinetic) return;
-        if (errorWork_ > kNoGain * kinetic) tolerance.wanted *= kTighter, tolerance.bearable *= kTighter;
+        const double gain = reached - before + stiffness_.internalWork(h, u) - kineticOfChange() + errorWork_;
+        if (isSolved_ && gain <= kNegligibleGain * kinetic) return;
+        if (errorWork_ > kNegligibleGain * kinetic) tolerance.target *= kTighter, tolerance.acceptable *= kTighter;
         if (isSolved_ && gain < least) least = gain, leastGain_ = velocity_;
         if (n == kMostNewton) break;
         stiffness_.assembleAt(trial_, h, u);

@@ -2,7 +2,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/fabric/contact/spring_step.h"
-#include "sim/fabric/felt_acceleration.h"
+#include "sim/fabric/reference_acceleration.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,13 +11,13 @@ namespace sim {
 
 namespace {
 
-/// Rms error of accelerations at which the linear solve is good enough, relative to feltAcceleration. In steps of 2e-4 s under the earth's
+/// Rms error of accelerations at which the linear solve is good enough, relative to referenceAcceleration. In steps of 2e-4 s under the earth's
 /// gravity that is 1e-3 cm/s (fabric/grid/README.md, Linear system); errors of all steps of a second add up to the same at any length.
 constexpr double kAccelerationTolerance = 0.005;
 /// Beyond so many iterations errors are borne up to another share of it; larger ones would push liquid with forces that no fabric has, and make
 /// energy, so that the solve goes on however long it takes.
 constexpr int kMaxIterations = 200, kMostIterations = 20000;
-constexpr double kBearable = 0.1;  ///< of feltAcceleration [-]
+constexpr double kAcceptable = 0.1;  ///< of referenceAcceleration [-]
 /// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
 
@@ -36,7 +36,7 @@ GridFabricSolver::GridFabricSolver(const Fabric& fabric, const Settings& setting
 {
     if (settings_.contact) {
         obstacles_ = FabricObstacles(fabric, obstacles);
-        guard_ = SolidGuard(fabric, obstacles);
+        solidLimiter_ = SolidLimiter(fabric, obstacles);
     }
     move_.resize(fabric.vertexCount());
     wanted_.resize(fabric.vertexCount());
@@ -110,13 +110,14 @@ double GridFabricSolver::partWithoutGain(double limit, double h, const Vec3& gra
 void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, FabricState& state, FabricReport& report)
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * state.v[v]; });
-    GuardReport guarded;
-    if (guard_.limitInHalves(t, h, state.x, mass_, move_, guarded)) {
+    SolidLimitReport guarded;
+    if (solidLimiter_.limitBisected(t, h, state.x, mass_, move_, guarded)) {
         move_.swap(wanted_);
         const Mechanical wanted = energyAfter(1.0, h, gravity, state);
         move_.swap(wanted_);
         // Solids and pins that move may give energy; and pins must get to where they are led.
-        const bool isDriven = guard_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
+        const bool isDriven =
+            solidLimiter_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
         const double part = isDriven ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
         parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
             move_[v] *= part;
@@ -129,7 +130,7 @@ void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, Fab
             (*report.energyChanges)[EnergyChange::Implicit] -= got.elastic - wanted.elastic;
         }
     }
-    if (forces_ && !guard_.empty()) tellGuard(h, state);
+    if (forces_ && !solidLimiter_.empty()) reportSolidLimiter(h, state);
     if (guarded.left > 0) ++report.shortened;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
 }
@@ -149,7 +150,7 @@ const BlockArray<double, 3>* GridFabricSolver::expectedChange(const FabricState&
 }
 
 /// How the solve changed velocities, for that of the next step.
-void GridFabricSolver::keepChange(FabricState& state) const
+void GridFabricSolver::storeChange(FabricState& state) const
 {
     state.gridSolver.faceBlocks = particles_.grid();
     state.gridSolver.faceChange.resize(system_.blocks());
@@ -162,7 +163,7 @@ void GridFabricSolver::keepChange(FabricState& state) const
 }
 
 /// Accelerations by the fabric's own forces, for liquid (coupling/README.md, Mixture) and friction to expect in the next step.
-void GridFabricSolver::keepAccelerations(double h, FabricState& state)
+void GridFabricSolver::storeAccelerations(double h, FabricState& state)
 {
     const BlockArray<double, 3>& inertia = system_.mass();
     const auto& mass = particles_.faces().sums;
@@ -184,22 +185,22 @@ void GridFabricSolver::keepAccelerations(double h, FabricState& state)
 std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     obstacles_.moveTo(t, t + h);
-    guard_.moveTo(t, t + h);
+    solidLimiter_.moveTo(t, t + h);
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = h * (state.v[v] + h * gravity); });
-    GuardReport ahead;
-    guard_.limit(state.x, mass_, move_, ahead);
+    SolidLimitReport ahead;
+    solidLimiter_.limit(state.x, mass_, move_, ahead);
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
         predicted_[v] = move_[v] / h;
         reached_[v] = state.x[v] + move_[v];
         expectedMove_[v] = h * (motion_.velocity[v] + h * state.acceleration[v]);
     });
-    guard_.rest();
-    const std::span<const NearestPoint> nearest = guard_.nearestPoints(reached_);
-    guard_.moveTo(t, t + h);
+    solidLimiter_.rest();
+    const std::span<const NearestPoint> nearest = solidLimiter_.nearestPoints(reached_);
+    solidLimiter_.moveTo(t, t + h);
     from_ = state.x;
     FabricObstacles::Start start = obstacleStart(h, state);
     start.moves = expectedMove_;
-    return obstacles_.at(fabric_, reached_, start, nearest);
+    return obstacles_.findContacts(fabric_, reached_, start, nearest);
 }
 
 void GridFabricSolver::prepare(FabricState& state, StageClock& clock)
@@ -208,7 +209,7 @@ void GridFabricSolver::prepare(FabricState& state, StageClock& clock)
     clock.start(Stage::FabricToGrid);
     if (meetsLiquid_) {
         parallelFor(mass_.size(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
-        system_.takeUp(state.absorbed);
+        system_.setAbsorbed(state.absorbed);
     }
     parallelFor(contact_.size(), 1024, [&](std::size_t e) { points_[e] = contact_.position(e, state.x); });
     particles_.toFaces(mass_, points_, state);
@@ -217,17 +218,17 @@ void GridFabricSolver::prepare(FabricState& state, StageClock& clock)
 /// How the fabric will move by motion_, where contact matters that makes more than a share of the solve's tolerance.
 PredictedMotion GridFabricSolver::predictionOn(double h, const FaceTolerance& tolerance) const
 {
-    return {motion_, h, particles_.grid().dx, kNegligible * tolerance.wanted / h};
+    return {motion_, h, particles_.grid().dx, kNegligible * tolerance.target / h};
 }
 
 FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& of)
 {
     FabricReport report;
     const FaceLoads* loads = of.onFaces;
-    const double felt = feltAcceleration(
+    const double felt = referenceAcceleration(
         gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
-    const FaceTolerance until{tolerance, kMaxIterations, kBearable * felt * h, kMostIterations};
+    const FaceTolerance until{tolerance, kMaxIterations, kAcceptable * felt * h, kMostIterations};
     clock.start(Stage::FabricContact);
     system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
@@ -252,19 +253,19 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
     if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());
-    if (forces_) tellSprings(h, state, touching);
-    if (forces_ && loads) tellLiquid(state, *loads);
+    if (forces_) reportSprings(h, state, touching);
+    if (forces_ && loads) reportLiquid(state, *loads);
 
     clock.start(Stage::GridToFabric);
-    keepChange(state);
-    if (meetsLiquid_ || !obstacles_.empty()) keepAccelerations(h, state);
+    storeChange(state);
+    if (meetsLiquid_ || !obstacles_.empty()) storeAccelerations(h, state);
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
     moveVertices(t, h, gravity, state, report);
     state.vertexSolver.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
-    else obstacles_.keepFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
+    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
         state.omega[e] = kept * velocity_.twist[e];
         state.theta[e] += h * state.omega[e];
@@ -275,7 +276,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     clock.start(Stage::FabricStrain);
     const ContactEnergy before = state.stored;
     state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
-    if (settings_.contact) state.stored.pressed = contact_.carry(predictionOn(h, until), kUnforeseen * kinetic, state);
+    if (settings_.contact) state.stored.pressed = contact_.advectDirections(predictionOn(h, until), kOmittedEnergy * kinetic, state);
     if (booksEnergy_) bookVertices(gravity, before, state, *report.energyChanges);
     return report;
 }

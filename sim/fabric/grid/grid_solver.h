@@ -4,8 +4,8 @@
 #include "sim/fabric/grid/face_system.h"
 #include "sim/fabric/groups.h"
 #include "sim/fabric/integrator.h"
-#include "sim/fabric/solids/guard.h"
 #include "sim/fabric/solids/obstacle_contact.h"
+#include "sim/fabric/solids/solid_limiter.h"
 #include "sim/forces.h"
 #include "sim/obstacle_settings.h"
 
@@ -60,15 +60,15 @@ class GridFabricSolver final : public FabricIntegrator {
     void shortenMotion(const Solve& of, double before);
     void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void solveAgain(const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
-    void meetUnforeseen(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
+    void addOmittedContacts(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
     double kineticOfChange();
     double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
     PredictedMotion predictionOn(double h, const FaceTolerance& tolerance) const;
     void findGroups(std::span<const ObstacleContact> touching);
     void keepMomentum(std::span<const ObstacleContact> touching);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
-    void keepChange(FabricState& state) const;
-    void keepAccelerations(double h, FabricState& state);
+    void storeChange(FabricState& state) const;
+    void storeAccelerations(double h, FabricState& state);
     void bookSolve(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads, EnergyChanges& changes);
     void bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const;
     /// What the solve did with the fabric on its faces, and with its twist [erg].
@@ -79,12 +79,12 @@ class GridFabricSolver final : public FabricIntegrator {
         double drag = 0.0;      ///< work of the liquid
     };
     OnFaces workOnFaces(double h, const Vec3& gravity, const FabricState& state, const FaceLoads* loads);
-    void tellSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching);
-    void tellGuard(double h, const FabricState& state) const;
-    void tellLiquid(const FabricState& state, const FaceLoads& loads);
+    void reportSprings(double h, const FabricState& state, std::span<const ObstacleContact> touching);
+    void reportSolidLimiter(double h, const FabricState& state) const;
+    void reportLiquid(const FabricState& state, const FaceLoads& loads);
 
     /// Energy that contact may come to hold without having been solved for, relative to that of the motion and of a step's fall [-].
-    static constexpr double kUnforeseen = 0.01;
+    static constexpr double kOmittedEnergy = 0.01;
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -93,12 +93,12 @@ class GridFabricSolver final : public FabricIntegrator {
     FabricParticles particles_;
     FaceSystem system_;
     FabricObstacles obstacles_;
-    SolidGuard guard_;
-    FabricGroups groups_;                        ///< of the step under way …
-    std::vector<int> groupOfBlock_, nearBlock_;  ///< … and of blocks (findGroups)
+    SolidLimiter solidLimiter_;
+    FabricGroups groups_;                        ///< groups of pieces in the step under way
+    std::vector<int> groupOfBlock_, nearBlock_;  ///< of each block: its group, and a block that it belongs to (findGroups)
     FaceVector velocity_, leastGain_;            ///< of the solve under way: the last, and that which gave the fabric least energy [cm/s, 1/s]
-    bool isSolved_ = false;                      ///< is the last linear solve's error bearable? …
-    double errorWork_ = 0.0;                     ///< … and what energy did it give? [erg]
+    bool isSolved_ = false;                      ///< the error of the last linear solve is acceptable
+    double errorWork_ = 0.0;                     ///< energy that the error of the last linear solve gave [erg]
     bool meetsLiquid_;
     std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
     // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did

@@ -87,8 +87,8 @@ void VertexStiffness::findPins(const FabricState& state, double end)
         heldTorque_[i] = heldStiffness_[i] * (state.theta[heldEdges_[i]] - heldAngle(fabric_, restReference_, end, state, heldEdges_[i]));
 }
 
-/// Gradient and derivatives of the material's own forces.
-void VertexStiffness::sumInner(const FabricState& at, double h)
+/// Assembles gradient and Hessian of the material's internal forces.
+void VertexStiffness::assembleInternal(const FabricState& at, double h)
 {
     gradient_.fill(0.0);
     if (!rods_.empty()) rods_.forces(at, h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
@@ -99,8 +99,8 @@ void VertexStiffness::sumInner(const FabricState& at, double h)
     addToOwners(gradient_);
 }
 
-/// To the gradient, what pins and obstacles do at the state.
-void VertexStiffness::addHolds()
+/// Adds the forces of pins and obstacles at the state to the gradient.
+void VertexStiffness::addConstraints()
 {
     for (const Spring& s : springs_) addToPoint(gradient_, s, s.gradient);
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
@@ -114,7 +114,7 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
     shells_.startStep(state.x);
     at_ = &state;
     reached_.fill(0.0);
-    sumInner(state, h);
+    assembleInternal(state, h);
     findPins(state, t + h);
     for (const ObstacleContact& contact : obstacles) {
         const std::array<int, 3> v = contact.vertices();
@@ -123,26 +123,26 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
         // Known at the predicted position; by its derivative, at the present one.
         springs_.push_back({v, share, contact.stiffness, contact.gradient - contact.stiffness * (h * ahead)});
     }
-    addHolds();
+    addConstraints();
 }
 
 void VertexStiffness::assembleAt(const FabricState& there, double h, AlignedArray<double>& u)
 {
     at_ = &there;
     std::ranges::copy(u, reached_.begin());
-    sumInner(there, h);
-    tellFromStart(h);
-    addHolds();
+    assembleInternal(there, h);
+    extrapolateToStart(h);
+    addConstraints();
 }
 
-/// The gradient at at_ becomes what it would be at the start of the step if K were the same all the way.
-void VertexStiffness::tellFromStart(double h)
+/// Extrapolates the gradient at at_ linearly, by K, back to the start of the step.
+void VertexStiffness::extrapolateToStart(double h)
 {
-    multiplyInner(reached_, product_);
+    multiplyInternal(reached_, product_);
     for (std::size_t i = 0; i < product_.size(); ++i) gradient_[i] -= h * product_[i];
 }
 
-VertexStiffness::Work VertexStiffness::workOfHolds(double h, const AlignedArray<double>& u) const
+VertexStiffness::Work VertexStiffness::workOfConstraints(double h, const AlignedArray<double>& u) const
 {
     Work work;
     for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -163,22 +163,22 @@ double VertexStiffness::workOfProduct(double h, const AlignedArray<double>& u) c
     return -parallelSum(u.size(), [&](std::size_t i) { return u[i] * (h * gradient_[i] + h * h * product_[i]); });
 }
 
-double VertexStiffness::innerWork(double h, AlignedArray<double>& u) const
+double VertexStiffness::internalWork(double h, AlignedArray<double>& u) const
 {
     multiply(u, product_);
-    const Work holds = workOfHolds(h, u);
-    return workOfProduct(h, u) - holds.pins - holds.obstacles;
+    const Work constraints = workOfConstraints(h, u);
+    return workOfProduct(h, u) - constraints.pins - constraints.obstacles;
 }
 
 VertexStiffness::Work VertexStiffness::work(double h, AlignedArray<double>& u)
 {
-    Work work = workOfHolds(h, u);
-    const double inner = innerWork(h, u);
-    sumInner(*at_, std::numeric_limits<double>::infinity());
-    tellFromStart(h);
-    multiplyInner(u, product_);
+    Work work = workOfConstraints(h, u);
+    const double internal = internalWork(h, u);
+    assembleInternal(*at_, std::numeric_limits<double>::infinity());
+    extrapolateToStart(h);
+    multiplyInternal(u, product_);
     work.elastic = workOfProduct(h, u);
-    work.damping = inner - work.elastic;
+    work.damping = internal - work.elastic;
     return work;
 }
 
@@ -199,7 +199,7 @@ void VertexStiffness::multiplyCloth(const AlignedArray<double>& in, AlignedArray
     });
 }
 
-void VertexStiffness::multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const
+void VertexStiffness::multiplyInternal(AlignedArray<double>& in, AlignedArray<double>& out) const
 {
     copyFromOwners(in);
     const StrandLayout& layout = rods_.layout();
@@ -214,7 +214,7 @@ void VertexStiffness::multiplyInner(AlignedArray<double>& in, AlignedArray<doubl
 
 void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& out) const
 {
-    multiplyInner(in, out);
+    multiplyInternal(in, out);
     for (const Spring& s : springs_) addToPoint(out, s, s.stiffness * atPoint(in, s));
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) {
         const int slot = unknowns_.twistSlot[heldEdges_[i]];
@@ -222,20 +222,20 @@ void VertexStiffness::multiply(AlignedArray<double>& in, AlignedArray<double>& o
     }
 }
 
-void VertexStiffness::balanceTwist(std::span<const double> inertia, double h)
+void VertexStiffness::factorTwist(std::span<const double> inertia, double h)
 {
     std::vector<double> held(fabric_.edges.size(), 0.0);
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) held[heldEdges_[i]] = heldStiffness_[i];
     twist_.factor(rods_.layout(), strands_, inertia, held, h);
 }
 
-void VertexStiffness::followWithTwist(AlignedArray<double>& u) const
+void VertexStiffness::backSubstituteTwist(AlignedArray<double>& u) const
 {
     copyFromOwners(u);
-    forEachGroup(u, [&](std::size_t g, Pack* rows) { twist_.follow(g, rows); });
+    forEachGroup(u, [&](std::size_t g, Pack* rows) { twist_.backSubstitute(g, rows); });
 }
 
-void VertexStiffness::takeUpTwist(AlignedArray<double>& u) const
+void VertexStiffness::solveTwist(AlignedArray<double>& u) const
 {
     forEachGroup(u, [&](std::size_t g, Pack* rows) { twist_.solve(g, rows); });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/fabric/grid/twist_balance.h"
+#include "sim/fabric/grid/twist_elimination.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
 #include "sim/fabric/solids/obstacle_contact.h"
@@ -35,20 +35,20 @@ class VertexStiffness {
     const AlignedArray<double>& gradient() const { return gradient_; }
     /// out = K in, forces per displacement. `in` is completed for shared vertices.
     void multiply(AlignedArray<double>& in, AlignedArray<double>& out) const;
-    /// Energy that forces give to moves h u, −u·(h gradient + h² K u), in assemble's step of h [s]: all that the material's own
-    /// forces, its damping, obstacles and pins do. Elastic forces are told apart, their energy is the fabric's. What is multiplied with
-    /// afterwards is undamped, until the next assemble.
+    /// Work of all forces on moves h u, −u·(h gradient + h² K u), in assemble's step of h [s]: of the material's internal forces, its damping,
+    /// obstacles and pins. Elastic work is separate, as its energy stays in the fabric. Products afterwards are undamped, until the next
+    /// assemble.
     struct Work {
         double elastic = 0.0, damping = 0.0, obstacles = 0.0, pins = 0.0;  ///< [erg]
     };
     Work work(double h, AlignedArray<double>& u);
-    /// The same of pins and obstacles alone.
-    Work workOfHolds(double h, const AlignedArray<double>& u) const;
-    /// Of the material's own forces and its damping alone, by what is assembled [erg].
-    double innerWork(double h, AlignedArray<double>& u) const;
-    /// Impulses h gradient + h² K u with which the vertices' velocities u pull at what holds them: call onPin(number among Fabric::Pins, impulse),
+    /// Work of pins and obstacles alone.
+    Work workOfConstraints(double h, const AlignedArray<double>& u) const;
+    /// Work of the material's internal forces and its damping alone, by the assembled gradient and K [erg].
+    double internalWork(double h, AlignedArray<double>& u) const;
+    /// Reaction impulses h gradient + h² K u of the constraints at velocities u of the vertices: calls onPin(number among Fabric::Pins, impulse),
     /// onEdge(held edge, impulse on its twist) and onObstacle(number among assemble's contacts, impulse).
-    void pulls(double h, const AlignedArray<double>& u, auto&& onPin, auto&& onEdge, auto&& onObstacle) const
+    void forEachReaction(double h, const AlignedArray<double>& u, auto&& onPin, auto&& onEdge, auto&& onObstacle) const
     {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
             const Spring& s = springs_[i];
@@ -61,12 +61,13 @@ class VertexStiffness {
             onEdge(heldEdges_[i], h * (heldTorque_[i] + h * heldStiffness_[i] * rate));
         }
     }
-    /// Makes twist ready to follow vertices in steps of h [s], or to take impulses, with inertia of each edge [g cm^2].
-    void balanceTwist(std::span<const double> inertia, double h);
-    /// Sets the rates of twist in u to what goes with the vertices' velocities. u is completed for shared vertices.
-    void followWithTwist(AlignedArray<double>& u) const;
-    /// Turns impulses on twist into rates, vertices at rest.
-    void takeUpTwist(AlignedArray<double>& u) const;
+    /// Factors the equations of twist for steps of h [s].
+    /// @param inertia  of each edge [g cm^2]
+    void factorTwist(std::span<const double> inertia, double h);
+    /// Back substitution: sets the rates of twist in u to those that the vertices' velocities bring about. u is completed for shared vertices.
+    void backSubstituteTwist(AlignedArray<double>& u) const;
+    /// Solves for the rates of twist under impulses on it, with the vertices at rest; in place.
+    void solveTwist(AlignedArray<double>& u) const;
 
     Vec3 at(const AlignedArray<double>& u, int vertex) const
     {
@@ -98,11 +99,11 @@ class VertexStiffness {
     void copyFromOwners(AlignedArray<double>& u) const;
     void forEachGroup(AlignedArray<double>& u, auto&& body) const;
     void multiplyCloth(const AlignedArray<double>& in, AlignedArray<double>& out) const;
-    void sumInner(const FabricState& at, double h);
-    void addHolds();
-    void tellFromStart(double h);
+    void assembleInternal(const FabricState& at, double h);
+    void addConstraints();
+    void extrapolateToStart(double h);
     double workOfProduct(double h, const AlignedArray<double>& u) const;
-    void multiplyInner(AlignedArray<double>& in, AlignedArray<double>& out) const;
+    void multiplyInternal(AlignedArray<double>& in, AlignedArray<double>& out) const;
     void findPins(const FabricState& state, double end);
     /// Of what the vertices have, at a spring's point.
     Vec3 atPoint(const AlignedArray<double>& u, const Spring& s) const
@@ -120,7 +121,7 @@ class VertexStiffness {
     Shells shells_;
     VertexUnknowns unknowns_;
     StrandMatrix strands_;
-    TwistBalance twist_;
+    TwistElimination twist_;
     BlockMatrix cloth_;
     mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
     std::vector<Shared> shared_;
@@ -128,11 +129,11 @@ class VertexStiffness {
     std::vector<Vec3> restReference_;   ///< of each yarn edge
     std::vector<double> pinStiffness_;  ///< of each pin [dyn/cm]
     std::vector<int> heldEdges_;
-    std::vector<double> heldStiffness_;  ///< of each held edge [dyn cm] …
-    std::vector<double> heldTorque_;     ///< … and gradient at the state
+    std::vector<double> heldStiffness_;  ///< of each held edge: stiffness of its pin against twist [dyn cm]
+    std::vector<double> heldTorque_;     ///< of each held edge: energy gradient of its pin at the state [dyn cm]
     AlignedArray<double> gradient_;
-    const FabricState* at_ = nullptr;  ///< where the material's forces are known …
-    AlignedArray<double> reached_;     ///< … by these velocities [cm/s, 1/s]
+    const FabricState* at_ = nullptr;  ///< state at which the internal forces are assembled
+    AlignedArray<double> reached_;     ///< velocities that lead there in the step, by VertexUnknowns [cm/s, 1/s]
     mutable AlignedArray<double> product_;
 };
 

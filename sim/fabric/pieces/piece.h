@@ -16,8 +16,8 @@ struct FabricMaterial {
     double poisson = 0.35;                      ///< [-]
     double density = 1.3;                       ///< of the fibres [g/cm^3]
     double dampingViscosity = 0.0;              ///< η of a Kelvin-Voigt damping with viscous Young's modulus 3η; 0 = none [P]
-    bool dampBending = true;                    ///< η acts on bending and twisting …
-    bool dampStretching = true;                 ///< … and on stretching
+    bool dampBending = true;                    ///< η damps bending and twisting
+    bool dampStretching = true;                 ///< η damps stretching
     double stretchFactor = 1.0;                 ///< on the stretching stiffness of yarns [-]
     double contactStiffness = 1.0e-2;           ///< of contact on the grid relative to young; solver grid only [-]
     double pinStiffness = 2.0e-2;               ///< of the springs at pins relative to young; solver grid only [-]

@@ -19,7 +19,7 @@ FabricObstacles::FabricObstacles(const Fabric& fabric, std::span<const ObstacleS
 {
     for (std::size_t n = 0; n < obstacles.size(); ++n) {
         const ObstacleSettings& obstacle = obstacles[n];
-        if (!obstacle.collide || obstacle.shape.empty()) continue;  // as SolidGuard counts them
+        if (!obstacle.collide || obstacle.shape.empty()) continue;  // as SolidLimiter counts them
         Body& body = bodies_.emplace_back();
         body.inScene = static_cast<int>(n);
         body.pose.add(obstacle.shape, obstacle.motion);
@@ -113,7 +113,7 @@ double FabricObstacles::stiffnessOf(const Point& point, const Start& start)
 }
 
 /// Of the bridge between a point and an obstacle [dyn]. It comes about between steps, so that Newton's iterations do not make and break it.
-double FabricObstacles::pullOf(const Point& point, int obstacle) const
+double FabricObstacles::bridgeForceOf(const Point& point, int obstacle) const
 {
     const Body& body = bodies_[obstacle];
     if (!body.isCohesive || !(point.pull > 0.0)) return 0.0;
@@ -124,7 +124,7 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
 {
     const Body& body = bodies_[obstacle];
     const double overlap = point.reach - body.pose.distance(point.x);
-    const double pull = overlap > -point.bridge ? pullOf(point, obstacle) : 0.0;
+    const double pull = overlap > -point.bridge ? bridgeForceOf(point, obstacle) : 0.0;
     if (!(overlap > 0.0 || pull > 0.0)) return std::nullopt;
     const Vec3 n = body.pose.normal(point.x);
     if (!(overlap > 0.0)) return Touch{n, 0.0, pull, 0.0, 0.0, {Vec3::Zero()}};
@@ -133,9 +133,9 @@ std::optional<FabricObstacles::Touch> FabricObstacles::touch(const Point& point,
     const Vec3 carried = body.carry * point.start, slip = along(point.x - carried);
     const Vec3 held = along(body.carry.linear() * start.held.at({point.number, obstacle}));
     const double coefficient = body.friction[point.material];
-    if (start.moves.empty()) return Touch{n, overlap, pull, push, stiffness, GripSpring{held, stiffness, coefficient * push}.at(slip)};
+    if (start.moves.empty()) return Touch{n, overlap, pull, push, stiffness, FrictionSpring{held, stiffness, coefficient * push}.at(slip)};
     const double pressed = stiffness * std::max(0.0, point.reach - body.pose.distance(carried));
-    const GripSpring spring{held, stiffness, coefficient * pressed};
+    const FrictionSpring spring{held, stiffness, coefficient * pressed};
     return Touch{n,    overlap,   pull,
                  push, stiffness, spring.expected(slip, along(point.start + point.move - carried), stiffness * start.h * start.h / point.mass)};
 }
@@ -181,8 +181,8 @@ bool FabricObstacles::touches(const Vec3& x, double reach) const
     return std::ranges::any_of(bodies_, [&](const Body& body) { return body.pose.distance(x) < reach; });
 }
 
-const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
-                                                        std::span<const NearestPoint> nearest)
+const std::vector<ObstacleContact>& FabricObstacles::findContacts(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
+                                                                  std::span<const NearestPoint> nearest)
 {
     contacts_.clear();
     const auto collectFrom = [&](std::size_t n, auto&& body) {
@@ -219,7 +219,7 @@ const std::vector<ObstacleContact>& FabricObstacles::at(const Fabric& fabric, st
     return contacts_;
 }
 
-void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held)
+void FabricObstacles::storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held)
 {
     std::vector<std::optional<Vec3>>& force = keptForce_;
     force.resize(contacts_.size());
@@ -239,7 +239,7 @@ void FabricObstacles::keepFriction(const Fabric& fabric, std::span<const Vec3> x
         if (force[i]) held.add(contacts_[i].between, *force[i]);
 }
 
-double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const Grips& held) const
+double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const
 {
     return parallelSum(contacts_.size(),
                        [&](std::size_t i) {

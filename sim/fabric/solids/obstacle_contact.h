@@ -4,7 +4,7 @@
 #include "sim/fabric/cohesion.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/friction_law.h"
-#include "sim/fabric/solids/guard.h"
+#include "sim/fabric/solids/solid_limiter.h"
 #include "sim/grid/obstacles.h"
 #include "sim/obstacle_settings.h"
 
@@ -38,7 +38,7 @@ struct ObstacleContact {
 };
 
 /// Fabric on obstacles: a penalty on the signed distance of vertices, of the middles of edges and of the points at which edges and faces are
-/// nearest, at the end-of-step pose (fabric/README.md, Solids); SolidGuard keeps them in front of the surface. With it Coulomb's friction
+/// nearest, at the end-of-step pose (fabric/README.md, Solids); SolidLimiter keeps them in front of the surface. With it Coulomb's friction
 /// (friction.h) relative to the obstacle, which takes its forces along where it turns. At nearest
 /// points, which wander along their edge or face, it remembers those of the edge or face.
 class FabricObstacles {
@@ -59,7 +59,7 @@ class FabricObstacles {
     struct Start {
         std::span<const Vec3> x;       ///< [cm]
         std::span<const double> mass;  ///< [g]
-        const Grips& held;             ///< FabricState::onObstacles
+        const FrictionForces& held;    ///< FabricState::onObstacles
         double h, springStep;          ///< (springStepFor) [s]
         /// Given where contacts are looked for at a prediction, a step of free fall ahead, which presses far too hard and slides too fast:
         /// force and slip of friction then follow from what presses at the start, and from where these moves [cm] and the friction that
@@ -67,13 +67,13 @@ class FabricObstacles {
         std::span<const Vec3> moves = {};
     };
     /// Contacts at x, of the vertices, then of the edges, then of the points of edges and faces that touch besides.
-    const std::vector<ObstacleContact>& at(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
-                                           std::span<const NearestPoint> nearest = {});
+    const std::vector<ObstacleContact>& findContacts(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
+                                                     std::span<const NearestPoint> nearest = {});
     /// What of the friction is held at the end of the step, at x, where the contacts found last still touch: what acted there according to
     /// their gradients and stiffnesses.
-    void keepFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, Grips& held);
+    void storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held);
     /// Energy that the contacts found last hold at x, in their penalty and in the friction that is held there [erg].
-    double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const Grips& held) const;
+    double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const;
     /// The part of it that is in liquid bridges, 0 or below [erg].
     double bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const;
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
@@ -111,7 +111,7 @@ class FabricObstacles {
     static double stiffnessOf(const Point& point, const Start& start);
     std::optional<Touch> touch(const Point& point, int obstacle, const Start& start) const;
     Point pointOf(const Fabric& fabric, const ObstacleContact& contact, std::span<const Vec3> x, const Start& start) const;
-    double pullOf(const Point& point, int obstacle) const;
+    double bridgeForceOf(const Point& point, int obstacle) const;
     Vec3 collect(const Point& point, int obstacle, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     Vec3 collect(const Point& point, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const;
     bool touches(const Vec3& x, double reach) const;

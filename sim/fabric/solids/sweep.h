@@ -17,8 +17,8 @@ struct SweptElement {
 
 /// How near an element is to a solid.
 struct Nearest {
-    double least;    ///< no point of it is nearer [cm] …
-    double reached;  ///< … and this one is as near: least ≥ (1 − kNearestError) reached, unless the search was cut short
+    double least;    ///< lower bound: no point of the element is nearer [cm]
+    double reached;  ///< distance of the nearest point found: least ≥ (1 − kNearestError) reached, unless the search was cut short [cm]
     Vec3 weights;    ///< of the corners at that point [-]
 };
 inline constexpr double kNearestError = 0.1;

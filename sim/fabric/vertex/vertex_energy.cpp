@@ -41,7 +41,7 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
 std::vector<char> VertexSolver::heldBySolids() const
 {
     std::vector<char> stopped(fabric_.vertexCount(), 0);
-    if (!guardActed_) return stopped;
+    if (!solidLimiterActed_) return stopped;
     for (std::size_t v = 0; v < stopped.size(); ++v) stopped[v] = move_[v] != system_.move(static_cast<int>(v));
     std::vector<char> held = stopped;
     const auto hold = [&](const auto& vertices) {
@@ -62,16 +62,16 @@ std::vector<char> VertexSolver::heldBySolids() const
 EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state) const
 {
     const auto gradientOver = [&](double length) {
-        return innerGradient(fabric_, state, length, system_.unknowns(), system_.rods(), system_.shells());
+        return internalGradient(fabric_, state, length, system_.unknowns(), system_.rods(), system_.shells());
     };
-    const auto along = [&](const InnerGradient& gradient) {
+    const auto along = [&](const InternalGradient& gradient) {
         double sum = 0.0;
         for (std::size_t v = 0; v < state.x.size(); ++v) sum += gradient.byPosition[v].dot(state.x[v] - start_.x[v]);
         for (std::size_t e = 0; e < state.theta.size(); ++e) sum += gradient.byAngle[e] * (state.theta[e] - start_.theta[e]);
         return sum;
     };
     EnergyChanges changes;
-    InnerGradient gradient = gradientOver(h);
+    InternalGradient gradient = gradientOver(h);
     const double elastic = along(gradientOver(std::numeric_limits<double>::infinity()));
     changes[EnergyChange::Damping] = elastic - along(gradient);
     changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - energies(start_, gravity).elastic() - elastic;

@@ -10,7 +10,7 @@
 namespace sim {
 
 /// Newton's last move, as far as contact has been looked at before it [cm].
-Vec3 VertexSolver::solvedMove(int vertex) const { return hasMovedSinceLook_ ? system_.move(vertex) : Vec3::Zero().eval(); }
+Vec3 VertexSolver::solvedMove(int vertex) const { return hasMovedSinceDetection_ ? system_.move(vertex) : Vec3::Zero().eval(); }
 
 /// Gradient of a pair of fabric by its separation [dyn]: contact is so stiff that where a move did not come quite as far as Newton's
 /// the force at the state is another than the one it reckoned with.
@@ -33,15 +33,15 @@ Vec3 VertexSolver::forceAtEnd(const ObstacleContact& contact) const
     return contact.gradient + contact.stiffness * change;
 }
 
-void VertexSolver::tellForces(double h, const Vec3& gravity, const FabricState& state) const
+void VertexSolver::reportForces(double h, const Vec3& gravity, const FabricState& state) const
 {
-    tellContacts(h, state);
-    if (guardActed_) tellGuard(h, state);
-    if (!fabric_.pins.vertex.empty()) tellPins(h, gravity, state);
+    reportContacts(h, state);
+    if (solidLimiterActed_) reportSolidLimiter(h, state);
+    if (!fabric_.pins.vertex.empty()) reportPins(h, gravity, state);
 }
 
 /// Penalty and friction, on solids and between pieces of the scene.
-void VertexSolver::tellContacts(double h, const FabricState& state) const
+void VertexSolver::reportContacts(double h, const FabricState& state) const
 {
     for (const ObstacleContact& contact : touching_) {
         const std::array<int, 3> v = contact.vertices();
@@ -61,17 +61,17 @@ void VertexSolver::tellContacts(double h, const FabricState& state) const
 }
 
 /// What solids made of the last move, which velocities follow.
-void VertexSolver::tellGuard(double h, const FabricState& state) const
+void VertexSolver::reportSolidLimiter(double h, const FabricState& state) const
 {
-    for (std::size_t v = 0; v < guardMove_.size(); ++v) {
-        if (guardMove_[v].isZero(0.0)) continue;
-        const Vec3 onObstacle = -mass_[v] / h * guardMove_[v];
+    for (std::size_t v = 0; v < limitedMove_.size(); ++v) {
+        if (limitedMove_[v].isZero(0.0)) continue;
+        const Vec3 onObstacle = -mass_[v] / h * limitedMove_[v];
         forces_->touch(fabric_.pieceOf(static_cast<int>(v)), obstacles_.inScene(obstacles_.nearest(state.x[v])), Impulse::at(state.x[v], onObstacle));
     }
 }
 
 /// What a held vertex, or a held twist angle, would do if it were not.
-void VertexSolver::tellPins(double h, const Vec3& gravity, const FabricState& state) const
+void VertexSolver::reportPins(double h, const Vec3& gravity, const FabricState& state) const
 {
     const std::vector<int>& pinned = fabric_.pins.vertex;
     const std::span<const double> gradient = system_.heldGradient();
@@ -91,7 +91,7 @@ void VertexSolver::tellPins(double h, const Vec3& gravity, const FabricState& st
     }
 }
 
-void VertexSolver::tellLiquid(const FabricState& state) const
+void VertexSolver::reportLiquid(const FabricState& state) const
 {
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         const Vec3 got = loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]);

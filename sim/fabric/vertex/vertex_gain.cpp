@@ -24,7 +24,7 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 /// liquid's work alone, and the rest need not be known.
 double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
 {
-    if (isDriven_) return startEnergies_.total() + workFromOutside(energyChanges(h, gravity, state));
+    if (isDriven_) return startEnergies_.total() + externalWork(energyChanges(h, gravity, state));
     if (!loads_) return startEnergies_.total();
     return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
                                         return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);
@@ -32,9 +32,9 @@ double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricSt
 }
 
 /// Kinetic energy of a motion, or of one that is not felt [erg].
-double VertexSolver::felt(double kinetic, double h) const
+double VertexSolver::referenceEnergy(double kinetic, double h) const
 {
-    const double unfelt = kAccelerationTolerance * feltAcceleration_ * h;
+    const double unfelt = kAccelerationTolerance * referenceAcceleration_ * h;
     return kinetic + 0.5 * totalMass_ * unfelt * unfelt;
 }
 
@@ -43,24 +43,24 @@ double VertexSolver::felt(double kinetic, double h) const
 double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state) const
 {
     const FabricEnergies now = energies(state, gravity);
-    const double scale = felt(now.kinetic, h);
-    if (now.total() <= startEnergies_.total() + kNoGain * scale) return 0.0;
-    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - unseenAtStart_) / scale;
+    const double scale = referenceEnergy(now.kinetic, h);
+    if (now.total() <= startEnergies_.total() + kNegligibleGain * scale) return 0.0;
+    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - undetectedAtStart_) / scale;
 }
 
 /// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
 /// that cannot pay it goes on to owe. Returns the changes of the step.
-EnergyChanges VertexSolver::payForGain(double h, const Vec3& gravity, FabricState& state) const
+EnergyChanges VertexSolver::dissipateGain(double h, const Vec3& gravity, FabricState& state) const
 {
     EnergyChanges changes = energyChanges(h, gravity, state);
-    const double due = start_.vertexSolver.owed + energies(state, gravity).total() - startEnergies_.total() - workFromOutside(changes);
+    const double due = start_.vertexSolver.owed + energies(state, gravity).total() - startEnergies_.total() - externalWork(changes);
     changes[EnergyChange::Implicit] -= payOwed(due, fabric_, groups_, mass_, state);
     return changes;
 }
 
 /// Where Newton has not come to a solution, or contact has come about that it did not see, what that gave is taken from the motion of
 /// fabric that nothing drives.
-void VertexSolver::giveNoEnergy(const Part& part)
+void VertexSolver::removeSpuriousGain(const Part& part)
 {
     const double h = part.h;
     const Vec3& gravity = part.gravity;
@@ -85,12 +85,12 @@ void VertexSolver::giveNoEnergy(const Part& part)
         state = start_;
         state.vertexSolver.lastFraction = lastFraction;
         state.springStep = springStep_;
-        guard_.moveTo(part.t, part.t + h);
+        solidLimiter_.moveTo(part.t, part.t + h);
         if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
         for (std::size_t v = 0; v < way.size(); ++v) move_[v] = share * way[v];
         limit(state, part.report, part.clock);
         commit(state, part.clock);
-        guard_.rest();
+        solidLimiter_.rest();
         for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += share * turn[e];
         finish(h, state);
     }
@@ -98,15 +98,15 @@ void VertexSolver::giveNoEnergy(const Part& part)
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.
-void VertexSolver::findContactsAgain(double h, FabricState& state, StageClock& clock)
+void VertexSolver::updateContacts(double h, FabricState& state, StageClock& clock)
 {
-    if (!startIsLookedAt_) {
+    if (!startIsChecked_) {
         findContacts(h, start_.x, {}, clock);
-        unseenAtStart_ = std::max(0.0, contactEnergy(h, start_.x, start_).sum() - start_.stored.sum());
-        startIsLookedAt_ = true;
+        undetectedAtStart_ = std::max(0.0, contactEnergy(h, start_.x, start_).sum() - start_.stored.sum());
+        startIsChecked_ = true;
     }
     findContacts(h, state.x, {}, clock);
-    hasMovedSinceLook_ = false;
+    hasMovedSinceDetection_ = false;
     finish(h, state);
 }
 

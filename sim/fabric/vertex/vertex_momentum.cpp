@@ -13,7 +13,7 @@ void VertexSolver::findGroups()
     for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) groups_.joinVertices(contacts_->vertices[i]);
     for (const ObstacleContact& contact : touching_)
         for (int v : contact.vertices()) groups_.hold(v);
-    if (guarded_.blocked > 0) groups_.holdAll();
+    if (solidLimits_.blocked > 0) groups_.holdAll();
 }
 
 /// Momentum of each piece at the start of the step.

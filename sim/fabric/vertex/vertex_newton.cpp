@@ -12,19 +12,20 @@ namespace sim {
 namespace {
 
 constexpr double kTolerance = 1.0e-2;    ///< of the linear solves, relative: looser ones act as damping (fabric/vertex/README.md, Linear solve) [-]
-constexpr double kMoveTolerance = 0.05;  ///< rms error of moves beyond which none is [radii] …
-constexpr double kBearable = 0.05;       ///< … and of accelerations: more makes energy from step to step [feltAcceleration]
-constexpr double kRoundings = 4.0;       ///< of places in a step: slower motion is none [-]
-constexpr double kLeftAtContact = 0.3;   ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
-constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [feltAcceleration]
+constexpr double kMoveTolerance = 0.05;  ///< rms error of moves at which iterations end [radii]
+constexpr double kAcceptable =
+    0.05;  ///< rms error of accelerations at which iterations end: more makes energy from step to step [referenceAcceleration]
+constexpr double kRoundings = 4.0;           ///< of places in a step: slower motion is none [-]
+constexpr double kLeftAtContact = 0.3;       ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
+constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [referenceAcceleration]
 constexpr double kLastMove = 0.1;            ///< rms move of a Newton iteration that may be the last [radii]
-constexpr double kSettledMove = 0.25;        ///< rms move of one after which a step needs no halves [radii] …
-constexpr double kSmallMove = 0.03;          ///< … or this small, where moves do not become smaller [radii]
+constexpr double kSettledMove = 0.25;        ///< rms move of an iteration after which a step needs no halves [radii]
+constexpr double kSmallMove = 0.03;          ///< the same where moves do not become smaller from one to the next [radii]
 constexpr double kContraction = 0.5;         ///< from one iteration's move to the next [-]
 constexpr int kMostNewton = 6;               ///< iterations to get there; more ask for halves
-constexpr double kFrictionError = 0.05;      ///< with which a step may end: more sticks where it should slide [-] …
-constexpr int kMostForFriction = 12;         ///< … and iterations to get there, of which each takes half of it or more: halves would cost more
-constexpr double kFeltFriction = 0.2;        ///< … and below which friction is too little to matter [feltAcceleration]
+constexpr double kFrictionError = 0.05;      ///< error of friction with which a step may end: more sticks where it should slide [-]
+constexpr int kMostForFriction = 12;  ///< iterations for the sake of that error, of which each takes half of it or more: halves would cost more
+constexpr double kSignificantFriction = 0.2;  ///< friction below which its error does not matter [referenceAcceleration]
 constexpr int kMaxLinearIterations = 1000;
 
 }  // namespace
@@ -39,7 +40,7 @@ void VertexSolver::findContacts(double h, std::span<const Vec3> x, std::span<con
     clock.start(Stage::FabricContact);
     FabricObstacles::Start start = obstacleStart(h);
     start.moves = expected;
-    touching_ = obstacles_.at(fabric_, x, start, guard_.nearestPoints(x));
+    touching_ = obstacles_.findContacts(fabric_, x, start, solidLimiter_.nearestPoints(x));
 }
 
 /// Newton's move from where the state is, into move_.
@@ -49,15 +50,15 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     const FabricState& state = part.state;
     FabricReport& report = part.report;
     findContacts(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
-    hasMovedSinceLook_ = true;
+    hasMovedSinceDetection_ = true;
     part.clock.start(Stage::FabricElastic);
     system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
     part.clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
-    const double fall = feltAcceleration_ * h;
+    const double fall = referenceAcceleration_ * h;
     const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
     const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
-                                       std::min(kMoveTolerance * meanRadius_ / h, kBearable * fall), isTouching ? kLeftAtContact : 1.0,
+                                       std::min(kMoveTolerance * meanRadius_ / h, kAcceptable * fall), isTouching ? kLeftAtContact : 1.0,
                                        kRoundings * placeRounding_ / h};
     const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
     if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
@@ -74,9 +75,9 @@ void VertexSolver::checkConvergence(double h, Newton& newton) const
 {
     const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
     const double move = rmsInRadii(move_);
-    newton.isQuiet = largest < kQuietAcceleration * feltAcceleration_ * h * h && move < kSmallMove;
-    newton.isSettled = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
-    newton.isNear = newton.isSettled && move < kLastMove;
+    newton.isQuiet = largest < kQuietAcceleration * referenceAcceleration_ * h * h && move < kSmallMove;
+    newton.hasConverged = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
+    newton.isNear = newton.hasConverged && move < kLastMove;
     newton.lastMove = move;
     ++newton.count;
 }
@@ -124,17 +125,17 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         applyStep(part, newton);
         const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
         if (!isLastMove) continue;
-        const double frictionError = contacts_ ? contact_->frictionError(state.x, kFeltFriction * feltAcceleration_) : 0.0;
+        const double frictionError = contacts_ ? contact_->frictionError(state.x, kSignificantFriction * referenceAcceleration_) : 0.0;
         // Steps that something drives are halved instead: shorter ones take less energy from it that fabric cannot follow.
         if (frictionError > kFrictionError && newton.count < (isDriven_ ? most : std::max(most, kMostForFriction))) continue;
-        newton.isSettled = newton.isSettled && frictionError <= kFrictionError;
+        newton.hasConverged = newton.hasConverged && frictionError <= kFrictionError;
         finish(h, state);
         if (!settled) settled = newton;
-        newton.isSettled = settled->isSettled, newton.wanted = settled->wanted, newton.taken = settled->taken;
-        if (gain(h, part.gravity, state) <= kNoGain) return;
-        findContactsAgain(h, state, part.clock);
+        newton.hasConverged = settled->hasConverged, newton.wanted = settled->wanted, newton.taken = settled->taken;
+        if (gain(h, part.gravity, state) <= kNegligibleGain) return;
+        updateContacts(h, state, part.clock);
         newton.gain = gain(h, part.gravity, state);
-        if (newton.gain <= kNoGain || newton.count >= most) return;
+        if (newton.gain <= kNegligibleGain || newton.count >= most) return;
     }
 }
 

@@ -33,13 +33,13 @@ void VertexSystem::sortIncidence()
     for (std::size_t v = 0; v < fabric_.vertexCount(); ++v) incidenceBegin_[v + 1] += incidenceBegin_[v];
     incidence_.resize(4 * pairs_.size());
     cursor_.assign(incidenceBegin_.begin(), incidenceBegin_.end() - 1);
-    loose_.clear();
+    uncoupled_.clear();
     for (int n = 0; n < static_cast<int>(pairs_.size()); ++n) {
         const PairBlock& pair = pairs_[n];
         for (int k = 0; k < 4; ++k) {
             const int v = pair.vertices[k], side = k < pair.firstSide ? 0 : 1;
             incidence_[cursor_[v]++] = {2 * n + side, k, pair.weights[k]};
-            if (!pair.inStrands[side] && unknowns_.isOnStrand(v) && !fabric_.pinned[v]) loose_.push_back({v, n, pair.weights[k]});
+            if (!pair.inStrands[side] && unknowns_.isOnStrand(v) && !fabric_.pinned[v]) uncoupled_.push_back({v, n, pair.weights[k]});
         }
     }
 }

@@ -93,7 +93,7 @@ double VertexSystem::multiplyStrands()
 double VertexSystem::applyLinks()
 {
     double product = 0.0;
-    for (const LooseVertex& loose : loose_) {
+    for (const UncoupledVertex& loose : uncoupled_) {
         const PairBlock& pair = pairs_[loose.pair];
         const HalfPack u = quad(pOfVertex_, loose.vertex);
         const HalfPack force = (loose.weight * loose.weight) * times(asQuad(pair.normal), pair.stiffness, pair.across, u);

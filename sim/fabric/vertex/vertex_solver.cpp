@@ -2,10 +2,10 @@
 
 #include "sim/core/parallel.h"
 #include "sim/fabric/contact/spring_step.h"
-#include "sim/fabric/felt_acceleration.h"
 #include "sim/fabric/held.h"
 #include "sim/fabric/owed_energy.h"
 #include "sim/fabric/pins.h"
+#include "sim/fabric/reference_acceleration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kExpectedMove = 0.3;    ///< farthest that forces are expected to move a vertex against its free flight [radii]
 constexpr double kExpectedTurn = 0.1;    ///< farthest that twist angles are expected to go on as they did [rad]
-constexpr double kFractionTwice = 0.95;  ///< less than this of the moves taken twice running …
-constexpr double kFractionOnce = 0.7;    ///< … or than this once asks for halves [-]
+constexpr double kFractionTwice = 0.95;  ///< accepted part of the moves below which, twice running, a step is halved [-]
+constexpr double kFractionOnce = 0.7;    ///< accepted part of the moves below which a step is halved at once [-]
 constexpr int kDrivenHalvings = 2;       ///< of steps in which something drives the fabric, at least as many as these may be made
 constexpr int kMaxListBuilds = 25;       ///< per attempt; more ask for halves
 constexpr double kMuchGain = 0.1;        ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
@@ -40,7 +40,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
     if (settings.contact) {
         contact_.emplace(fabric, cohesion_ ? &*cohesion_ : nullptr);
         obstacles_ = FabricObstacles(fabric, obstacles, cohesion_ ? &*cohesion_ : nullptr);
-        guard_ = SolidGuard(fabric, obstacles);
+        solidLimiter_ = SolidLimiter(fabric, obstacles);
     }
     totalMass_ = std::accumulate(fabric.mass.begin(), fabric.mass.end(), 0.0);
     meanRadius_ = std::inner_product(fabric.mass.begin(), fabric.mass.end(), fabric.radius.begin(), 0.0) / totalMass_;
@@ -59,16 +59,16 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
     loads_ = loads.onVertices;
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
-    feltAcceleration_ = feltAcceleration(
+    referenceAcceleration_ = referenceAcceleration(
         gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
     placeRounding_ = std::numeric_limits<double>::epsilon() * farthest;
-    if (cohesion_) cohesion_->takeUp(state.absorbed);
+    if (cohesion_) cohesion_->setAbsorbed(state.absorbed);
     groups_.begin();
     findMomenta(state);
     advanceInParts({t, h, 0, gravity, state, report, clock});
     keepMomentum(h, gravity, state);
-    if (forces_ && loads_) tellLiquid(state);
+    if (forces_ && loads_) reportLiquid(state);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
 }
@@ -136,22 +136,22 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     startTime_ = t;
     startEnergies_ = energies(start_, part.gravity);
     start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
-    startIsLookedAt_ = false;
-    unseenAtStart_ = 0.0;
+    startIsChecked_ = false;
+    undetectedAtStart_ = 0.0;
     part.clock.start(Stage::FabricElastic);
     system_.rods().startStep(state);
     system_.shells().startStep(state.x);
     predict(part);
     obstacles_.moveTo(t, t + h);
-    guard_.moveTo(t, t + h);
-    solidsMove_ = guard_.movesNear(state.x, move_);
+    solidLimiter_.moveTo(t, t + h);
+    solidsMove_ = solidLimiter_.movesNear(state.x, move_);
     isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
-    // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (payForGain).
+    // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (dissipateGain).
     const double bearable = isDriven_ && h < wholeStep_ ? 1.0 : kStiffeningGain;
-    springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * felt(startEnergies_.kinetic, h));
+    springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * referenceEnergy(startEnergies_.kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
-    guarded_ = {};
+    solidLimits_ = {};
     if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
 
     if (!followSolids(part, isLast)) return false;
@@ -176,9 +176,9 @@ void VertexSolver::findRates(double h, FabricState& state) const
 void VertexSolver::finish(double h, FabricState& state)
 {
     findRates(h, state);
-    if (contacts_) contact_->keepFriction(state.x, state.vertexSolver.onFabric);
+    if (contacts_) contact_->storeFriction(state.x, state.vertexSolver.onFabric);
     else state.vertexSolver.onFabric.clear();
-    obstacles_.keepFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
+    obstacles_.storeFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
     state.stored = contactEnergy(h, state.x, state);
 }
 
@@ -194,7 +194,7 @@ bool VertexSolver::attempt(const Part& part)
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || guarded_.left > 0 || !newton.isSettled ||
+                         limits_.listBuilds > kMaxListBuilds || solidLimits_.left > 0 || !newton.hasConverged ||
                          (newton.gain > kMuchGain && (isDriven_ || !newton.isQuiet));
     state.vertexSolver.lastFraction = fraction;
     // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
@@ -204,13 +204,13 @@ bool VertexSolver::attempt(const Part& part)
 
     if (isShort) ++report.shortened;
     findGroups();
-    const bool mayHaveGained = startIsLookedAt_ || isShort;
-    if (mayHaveGained && !isDriven_) giveNoEnergy(part);
+    const bool mayHaveGained = startIsChecked_ || isShort;
+    if (mayHaveGained && !isDriven_) removeSpuriousGain(part);
     std::optional<EnergyChanges> changes;
-    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = payForGain(h, part.gravity, state);
-    if (state.vertexSolver.owed > 0.0) refuseJam(fabric_, state, felt(energies(state, part.gravity).kinetic, h));
+    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = dissipateGain(h, part.gravity, state);
+    if (state.vertexSolver.owed > 0.0) throwJammed(fabric_, state, referenceEnergy(energies(state, part.gravity).kinetic, h));
     if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, part.gravity, state);
-    if (forces_) tellForces(h, part.gravity, state);
+    if (forces_) reportForces(h, part.gravity, state);
     return true;
 }
 

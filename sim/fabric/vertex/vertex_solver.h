@@ -6,8 +6,8 @@
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/groups.h"
 #include "sim/fabric/integrator.h"
-#include "sim/fabric/solids/guard.h"
 #include "sim/fabric/solids/obstacle_contact.h"
+#include "sim/fabric/solids/solid_limiter.h"
 #include "sim/fabric/vertex/vertex_system.h"
 #include "sim/forces.h"
 #include "sim/obstacle_settings.h"
@@ -35,8 +35,10 @@ class VertexSolver final : public FabricIntegrator {
     double leastDistance() const;
 
  private:
-    static constexpr double kAccelerationTolerance = 0.01;  ///< rms error at which a linear solve is good enough: less is not felt [feltAcceleration]
-    static constexpr double kNoGain = 1.0e-3;  ///< energy from nothing that a step may leave, relative to its motion's: more asks for iterations [-]
+    static constexpr double kAccelerationTolerance =
+        0.01;  ///< rms error at which a linear solve is good enough: less is not felt [referenceAcceleration]
+    static constexpr double kNegligibleGain =
+        1.0e-3;  ///< energy from nothing that a step may leave, relative to its motion's: more asks for iterations [-]
 
     /// The Newton iterations of one attempt so far.
     struct Newton {
@@ -45,7 +47,7 @@ class VertexSolver final : public FabricIntegrator {
         double lastMove = 0.0;             ///< rms [radii]
         double wanted = 0.0, taken = 0.0;  ///< moves squared, and what the limiter left of them, by mass [g cm^2]
         double gain = 0.0;                 ///< where it ended [-]
-        bool isSettled = false, isNear = false, isQuiet = false;
+        bool hasConverged = false, isNear = false, isQuiet = false;
     };
 
     /// A step or a part of one, and what it works on.
@@ -65,7 +67,7 @@ class VertexSolver final : public FabricIntegrator {
     bool beginAttempt(const Part& part, bool isLast);
     void predict(const Part& part);
     void findContacts(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
-    void findContactsAgain(double h, FabricState& state, StageClock& clock);
+    void updateContacts(double h, FabricState& state, StageClock& clock);
     void solve(const Part& part, Newton& newton);
     void checkConvergence(double h, Newton& newton) const;
     void applyStep(const Part& part, Newton& newton);
@@ -73,18 +75,18 @@ class VertexSolver final : public FabricIntegrator {
     double rmsInRadii(std::span<const Vec3> move) const;
     bool followSolids(const Part& part, bool isLast);
     bool limit(const FabricState& state, FabricReport& report, StageClock& clock);
-    bool limitInTurn(const FabricState& state, StageClock& clock);
-    SolidGuard::Limited keepFromSolids(const FabricState& state);
+    bool limitAlternately(const FabricState& state, StageClock& clock);
+    SolidLimiter::Limited limitAtSolids(const FabricState& state);
     void turnHeldEdges(double t, FabricState& state) const;
     void findRates(double h, FabricState& state) const;
     void finish(double h, FabricState& state);
     ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
-    double felt(double kinetic, double h) const;
+    double referenceEnergy(double kinetic, double h) const;
     double gain(double h, const Vec3& gravity, const FabricState& state) const;
     void iterate(const Part& part, Newton& newton);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
-    EnergyChanges payForGain(double h, const Vec3& gravity, FabricState& state) const;
-    void giveNoEnergy(const Part& part);
+    EnergyChanges dissipateGain(double h, const Vec3& gravity, FabricState& state) const;
+    void removeSpuriousGain(const Part& part);
     void findGroups();
     void findMomenta(const FabricState& state);
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);
@@ -95,11 +97,11 @@ class VertexSolver final : public FabricIntegrator {
     Vec3 solvedMove(int vertex) const;
     Vec3 forceAtEnd(std::size_t contact) const;
     Vec3 forceAtEnd(const ObstacleContact& contact) const;
-    void tellForces(double h, const Vec3& gravity, const FabricState& state) const;
-    void tellContacts(double h, const FabricState& state) const;
-    void tellGuard(double h, const FabricState& state) const;
-    void tellPins(double h, const Vec3& gravity, const FabricState& state) const;
-    void tellLiquid(const FabricState& state) const;
+    void reportForces(double h, const Vec3& gravity, const FabricState& state) const;
+    void reportContacts(double h, const FabricState& state) const;
+    void reportSolidLimiter(double h, const FabricState& state) const;
+    void reportPins(double h, const Vec3& gravity, const FabricState& state) const;
+    void reportLiquid(const FabricState& state) const;
 
     const Fabric& fabric_;
     FabricSettings settings_;
@@ -107,41 +109,41 @@ class VertexSolver final : public FabricIntegrator {
     std::optional<Cohesion> cohesion_;
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
-    SolidGuard guard_;
-    FabricGroups groups_;                       ///< of the step under way …
-    std::vector<Vec3> momentum_;                ///< … and of each piece, at its start [g cm/s]
+    SolidLimiter solidLimiter_;
+    FabricGroups groups_;                       ///< groups of pieces in the step under way
+    std::vector<Vec3> momentum_;                ///< of each piece, at the start of the step [g cm/s]
     std::vector<Vec3> missing_, groupInertia_;  ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
     std::vector<Vec3> restReference_;           ///< of each yarn edge
     std::vector<int> nearestPin_;               ///< of each vertex (nearestPins)
 
     mutable ElasticEnergies elastic_;
-    const ActiveContacts* contacts_ = nullptr;   ///< of the last Newton iteration …
-    std::span<const ObstacleContact> touching_;  ///< … and with obstacles
-    LimitReport limits_;                         ///< of the attempt under way …
-    GuardReport guarded_;                        ///< … likewise
-    bool guardActed_ = false;                    ///< in the last move: solids took a hand in it …
-    std::vector<Vec3> guardMove_, unguarded_;    ///< … of each vertex, where forces are wanted: what they made of it, and the move before [cm]
-    std::vector<Vec3> wholeMove_;                ///< move_ of the whole step, while it is made in halves [cm]
-    const LiquidLoads* loads_ = nullptr;         ///< of the step under way
-    double wholeStep_ = 0.0;                     ///< its length [s]
-    double placeRounding_ = 0.0;                 ///< by which places of the step under way are rounded [cm]
-    double feltAcceleration_ = 0.0;              ///< feltAcceleration of the step under way [cm/s^2]
-    FabricState start_;                          ///< of the attempt under way, to go back to
-    double startTime_ = 0.0;                     ///< … when that is [s]
-    FabricEnergies startEnergies_;               ///< … and its energies
-    double unseenAtStart_ = 0.0;                 ///< energy of contact there that the step before has not seen [erg] …
-    bool startIsLookedAt_ = false;               ///< … once it was looked for
-    bool solidsMove_ = false;                    ///< those near the fabric, in the attempt
-    bool isDriven_ = false;                      ///< by solids, or pins that move in the attempt under way
-    bool hasMovedSinceLook_ = false;             ///< along system_'s last move
-    double springStep_ = 0.0;                    ///< of the attempt (springStepFor) [s]
-    std::vector<double> mass_;                   ///< of each vertex, with what it has absorbed [g]
-    std::vector<Vec3> inertia_;                  ///< of each vertex (NewtonPoint) [g]
-    std::vector<Vec3> free_, move_;              ///< of each vertex [cm]
-    std::vector<Vec3> expected_;                 ///< of each vertex: its move if forces act on as they did [cm]
-    std::vector<double> freeAngle_;              ///< of each yarn edge [rad]
-    double totalMass_ = 0.0;                     ///< [g]
-    double meanRadius_ = 0.0;                    ///< weighted by mass [cm]
+    const ActiveContacts* contacts_ = nullptr;       ///< contacts of fabric with fabric in the last Newton iteration
+    std::span<const ObstacleContact> touching_;      ///< contacts of fabric with obstacles in the last Newton iteration
+    LimitReport limits_;                             ///< limits of contact between fabric in the attempt under way
+    SolidLimitReport solidLimits_;                   ///< limits of contact with solids in the attempt under way
+    bool solidLimiterActed_ = false;                 ///< solids have changed the last move
+    std::vector<Vec3> limitedMove_, unlimitedMove_;  ///< of each vertex, where forces are wanted: the move after solids changed it, and before [cm]
+    std::vector<Vec3> wholeMove_;                    ///< move_ of the whole step, while it is made in halves [cm]
+    const LiquidLoads* loads_ = nullptr;             ///< of the step under way
+    double wholeStep_ = 0.0;                         ///< its length [s]
+    double placeRounding_ = 0.0;                     ///< by which places of the step under way are rounded [cm]
+    double referenceAcceleration_ = 0.0;             ///< referenceAcceleration of the step under way [cm/s^2]
+    FabricState start_;                              ///< of the attempt under way, to go back to
+    double startTime_ = 0.0;                         ///< time at the start of the attempt [s]
+    FabricEnergies startEnergies_;                   ///< energies at the start of the attempt
+    double undetectedAtStart_ = 0.0;                 ///< energy of contacts at the start that the step before has not detected [erg]
+    bool startIsChecked_ = false;                    ///< that energy is known
+    bool solidsMove_ = false;                        ///< those near the fabric, in the attempt
+    bool isDriven_ = false;                          ///< by solids, or pins that move in the attempt under way
+    bool hasMovedSinceDetection_ = false;            ///< along system_'s last move
+    double springStep_ = 0.0;                        ///< of the attempt (springStepFor) [s]
+    std::vector<double> mass_;                       ///< of each vertex, with what it has absorbed [g]
+    std::vector<Vec3> inertia_;                      ///< of each vertex (NewtonPoint) [g]
+    std::vector<Vec3> free_, move_;                  ///< of each vertex [cm]
+    std::vector<Vec3> expected_;                     ///< of each vertex: its move if forces act on as they did [cm]
+    std::vector<double> freeAngle_;                  ///< of each yarn edge [rad]
+    double totalMass_ = 0.0;                         ///< [g]
+    double meanRadius_ = 0.0;                        ///< weighted by mass [cm]
 };
 
 }  // namespace sim

@@ -58,16 +58,16 @@ void VertexSystem::findLinks()
 void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
     rods_.includeTwistHessian();
-    sumUp(at, obstacles, contacts);
+    assembleSums(at, obstacles, contacts);
     if (!rods_.empty() && !strands_.factor(rods_.layout())) {
         rods_.excludeTwistHessian(strands_.definite());
-        sumUp(at, obstacles, contacts);
+        assembleSums(at, obstacles, contacts);
         strands_.factor(rods_.layout());
     }
     if (!shells_.empty()) clothFactor_.factor(cloth_, clothExtra_);
 }
 
-void VertexSystem::sumUp(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
+void VertexSystem::assembleSums(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
     copyPairs(contacts);
     gradient_.fill(0.0);
@@ -185,7 +185,7 @@ void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
         for (int k = 0; k < corners; ++k)
             for (int l = k + 1; l < corners; ++l) {
                 const double both = share[k] * share[l];
-                if (tie(v[k], v[l], both * contact.stiffness)) continue;
+                if (addCoupling(v[k], v[l], both * contact.stiffness)) continue;
                 own[k] += both;
                 own[l] += both;
             }
@@ -194,7 +194,7 @@ void VertexSystem::addObstacles(std::span<const ObstacleContact> obstacles)
 }
 
 /// Adds a block between two corners of an edge or a face, if the matrix has a place for it.
-bool VertexSystem::tie(int a, int b, const Mat3& block)
+bool VertexSystem::addCoupling(int a, int b, const Mat3& block)
 {
     if (!unknowns_.isOnStrand(a) && !unknowns_.isOnStrand(b)) {
         asBlock(cloth_.find(std::min(clothRow_[a], clothRow_[b]), std::max(clothRow_[a], clothRow_[b]))) += block;

@@ -72,13 +72,13 @@ class VertexSystem {
         std::array<std::array<double, 16>, 3> coupling;
     };
 
-    void sumUp(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
+    void assembleSums(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void findLinks();
     void addInertia(const NewtonPoint& at);
     void emptySharedRows();
     void addToDiagonal(int vertex, const Mat3& block);
     void addObstacles(std::span<const ObstacleContact> obstacles);
-    bool tie(int a, int b, const Mat3& block);
+    bool addCoupling(int a, int b, const Mat3& block);
     Eigen::Map<Mat3> asBlock(int entry) { return Eigen::Map<Mat3>(cloth_.block(entry)); }
     void copyPairs(const ActiveContacts* contacts);
     void addContacts(const ActiveContacts& contacts);
@@ -126,7 +126,7 @@ class VertexSystem {
         double weight;
     };
     /// A vertex on a strand whose side of a pair is not in S but for its own diagonal.
-    struct LooseVertex {
+    struct UncoupledVertex {
         int vertex, pair;
         double weight;
     };
@@ -134,11 +134,11 @@ class VertexSystem {
     std::vector<PairBlock> pairs_;
     std::vector<int> incidenceBegin_, cursor_;
     std::vector<Incidence> incidence_;  ///< of each vertex, in the order of the pairs
-    std::vector<LooseVertex> loose_;
+    std::vector<UncoupledVertex> uncoupled_;
     AlignedArray<double> pairForce_;    ///< C p on either side of each pair, 4 numbers each
     AlignedArray<double> pOfVertex_;    ///< p of each vertex, 4 numbers each
-    std::vector<int> heldSlots_;        ///< unknowns that are pinned …
-    std::vector<double> heldGradient_;  ///< … and their gradient before it is taken away
+    std::vector<int> heldSlots_;        ///< slots of the unknowns that are pinned
+    std::vector<double> heldGradient_;  ///< gradient of the pinned unknowns before it is removed [dyn, dyn cm]
     std::vector<int> pieceOf_;          ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
     std::vector<Mat3> pieceStiffness_;  ///< of each of these pieces, moved as a whole [dyn/cm]
     std::vector<Vec3> pieceForce_;      ///< what is left of the forces on it [dyn]

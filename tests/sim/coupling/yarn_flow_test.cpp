@@ -28,7 +28,7 @@ TEST(DragAround, IsThatOfACylinder)
     const LiquidSettings water;
     EXPECT_EQ(dragAround(water, DragLaw::Off, 0.1, 1.0, 5.0).across, 0.0);
     EXPECT_EQ(dragAround(water, DragLaw::Linear, 0.1, 1.0, 5.0).across, dragAround(water, DragLaw::Linear, 0.1, 1.0, 50.0).across);
-    const auto nonlinear = [&](double narrowing) { return dragAround(water, DragLaw::Nonlinear, 0.1, narrowing, 5.0).across; };
+    const auto nonlinear = [&](double constriction) { return dragAround(water, DragLaw::Nonlinear, 0.1, constriction, 5.0).across; };
     EXPECT_NEAR(nonlinear(4.0), 4.0 * nonlinear(1.0), 1.0e-9);
 }
 
@@ -42,7 +42,7 @@ TEST(Narrowings, GrowWithWhatNeighboursCover)
                 pieces.push_back(
                     testing::pieceOf(strand(Vec3(n * spacing, 0.0, -3.0), Vec3(n * spacing, 0.0, 3.0), segments), testing::wool(), {0.05, 0.05}));
         const Fabric fabric = assembleFabric(pieces);
-        return narrowings(fabric, yarnDiameters(fabric))[fabric.vertexCount() / 2];
+        return constrictions(fabric, yarnDiameters(fabric))[fabric.vertexCount() / 2];
     };
     EXPECT_EQ(middleOf(0.0, 60), 1.0);
     const double wide = middleOf(0.3, 60), dense = middleOf(0.15, 60);

@@ -49,7 +49,7 @@ TEST(Cohesion, OfClothGoesByItsAreaAndOfYarnsByTheirLength)
         const Fabric fabric = testing::fabricOf(piece);
         Cohesion cohesion(fabric, water, settings);
         std::vector<double> absorbed = poreCapacity(fabric, water.density);
-        cohesion.takeUp(absorbed);
+        cohesion.setAbsorbed(absorbed);
         double sum = 0.0;
         for (int v = 0; v < static_cast<int>(fabric.vertexCount()); ++v) sum += cohesion.onObstacle(v);
         return sum;
@@ -65,7 +65,7 @@ TEST(Cohesion, DryFabricHasNone)
     const Fabric fabric = testing::fabricOf(sheet(Vec3::Zero()));
     Cohesion cohesion(fabric, LiquidSettings(), {1.0, true, true});
     const std::vector<double> dry(fabric.vertexCount(), 0.0);
-    cohesion.takeUp(dry);
+    cohesion.setAbsorbed(dry);
     EXPECT_FALSE(cohesion.isOnFabric());
     EXPECT_FALSE(cohesion.isOnObstacles());
 }

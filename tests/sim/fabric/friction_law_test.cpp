@@ -17,11 +17,11 @@ using testing::Noise;
 Vec3 inPlane(Noise& random, double size) { return size * Vec3(random(), random(), 0.0); }
 
 /// In any state the force is the spring's as far as friction holds it, and Coulomb's beyond.
-TEST(GripSpring, IsElasticUpToTheBound)
+TEST(FrictionSpring, IsElasticUpToTheBound)
 {
     Noise random(1);
     for (int i = 0; i < 1000; ++i) {
-        const GripSpring spring{inPlane(random, 2.0), std::exp(3.0 * random()), std::abs(random())};
+        const FrictionSpring spring{inPlane(random, 2.0), std::exp(3.0 * random()), std::abs(random())};
         const Vec3 slip = inPlane(random, 1.0), trial = spring.held + spring.stiffness * slip;
         const Friction friction = spring.at(slip);
         EXPECT_LE(friction.force.norm(), spring.bound * (1.0 + 1.0e-14));
@@ -32,7 +32,7 @@ TEST(GripSpring, IsElasticUpToTheBound)
 
 /// Along any path, in steps of any length, it gives back no more than it may have stored: the square of the bound over twice its
 /// stiffness, the least of those it had.
-TEST(GripSpring, GivesBackNoMoreThanItStores)
+TEST(FrictionSpring, GivesBackNoMoreThanItStores)
 {
     constexpr double kBound = 1.0;
     for (unsigned seed = 0; seed < 50; ++seed) {
@@ -41,7 +41,7 @@ TEST(GripSpring, GivesBackNoMoreThanItStores)
         Vec3 held = Vec3::Zero();
         double taken = 0.0, softest = 1.0e300;
         for (int i = 0; i < 500; ++i) {
-            const GripSpring spring{held, varies && i % 50 == 0 ? 4.0 : 16.0, kBound};
+            const FrictionSpring spring{held, varies && i % 50 == 0 ? 4.0 : 16.0, kBound};
             softest = std::min(softest, spring.stiffness);
             const Vec3 slip = inPlane(random, 0.2);
             held = spring.at(slip).force;

@@ -170,7 +170,7 @@ TEST(Crossing, NoParticleGetsIntoTheSecondOfTwoSolidsThatItMeets)
         // In front of both, as near to each as the resolution, and towards both.
         const Vec3 from = chance.inCube(0.02), to = chance.inCube(0.1);
         if (atStart.distance(from) <= 0.0 || from.norm() > 0.02) continue;
-        const auto contact = obstacles.firstContact(Obstacles::Way(from), to, kResolution * kCell);
+        const auto contact = obstacles.firstContact(Obstacles::Path(from), to, kResolution * kCell);
         if (!contact) continue;
         Obstacles then = obstacles;
         then.moveTo(0.0, 0.05 * contact->share);

@@ -162,7 +162,7 @@ TEST(SafeFraction, StopsBeforeAndNotLongBeforeTheMeeting)
                 return std::sqrt(dot(s, s));
             };
             const double separation = 0.3 * distanceAt(0.0);
-            const double fraction = safeFraction(kind, x, u, separation);
+            const double fraction = collisionFreeFraction(kind, x, u, separation);
             double least = 1.0e30;
             for (int k = 0; k <= 400; ++k) least = std::min(least, distanceAt(fraction * k / 400.0));
             EXPECT_GE(least, separation * (1.0 - 1.0e-12));
@@ -234,8 +234,8 @@ TEST(PairStiffness, IsTheFibresOrWhatAStepResolves)
 
 TEST(GripStiffness, LetsAPairGiveNoFurtherThanItIsPressed)
 {
-    EXPECT_EQ(gripStiffness(0.5, 0.5, 3.0), 12.0);   // pressed lightly: what stops the masses
-    EXPECT_EQ(gripStiffness(10.0, 0.5, 3.0), 20.0);  // pressed hard: N over how far
+    EXPECT_EQ(pairFrictionStiffness(0.5, 0.5, 3.0), 12.0);   // pressed lightly: what stops the masses
+    EXPECT_EQ(pairFrictionStiffness(10.0, 0.5, 3.0), 20.0);  // pressed hard: N over how far
 }
 
 }  // namespace

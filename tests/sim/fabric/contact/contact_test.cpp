@@ -206,13 +206,13 @@ struct WatchedList {
     /// @return whether the list had to be built
     bool move(std::span<const Vec3> u)
     {
-        const bool isBuilt = list.coverMove(x, u);
+        const bool isBuilt = list.coverMoves(x, u);
         for (const NearPair& p : all) {
             const auto at = [&](std::span<const Vec3> w) {
                 return std::array<Vec3, 4>{w[p.vertices[0]], w[p.vertices[1]], w[p.vertices[2]], w[p.vertices[3]]};
             };
             const double floor = p.range.core + 0.15 * (p.range.reach - p.range.core);
-            if (!mayComeNearer(p.kind, at(x), at(u), distanceOf(p, x), floor)) continue;
+            if (!mayApproach(p.kind, at(x), at(u), distanceOf(p, x), floor)) continue;
             ++mattered;
             EXPECT_TRUE(holds(p));
         }
@@ -223,7 +223,7 @@ struct WatchedList {
     /// Looks whether pairs are there that act.
     void stay()
     {
-        list.coverPlace(x);
+        list.coverPositions(x);
         for (const NearPair& p : all)
             if (distanceOf(p, x) < p.range.reach) {
                 EXPECT_TRUE(holds(p));
@@ -307,7 +307,7 @@ TEST(CandidateList, HoldsNoPairTwice)
         std::vector<Vec3> u = randomMoves(fabric, 0.1, step);
         for (std::size_t v = 0; v < u.size(); ++v)
             if (v % 3 != step % 3) u[v].setZero();
-        list.coverMove(x, u);
+        list.coverMoves(x, u);
         for (const CandidatePool* pool : {&list.edgePairs(), &list.facePairs()}) {
             std::set<std::pair<int, int>> seen;
             for (std::size_t i = 0; i < pool->size(); ++i) EXPECT_TRUE(seen.insert({pool->a[i], pool->b[i]}).second);
@@ -325,7 +325,7 @@ TEST(CandidateList, GivesUpOnFabricThatHasBurst)
     CandidateList list(scene.fabric);
     std::vector<Vec3> burst = scene.fabric.rest;
     for (Vec3& x : burst) x *= 1.0e-3;
-    EXPECT_THROW(list.coverPlace(burst), RunError);
+    EXPECT_THROW(list.coverPositions(burst), RunError);
 }
 
 TEST(CandidateList, MeasuresAtX)
@@ -335,10 +335,10 @@ TEST(CandidateList, MeasuresAtX)
     std::vector<Vec3> x = fabric.rest;
     for (unsigned step = 0; step < 30; ++step) {
         std::vector<Vec3> u = randomMoves(fabric, step % 2 == 0 ? 0.1 : 0.02, step);
-        list.coverMove(x, u);
+        list.coverMoves(x, u);
         list.measure(x);
         for (Vec3& v : u) v *= 1.3;
-        list.coverMove(x, u);
+        list.coverMoves(x, u);
         list.measure(x);
         for (const CandidatePool* pool : {&list.edgePairs(), &list.facePairs()})
             for (std::size_t i = 0; i < pool->size(); ++i)  // packs contract products as they like

@@ -132,11 +132,11 @@ TEST(GridContactLaw, FrictionIsBoundedByThePressure)
     const ContactModuli m(material());
     Noise noise(5);
     for (int n = 0; n < 500; ++n) {
-        const Vec3 r = sheet::returned(m, {noise(), noise(), 1.2 * noise()}), t = sheet::stress(m, r);
+        const Vec3 r = sheet::returnMapping(m, {noise(), noise(), 1.2 * noise()}), t = sheet::stress(m, r);
         EXPECT_LE(t.head<2>().norm(), m.coulomb * -t[2] * (1.0 + 1e-12));
         yarn::Strain s;
         s << noise(), noise(), 0.8 + 0.5 * noise(), 0.3 * noise(), 0.3 * noise(), 0.8 + 0.5 * noise();
-        const yarn::Strain kept = yarn::returned(m, s);
+        const yarn::Strain kept = yarn::returnMapping(m, s);
         const yarn::Section section(kept.bottomRows<2>());
         const Eigen::Vector2d log = section.sigma.array().log();
         if (log.sum() > -1e-12) continue;
@@ -157,7 +157,7 @@ TEST(GridContactLaw, SlidingSectionsStillAnswerToPressure)
         yarn::SectionStiffness whole, left;
         ASSERT_TRUE(yarn::stiffness(m, section, whole));
         left = whole;
-        yarn::slide(section, across, left);
+        yarn::scaleDeviatoric(section, across, left);
         const Eigen::Vector4d scaling(r(1, 0), r(2, 0), r(1, 1), r(2, 1));
         EXPECT_LT((left * scaling - whole * scaling).norm(), 1e-12 * (whole * scaling).norm());
         EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(left).eigenvalues().minCoeff(), -1e-12);
@@ -171,11 +171,11 @@ TEST(GridContactLaw, SlidingSectionsStillAnswerToPressure)
 TEST(GridContactLaw, SeparationLeavesNoStress)
 {
     const ContactModuli m(material());
-    EXPECT_EQ(sheet::returned(m, {0.3, -0.2, 1.01}), Vec3::UnitZ());
-    EXPECT_EQ(sheet::stress(m, sheet::returned(m, {0.3, -0.2, 1.01})).norm(), 0.0);
+    EXPECT_EQ(sheet::returnMapping(m, {0.3, -0.2, 1.01}), Vec3::UnitZ());
+    EXPECT_EQ(sheet::stress(m, sheet::returnMapping(m, {0.3, -0.2, 1.01})).norm(), 0.0);
     yarn::Strain r;
     r << 0.1, 0.2, 1.3, 0.1, 0.0, 0.9;
-    EXPECT_LT(yarnStress(m, yarn::returned(m, r)).norm(), 1e-12);
+    EXPECT_LT(yarnStress(m, yarn::returnMapping(m, r)).norm(), 1e-12);
 }
 
 TEST(GridContactLaw, IsotropicCompressionIsKept)
@@ -186,7 +186,7 @@ TEST(GridContactLaw, IsotropicCompressionIsKept)
         const ContactModuli m(frictional);
         yarn::Strain r;
         r << 0.0, 0.0, 0.8, 0.0, 0.0, 0.8;
-        EXPECT_LT((yarn::returned(m, r) - r).norm(), 1e-14);
+        EXPECT_LT((yarn::returnMapping(m, r) - r).norm(), 1e-14);
     }
 }
 
@@ -194,7 +194,7 @@ TEST(GridContactLaw, SheetTurnedInsideOutIsPushedBack)
 {
     const ContactModuli m(material());
     EXPECT_LT(sheet::stress(m, {0.0, 0.0, -0.3})[2], sheet::stress(m, {0.0, 0.0, 0.3})[2]);
-    EXPECT_EQ(sheet::returned(m, {0.0, 0.0, -0.3})[2], kLeastThickness);
+    EXPECT_EQ(sheet::returnMapping(m, {0.0, 0.0, -0.3})[2], kLeastThickness);
 }
 
 TEST(GridContactLaw, PressedSheetHasThePublishedPressure)
@@ -309,7 +309,7 @@ TEST(GridContactLaw, StoresNoMoreThanTheSolvedStressesTook)
             most.push_back(std::max(0.0, pressed.contact.stress(e).energy + work));
             if (!pressed.contact.stress(e).isActive) most.back() = pressed.contact.stress(e).energy;
         }
-        const double told = pressed.contact.carry({pressed.motion, h, kCell, 0.0}, 0.0, pressed.state);
+        const double told = pressed.contact.advectDirections({pressed.motion, h, kCell, 0.0}, 0.0, pressed.state);
         pressed.contact.assemble(pressed.state);
         EXPECT_NEAR(pressed.contact.energy(), told, 1.0e-12 * told);
         for (std::size_t e = 0; e < pressed.contact.size(); ++e)
@@ -359,7 +359,7 @@ TEST(GridContactLaw, ForcesOnGridAndMeshAreTheSlopesOfTheEnergy)
         const PlainPush push = gradientOf(contact, e);
         slope += push.onGrid.cwiseProduct(g).sum();
         for (int k = 0; k < 3; ++k)
-            if (contact.corners(e)[k] >= 0) slope += push.onCorners[k].dot(move[contact.corners(e)[k]]);
+            if (contact.corners(e)[k] >= 0) slope += push.nodalResponse[k].dot(move[contact.corners(e)[k]]);
     }
     const auto energyAt = [&](double step) {
         FabricState moved = rest;

@@ -98,7 +98,7 @@ struct PlainSystem {
         forEachSlope(x, [&](const Face& f, const Vec3& z) { of(q, f) += kStep * kStep * push.onGrid.row(f.axis).dot(z); });
         const Vec3 onMean = -push.onGrid.cwiseProduct(missing).rowwise().sum();
         for (int k = 0; k < 3; ++k)
-            if (parts.contact.corners(e)[k] >= 0) force[parts.contact.corners(e)[k]] += push.onCorners[k] + parts.contact.shares(e)[k] * onMean;
+            if (parts.contact.corners(e)[k] >= 0) force[parts.contact.corners(e)[k]] += push.nodalResponse[k] + parts.contact.shares(e)[k] * onMean;
     }
 
     struct Face {
@@ -277,7 +277,7 @@ TEST(GridVertexStiffness, ClothEqualsItsMatrix)
 }
 
 /// Strands of two vertices, of more, and held ones.
-TEST(TwistBalance, LeavesNoTorque)
+TEST(TwistElimination, LeavesNoTorque)
 {
     std::vector<FabricPiece> pieces;
     for (int edges : {1, 2, 7, 3}) {
@@ -293,14 +293,14 @@ TEST(TwistBalance, LeavesNoTorque)
     parts.stiffness.rods().transportFrames(parts.state);
     parts.assembleForces(kStep);
     const std::vector<double>& inertia = parts.fabric.edges.twistInertia;
-    parts.stiffness.balanceTwist(inertia, kStep);
+    parts.stiffness.factorTwist(inertia, kStep);
     AlignedArray<double> u(parts.stiffness.unknowns().size), torque(u.size());
     for (std::size_t v = 0; v < parts.state.x.size(); ++v) parts.stiffness.set(u, static_cast<int>(v), noise.vector());
     const std::vector<int>& slot = parts.stiffness.unknowns().twistSlot;
     const auto impulse = [&](std::size_t e) { return inertia[e] * u[slot[e]] + kStep * kStep * torque[slot[e]]; };
 
     for (int s : slot) u[s] = noise();
-    parts.stiffness.followWithTwist(u);
+    parts.stiffness.backSubstituteTwist(u);
     parts.stiffness.multiply(u, torque);
     double size = 0.0;
     for (std::size_t e = 0; e < slot.size(); ++e) size = std::max(size, std::abs(inertia[e] * u[slot[e]]));
@@ -310,7 +310,7 @@ TEST(TwistBalance, LeavesNoTorque)
     std::vector<double> given;
     u.fill(0.0);
     for (int s : slot) given.push_back(u[s] = noise());
-    parts.stiffness.takeUpTwist(u);
+    parts.stiffness.solveTwist(u);
     parts.stiffness.multiply(u, torque);
     for (std::size_t e = 0; e < slot.size(); ++e) EXPECT_NEAR(impulse(e), given[e], 1e-10) << "edge " << e;
 }

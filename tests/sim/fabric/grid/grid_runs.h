@@ -158,11 +158,11 @@ struct PlainPush {
     PlainPush(const Contact& contact, const typename Contact::Across& stress)
     {
         for (int k = 0; k < Contact::kDirections; ++k) onGrid += toVec3(stress[k]) * toVec3(contact.d[k]).transpose();
-        const auto corners = contact.onCorners(stress);
-        for (int k = 0; k < Contact::kCorners; ++k) onCorners[k] = toVec3(corners[k]);
+        const auto corners = contact.nodalResponse(stress);
+        for (int k = 0; k < Contact::kCorners; ++k) nodalResponse[k] = toVec3(corners[k]);
     }
     Mat3 onGrid = Mat3::Zero();
-    std::array<Vec3, 3> onCorners = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    std::array<Vec3, 3> nodalResponse = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
 /// Energy gradient of an element.

@@ -1,6 +1,6 @@
 #include "sim/core/check.h"
-#include "sim/fabric/solids/guard.h"
-#include "sim/fabric/solids/in_halves.h"
+#include "sim/fabric/solids/bisect_interval.h"
+#include "sim/fabric/solids/solid_limiter.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@ using namespace solids;
 
 namespace {
 
+constexpr int kSlides = 3;                             ///< surfaces along which a vertex slides at most: a corner has three
 constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
 constexpr int kHelped = 3;                             ///< of those in which fabric goes with the solid, until what still fails is left to its pins
 constexpr double kDrawn = 0.5;                         ///< towards the solid's own motion in one of them [-]
@@ -21,8 +22,45 @@ constexpr int kMostCarriers = 3;  ///< with which a vertex goes in turn; one tha
 
 }  // namespace
 
+/// Vertices stop at surfaces and go on along them.
+bool SolidLimiter::slide(Points x, Moves u)
+{
+    parallelFor(x.size(), 512, [&](std::size_t v) {
+        slid_[v] = 0;
+        if (fabric_->pinned[v]) return;
+        for (int n = 0; n <= kSlides; ++n) {
+            bool any = false;
+            for (const Body& body : bodies_)
+                if (body.isNear) any = slide(body, v, n == kSlides, x[v], u[v]) || any;
+            if (!any) return;
+            slid_[v] = 1;
+        }
+    });
+    return std::ranges::any_of(slid_, [](char c) { return c != 0; });
+}
+
+bool SolidLimiter::slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const
+{
+    const double kept = kCore * fabric_->radius[v], distance = body.distance[v];
+    const Vec3 from = body.toBegin * x, to = body.toEnd * (x + u);
+    if (distance <= 0.0 || distance - body.steepest * (to - from).norm() >= kept) return false;
+    SweptElement point;
+    point.corners = 1;
+    point.from[0] = from;
+    point.to[0] = to;
+    const SafePart safe = solids::safePart(body.shape, point, distance >= kept ? kept : kKept * distance);
+    const Vec3 at = from + safe.part * (to - from), n = body.shape.normal(at);
+    const double left = body.shape.distance(at);
+    if (safe.part >= 1.0 && left >= std::min(kept, (1.0 - kStays) * distance)) return false;
+    const double away = std::max(0.0, kept - left);
+    Vec3 end = safe.part < 1.0 ? at : from;
+    if (!isLast) end = to + (away - std::min(0.0, n.dot(to - at))) * n;
+    u = body.end * end - x;
+    return true;
+}
+
 /// One after the other: approaches along the normal where an element is nearest become blows without bounce.
-void SolidGuard::push(Points x, std::span<const double> mass, Moves u) const
+void SolidLimiter::applyImpulses(Points x, std::span<const double> mass, Moves u) const
 {
     for (const Blocked& b : blocked_) {
         const Body& body = bodies_[b.body];
@@ -40,7 +78,7 @@ void SolidGuard::push(Points x, std::span<const double> mass, Moves u) const
 }
 
 /// Draws moves of what is blocked towards going with the solid.
-void SolidGuard::draw(Points x, double share, Moves u) const
+void SolidLimiter::carryAlong(Points x, double share, Moves u) const
 {
     for (const Blocked& b : blocked_) {
         const Body& body = bodies_[b.body];
@@ -52,7 +90,7 @@ void SolidGuard::draw(Points x, double share, Moves u) const
 }
 
 /// Is what is blocked, and about to go with a solid, not torn to and fro between several?
-bool SolidGuard::mayCarry()
+bool SolidLimiter::mayCarry()
 {
     bool may = true;
     for (const Blocked& b : blocked_)
@@ -66,13 +104,13 @@ bool SolidGuard::mayCarry()
 }
 
 /// Elements that come too near although all of them that can goes with the solid: their pins take them there.
-void SolidGuard::leaveToPins()
+void SolidLimiter::leaveToPins()
 {
     for (const Blocked& b : blocked_)
         if (isHeld(b.vertices.data(), b.corners)) isLeft_[b.element] = 1;
 }
 
-SolidGuard::Limited SolidGuard::limit(Points x, std::span<const double> mass, Moves u, GuardReport& report)
+SolidLimiter::Limited SolidLimiter::limit(Points x, std::span<const double> mass, Moves u, SolidLimitReport& report)
 {
     isNear_ = false;
     if (bodies_.empty()) return Limited::Unchanged;
@@ -90,10 +128,10 @@ SolidGuard::Limited SolidGuard::limit(Points x, std::span<const double> mass, Mo
         if (round == 0) report.blocked += static_cast<int>(blocked_.size());
         changed = true;
         if (round < kPushes) {
-            push(x, mass, u);
+            applyImpulses(x, mass, u);
             slide(x, u);
         } else {
-            draw(x, round < kPushes + kDraws ? kDrawn : 1.0, u);
+            carryAlong(x, round < kPushes + kDraws ? kDrawn : 1.0, u);
             if (round >= kPushes + kDraws + kHelped) leaveToPins();
         }
     }
@@ -104,7 +142,7 @@ SolidGuard::Limited SolidGuard::limit(Points x, std::span<const double> mass, Mo
     return Limited::Changed;
 }
 
-bool SolidGuard::limitInHalves(double t, double h, Points x, std::span<const double> mass, Moves u, GuardReport& report)
+bool SolidLimiter::limitBisected(double t, double h, Points x, std::span<const double> mass, Moves u, SolidLimitReport& report)
 {
     at_.assign(x.begin(), x.end());
     bool changed = false;
@@ -118,14 +156,14 @@ bool SolidGuard::limitInHalves(double t, double h, Points x, std::span<const dou
         for (std::size_t v = 0; v < at_.size(); ++v) at_[v] += part_[v];
         return true;
     };
-    if (!inHalves(t, h, kMostHalvings, go)) refuse();
+    if (!bisectInterval(t, h, kMostHalvings, go)) throwNoSafeMove();
     moveTo(t, t + h);
     if (!changed) return false;
     for (std::size_t v = 0; v < at_.size(); ++v) u[v] = at_[v] - x[v];
     return true;
 }
 
-void SolidGuard::refuse() const
+void SolidLimiter::throwNoSafeMove() const
 {
     std::string names;
     for (const Body& body : bodies_)
@@ -136,7 +174,7 @@ void SolidGuard::refuse() const
                     names));
 }
 
-double SolidGuard::safePart(Points x, std::span<const Vec3> u)
+double SolidLimiter::safePart(Points x, std::span<const Vec3> u)
 {
     if (bodies_.empty()) return 1.0;
     findNear(x, u);

@@ -6,10 +6,10 @@
 
 namespace sim {
 
-/// `fabric.solver: off`: pins follow their motions, all else stays where it is, and holds whatever liquid does to it.
-class LedFabric final : public FabricIntegrator {
+/// `fabric.solver: off`: fabric whose motion is prescribed. Pins follow their motions, all else stays where it is, whatever liquid does to it.
+class PrescribedFabric final : public FabricIntegrator {
  public:
-    LedFabric(const Fabric& fabric, const FabricSettings& settings);
+    PrescribedFabric(const Fabric& fabric, const FabricSettings& settings);
 
     /// @param loads  on vertices
     FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) override;
@@ -18,11 +18,11 @@ class LedFabric final : public FabricIntegrator {
 
  private:
     EnergyChanges changes(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
-    void tellForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
+    void reportForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
     /// Impulse that a vertex gets [g cm/s].
     static Vec3 byLiquid(const LiquidLoads* loads, const FabricState& state, std::size_t v);
     /// That what holds the vertex has to give it for its motion [g cm/s].
-    Vec3 byHolder(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const;
+    Vec3 reaction(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const;
 
     const Fabric& fabric_;
     Rods rods_;                        ///< for the frames of yarns that are moved

@@ -47,14 +47,14 @@ double absorbedIn(const Simulation& simulation)
     return std::accumulate(absorbed.begin(), absorbed.end(), 0.0);
 }
 
-TEST(LedFabric, IsAsWetAsTheSceneSays)
+TEST(PrescribedFabric, IsAsWetAsTheSceneSays)
 {
     const Simulation simulation(wetSheet(FabricSolver::Off));
     const Fabric& fabric = simulation.fabric();
     for (std::size_t v = 0; v < fabric.vertexCount(); ++v) EXPECT_NEAR(simulation.state().fabric.absorbed[v], 0.4 * poreVolume(fabric, v), 1.0e-15);
 }
 
-TEST(LedFabric, PinsFollowTheirMotionsAndAllElseStays)
+TEST(PrescribedFabric, PinsFollowTheirMotionsAndAllElseStays)
 {
     Simulation simulation(wetSheet(FabricSolver::Off));
     const std::vector<Vec3> start = simulation.state().fabric.x;
@@ -73,7 +73,7 @@ TEST(LedFabric, PinsFollowTheirMotionsAndAllElseStays)
 }
 
 /// To liquid it is what fabric is of which every vertex is pinned.
-TEST(LedFabric, ActsOnLiquidAsFabricThatIsPinnedAllOver)
+TEST(PrescribedFabric, ActsOnLiquidAsFabricThatIsPinnedAllOver)
 {
     Scene off = wetSheet(FabricSolver::Off), pinned = wetSheet(FabricSolver::Vertex);
     for (Scene* scene : {&off, &pinned}) {
@@ -98,7 +98,7 @@ TEST(LedFabric, ActsOnLiquidAsFabricThatIsPinnedAllOver)
     EXPECT_LT(one.energies().kinetic, 0.5 * 0.5 * one.state().ledger.emittedMass * 3600.0) << "and stops it";
 }
 
-TEST(LedFabric, LetsLiquidThroughWithoutDrag)
+TEST(PrescribedFabric, LetsLiquidThroughWithoutDrag)
 {
     Scene scene = wetSheet(FabricSolver::Off);
     addDrop(scene);

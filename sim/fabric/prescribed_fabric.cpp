@@ -1,4 +1,4 @@
-#include "sim/fabric/led_fabric.h"
+#include "sim/fabric/prescribed_fabric.h"
 
 #include "sim/core/parallel.h"
 #include "sim/fabric/pins.h"
@@ -8,12 +8,12 @@
 
 namespace sim {
 
-LedFabric::LedFabric(const Fabric& fabric, const FabricSettings& settings)
+PrescribedFabric::PrescribedFabric(const Fabric& fabric, const FabricSettings& settings)
     : fabric_(fabric), rods_(fabric, restState(fabric), settings), restReference_(restState(fabric).reference)
 {
 }
 
-FabricReport LedFabric::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock&, const FabricLoads& loads)
+FabricReport PrescribedFabric::advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock&, const FabricLoads& loads)
 {
     FabricReport report;
     if (booksEnergy_ || forces_) before_ = state.v;
@@ -28,44 +28,44 @@ FabricReport LedFabric::advance(double t, double h, const Vec3& gravity, FabricS
         for (std::size_t e = 0; e < fabric_.edges.size(); ++e)
             if (fabric_.edges.twistHeld[e]) state.theta[e] = heldAngle(fabric_, restReference_, t + h, state, static_cast<int>(e));
     }
-    if (forces_) tellForces(h, gravity, state, loads.onVertices);
+    if (forces_) reportForces(h, gravity, state, loads.onVertices);
     if (booksEnergy_) report.energyChanges = changes(h, gravity, state, loads.onVertices);
     return report;
 }
 
-Vec3 LedFabric::byLiquid(const LiquidLoads* loads, const FabricState& state, std::size_t v)
+Vec3 PrescribedFabric::byLiquid(const LiquidLoads* loads, const FabricState& state, std::size_t v)
 {
     return loads ? Vec3(loads->impulse[v] - loads->drag[v].cwiseProduct(state.v[v])) : Vec3::Zero().eval();
 }
 
-Vec3 LedFabric::byHolder(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const
+Vec3 PrescribedFabric::reaction(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const
 {
     const double mass = fabric_.mass[v] + state.absorbed[v];
     return mass * (state.v[v] - before_[v] - h * gravity) - byLiquid(loads, state, v);
 }
 
 /// All vertices are held: what holds them takes the liquid's impulse and gives them their motion.
-EnergyChanges LedFabric::changes(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const
+EnergyChanges PrescribedFabric::changes(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const
 {
     EnergyChanges sum;
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         const double mass = fabric_.mass[v] + state.absorbed[v];
         sum[EnergyChange::Drag] += byLiquid(loads, state, v).dot(state.v[v]);
         sum[EnergyChange::Implicit] -= 0.5 * mass * (state.v[v] - before_[v]).squaredNorm();
-        sum[EnergyChange::Pins] += byHolder(h, gravity, state, loads, v).dot(state.v[v]);
+        sum[EnergyChange::Pins] += reaction(h, gravity, state, loads, v).dot(state.v[v]);
     }
     return sum;
 }
 
 /// Pins hold their own vertices; what holds the others is nothing of the scene.
-void LedFabric::tellForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const
+void PrescribedFabric::reportForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const
 {
     if (loads)
         for (std::size_t v = 0; v < state.v.size(); ++v)
             forces_->fabrics[fabric_.pieceOf(static_cast<int>(v))].liquid += Impulse::at(state.x[v], byLiquid(loads, state, v));
     for (std::size_t i = 0; i < fabric_.pins.vertex.size(); ++i) {
         const int v = fabric_.pins.vertex[i];
-        forces_->pins[fabric_.pins.motion[i]] -= Impulse::at(state.x[v], byHolder(h, gravity, state, loads, v));
+        forces_->pins[fabric_.pins.motion[i]] -= Impulse::at(state.x[v], reaction(h, gravity, state, loads, v));
     }
 }
 

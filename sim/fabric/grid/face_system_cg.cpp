@@ -16,25 +16,25 @@ void FaceSystem::clearInactive(BlockArray<double, 3>& u) const
     std::fill(data + next, data + u.size(), 0.0);
 }
 
-/// r = impulses + M v − A v, where the twist of v becomes what leaves none in r.
+/// Sets r = impulses + M v − A v, and the twist of v to the rates that leave none in r.
 void FaceSystem::startSolve(FaceVector& v)
 {
     impulses(residual_);
     forEachPack([&](auto isFace, std::size_t i, Pack&) { residual_.pack(isFace, i) += mass(isFace, i) * v.pack(isFace, i); });
-    takeUpTwist(residual_, p_);
+    solveTwist(residual_, p_);
     gather(v.faces);
-    stiffness_.followWithTwist(in_);
+    stiffness_.backSubstituteTwist(in_);
     forEachTwist([&](std::size_t e, int slot) { v.twist[e] = in_[slot] += p_.twist[e]; });
-    finishProduct(v, q_);
+    completeProduct(v, q_);
     forEachPack([&](auto isFace, std::size_t i, Pack&) { residual_.pack(isFace, i) -= q_.pack(isFace, i); });
 }
 
-/// v and r as far along the expected change as makes eᵀ A e least.
-void FaceSystem::goAlong(const BlockArray<double, 3>& expected, FaceVector& v)
+/// Moves v along the expected change to where eᵀ A e is least, and updates the residual.
+void FaceSystem::projectInitialGuess(const BlockArray<double, 3>& expected, FaceVector& v)
 {
     forEachFacePack([&](std::size_t i, Pack&) { p_.pack(true, i) = select(mass(true, i) > 0.0, loadPack(expected.block(0) + i), broadcast(0.0)); });
     clearInactive(p_.faces);
-    const double curvature = multiplyFollowed(p_, q_);
+    const double curvature = applySchurComplement(p_, q_);
     if (!(curvature > 0.0)) return;
     const double part = forEachFacePack([&](std::size_t i, Pack& product) { product += residual_.pack(true, i) * p_.pack(true, i); }) / curvature;
     forEachPack([&](auto isFace, std::size_t i, Pack&) {
@@ -52,7 +52,7 @@ FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v,
 {
     FaceSolveReport report;
     startSolve(v);
-    if (expected) goAlong(*expected, v);
+    if (expected) projectInitialGuess(*expected, v);
     const auto inverseMass = [&](std::size_t i) {
         const Pack m = mass(true, i);
         return select(m > 0.0, 1.0 / m, broadcast(0.0));
@@ -66,8 +66,8 @@ FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v,
     double bound = 1.0;  // of the error's eᵀ A e, relative to rᵀ M⁻¹ r
     const auto speedError = [&] { return totalMass_ > 0.0 ? std::sqrt(bound * energy / totalMass_) : 0.0; };
     report.speedError = speedError();
-    while (energy > 0.0 && report.speedError > tolerance.after(report.iterations) && report.iterations < tolerance.most) {
-        const double curvature = multiplyFollowed(p_, q_);
+    while (energy > 0.0 && report.speedError > tolerance.after(report.iterations) && report.iterations < tolerance.maxIterations) {
+        const double curvature = applySchurComplement(p_, q_);
         if (!(curvature > 0.0)) break;
         const double step = energy / curvature;
         forEachPack([&](auto isFace, std::size_t i, Pack&) { v.pack(isFace, i) += step * p_.pack(isFace, i); });
@@ -91,7 +91,7 @@ FaceSolveReport FaceSystem::solve(const FaceTolerance& tolerance, FaceVector& v,
     return report;
 }
 
-void FaceSystem::balance(const BlockArray<double, 3>& start, std::span<const int> groupOfBlock, int groups, FaceVector& v)
+void FaceSystem::balanceMomentum(const BlockArray<double, 3>& start, std::span<const int> groupOfBlock, int groups, FaceVector& v)
 {
     impulses(q_);
     left_.assign(groups, Vec3::Zero());

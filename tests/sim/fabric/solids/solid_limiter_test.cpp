@@ -1,4 +1,4 @@
-#include "sim/fabric/solids/guard.h"
+#include "sim/fabric/solids/solid_limiter.h"
 #include "tests/sim/fabric/contact/encounter.h"
 
 #include <gtest/gtest.h>
@@ -6,21 +6,21 @@
 namespace sim::testing {
 namespace {
 
-TEST(SolidGuard, NoMoveGetsThroughASolid)
+TEST(SolidLimiter, NoMoveGetsThroughASolid)
 {
     int without = 0;
     for (unsigned seed = 1; seed <= 60; ++seed) {
         const Encounter scene(seed, 500.0);
         Noise noise(1000 + seed);
         const Fabric fabric = assembleFabric(scene.pieces);
-        SolidGuard guard(fabric, {&scene.solid, 1});
+        SolidLimiter guard(fabric, {&scene.solid, 1});
         std::vector<Vec3> x = fabric.rest, u(x.size());
         for (int step = 0; step < 8; ++step) {
             const double t0 = 2.0e-3 * step, t1 = t0 + 2.0e-3;
             for (Vec3& move : u) move = 2.0e-3 * scene.pieces[0].velocity + 0.05 * noise.vector();
             guard.moveTo(t0, t1);
             without += crossings(fabric, scene.solid, t0, t1, x, u) > 0;
-            GuardReport report;
+            SolidLimitReport report;
             guard.limit(x, fabric.mass, u, report);
             EXPECT_EQ(report.left, 0) << "seed " << seed << " step " << step;
             ASSERT_EQ(crossings(fabric, scene.solid, t0, t1, x, u), 0) << "seed " << seed << " step " << step;
@@ -58,19 +58,19 @@ struct Winding {
     std::vector<Vec3> drawnTo;  ///< [cm]
 };
 
-TEST(SolidGuard, NothingIsSqueezedThroughByATurningPlate)
+TEST(SolidLimiter, NothingIsSqueezedThroughByATurningPlate)
 {
     int halved = 0;
     for (unsigned seed = 3; seed <= 6; ++seed) {
         Winding scene(seed);
-        SolidGuard guard(scene.fabric, scene.solids);
+        SolidLimiter guard(scene.fabric, scene.solids);
         std::vector<Vec3> x = scene.fabric.rest, u(x.size());
         const std::vector<Vec3> still(x.size(), Vec3::Zero());
         const double h = seed % 2 == 0 ? 1.0e-3 : 3.0e-3;
         for (int step = 0; step < 12; ++step) {
             for (std::size_t v = 0; v < u.size(); ++v) u[v] = 0.3 * (scene.drawnTo[v] - x[v]) + 0.02 * scene.noise.vector();
-            GuardReport report;
-            guard.limitInHalves(step * h, h, x, scene.fabric.mass, u, report);
+            SolidLimitReport report;
+            guard.limitBisected(step * h, h, x, scene.fabric.mass, u, report);
             for (std::size_t v = 0; v < u.size(); ++v) x[v] += u[v];
             halved += report.left > 0;
             const double end = (step + 1) * h;

@@ -1,4 +1,4 @@
-#include "sim/fabric/solids/guard.h"
+#include "sim/fabric/solids/solid_limiter.h"
 
 #include "sim/core/parallel.h"
 
@@ -13,12 +13,8 @@ using namespace solids;
 
 namespace {
 
-constexpr double kCore = 0.57;      ///< distance that is kept, as between pairs of fabric [radii]
-constexpr double kKept = 0.85;      ///< what begins nearer keeps this share of its distance on the way: less than kNearestError leaves [-] …
-constexpr double kStays = 1.0e-6;   ///< … and ends no nearer than it began, but for this share [-]
 constexpr double kPushed = 4.0;     ///< distance within which a solid may push [radii]
 constexpr double kInterior = 0.95;  ///< weight of a corner from which on the corner itself is what touches [-]
-constexpr int kSlides = 3;          ///< along as many surfaces a vertex goes: a corner has three
 
 /// Around all ways; without moves, around all places.
 Eigen::AlignedBox3d boxAround(std::span<const Vec3> x, std::span<const Vec3> u)
@@ -31,7 +27,7 @@ Eigen::AlignedBox3d boxAround(std::span<const Vec3> x, std::span<const Vec3> u)
 
 }  // namespace
 
-SolidGuard::SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> obstacles) : fabric_(&fabric)
+SolidLimiter::SolidLimiter(const Fabric& fabric, std::span<const ObstacleSettings> obstacles) : fabric_(&fabric)
 {
     for (const ObstacleSettings& obstacle : obstacles) {
         if (!obstacle.collide || obstacle.shape.empty()) continue;
@@ -56,7 +52,7 @@ SolidGuard::SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> o
     moveTo(0.0, 0.0);
 }
 
-void SolidGuard::moveTo(double t0, double t1)
+void SolidLimiter::moveTo(double t0, double t1)
 {
     std::ranges::fill(isLeft_, 0);
     for (Body& body : bodies_) {
@@ -67,7 +63,7 @@ void SolidGuard::moveTo(double t0, double t1)
     }
 }
 
-void SolidGuard::rest()
+void SolidLimiter::rest()
 {
     for (Body& body : bodies_) {
         body.moves = false;
@@ -75,12 +71,12 @@ void SolidGuard::rest()
     }
 }
 
-bool SolidGuard::anyMoves() const
+bool SolidLimiter::anyMoves() const
 {
     return std::ranges::any_of(bodies_, [](const Body& body) { return body.isNear && body.moves; });
 }
 
-bool SolidGuard::movesNear(Points x, std::span<const Vec3> u)
+bool SolidLimiter::movesNear(Points x, std::span<const Vec3> u)
 {
     if (bodies_.empty()) return false;
     findNear(x, u, kPushed);
@@ -88,7 +84,7 @@ bool SolidGuard::movesNear(Points x, std::span<const Vec3> u)
 }
 
 /// Solids whose boxes the fabric meets on its way, or comes as near as so many radii.
-void SolidGuard::findNear(Points x, std::span<const Vec3> u, double radii)
+void SolidLimiter::findNear(Points x, std::span<const Vec3> u, double radii)
 {
     isNear_ = false;
     const Eigen::AlignedBox3d fabric = boxAround(x, u);
@@ -104,7 +100,7 @@ void SolidGuard::findNear(Points x, std::span<const Vec3> u, double radii)
 }
 
 /// Distances at the start, and what may be left of them on the way.
-void SolidGuard::measure(Points x, std::span<const Vec3> u)
+void SolidLimiter::measure(Points x, std::span<const Vec3> u)
 {
     for (Body& body : bodies_) {
         if (!body.isNear) continue;
@@ -117,7 +113,7 @@ void SolidGuard::measure(Points x, std::span<const Vec3> u)
     }
 }
 
-SweptElement SolidGuard::swept(const Body& body, Points x, std::span<const Vec3> u, const int* vertices, int corners) const
+SweptElement SolidLimiter::swept(const Body& body, Points x, std::span<const Vec3> u, const int* vertices, int corners) const
 {
     SweptElement element;
     element.corners = corners;
@@ -129,53 +125,16 @@ SweptElement SolidGuard::swept(const Body& body, Points x, std::span<const Vec3>
     return element;
 }
 
-double SolidGuard::leastRadius(const int* vertices, int corners) const
+double SolidLimiter::leastRadius(const int* vertices, int corners) const
 {
     double radius = fabric_->radius[vertices[0]];
     for (int c = 1; c < corners; ++c) radius = std::min(radius, fabric_->radius[vertices[c]]);
     return radius;
 }
 
-/// Vertices stop at surfaces and go on along them.
-bool SolidGuard::slide(Points x, Moves u)
-{
-    parallelFor(x.size(), 512, [&](std::size_t v) {
-        slid_[v] = 0;
-        if (fabric_->pinned[v]) return;
-        for (int n = 0; n <= kSlides; ++n) {
-            bool any = false;
-            for (const Body& body : bodies_)
-                if (body.isNear) any = slide(body, v, n == kSlides, x[v], u[v]) || any;
-            if (!any) return;
-            slid_[v] = 1;
-        }
-    });
-    return std::ranges::any_of(slid_, [](char c) { return c != 0; });
-}
-
-bool SolidGuard::slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const
-{
-    const double kept = kCore * fabric_->radius[v], distance = body.distance[v];
-    const Vec3 from = body.toBegin * x, to = body.toEnd * (x + u);
-    if (distance <= 0.0 || distance - body.steepest * (to - from).norm() >= kept) return false;
-    SweptElement point;
-    point.corners = 1;
-    point.from[0] = from;
-    point.to[0] = to;
-    const SafePart safe = solids::safePart(body.shape, point, distance >= kept ? kept : kKept * distance);
-    const Vec3 at = from + safe.part * (to - from), n = body.shape.normal(at);
-    const double left = body.shape.distance(at);
-    if (safe.part >= 1.0 && left >= std::min(kept, (1.0 - kStays) * distance)) return false;
-    const double away = std::max(0.0, kept - left);
-    Vec3 end = safe.part < 1.0 ? at : from;
-    if (!isLast) end = to + (away - std::min(0.0, n.dot(to - at))) * n;
-    u = body.end * end - x;
-    return true;
-}
-
 /// Can any point of an element come as near as `distance`? A quick look from its corners: no point of an edge is further from both ends than
 /// half its length, none of a face further from its nearest corner than its longest side by √3.
-bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const
+bool SolidLimiter::mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const
 {
     double clear = std::numeric_limits<double>::infinity(), longest = 0.0;
     for (int c = 0; c < corners; ++c) {
@@ -187,32 +146,32 @@ bool SolidGuard::mayTouch(const Body& body, Points x, const int* vertices, int c
 }
 
 /// Is any of them pinned?
-bool SolidGuard::isHeld(const int* vertices, int corners) const
+bool SolidLimiter::isHeld(const int* vertices, int corners) const
 {
     return std::any_of(vertices, vertices + corners, [&](int v) { return fabric_->pinned[v] != 0; });
 }
 
 /// Appends an element that comes too near, or its parts, if the element itself begins inside of the solid or is left to pins.
-void SolidGuard::look(int number, const Part& whole, Points x, std::span<const Vec3> u, std::vector<Blocked>& out) const
+void SolidLimiter::checkElement(int number, const Part& whole, Points x, std::span<const Vec3> u, std::vector<Blocked>& out) const
 {
     const int* vertices = whole.vertices;
     const int corners = whole.corners;
     if (corners == 1 && fabric_->pinned[*vertices]) return;
     const Body& body = bodies_[number];
     const double kept = kCore * leastRadius(vertices, corners);
-    const auto lookAtParts = [&] {
+    const auto checkParts = [&] {
         for (int c = 0; corners > 1 && c < corners; ++c) {
             const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
-            look(number, {whole.element, part.data(), corners - 1}, x, u, out);
+            checkElement(number, {whole.element, part.data(), corners - 1}, x, u, out);
         }
     };
-    if (isLeft_[whole.element] && isHeld(vertices, corners)) return lookAtParts();
-    if (std::any_of(vertices, vertices + corners, [&](int v) { return body.distance[v] <= 0.0; })) return lookAtParts();
+    if (isLeft_[whole.element] && isHeld(vertices, corners)) return checkParts();
+    if (std::any_of(vertices, vertices + corners, [&](int v) { return body.distance[v] <= 0.0; })) return checkParts();
     const SweptElement element = swept(body, x, u, vertices, corners);
     SafePart safe = solids::safePart(body.shape, element, kept);
     if (safe.part >= 1.0) return;
     const Nearest nearest = nearestTo(body.shape, {element.from.data(), static_cast<std::size_t>(corners)}, kept);
-    if (nearest.reached <= 0.0) return lookAtParts();
+    if (nearest.reached <= 0.0) return checkParts();
     double lack = 0.0;
     if (kKept * nearest.least < kept) {
         safe = solids::safePart(body.shape, element, kKept * std::max(0.0, nearest.least));
@@ -237,7 +196,7 @@ void SolidGuard::look(int number, const Part& whole, Points x, std::span<const V
 
 /// Appends what look(body, element, out) gives for each solid that is near and each element that can move, in their order.
 template <class Found, class Look>
-void SolidGuard::collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const
+void SolidLimiter::collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& checkElement) const
 {
     const Chunks chunks(elements.size());
     ofChunk.resize(std::max(ofChunk.size(), chunks.count()));
@@ -248,26 +207,26 @@ void SolidGuard::collect(const Elements& elements, std::vector<std::vector<Found
             for (std::size_t e = chunks.begin(chunk); e < chunks.end(chunk); ++e) {
                 const std::array<int, 3>& v = elements[e];
                 const bool isFree = !fabric_->pinned[v[0]] || !fabric_->pinned[v[1]] || (v[2] >= 0 && !fabric_->pinned[v[2]]);
-                if (isFree) look(static_cast<int>(b), static_cast<int>(e), ofChunk[chunk]);
+                if (isFree) checkElement(static_cast<int>(b), static_cast<int>(e), ofChunk[chunk]);
             }
         });
         for (std::size_t c = 0; c < chunks.count(); ++c) all.insert(all.end(), ofChunk[c].begin(), ofChunk[c].end());
     }
 }
 
-void SolidGuard::findBlocked(Points x, std::span<const Vec3> u)
+void SolidLimiter::findBlocked(Points x, std::span<const Vec3> u)
 {
     blocked_.clear();
     collect(elements_, ofChunk_, blocked_, [&](int body, int element, std::vector<Blocked>& out) {
         const std::array<int, 3>& vertices = elements_[element];
         const int corners = vertices[2] < 0 ? 2 : 3;
         if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
-            look(body, {element, vertices.data(), corners}, x, u, out);
+            checkElement(body, {element, vertices.data(), corners}, x, u, out);
     });
 }
 
 /// Appends the nearest point of an element, if it touches, and no vertex does so for it.
-void SolidGuard::addNearest(int solid, int element, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const
+void SolidLimiter::addNearest(int solid, int element, Points x, const std::array<int, 3>& vertices, std::vector<NearestPoint>& out) const
 {
     const Body& body = bodies_[solid];
     const int corners = vertices[2] < 0 ? 2 : 3;
@@ -284,7 +243,7 @@ void SolidGuard::addNearest(int solid, int element, Points x, const std::array<i
     if (nearest.weights.maxCoeff() < kInterior) out.push_back({element, solid, corners, vertices, nearest.weights, radius});
 }
 
-const std::vector<NearestPoint>& SolidGuard::nearestPoints(Points x)
+const std::vector<NearestPoint>& SolidLimiter::nearestPoints(Points x)
 {
     nearest_.clear();
     if (bodies_.empty()) return nearest_;

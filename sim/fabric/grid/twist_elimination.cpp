@@ -1,4 +1,4 @@
-#include "sim/fabric/grid/twist_balance.h"
+#include "sim/fabric/grid/twist_elimination.h"
 
 #include "sim/core/parallel.h"
 
@@ -11,8 +11,8 @@ constexpr int rowOf(int edge) { return 4 * edge + 3; }
 
 }  // namespace
 
-void TwistBalance::factor(const StrandLayout& layout, const StrandMatrix& stiffness, std::span<const double> inertia, std::span<const double> held,
-                          double h)
+void TwistElimination::factor(const StrandLayout& layout, const StrandMatrix& stiffness, std::span<const double> inertia,
+                              std::span<const double> held, double h)
 {
     layout_ = &layout;
     stiffness_ = &stiffness;
@@ -39,7 +39,7 @@ void TwistBalance::factor(const StrandLayout& layout, const StrandMatrix& stiffn
     });
 }
 
-void TwistBalance::follow(std::size_t g, Pack* rows) const
+void TwistElimination::backSubstitute(std::size_t g, Pack* rows) const
 {
     const StrandLayout::Group& group = layout_->groups[g];
     for (int j = 0; j < group.edges(); ++j) {
@@ -56,7 +56,7 @@ void TwistBalance::follow(std::size_t g, Pack* rows) const
     solve(g, rows);
 }
 
-void TwistBalance::solve(std::size_t g, Pack* rows) const
+void TwistElimination::solve(std::size_t g, Pack* rows) const
 {
     const StrandLayout::Group& group = layout_->groups[g];
     const Pack *lower = lower_.data() + group.firstEdge, *inverse = inverse_.data() + group.firstEdge;

@@ -1,4 +1,4 @@
-#include "sim/fabric/grid/pressed_elements.h"
+#include "sim/fabric/grid/active_elements.h"
 
 #include "sim/core/parallel.h"
 
@@ -37,35 +37,35 @@ void setElement(FaceContact<Pack>& to, int lane, const ElementContact::Local& fr
 
 /// body(lane, element's place in points()) for the lanes of a pack that are used.
 template <class Contact>
-void PressedElements<Contact>::lanesOf(std::size_t pack, auto&& body) const
+void ActiveElements<Contact>::lanesOf(std::size_t pack, auto&& body) const
 {
     const std::size_t first = pack * kLanes;
     for (int l = 0; l < kLanes && first + l < points_.size(); ++l) body(l, first + l);
 }
 
 template <class Contact>
-void PressedElements<Contact>::assemble(const ElementContact& contact, const VertexStiffness& stiffness, const BlockPoints& elements,
-                                        const std::vector<Mat3>& missing, double dx, int firstPush)
+void ActiveElements<Contact>::assemble(const ElementContact& contact, const VertexStiffness& stiffness, const BlockPoints& elements,
+                                       const std::vector<Mat3>& missing, double dx, int firstForce)
 {
-    firstPush_ = firstPush;
+    firstForce_ = firstForce;
     points_.select(elements, [&](int e) { return contact.isEdge(e) == (kCorners == 2) && contact.stress(e).isActive; });
     across_.resize(points_.size());
-    carried_.resize(points_.size());
+    rateOrStress_.resize(points_.size());
     const std::size_t packs = packsOf(points_.size());
     contact_.resize(packs);
     cornerSlot_.resize(packs * kLanes);
-    loose_.resize(points_.size());
-    anyLoose_.assign(packs, 0);
-    looseElements_.clear();
+    partial_.resize(points_.size());
+    anyPartial_.assign(packs, 0);
+    partialElements_.clear();
     for (std::size_t s = 0; s < points_.size(); ++s) {
         const int e = points_.id[s];
-        loose_[s] = -1;
+        partial_[s] = -1;
         if (missing[e].isZero(0.0)) continue;
-        loose_[s] = static_cast<int>(looseElements_.size());
-        anyLoose_[s / kLanes] = 1;
-        Loose& loose = looseElements_.emplace_back();
-        for (int k = 0; k < kCorners; ++k) loose.share[k] = contact.shares(e)[k];
-        for (int k = 0; k < kDirections; ++k) loose.missing[k] = missing[e] * (contact.local(e).d[k] / dx);
+        partial_[s] = static_cast<int>(partialElements_.size());
+        anyPartial_[s / kLanes] = 1;
+        PartialStencil& partial = partialElements_.emplace_back();
+        for (int k = 0; k < kCorners; ++k) partial.share[k] = contact.shares(e)[k];
+        for (int k = 0; k < kDirections; ++k) partial.missing[k] = missing[e] * (contact.local(e).d[k] / dx);
     }
     parallelFor(packs, kPacksPerTask, [&](std::size_t pack) {
         contact_[pack] = Contact();
@@ -79,44 +79,44 @@ void PressedElements<Contact>::assemble(const ElementContact& contact, const Ver
     });
 }
 
-/// How the directions are carried [1/s], faces without mass moving like the mean of the corners.
+/// Rates of the directions [1/s], faces without mass moving like the mean of the corners.
 template <class Contact>
-auto PressedElements<Contact>::carriedAt(std::size_t pack, const Corners& u) const -> Across
+auto ActiveElements<Contact>::ratesAt(std::size_t pack, const Corners& u) const -> Across
 {
     Across w;
     for (int k = 0; k < kDirections; ++k)
-        for (int a = 0; a < kAxes; ++a) w[k][a] = loadPack(carried_.of[3 * k + a].data() + pack * kLanes);
-    if (anyLoose_[pack])
+        for (int a = 0; a < kAxes; ++a) w[k][a] = loadPack(rateOrStress_.of[3 * k + a].data() + pack * kLanes);
+    if (anyPartial_[pack])
         lanesOf(pack, [&](int lane, std::size_t s) {
-            if (loose_[s] < 0) return;
-            const Loose& loose = looseElements_[loose_[s]];
+            if (partial_[s] < 0) return;
+            const PartialStencil& partial = partialElements_[partial_[s]];
             Vec3 mean = Vec3::Zero();
-            for (int k = 0; k < kCorners; ++k) mean += loose.share[k] * laneOf(u[k], lane);
+            for (int k = 0; k < kCorners; ++k) mean += partial.share[k] * laneOf(u[k], lane);
             for (int k = 0; k < kDirections; ++k)
-                for (int a = 0; a < kAxes; ++a) w[k][a][lane] -= mean[a] * loose.missing[k][a];
+                for (int a = 0; a < kAxes; ++a) w[k][a][lane] -= mean[a] * partial.missing[k][a];
         });
     return w;
 }
 
-/// Transpose of `carriedAt`: what a pack gives to the faces, and to its corners.
+/// Transpose of ratesAt: stores the stresses of a pack on the faces, and its forces on the corners.
 template <class Contact>
-void PressedElements<Contact>::store(std::size_t pack, const Across& stress, Corners onCorners, std::vector<Vec3>& pushes)
+void ActiveElements<Contact>::store(std::size_t pack, const Across& stress, Corners nodalResponse, std::vector<Vec3>& nodalForces)
 {
     for (int k = 0; k < kDirections; ++k)
-        for (int a = 0; a < kAxes; ++a) std::memcpy(carried_.of[3 * k + a].data() + pack * kLanes, &stress[k][a], sizeof(Pack));
+        for (int a = 0; a < kAxes; ++a) std::memcpy(rateOrStress_.of[3 * k + a].data() + pack * kLanes, &stress[k][a], sizeof(Pack));
     lanesOf(pack, [&](int lane, std::size_t s) {
-        Vec3* at = pushes.data() + firstPush_ + kCorners * s;
-        for (int k = 0; k < kCorners; ++k) at[k] = laneOf(onCorners[k], lane);
-        if (loose_[s] < 0) return;
-        const Loose& loose = looseElements_[loose_[s]];
+        Vec3* at = nodalForces.data() + firstForce_ + kCorners * s;
+        for (int k = 0; k < kCorners; ++k) at[k] = laneOf(nodalResponse[k], lane);
+        if (partial_[s] < 0) return;
+        const PartialStencil& partial = partialElements_[partial_[s]];
         Vec3 onMean = Vec3::Zero();
-        for (int k = 0; k < kDirections; ++k) onMean -= laneOf(stress[k], lane).cwiseProduct(loose.missing[k]);
-        for (int k = 0; k < kCorners; ++k) at[k] += loose.share[k] * onMean;
+        for (int k = 0; k < kDirections; ++k) onMean -= laneOf(stress[k], lane).cwiseProduct(partial.missing[k]);
+        for (int k = 0; k < kCorners; ++k) at[k] += partial.share[k] * onMean;
     });
 }
 
 template <class Contact>
-void PressedElements<Contact>::multiply(const AlignedArray<double>& moves, std::vector<Vec3>& pushes)
+void ActiveElements<Contact>::multiply(const AlignedArray<double>& moves, std::vector<Vec3>& nodalForces)
 {
     parallelFor(contact_.size(), kPacksPerTask, [&](std::size_t pack) {
         Corners u;
@@ -126,24 +126,24 @@ void PressedElements<Contact>::multiply(const AlignedArray<double>& moves, std::
                 u[k].x[l] = from[0], u[k].y[l] = from[kLanes], u[k].z[l] = from[2 * kLanes];
             }
         const Contact& contact = contact_[pack];
-        const Across stress = contact.change(carriedAt(pack, u), u);
-        store(pack, stress, contact.onCorners(stress), pushes);
+        const Across stress = contact.change(ratesAt(pack, u), u);
+        store(pack, stress, contact.nodalResponse(stress), nodalForces);
     });
 }
 
 template <class Contact>
-void PressedElements<Contact>::impulses(const ElementContact& contact, std::vector<Vec3>& pushes)
+void ActiveElements<Contact>::impulses(const ElementContact& contact, std::vector<Vec3>& nodalForces)
 {
     parallelFor(contact_.size(), kPacksPerTask, [&](std::size_t pack) {
         Across stress{};
         lanesOf(pack, [&](int lane, std::size_t s) {
             for (int k = 0; k < kDirections; ++k) setLane(stress[k], lane, -contact.stress(points_.id[s]).stress[k]);
         });
-        store(pack, stress, contact_[pack].onCorners(stress), pushes);
+        store(pack, stress, contact_[pack].nodalResponse(stress), nodalForces);
     });
 }
 
-template class PressedElements<EdgeContact<Pack>>;
-template class PressedElements<FaceContact<Pack>>;
+template class ActiveElements<EdgeContact<Pack>>;
+template class ActiveElements<FaceContact<Pack>>;
 
 }  // namespace sim

@@ -6,8 +6,8 @@
 
 namespace sim {
 
-// How a pressed element answers to a move of what is around it (fabric/grid/README.md, Contact law), for one element or a pack of them.
-// Its directions across the fabric d are carried by the velocity gradient G on the grid, those in the mesh by the
+// Response of an active contact element to a motion of its surroundings (fabric/grid/README.md, Contact law), for one element or a pack of them.
+// Its directions across the fabric d are rates by the velocity gradient G on the grid, those in the mesh by the
 // corners; the mesh turning one way acts as d turning the other way. All that the grid knows of an element is how it
 // carries d, and the stress that d answers with: what the element gives to the faces is the stress times d.
 
@@ -41,13 +41,13 @@ struct Symmetric {
 
 /// Angular velocity of an edge whose ends move apart at `along`.
 template <class T>
-Triple<T> turnOfEdge(const Triple<T>& reciprocal, const Triple<T>& along)
+Triple<T> angularVelocityOfEdge(const Triple<T>& reciprocal, const Triple<T>& along)
 {
     return cross(reciprocal, along);
 }
 /// That of a face's normal, where the edges from its first corner change at u1 and u2.
 template <class T>
-Triple<T> turnOfFace(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1, const Triple<T>& u2)
+Triple<T> angularVelocityOfNormal(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1, const Triple<T>& u2)
 {
     return cross(dot(normal, u1) * reciprocal[0] + dot(normal, u2) * reciprocal[1], normal);
 }
@@ -68,14 +68,14 @@ struct EdgeContact {
     Rows<T> k01;
 
     /// Change of the stress when the surroundings move: G carries d, the corners move by u.
-    Across change(const Across& carried, const Corners& u) const
+    Across change(const Across& rates, const Corners& u) const
     {
-        const Triple<T> turn = turnOfEdge(reciprocal, u[1] - u[0]);
-        const Triple<T> first = carried[0] - cross(turn, d[0]), second = carried[1] - cross(turn, d[1]);
+        const Triple<T> turn = angularVelocityOfEdge(reciprocal, u[1] - u[0]);
+        const Triple<T> first = rates[0] - cross(turn, d[0]), second = rates[1] - cross(turn, d[1]);
         return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
     }
     /// What a stress does to the corners: transpose of how they turn d [dyn …].
-    Corners onCorners(const Across& stress) const
+    Corners nodalResponse(const Across& stress) const
     {
         const Triple<T> lever = cross(cross(stress[0], d[0]) + cross(stress[1], d[1]), reciprocal);
         return {-lever, lever};
@@ -94,11 +94,11 @@ struct FaceContact {
     std::array<Triple<T>, 2> reciprocal;  ///< in the plane, of the two edges from the first corner [1/cm]
     Symmetric<T> k;
 
-    Across change(const Across& carried, const Corners& u) const
+    Across change(const Across& rates, const Corners& u) const
     {
-        return {k * (carried[0] - cross(turnOfFace(normal, reciprocal, u[1] - u[0], u[2] - u[0]), d[0]))};
+        return {k * (rates[0] - cross(angularVelocityOfNormal(normal, reciprocal, u[1] - u[0], u[2] - u[0]), d[0]))};
     }
-    Corners onCorners(const Across& stress) const
+    Corners nodalResponse(const Across& stress) const
     {
         const Triple<T> lever = cross(cross(stress[0], d[0]), normal);
         const Triple<T> second = -(dot(lever, reciprocal[0]) * normal), third = -(dot(lever, reciprocal[1]) * normal);

@@ -4,7 +4,7 @@
 
 namespace sim::contact {
 
-double safeFraction(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double separation)
+double collisionFreeFraction(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double separation)
 {
     constexpr double kStop = 0.1;       // of the first gap: nearer than this is arrived
     constexpr double kShare = 0.9;      // of what is certainly free is taken at once

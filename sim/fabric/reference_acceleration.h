@@ -9,15 +9,15 @@
 
 namespace sim {
 
-/// The acceleration by which errors of the fabric's motion are measured [cm/s^2]: gravity's; without gravity a fiftieth of what a step would
+/// Reference acceleration, to which errors of the fabric's motion are compared [cm/s^2]: gravity's; without gravity a fiftieth of what a step would
 /// need to bring about the motion of its vertices against each other and the energy of its form, and no less than moves it by a millionth of
 /// its thickness. It has no time or length of its own, so that similar scenes have similar results.
 /// @param mass, velocity, radius  of each vertex [g, cm/s, cm]
 /// @param elasticEnergy           gives that of the fabric [erg]; not asked where there is gravity
 /// @param h                       length of the step [s]
 template <class ElasticEnergy>
-double feltAcceleration(const Vec3& gravity, std::span<const double> mass, std::span<const Vec3> velocity, std::span<const double> radius,
-                        ElasticEnergy&& elasticEnergy, double h)
+double referenceAcceleration(const Vec3& gravity, std::span<const double> mass, std::span<const Vec3> velocity, std::span<const double> radius,
+                             ElasticEnergy&& elasticEnergy, double h)
 {
     if (!gravity.isZero(0.0)) return gravity.norm();
     constexpr double kShare = 0.02, kLeastMove = 1.0e-6;

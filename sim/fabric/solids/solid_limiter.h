@@ -10,10 +10,10 @@
 
 namespace sim {
 
-/// What keeping moves in front of solids took.
-struct GuardReport {
+/// Counts of moves that were limited at solids.
+struct SolidLimitReport {
     int blocked = 0;  ///< edges and faces whose moves had to be changed
-    int left = 0;     ///< … and that still got through or came too near: fabric then rests, or goes in halves of the time
+    int left = 0;     ///< edges and faces that passed a solid or came too near all the same: fabric then rests, or moves in halves of the time
 };
 
 /// Where an edge or a face touches a solid with none of its vertices.
@@ -25,16 +25,16 @@ struct NearestPoint {
     double radius = 0.0;          ///< of the fabric [cm]
 };
 
-/// Fabric never gets through a solid's surface. Moves are looked at in the frame of each solid, in which it rests while corners of the
+/// Limits moves so that fabric never passes a solid's surface. Moves are checked in the frame of each solid, in which it rests while corners of the
 /// fabric go straight from where they are at the start of a step to where they are at its end: no point of an edge or a face may come
 /// nearer than a part of its radius on the way, however thin, pointed or fast the solid is. What would is stopped at the surface, slides
 /// along it, or is carried ahead. What begins nearer may come no nearer still, and what begins inside of a solid is free to leave it: of
 /// faces that a solid pierces their edges are looked at, of such edges their ends; likewise of what pins draw into a solid.
-class SolidGuard {
+class SolidLimiter {
  public:
-    SolidGuard() = default;
+    SolidLimiter() = default;
     /// Against those of the scene that fabric feels.
-    SolidGuard(const Fabric& fabric, std::span<const ObstacleSettings> obstacles);
+    SolidLimiter(const Fabric& fabric, std::span<const ObstacleSettings> obstacles);
 
     bool empty() const { return bodies_.empty(); }
     /// The next moves are made while solids go from where they are at t0 to where they are at t1 [s] …
@@ -48,13 +48,13 @@ class SolidGuard {
     enum class Limited { Unchanged, Changed, Unsafe };
     /// Makes the moves u from x safe [cm], but for those of pinned vertices; Unsafe, which they are only while solids move, if it cannot.
     /// @param mass  of each vertex [g]
-    Limited limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
-    /// The same while solids go on for h from t [s], in halves of the time where that takes them: u becomes where fabric gets, not how.
+    Limited limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
+    /// The same while solids go on for h from t [s], by bisection of the time where that is needed: u becomes the displacement, not the path.
     /// @return whether it changed any
-    bool limitInHalves(double t, double h, std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, GuardReport& report);
+    bool limitBisected(double t, double h, std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
     static constexpr int kMostHalvings = 8;  ///< one within the other
-    /// Ends the run: the last limit() has found no safe moves, in however short a time.
-    [[noreturn]] void refuse() const;
+    /// Throws RunError: the last limit() has found no safe moves, in however short a time.
+    [[noreturn]] void throwNoSafeMove() const;
     /// Was any fabric near a solid, in the last limit()?
     bool isNear() const { return isNear_; }
     /// Points at which edges and faces are nearer to solids than their radius, and than their vertices, by elements, then by solids, which
@@ -64,6 +64,10 @@ class SolidGuard {
     double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
 
  private:
+    static constexpr double kCore = 0.57;     ///< distance that is kept, as between pairs of fabric [radii]
+    static constexpr double kKept = 0.85;     ///< share of its distance that an element which begins nearer keeps: less than kNearestError leaves [-]
+    static constexpr double kStays = 1.0e-6;  ///< share of its distance by which such an element may end nearer than it began [-]
+
     struct Body {
         std::string name;
         Shape shape;
@@ -96,7 +100,7 @@ class SolidGuard {
         const int* vertices;
         int corners;
     };
-    void look(int body, const Part& part, Points x, std::span<const Vec3> u, std::vector<Blocked>& out) const;
+    void checkElement(int body, const Part& part, Points x, std::span<const Vec3> u, std::vector<Blocked>& out) const;
     bool isHeld(const int* vertices, int corners) const;
     void leaveToPins();
     bool mayTouch(const Body& body, Points x, const int* vertices, int corners, double distance) const;
@@ -104,9 +108,9 @@ class SolidGuard {
     double leastRadius(const int* vertices, int corners) const;
     using Elements = std::vector<std::array<int, 3>>;
     template <class Found, class Look>
-    void collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& look) const;
-    void push(Points x, std::span<const double> mass, Moves u) const;
-    void draw(Points x, double share, Moves u) const;
+    void collect(const Elements& elements, std::vector<std::vector<Found>>& ofChunk, std::vector<Found>& all, Look&& checkElement) const;
+    void applyImpulses(Points x, std::span<const double> mass, Moves u) const;
+    void carryAlong(Points x, double share, Moves u) const;
     bool mayCarry();
 
     const Fabric* fabric_ = nullptr;
