@@ -1,3 +1,3 @@
 #include "app/program.h"
 
-int main(int argc, char** argv) { return app::runProgram(argc, argv, app::drenchParts()); }
+int main(int argc, char** argv) { return app::runProgram(argc, argv, app::drenchBackends()); }

@@ -17,25 +17,25 @@ namespace app {
 
 namespace {
 
-int runVerb(const Options& options, const Parts& parts)
+int runVerb(const Options& options, const Backends& backends)
 {
     switch (options.verb) {
-        case Verb::Run: return runVerbRun(options, parts);
-        case Verb::Compare: return runVerbCompare(options, parts);
-        case Verb::Check: return runVerbCheck(options, parts);
-        case Verb::View: return runVerbView(options, parts);
-        case Verb::Bench: return runVerbBench(options, parts);
-        case Verb::BenchPrecision: return runVerbBenchPrecision(options, parts);
-        case Verb::Paper: return runVerbPaper(options, parts);
-        case Verb::Validate: return runVerbValidate(options, parts);
-        case Verb::Stress: return runVerbStress(options, parts);
-        case Verb::Render: return runVerbRender(options, parts);
-        case Verb::Diff: return runVerbDiff(options, parts);
-        case Verb::Probe: return runVerbProbe(options, parts);
-        case Verb::Schema: return runVerbSchema(options, parts);
-        case Verb::Export: return runVerbExport(options, parts);
-        case Verb::Sweep: return runVerbSweep(options, parts);
-        case Verb::Import: return runVerbImport(options, parts);
+        case Verb::Run: return runVerbRun(options, backends);
+        case Verb::Compare: return runVerbCompare(options, backends);
+        case Verb::Check: return runVerbCheck(options, backends);
+        case Verb::View: return runVerbView(options, backends);
+        case Verb::Bench: return runVerbBench(options, backends);
+        case Verb::BenchPrecision: return runVerbBenchPrecision(options, backends);
+        case Verb::Paper: return runVerbPaper(options, backends);
+        case Verb::Validate: return runVerbValidate(options, backends);
+        case Verb::Stress: return runVerbStress(options, backends);
+        case Verb::Render: return runVerbRender(options, backends);
+        case Verb::Diff: return runVerbDiff(options, backends);
+        case Verb::Probe: return runVerbProbe(options, backends);
+        case Verb::Schema: return runVerbSchema(options, backends);
+        case Verb::Export: return runVerbExport(options, backends);
+        case Verb::Sweep: return runVerbSweep(options, backends);
+        case Verb::Import: return runVerbImport(options, backends);
     }
     return 1;
 }
@@ -57,7 +57,7 @@ void startLog()
 
 }  // namespace
 
-int runProgram(int argc, const char* const* argv, const Parts& parts)
+int runProgram(int argc, const char* const* argv, const Backends& backends)
 {
     startLog();
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is told like a full disk
@@ -65,7 +65,7 @@ int runProgram(int argc, const char* const* argv, const Parts& parts)
         const auto options = readOptions(argc, argv);
         if (!options) return 0;
         watchForInterrupt();
-        return runVerb(*options, parts);
+        return runVerb(*options, backends);
     } catch (const sim::InputError& error) {
         return tell(error.what(), 2);
     } catch (const std::bad_alloc&) {

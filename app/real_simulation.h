@@ -1,12 +1,12 @@
 #pragma once
 
-#include "app/parts.h"
+#include "app/backends.h"
 #include "sim/simulation.h"
 
 namespace app {
 
 /// What steps a scene, as the program sees it.
-class RealSimulation : public Steppable {
+class RealSimulation : public SimulationHandle {
  public:
     explicit RealSimulation(const sim::Scene& scene) : simulation_(scene) {}
     RealSimulation(const sim::Scene& scene, const sim::State& state) : simulation_(scene, state) {}

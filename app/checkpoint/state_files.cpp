@@ -17,7 +17,7 @@ constexpr std::string_view kHead = "state_", kTail = ".h5";
 
 }  // namespace
 
-fs::path stateFolder(const fs::path& runFolder, StateKind kind) { return runFolder / (kind == StateKind::ForGoingOn ? "checkpoints" : "states"); }
+fs::path stateFolder(const fs::path& runFolder, StateKind kind) { return runFolder / (kind == StateKind::ForResuming ? "checkpoints" : "states"); }
 
 fs::path stateFile(const fs::path& runFolder, StateKind kind, std::int64_t frame)
 {
@@ -26,7 +26,7 @@ fs::path stateFile(const fs::path& runFolder, StateKind kind, std::int64_t frame
 
 std::vector<std::int64_t> storedFrames(const fs::path& runFolder, StateKind kind) { return numbersIn(stateFolder(runFolder, kind), kHead, kTail); }
 
-StateKeeper::StateKeeper(fs::path runFolder, const SceneSetup& setup, CheckpointOrigin origin)
+StateWriter::StateWriter(fs::path runFolder, const SceneSetup& setup, CheckpointOrigin origin)
     : folder_(std::move(runFolder)), origin_(std::move(origin))
 {
     const OutputSettings& output = setup.pictures.output;
@@ -36,21 +36,21 @@ StateKeeper::StateKeeper(fs::path runFolder, const SceneSetup& setup, Checkpoint
     if (output.checkpoint) every_ = std::max<std::int64_t>(1, std::llround(output.checkpointEvery / output.every));
 }
 
-bool StateKeeper::isDue(std::int64_t frame) const { return every_ > 0 && (frame % every_ == 0 || frame == last_); }
+bool StateWriter::isDue(std::int64_t frame) const { return every_ > 0 && (frame % every_ == 0 || frame == last_); }
 
-void StateKeeper::checkpoint(const sim::State& state, std::int64_t frame, std::uint64_t stateHash, const LogsSoFar& logs)
+void StateWriter::checkpoint(const sim::State& state, std::int64_t frame, std::uint64_t stateHash, const LogsSoFar& logs)
 {
-    fs::create_directories(stateFolder(folder_, StateKind::ForGoingOn));
+    fs::create_directories(stateFolder(folder_, StateKind::ForResuming));
     origin_.frame = frame;
     origin_.stateHash = stateHash;
     origin_.logs = logs;
-    saveCheckpoint(origin_, state, stateFile(folder_, StateKind::ForGoingOn, frame));
+    saveCheckpoint(origin_, state, stateFile(folder_, StateKind::ForResuming, frame));
     if (keep_ == 0) return;
-    const std::vector<std::int64_t> there = storedFrames(folder_, StateKind::ForGoingOn);
-    for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < there.size(); ++i) fs::remove(stateFile(folder_, StateKind::ForGoingOn, there[i]));
+    const std::vector<std::int64_t> there = storedFrames(folder_, StateKind::ForResuming);
+    for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < there.size(); ++i) fs::remove(stateFile(folder_, StateKind::ForResuming, there[i]));
 }
 
-void StateKeeper::picture(const sim::State& state, std::int64_t frame, std::uint64_t stateHash)
+void StateWriter::picture(const sim::State& state, std::int64_t frame, std::uint64_t stateHash)
 {
     if (!pictures_) return;
     fs::create_directories(stateFolder(folder_, StateKind::ForPictures));

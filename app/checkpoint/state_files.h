@@ -10,7 +10,7 @@ namespace app {
 
 /// Where a run keeps states below its folder.
 enum class StateKind {
-    ForGoingOn,   ///< checkpoints/state_00012.h5: all of it
+    ForResuming,  ///< checkpoints/state_00012.h5: all of it
     ForPictures,  ///< states/state_00012.h5: what pictures need of it
 };
 
@@ -21,10 +21,10 @@ std::filesystem::path stateFile(const std::filesystem::path& runFolder, StateKin
 std::vector<std::int64_t> storedFrames(const std::filesystem::path& runFolder, StateKind kind);
 
 /// Writes the states that a run is to keep.
-class StateKeeper {
+class StateWriter {
  public:
     /// @param origin  of the run; frame, hash and logs are filled in for each state
-    StateKeeper(std::filesystem::path runFolder, const SceneSetup& setup, CheckpointOrigin origin);
+    StateWriter(std::filesystem::path runFolder, const SceneSetup& setup, CheckpointOrigin origin);
 
     /// Is there to be a checkpoint of this frame?
     bool isDue(std::int64_t frame) const;

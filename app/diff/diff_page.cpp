@@ -115,7 +115,7 @@ std::vector<const PictureDiff*> drawAllPanels(const DiffResult& result, const fs
     return drawn;
 }
 
-void forgetEarlierPanels(const fs::path& folder)
+void removeEarlierPanels(const fs::path& folder)
 {
     std::vector<fs::path> old;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -133,7 +133,7 @@ void writeDiffPage(const DiffResult& result, const fs::path& folder)
         if (fs::weakly_canonical(folder) == fs::weakly_canonical(fs::is_directory(of) ? of : fs::absolute(of).parent_path()))
             throw sim::InputError(fmt::format("--out {}: there is what is compared; choose another folder", folder.string()));
     makeFolder(folder);
-    forgetEarlierPanels(folder);
+    removeEarlierPanels(folder);
     const std::string title = fmt::format("{} against {}", result.of.a.string(), result.of.b.string());
     std::string html =
         fmt::format("{}<title>{}</title></head><body>\n<h1>A: {}<br>B: {}</h1>\n<p class=\"{}\">{}</p>\n", kPageHead, escaped(title),

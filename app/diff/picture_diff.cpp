@@ -26,7 +26,7 @@ std::map<std::string, fs::path> picturesIn(const fs::path& folder)
 }
 
 /// How much of a picture differs: for the order of pictures alone.
-double badness(const PictureDiff& diff)
+double severity(const PictureDiff& diff)
 {
     if (!diff.problem.empty()) return 3.0;
     return 1.0 - diff.difference.similarity.mean + diff.difference.color.share;
@@ -77,8 +77,8 @@ std::vector<PictureDiff> diffPictures(const std::vector<PicturePair>& pairs, con
         if (stopWanted()) throw sim::InputError("stopped by the user before all was compared");
         diffs[i] = diffOf(pairs[i], tolerance);
     });
-    std::ranges::stable_sort(diffs,
-                             [](const PictureDiff& x, const PictureDiff& y) { return x.differs != y.differs ? x.differs : badness(x) > badness(y); });
+    std::ranges::stable_sort(
+        diffs, [](const PictureDiff& x, const PictureDiff& y) { return x.differs != y.differs ? x.differs : severity(x) > severity(y); });
     return diffs;
 }
 

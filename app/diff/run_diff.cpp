@@ -59,7 +59,7 @@ std::vector<DiffFinding> diffRuns(const fs::path& a, const fs::path& b, const To
     const RunResult reportA = reportOfRun(a), reportB = reportOfRun(b);
     std::vector<DiffFinding> findings, more;
     StateDiff states;
-    for (const StateKind kind : {StateKind::ForPictures, StateKind::ForGoingOn})
+    for (const StateKind kind : {StateKind::ForPictures, StateKind::ForResuming})
         for (const std::int64_t frame : commonFrames(a, b, kind, more)) {
             if (stopWanted()) throw sim::InputError("stopped by the user before all was compared");
             states.add(loadCheckpoint(stateFile(a, kind, frame)).state, loadCheckpoint(stateFile(b, kind, frame)).state);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/parts.h"
+#include "app/backends.h"
 
 namespace app {
 

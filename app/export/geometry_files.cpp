@@ -45,7 +45,7 @@ std::vector<std::int64_t> geometryFrames(const fs::path& runFolder)
     return {frames.begin(), frames.end()};
 }
 
-void forgetGeometryLaterThan(std::int64_t frame, const fs::path& runFolder)
+void removeGeometryAfter(std::int64_t frame, const fs::path& runFolder)
 {
     const fs::path folder = geometryFolder(runFolder);
     if (!fs::is_directory(folder)) return;

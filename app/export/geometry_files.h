@@ -22,6 +22,6 @@ std::vector<std::int64_t> geometryFrames(const std::filesystem::path& runFolder)
 
 /// Take away the geometry that a run has left of frames after this one, and with frame −1 all: files that an Exporter writes, never
 /// others.
-void forgetGeometryLaterThan(std::int64_t frame, const std::filesystem::path& runFolder);
+void removeGeometryAfter(std::int64_t frame, const std::filesystem::path& runFolder);
 
 }  // namespace app

@@ -7,13 +7,13 @@
 
 namespace app {
 
-GeometrySink::GeometrySink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& runFolder, const std::string& provenance)
+GeometrySink::GeometrySink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& runFolder, const std::string& provenance)
     : density_(setup.scene.settings.liquid.density)
 {
     const OutputSettings& output = setup.pictures.output;
     if (!output.geometry) return;
     if (output.geometrySurface) surface_.emplace();
-    placeObstacles_ = parts.meshObstacles(setup);
+    placeObstacles_ = backends.meshObstacles(setup);
     std::vector<FrameTime> earlier;  // of a run that is gone on with
     for (const std::int64_t frame : geometryFrames(runFolder)) earlier.push_back({frame, frameTime(setup, frame)});
     exporter_.emplace(geometryFolder(runFolder), output.geometryFormats, output.every, std::move(earlier));

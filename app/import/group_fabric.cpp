@@ -49,7 +49,7 @@ void collectParticles(FabricGroup& group)
 }
 
 /// Warns where groups of different kinds or materials meet: scene files have no piece of both.
-void tellTornJoints(const std::vector<FabricGroup>& groups, ImportReport& report)
+void reportTornJoints(const std::vector<FabricGroup>& groups, ImportReport& report)
 {
     std::map<int, int> uses;
     for (const FabricGroup& group : groups)
@@ -84,7 +84,7 @@ std::vector<FabricGroup> groupFabric(const reference::Scene& scene, ImportReport
         groups.push_back(std::move(group));
     }
     std::ranges::stable_sort(groups, {}, [](const FabricGroup& g) { return std::pair(g.line, g.particles.front()); });
-    tellTornJoints(groups, report);
+    reportTornJoints(groups, report);
     return groups;
 }
 

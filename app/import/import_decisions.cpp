@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSteepestFriction = 89.0;  // of scene files [deg]
 
-void tellMaterial(const reference::Material& m, int number, const ImportOptions& options, ImportReport& report)
+void reportMaterial(const reference::Material& m, int number, const ImportOptions& options, ImportReport& report)
 {
     if (!m.hasBiradius && !options.roundSections && m.radius[0] != m.radius[1])
         report.decisions.push_back(
@@ -32,7 +32,7 @@ void tellMaterial(const reference::Material& m, int number, const ImportOptions&
         report.decisions.push_back(fmt::format("m{}: a friction angle of {} deg becomes {}", number, m.frictionAngle, kSteepestFriction));
 }
 
-void tellParticles(const ImportedScene& scene, ImportReport& report)
+void reportParticles(const ImportedScene& scene, ImportReport& report)
 {
     std::set<int> used;
     for (const ImportedPiece& piece : scene.pieces) used.insert(piece.particles.begin(), piece.particles.end());
@@ -51,7 +51,7 @@ void tellParticles(const ImportedScene& scene, ImportReport& report)
 }
 
 /// Groups have names where something moves them; elsewhere libWetCloth draws them in other shades of grey.
-void tellGroups(const reference::Scene& scene, ImportReport& report)
+void reportGroups(const reference::Scene& scene, ImportReport& report)
 {
     std::set<int> still;
     for (const reference::Particle& p : scene.particles)
@@ -61,7 +61,7 @@ void tellGroups(const reference::Scene& scene, ImportReport& report)
             fmt::format("groups {} of particles are moved by no script, so their numbers are not kept", fmt::join(still, ", ")));
 }
 
-void tellCohesion(const reference::LiquidInfo& l, bool vertexSolver, ImportReport& report)
+void reportCohesion(const reference::LiquidInfo& l, bool vertexSolver, ImportReport& report)
 {
     if (!l.coheres()) return;
     if (vertexSolver)
@@ -72,7 +72,7 @@ void tellCohesion(const reference::LiquidInfo& l, bool vertexSolver, ImportRepor
     else report.warnings.push_back(fmt::format("cohesion of wet fabric ({}): fabric.solver grid has none (--solver vertex has)", l.cohesionCoeff));
 }
 
-void tellUncoupled(const reference::LiquidInfo& l, ImportReport& report)
+void reportUncoupled(const reference::LiquidInfo& l, ImportReport& report)
 {
     if (l.airDrag) report.warnings.emplace_back("drag by air (dragByAir): this version has none");
     if (l.varyingFraction) report.warnings.emplace_back("a volume fraction that changes with stretch (useVaryingFraction): this version has none");
@@ -88,23 +88,23 @@ void tellUncoupled(const reference::LiquidInfo& l, ImportReport& report)
     if (!l.porousNote.empty()) report.decisions.push_back(l.porousNote);
 }
 
-void tellFabric(const ImportedScene& scene, const ImportOptions& options, ImportReport& report)
+void reportFabric(const ImportedScene& scene, const ImportOptions& options, ImportReport& report)
 {
     const reference::Scene& r = scene.reference;
     if (!scene.hasFabric()) {
         report.decisions.emplace_back("there is no fabric, so materials, pores and coupling are left out");
         return;
     }
-    tellCohesion(r.liquid, scene.vertexSolver, report);
-    tellUncoupled(r.liquid, report);
+    reportCohesion(r.liquid, scene.vertexSolver, report);
+    reportUncoupled(r.liquid, report);
     if (r.liquid.solidModes > sim::FabricTransferSettings::kMostModes)
         report.decisions.push_back(fmt::format("scalarModes={}: fabric has {} modes at most, as a sheet is surface everywhere", r.liquid.solidModes,
                                                sim::FabricTransferSettings::kMostModes));
-    tellGroups(r, report);
+    reportGroups(r, report);
     std::set<int> used;
     for (const ImportedPiece& piece : scene.pieces) used.insert(piece.material);
     for (std::size_t m = 0; m < r.materials.size(); ++m) {
-        if (used.contains(static_cast<int>(m))) tellMaterial(r.materials[m], static_cast<int>(m), options, report);
+        if (used.contains(static_cast<int>(m))) reportMaterial(r.materials[m], static_cast<int>(m), options, report);
         else report.decisions.push_back(fmt::format("the material of line {} is of no fabric and is left out", r.materials[m].line));
     }
     report.decisions.emplace_back(scene.vertexSolver ? "fabric.solver is vertex, this program's own (--solver vertex): pins hold "
@@ -113,7 +113,7 @@ void tellFabric(const ImportedScene& scene, const ImportOptions& options, Import
                                                        "constant 3, polar torsion, springs at pins (--solver vertex)");
 }
 
-void tellRun(const ImportedScene& scene, ImportReport& report)
+void reportRun(const ImportedScene& scene, ImportReport& report)
 {
     const reference::Scene& r = scene.reference;
     report.decisions.emplace_back(
@@ -138,16 +138,16 @@ void tellRun(const ImportedScene& scene, ImportReport& report)
 
 }  // namespace
 
-void tellDecisions(const ImportedScene& scene, const ImportOptions& options, ImportReport& report)
+void reportDecisions(const ImportedScene& scene, const ImportOptions& options, ImportReport& report)
 {
     const std::string why = chosenMethod(scene.reference.run, options).why;
     if (!why.empty()) report.decisions.push_back(why);
-    tellRun(scene, report);
-    tellFabric(scene, options, report);
-    tellParticles(scene, report);
+    reportRun(scene, report);
+    reportFabric(scene, options, report);
+    reportParticles(scene, report);
 }
 
-void tellCounts(const ImportedScene& scene, ImportReport& report)
+void reportCounts(const ImportedScene& scene, ImportReport& report)
 {
     std::size_t vertices = 0, yarns = 0, edges = 0, faces = 0, held = 0;
     for (const ImportedPiece& piece : scene.pieces) {

@@ -5,9 +5,9 @@
 namespace app {
 
 /// Tells the report what of a file was taken one way and might be taken another, and what has no counterpart.
-void tellDecisions(const ImportedScene& scene, const ImportOptions& options, ImportReport& report);
+void reportDecisions(const ImportedScene& scene, const ImportOptions& options, ImportReport& report);
 
 /// Numbers of particles, vertices, edges, faces, held vertices, sources, obstacles.
-void tellCounts(const ImportedScene& scene, ImportReport& report);
+void reportCounts(const ImportedScene& scene, ImportReport& report);
 
 }  // namespace app

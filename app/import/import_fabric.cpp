@@ -97,7 +97,7 @@ double wetnessOf(const ImportedPiece& piece, const Scene& scene, ImportReport& r
 }
 
 /// What particles say and no piece of fabric can.
-void tellLost(const ImportedPiece& piece, const Scene& scene, ImportReport& report)
+void reportDropped(const ImportedPiece& piece, const Scene& scene, ImportReport& report)
 {
     const auto tell = [&](const char* what, auto holds) {
         const auto count = std::ranges::count_if(piece.particles, [&](int p) { return holds(scene.particles[p]); });
@@ -151,7 +151,7 @@ ImportedPiece importPiece(const FabricGroup& group, std::size_t number, const Sc
     piece.velocity = velocityOf(piece, scene, report);
     piece.wetness = wetnessOf(piece, scene, report);
     piece.pins = importPins(piece, scene, report);
-    tellLost(piece, scene, report);
+    reportDropped(piece, scene, report);
     report.recognised.push_back(fmt::format("{}: {}, {}{}", piece.name, piece.shape.kind, piece.shape.summary,
                                             piece.hasFile() ? "" : fmt::format(", deviation {:.1e} cm", piece.shape.deviation)));
     return piece;

@@ -95,7 +95,7 @@ std::vector<char> twistHeldByNext(const ImportedPiece& piece, const reference::S
     return isHeld;
 }
 
-void tellTwistsHeldAlone(const ImportedPiece& piece, const reference::Scene& scene, ImportReport& report)
+void reportLoneTwistPins(const ImportedPiece& piece, const reference::Scene& scene, ImportReport& report)
 {
     const std::vector<char> isHeldByNext = twistHeldByNext(piece, scene);
     int byNeighbour = 0, lost = 0;
@@ -134,7 +134,7 @@ std::vector<ImportedPin> importPins(const ImportedPiece& piece, const reference:
         pin.selection = pinSelection(piece.shape.geometry, pin.vertices);
         pins.push_back(std::move(pin));
     }
-    if (isYarn) tellTwistsHeldAlone(piece, scene, report);
+    if (isYarn) reportLoneTwistPins(piece, scene, report);
     return pins;
 }
 

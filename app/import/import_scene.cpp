@@ -74,7 +74,7 @@ std::vector<std::pair<int, std::string>> pinMotions(const ImportedScene& scene, 
     return motions;
 }
 
-void tellIdleScripts(const ImportedScene& scene, ImportReport& report)
+void reportIdleScripts(const ImportedScene& scene, ImportReport& report)
 {
     std::set<int> moved;
     for (const auto& [group, text] : scene.motions) moved.insert(group);
@@ -97,11 +97,11 @@ void tellIdleScripts(const ImportedScene& scene, ImportReport& report)
     xml.fail(problem == std::errc() ? lines.xmlLine(line) : 1, fmt::format("makes no scene{}", std::string(rest, end)));
 }
 
-std::string readBack(const ImportedScene& scene, const fs::path& part, const XmlFile& xml, const SceneLines& lines, const Parts& parts)
+std::string readBack(const ImportedScene& scene, const fs::path& part, const XmlFile& xml, const SceneLines& lines, const Backends& backends)
 {
     if (!scene.bodies.missingFiles.empty()) return "not done, as a mesh is missing; drench check does it when it is there";
     try {
-        return compareWithReference(parts.loadScene({part.string(), "", {}}).scene, scene);
+        return compareWithReference(backends.loadScene({part.string(), "", {}}).scene, scene);
     } catch (const sim::InputError& error) {
         failAtXml(error.what(), part, xml, lines);
     }
@@ -120,16 +120,16 @@ ImportedScene importAll(const XmlFile& file, const fs::path& yaml, const ImportO
     scene.pieces = importFabrics(scene.reference, report);
     scene.bodies = importBodies(scene.reference, file.path(), yaml, report);
     scene.motions = pinMotions(scene, report);
-    tellIdleScripts(scene, report);
-    tellCounts(scene, report);
-    tellDecisions(scene, options, report);
+    reportIdleScripts(scene, report);
+    reportCounts(scene, report);
+    reportDecisions(scene, options, report);
     report.ignored = ignoredNames(file, names);
     return scene;
 }
 
 }  // namespace
 
-std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportOptions& options, const Parts& parts)
+std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportOptions& options, const Backends& backends)
 {
     if (!yaml.parent_path().empty() && !fs::is_directory(yaml.parent_path()))
         throw sim::InputError(fmt::format("-o: there is no folder {}; make it, or write elsewhere", yaml.parent_path().string()));
@@ -144,7 +144,7 @@ std::string importScene(const fs::path& xml, const fs::path& yaml, const ImportO
     const auto partName = [&](const ImportedPiece& piece) { return partFile(fileOf(piece, yaml)).filename().string(); };
     const SceneLines asParts = writeScene(scene, partName);
     files.write(yaml, asParts.text());
-    report.readBack = readBack(scene, partFile(yaml), file, asParts, parts);
+    report.readBack = readBack(scene, partFile(yaml), file, asParts, backends);
 
     const std::string text = reportText(report, xml.string(), yaml.string());
     files.write(reportFile(yaml), text);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/options.h"
-#include "app/parts.h"
 
 #include <filesystem>
 #include <string>
@@ -12,6 +12,6 @@ namespace app {
 /// <stem>.import.txt with what was decided, all beside `yaml`; returns that report. The scene is read back and compared
 /// with the XML before anything takes its name. Throws InputError "file:line: what, and what would do", and then leaves
 /// nothing behind.
-std::string importScene(const std::filesystem::path& xml, const std::filesystem::path& yaml, const ImportOptions& options, const Parts& parts);
+std::string importScene(const std::filesystem::path& xml, const std::filesystem::path& yaml, const ImportOptions& options, const Backends& backends);
 
 }  // namespace app

@@ -131,8 +131,8 @@ struct Script {
     std::optional<Vec3> origin;                                     ///< of a rotation [cm]
     bool isGlobal = false;
     double amplitude = 1.0, frequency = 1.0;
-    std::vector<double> base;  ///< of weno: places along the direction …
-    double baseStep = 1.0;     ///< … every so often [s]
+    std::vector<double> base;  ///< knots of a weno motion: values along the direction, baseStep apart
+    double baseStep = 1.0;     ///< time between the knots of a weno motion [s]
     int line = 1;
 };
 

@@ -3,9 +3,9 @@
 #include "app/drawing/look_from_settings.h"
 #include "app/drawing/obstacle_meshes.h"
 #include "app/frames/snapshot_from_state.h"
+#include "app/library/convert_errors.h"
 #include "app/library/scene_parts.h"
 #include "app/library/simulation_parts.h"
-#include "app/library/told_errors.h"
 #include "app/scene/read_picture_settings.h"
 #include "render/renderer.h"
 
@@ -19,12 +19,12 @@ namespace drench {
 
 namespace {
 
-/// The same as toldErrors where the renderer and the system have their say.
+/// The same as convertErrors where the renderer and the system have their say.
 template <class Body>
-decltype(auto) toldFailures(Body&& body)
+decltype(auto) convertFailures(Body&& body)
 {
     try {
-        return toldErrors(body);
+        return convertErrors(body);
     } catch (const Error&) {
         throw;
     } catch (const std::runtime_error& error) {
@@ -71,7 +71,7 @@ render::Image Frames::Parts::draw(const app::RealSimulation& simulation)
 
 Frames::Frames(const Scene& scene, const std::string& shaders)
 {
-    parts_ = toldFailures([&] { return std::make_unique<Parts>(scene.parts().file, scene.parts().read(), shaders); });
+    parts_ = convertFailures([&] { return std::make_unique<Parts>(scene.parts().file, scene.parts().read(), shaders); });
 }
 
 Frames::Frames(Frames&&) noexcept = default;
@@ -80,13 +80,13 @@ Frames::~Frames() = default;
 
 Picture Frames::draw(const Simulation& simulation)
 {
-    render::Image image = toldFailures([&] { return parts_->draw(simulation.parts().real()); });
+    render::Image image = convertFailures([&] { return parts_->draw(simulation.parts().real()); });
     return {.width = image.width, .height = image.height, .rgb = std::move(image.pixels)};
 }
 
 void Frames::write(const Simulation& simulation, const std::string& file)
 {
-    toldFailures([&] {
+    convertFailures([&] {
         const std::filesystem::path folder = std::filesystem::path(file).parent_path();
         if (!folder.empty()) std::filesystem::create_directories(folder);
         const render::Image image = parts_->draw(simulation.parts().real());

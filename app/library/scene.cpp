@@ -1,5 +1,5 @@
+#include "app/library/convert_errors.h"
 #include "app/library/scene_parts.h"
-#include "app/library/told_errors.h"
 #include "sim/scene/load_scene.h"
 #include "sim/scene/overrides.h"
 #include "sim/scene/units.h"
@@ -89,17 +89,17 @@ Scene& Scene::operator=(Scene other) noexcept
 
 Scene Scene::load(const std::string& file, const std::string& variant)
 {
-    return toldErrors([&] { return Scene(std::make_unique<Parts>(Parts{sim::loadSceneFile(file, {.variant = variant}), {}})); });
+    return convertErrors([&] { return Scene(std::make_unique<Parts>(Parts{sim::loadSceneFile(file, {.variant = variant}), {}})); });
 }
 
 Scene Scene::parse(const std::string& text)
 {
-    return toldErrors([&] { return Scene(std::make_unique<Parts>(Parts{sim::sceneFileFromText(text, "scene"), {}})); });
+    return convertErrors([&] { return Scene(std::make_unique<Parts>(Parts{sim::sceneFileFromText(text, "scene"), {}})); });
 }
 
 void Scene::set(std::string_view key, std::string_view value)
 {
-    toldErrors([&] {
+    convertErrors([&] {
         Node& root = parts_->file.root;
         sim::apply(sim::parseOverride(fmt::format("{}={}", key, value), root.location.source->isSi), root);
     });
@@ -111,7 +111,7 @@ void Scene::setNumber(std::string_view key, double value) { set(key, sim::format
 
 void Scene::add(const Source& source)
 {
-    toldErrors([&] {
+    convertErrors([&] {
         const std::string keys = fmt::format("shape: {}, velocity: {}{}{}", source.shape.text, flow(source.velocity),
                                              source.name.empty() ? "" : ", name: " + source.name, behind(source.more));
         append(parts_->file.root, {"liquid", "sources"}, readMap(keys, source.name.empty() ? "source" : "source " + source.name));
@@ -120,7 +120,7 @@ void Scene::add(const Source& source)
 
 void Scene::add(const std::string& name, const Obstacle& obstacle)
 {
-    toldErrors([&] {
+    convertErrors([&] {
         const std::string keys = fmt::format("name: {}, shape: {}, inside: {}{}", name, obstacle.shape.text, obstacle.inside, behind(obstacle.more));
         append(parts_->file.root, {"obstacles"}, readMap(keys, "obstacle " + name));
         if (obstacle.motion) parts_->motions[name] = obstacle.motion;
@@ -129,7 +129,7 @@ void Scene::add(const std::string& name, const Obstacle& obstacle)
 
 void Scene::addFabric(const std::string& name, const std::string& keys)
 {
-    toldErrors([&] {
+    convertErrors([&] {
         const sim::Node own = sim::parseYaml(keys, said("fabric " + name));
         Node fabric = readMap("name: " + name, "fabric " + name);
         if (!own.isMap()) sim::fail(own.location, fmt::format("needs keys, like {{cloth_grid: {{...}}}}, not {}", own.called()));
@@ -140,17 +140,17 @@ void Scene::addFabric(const std::string& name, const std::string& keys)
 
 void Scene::check() const
 {
-    toldErrors([&] { parts_->read(); });
+    convertErrors([&] { parts_->read(); });
 }
 
 std::string Scene::resolved() const
 {
-    return toldErrors([&] { return sim::printScene(parts_->read()); });
+    return convertErrors([&] { return sim::printScene(parts_->read()); });
 }
 
 std::vector<std::string> Scene::notes() const
 {
-    return toldErrors([&] { return parts_->read().notes; });
+    return convertErrors([&] { return parts_->read().notes; });
 }
 
 }  // namespace drench

@@ -1,8 +1,8 @@
 #include "drench/simulation.h"
 
+#include "app/library/convert_errors.h"
 #include "app/library/scene_parts.h"
 #include "app/library/simulation_parts.h"
-#include "app/library/told_errors.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ Step fromSim(const sim::StepReport& report)
 
 Simulation::Simulation(const Scene& scene, int threads)
 {
-    parts_ = toldErrors([&] { return std::make_unique<Parts>(scene.parts().read(), threads); });
+    parts_ = convertErrors([&] { return std::make_unique<Parts>(scene.parts().read(), threads); });
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -50,12 +50,12 @@ Simulation::~Simulation() = default;
 
 Step Simulation::step(double until)
 {
-    return toldErrors([&] { return fromSim(parts_->step(until)); });
+    return convertErrors([&] { return fromSim(parts_->step(until)); });
 }
 
 void Simulation::advanceTo(double until)
 {
-    toldErrors([&] { parts_->advanceTo(until); });
+    convertErrors([&] { parts_->advanceTo(until); });
 }
 
 double Simulation::time() const { return parts_->real().state().time; }
@@ -82,7 +82,7 @@ Load Simulation::on(const std::string& name) const
 
 double Simulation::read(const std::string& formula, const Vec3& at) const
 {
-    return toldErrors([&] { return parts_->read(formula, at); });
+    return convertErrors([&] { return parts_->read(formula, at); });
 }
 
 std::uint64_t Simulation::stateHash() const { return parts_->real().stateHash(); }

@@ -43,7 +43,7 @@ sim::StepReport Simulation::Parts::step(double until)
 {
     beginStep();
     const sim::StepReport report = withThreads([&] { return simulation_->step(until); });
-    measures_.tookStep();
+    measures_.afterStep();
     return report;
 }
 
@@ -54,7 +54,7 @@ void Simulation::Parts::advanceTo(double until)
     withThreads([&] {
         while (real().state().time < until) {
             simulation_->step(until);
-            measures_.tookStep();
+            measures_.afterStep();
         }
     });
 }

@@ -11,11 +11,11 @@ void take(LivePair::Side& side) { side.shown = side.live.takeSnapshot(std::move(
 
 }  // namespace
 
-LivePair::LivePair(const SceneRequest& request, const Parts& parts) { sides_.push_back(std::make_unique<Side>(request, parts)); }
+LivePair::LivePair(const SceneRequest& request, const Backends& backends) { sides_.push_back(std::make_unique<Side>(request, backends)); }
 
-void LivePair::putBeside(const SceneRequest& request, const Parts& parts)
+void LivePair::addSecondSide(const SceneRequest& request, const Backends& backends)
 {
-    auto second = std::make_unique<Side>(request, parts);
+    auto second = std::make_unique<Side>(request, backends);
     sides_.resize(1);
     sides_.push_back(std::move(second));
     first().pause();
@@ -23,7 +23,7 @@ void LivePair::putBeside(const SceneRequest& request, const Parts& parts)
     pace();
 }
 
-void LivePair::removeBeside()
+void LivePair::removeSecondSide()
 {
     sides_.resize(1);
     pace();
@@ -70,12 +70,12 @@ bool LivePair::takeNewest()
     const bool takesB = timeOfB && (timeOfA ? *timeOfB <= *timeOfA : staysA || isAgain(timeOfB, a));
     if (takesA) take(a);
     if (takesB) take(b);
-    bringTogether();
+    synchronize();
     return takesA || takesB;
 }
 
 /// Asked to pause, one may have begun the next frame and the other not.
-void LivePair::bringTogether()
+void LivePair::synchronize()
 {
     const LiveStatus a = sides_.front()->live.status(), b = sides_.back()->live.status();
     const auto rests = [](const LiveStatus& status) { return status.mode == LiveMode::Paused && !status.isBusy; };

@@ -13,18 +13,18 @@ namespace app {
 class LivePair {
  public:
     struct Side {
-        Side(const SceneRequest& request, const Parts& parts) : live(request, parts) {}
+        Side(const SceneRequest& request, const Backends& backends) : live(request, backends) {}
         LiveSimulation live;
         std::unique_ptr<FrameSnapshot> shown;  ///< what is to be drawn; none before the first picture
     };
 
     /// Throws InputError.
-    LivePair(const SceneRequest& request, const Parts& parts);
+    LivePair(const SceneRequest& request, const Backends& backends);
 
     /// Another scene beside the first one, both from their start, paused; it takes the place of one that is there.
     /// Throws InputError, and leaves all as it was.
-    void putBeside(const SceneRequest& request, const Parts& parts);
-    void removeBeside();
+    void addSecondSide(const SceneRequest& request, const Backends& backends);
+    void removeSecondSide();
 
     std::vector<std::unique_ptr<Side>>& sides() { return sides_; }
     const std::vector<std::unique_ptr<Side>>& sides() const { return sides_; }
@@ -41,7 +41,7 @@ class LivePair {
 
  private:
     void pace();
-    void bringTogether();
+    void synchronize();
 
     std::vector<std::unique_ptr<Side>> sides_;  ///< one or two
     bool everyFrame_ = false;

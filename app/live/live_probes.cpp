@@ -18,14 +18,14 @@ std::vector<ProbeTitle> titlesOf(const Probes& probes)
 
 }  // namespace
 
-void LiveProbes::begin(const SceneSetup& setup, const Steppable& simulation)
+void LiveProbes::begin(const SceneSetup& setup, const SimulationHandle& simulation)
 {
     const std::optional<Probes> probes = readProbes(setup);
     reader_.reset();
     {
         const std::lock_guard lock(mutex_);
         waiting_ = {.titles = probes ? std::make_shared<const std::vector<ProbeTitle>>(titlesOf(*probes)) : nullptr,
-                    .forgetAfter = -std::numeric_limits<double>::infinity(),
+                    .dropAfter = -std::numeric_limits<double>::infinity(),
                     .readings = {}};
     }
     if (!probes) return;
@@ -39,11 +39,11 @@ void LiveProbes::goBack(const SceneSetup& setup, double time)
     const Probes probes = reader_->probes();
     reader_.emplace(probes, setup.scene.settings.time.start, time, ForceTotals());
     const std::lock_guard lock(mutex_);
-    waiting_.forgetAfter = std::min(waiting_.forgetAfter, time);
+    waiting_.dropAfter = std::min(waiting_.dropAfter, time);
     std::erase_if(waiting_.readings, [&](const ProbeReading& reading) { return reading.time > time; });
 }
 
-void LiveProbes::step(const Steppable& simulation, bool isReflected)
+void LiveProbes::step(const SimulationHandle& simulation, bool isReflected)
 {
     if (!reader_) return;
     if (auto reading = reader_->step(simulation, isReflected)) add(std::move(*reading));
@@ -59,7 +59,7 @@ LiveReadings LiveProbes::take()
 {
     const std::lock_guard lock(mutex_);
     LiveReadings taken = std::move(waiting_);
-    waiting_ = {.titles = taken.titles, .forgetAfter = std::numeric_limits<double>::infinity(), .readings = {}};
+    waiting_ = {.titles = taken.titles, .dropAfter = std::numeric_limits<double>::infinity(), .readings = {}};
     return taken;
 }
 

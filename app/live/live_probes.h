@@ -20,19 +20,19 @@ struct ProbeTitle {
 
 /// What was read since it was last taken.
 struct LiveReadings {
-    std::shared_ptr<const std::vector<ProbeTitle>> titles;         ///< of all probes; null where the scene has none
-    double forgetAfter = std::numeric_limits<double>::infinity();  ///< what was taken before and is of a later time does not hold any more [s]
-    std::vector<ProbeReading> readings;                            ///< oldest first
+    std::shared_ptr<const std::vector<ProbeTitle>> titles;       ///< of all probes; null where the scene has none
+    double dropAfter = std::numeric_limits<double>::infinity();  ///< what was taken before and is of a later time does not hold any more [s]
+    std::vector<ProbeReading> readings;                          ///< oldest first
 };
 
 /// The probes of a live simulation: read on its thread, taken on another.
 class LiveProbes {
  public:
     /// All is read anew, beginning with the state before the first step. Throws InputError.
-    void begin(const SceneSetup& setup, const Steppable& simulation);
+    void begin(const SceneSetup& setup, const SimulationHandle& simulation);
     /// What was read after a time does not hold [s]; from there on it is read again, forces as means since then.
     void goBack(const SceneSetup& setup, double time);
-    void step(const Steppable& simulation, bool isReflected);
+    void step(const SimulationHandle& simulation, bool isReflected);
 
     LiveReadings take();
 

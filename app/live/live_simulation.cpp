@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <utility>
 
 namespace app {
@@ -17,104 +16,15 @@ constexpr std::size_t kMostSteps = 100'000;  ///< that wait to be taken: of a wi
 
 }  // namespace
 
-LiveSimulation::LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory)
-    : parts_(parts), settings_(std::move(request), parts.loadScene), rewind_(memory), extras_(extrasOf(settings_.setup().pictures.render))
+LiveSimulation::LiveSimulation(SceneRequest request, const Backends& backends, std::size_t memory)
+    : backends_(backends), settings_(std::move(request), backends.loadScene), rewind_(memory), extras_(extrasOf(settings_.setup().pictures.render))
 {
-    startAnew();
+    resetSimulation();
     publish(true);
     thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
 
 LiveSimulation::~LiveSimulation() = default;
-
-void LiveSimulation::ask(Command command)
-{
-    {
-        const std::lock_guard lock(mutex_);
-        commands_.push_back(std::move(command));
-        status_.isBusy = true;
-    }
-    wake_.notify_one();
-}
-
-void LiveSimulation::play()
-{
-    ask([this] {
-        if (mode_ == LiveMode::Paused) mode_ = LiveMode::Playing;
-    });
-}
-
-void LiveSimulation::pause()
-{
-    ask([this] {
-        if (mode_ != LiveMode::Playing) return;
-        pausesAtFrame_ = !isAtFrame();
-        if (!pausesAtFrame_) mode_ = LiveMode::Paused;
-    });
-}
-
-void LiveSimulation::stepOnce()
-{
-    ask([this] {
-        if (mode_ == LiveMode::Ended || mode_ == LiveMode::Failed) return;
-        mode_ = LiveMode::Paused;
-        do advance();
-        while (!isAtFrame() && mode_ == LiveMode::Paused);
-    });
-}
-
-void LiveSimulation::restart()
-{
-    ask([this] {
-        if (settings_.restart()) startAnew();
-        else goTo(rewind_.first());
-    });
-}
-
-void LiveSimulation::goBackTo(double time)
-{
-    ask([this, time] { goTo(rewind_.latest(time)); });
-}
-
-void LiveSimulation::change(std::vector<std::string> sets)
-{
-    ask([this, sets = std::move(sets)] {
-        std::string refused;
-        try {
-            tryToChange(sets);
-        } catch (const sim::InputError& error) {
-            refused = error.what();
-        }
-        const std::lock_guard lock(mutex_);
-        status_.refused = refused;
-    });
-}
-
-void LiveSimulation::tryToChange(const std::vector<std::string>& sets)
-{
-    const LiveMode mode = mode_;
-    if (settings_.change(sets, simulation_->state().step)) {
-        startAnew();
-        mode_ = mode == LiveMode::Playing ? mode : LiveMode::Paused;
-        return;
-    }
-    simulation_->setChanges(settings_.setup().scene.changes);
-    publishScene();
-}
-
-void LiveSimulation::frameByFrame(bool isOn)
-{
-    {
-        const std::lock_guard lock(mutex_);
-        frameByFrame_ = isOn;
-    }
-    wake_.notify_one();
-}
-
-void LiveSimulation::show(const SnapshotExtras& extras)
-{
-    ask([this, extras] { extras_ = extras; });  // as after every command, a snapshot is published
-}
 
 LiveStatus LiveSimulation::status() const
 {
@@ -126,13 +36,6 @@ std::shared_ptr<const LiveScene> LiveSimulation::scene() const
 {
     const std::lock_guard lock(mutex_);
     return scene_;
-}
-
-std::uint64_t LiveSimulation::stateHash()
-{
-    std::promise<std::uint64_t> hash;
-    ask([&] { hash.set_value(simulation_->stateHash()); });
-    return hash.get_future().get();
 }
 
 std::vector<LiveStep> LiveSimulation::takeSteps()
@@ -208,7 +111,7 @@ void LiveSimulation::advance()
         return;
     }
     const sim::State& state = simulation_->state();
-    shutSources_->look(state);
+    blockedSources_->look(state);
     probes_.step(*simulation_, step.report.isReflected);
     step.step = state.step;
     step.time = state.time;
@@ -238,14 +141,14 @@ bool LiveSimulation::isAtFrame() const
     return simulation_->state().time == frameTime(settings_.setup(), frame_);
 }
 
-void LiveSimulation::goTo(const RewindBuffer::Moment& moment)
+void LiveSimulation::goTo(const RewindBuffer::RewindPoint& moment)
 {
     const double time = moment.state.time;
     frame_ = moment.frame;
     pausesAtFrame_ = false;
     settings_.goBackTo(moment.state.step);
-    simulation_ = parts_.resumeSimulation(settings_.setup(), moment.state);
-    rewind_.forgetAfter(time);
+    simulation_ = backends_.resumeSimulation(settings_.setup(), moment.state);
+    rewind_.dropAfter(time);
     if (moment.frame == 0) probes_.begin(settings_.setup(), *simulation_);
     else probes_.goBack(settings_.setup(), time);
     mode_ = LiveMode::Paused;
@@ -254,12 +157,12 @@ void LiveSimulation::goTo(const RewindBuffer::Moment& moment)
 }
 
 /// From the initial state of the scene as it is set.
-void LiveSimulation::startAnew()
+void LiveSimulation::resetSimulation()
 {
     const SceneSetup& setup = settings_.setup();
-    simulation_ = parts_.startSimulation(setup);
-    shutSources_.emplace(setup.scene);
-    placeObstacles_ = parts_.meshObstacles(setup);
+    simulation_ = backends_.startSimulation(setup);
+    blockedSources_.emplace(setup.scene);
+    placeObstacles_ = backends_.meshObstacles(setup);
     rewind_.begin(simulation_->state());
     probes_.begin(setup, *simulation_);
     frame_ = 0;

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/live/live_probes.h"
 #include "app/live/rewind_buffer.h"
-#include "app/parts.h"
-#include "app/reports/shut_sources.h"
+#include "app/reports/blocked_sources.h"
 #include "app/scene/changed_scene.h"
 
 #include <condition_variable>
@@ -47,7 +47,7 @@ class LiveSimulation {
  public:
     /// Begins paused, with the initial state. Throws InputError.
     /// @param memory  for the moments it can go back to [bytes]; where it is too little there are fewer
-    LiveSimulation(SceneRequest request, const Parts& parts, std::size_t memory = std::size_t{1} << 30);
+    LiveSimulation(SceneRequest request, const Backends& backends, std::size_t memory = std::size_t{1} << 30);
     /// Waits for the step in hand.
     ~LiveSimulation();
     LiveSimulation(const LiveSimulation&) = delete;
@@ -89,20 +89,20 @@ class LiveSimulation {
     void advance();
     bool isAtFrame() const;
     void fail(const std::string& why);
-    void goTo(const RewindBuffer::Moment& moment);
-    void startAnew();
+    void goTo(const RewindBuffer::RewindPoint& moment);
+    void resetSimulation();
     void publish(bool always);
     void publishScene();
-    void tryToChange(const std::vector<std::string>& sets);
+    void applyOverrides(const std::vector<std::string>& sets);
 
-    const Parts parts_;
+    const Backends backends_;
 
     // The simulation's thread has these to itself once it runs.
     ChangedScene settings_;
     PlaceObstacles placeObstacles_;
-    std::unique_ptr<Steppable> simulation_;
-    std::optional<ShutSources> shutSources_;  ///< since it was started
-    LiveProbes probes_;                       ///< has a lock of its own
+    std::unique_ptr<SimulationHandle> simulation_;
+    std::optional<BlockedSources> blockedSources_;  ///< since it was started
+    LiveProbes probes_;                             ///< has a lock of its own
     RewindBuffer rewind_;
     std::int64_t frame_ = 0;       ///< the last one that was reached
     std::int64_t nextChange_ = 0;  ///< the step with which settings change next by themselves

@@ -32,26 +32,26 @@ void RewindBuffer::keep(const sim::State& state, std::int64_t frame)
     const std::size_t fits = std::max<std::size_t>(1, memory_ / std::max<std::size_t>(1, bytesOf(state)));
     while (all_.size() > 1 && all_.size() >= fits) {
         every_ *= 2;
-        std::erase_if(all_, [&](const Moment& m) { return m.frame % every_ != 0; });
+        std::erase_if(all_, [&](const RewindPoint& m) { return m.frame % every_ != 0; });
     }
     if (frame % every_ == 0 && all_.size() < fits) all_.push_back({state, frame});
 }
 
-const RewindBuffer::Moment& RewindBuffer::latest(double time) const
+const RewindBuffer::RewindPoint& RewindBuffer::latest(double time) const
 {
-    const auto after = std::ranges::find_if(all_, [&](const Moment& m) { return m.state.time > time; });
+    const auto after = std::ranges::find_if(all_, [&](const RewindPoint& m) { return m.state.time > time; });
     return after == all_.begin() ? all_.front() : *std::prev(after);
 }
 
-void RewindBuffer::forgetAfter(double time)
+void RewindBuffer::dropAfter(double time)
 {
-    std::erase_if(all_, [&](const Moment& m) { return m.state.time > time; });
+    std::erase_if(all_, [&](const RewindPoint& m) { return m.state.time > time; });
 }
 
 std::vector<double> RewindBuffer::times() const
 {
     std::vector<double> times;
-    for (const Moment& moment : all_) times.push_back(moment.state.time);
+    for (const RewindPoint& moment : all_) times.push_back(moment.state.time);
     return times;
 }
 

@@ -12,7 +12,7 @@ namespace app {
 /// is forgotten, and from there on half as many are kept.
 class RewindBuffer {
  public:
-    struct Moment {
+    struct RewindPoint {
         sim::State state;
         std::int64_t frame = 0;  ///< its number
     };
@@ -24,16 +24,16 @@ class RewindBuffer {
     void begin(const sim::State& state);
     /// Keep the state at a frame, if it is one of those that are kept.
     void keep(const sim::State& state, std::int64_t frame);
-    const Moment& first() const { return all_.front(); }
+    const RewindPoint& first() const { return all_.front(); }
     /// The latest that is not after a time [s], or else the first.
-    const Moment& latest(double time) const;
-    void forgetAfter(double time);  ///< [s]
+    const RewindPoint& latest(double time) const;
+    void dropAfter(double time);  ///< [s]
     std::vector<double> times() const;
 
  private:
     const std::size_t memory_;
     std::int64_t every_ = 1;  ///< frames
-    std::vector<Moment> all_;
+    std::vector<RewindPoint> all_;
 };
 
 }  // namespace app

@@ -6,17 +6,17 @@
 
 namespace app {
 
-FrameSink::FrameSink(const SceneSetup& setup, const Parts& parts, const std::filesystem::path& folder, bool asPanel, bool fromStart)
-    : setup_(setup), placeObstacles_(parts.meshObstacles(setup))
+FrameSink::FrameSink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& folder, bool asPanel, bool fromStart)
+    : setup_(setup), placeObstacles_(backends.meshObstacles(setup))
 {
     std::shared_ptr<FrameSnapshot> start;
     if (!fromStart && setup.pictures.render.camera.autoFrame) {
         start = std::make_shared<FrameSnapshot>();
-        const auto simulation = parts.startSimulation(setup);
+        const auto simulation = backends.startSimulation(setup);
         fillIn(simulation->state(), simulation->fabric(), nullptr, *start);
     }
     pipeline_.emplace(
-        [&setup, startRenderer = parts.startRenderer, asPanel, start] {
+        [&setup, startRenderer = backends.startRenderer, asPanel, start] {
             const DrawFrame draw = startRenderer(setup, asPanel);
             if (start) draw(*start);
             return draw;

@@ -14,11 +14,11 @@ namespace app {
 
 namespace {
 
-RgbPicture pictureAt(double time, const std::vector<FrameSequence>& sequences, const PictureSettings& pictures, const Parts& parts)
+RgbPicture pictureAt(double time, const std::vector<FrameSequence>& sequences, const PictureSettings& pictures, const Backends& backends)
 {
     std::vector<Panel> panels;
     for (const auto& s : sequences) panels.push_back({s.folder / frameFileName(s.frameAt(time)), s.label});
-    return parts.putSideBySide(panels, pictures, time);
+    return backends.putSideBySide(panels, pictures, time);
 }
 
 /// When the first sequence begins and the last one ends [s].
@@ -44,7 +44,7 @@ void removeFrames(const std::filesystem::path& folder)
 std::int64_t FrameSequence::frameAt(double time) const { return std::clamp<std::int64_t>(std::llround((time - start) / every), first, last); }
 
 std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequences, double every, const PictureSettings& pictures,
-                                        const Parts& parts, const std::filesystem::path& folder, const std::function<bool()>& stopWanted)
+                                        const Backends& backends, const std::filesystem::path& folder, const std::function<bool()>& stopWanted)
 {
     const auto [start, end] = span(sequences);
     const bool asVideo = canMakeVideos();
@@ -58,9 +58,9 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
     const std::int64_t pictureCount = std::llround((end - start) / every) + 1;
     for (std::int64_t n = 0; n < pictureCount; ++n) {
         if (stopWanted()) return {};
-        const RgbPicture picture = pictureAt(start + static_cast<double>(n) * every, sequences, pictures, parts);
+        const RgbPicture picture = pictureAt(start + static_cast<double>(n) * every, sequences, pictures, backends);
         if (!asVideo) {
-            parts.writePng(picture, target / frameFileName(n));
+            backends.writePng(picture, target / frameFileName(n));
             continue;
         }
         if (!video)
@@ -73,12 +73,12 @@ std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequen
     return target;
 }
 
-void composeOverview(const std::vector<OverviewRow>& rows, const Parts& parts, const std::filesystem::path& file)
+void composeOverview(const std::vector<OverviewRow>& rows, const Backends& backends, const std::filesystem::path& file)
 {
     std::vector<RgbPicture> pictures;
     RgbPicture all;
     for (const OverviewRow& row : rows) {
-        pictures.push_back(pictureAt(row.time, row.sequences, row.pictures, parts));
+        pictures.push_back(pictureAt(row.time, row.sequences, row.pictures, backends));
         all.width = std::max(all.width, pictures.back().width);
     }
     for (const RgbPicture& picture : pictures) {
@@ -89,21 +89,21 @@ void composeOverview(const std::vector<OverviewRow>& rows, const Parts& parts, c
         }
         all.height += picture.height;
     }
-    parts.writePng(all, file);
+    backends.writePng(all, file);
 }
 
-void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Parts& parts,
+void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Backends& backends,
                   const std::filesystem::path& folder)
 {
     const auto [start, end] = span(sequences);
     RgbPicture sheet;
     for (int row = 0; row < rows; ++row) {
-        const RgbPicture picture = pictureAt(std::lerp(start, end, row / std::max(1.0, rows - 1.0)), sequences, pictures, parts);
+        const RgbPicture picture = pictureAt(std::lerp(start, end, row / std::max(1.0, rows - 1.0)), sequences, pictures, backends);
         sheet.width = picture.width;
         sheet.height += picture.height;
         sheet.rgb.insert(sheet.rgb.end(), picture.rgb.begin(), picture.rgb.end());
     }
-    parts.writePng(sheet, folder / "sheet.png");
+    backends.writePng(sheet, folder / "sheet.png");
 }
 
 }  // namespace app

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/parts.h"
+#include "app/backends.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,7 +25,7 @@ struct FrameSequence {
 /// folder/compare.mp4, or as PNGs into folder/side_by_side/ where there is no ffmpeg. Returns what it made; nothing if
 /// stopWanted said so on the way.
 std::filesystem::path composeSideBySide(const std::vector<FrameSequence>& sequences, double every, const PictureSettings& pictures,
-                                        const Parts& parts, const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
+                                        const Backends& backends, const std::filesystem::path& folder, const std::function<bool()>& stopWanted);
 
 /// One row of an overview: variants of one scene at a time [s].
 struct OverviewRow {
@@ -35,10 +35,10 @@ struct OverviewRow {
 };
 
 /// Rows of several scenes one below the other in one PNG; narrower ones are filled up with white.
-void composeOverview(const std::vector<OverviewRow>& rows, const Parts& parts, const std::filesystem::path& file);
+void composeOverview(const std::vector<OverviewRow>& rows, const Backends& backends, const std::filesystem::path& file);
 
 /// The contact sheet, folder/sheet.png: pictures of `rows` times, evenly spread from beginning to end, one below the other.
-void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Parts& parts,
+void composeSheet(const std::vector<FrameSequence>& sequences, int rows, const PictureSettings& pictures, const Backends& backends,
                   const std::filesystem::path& folder);
 
 }  // namespace app

@@ -40,9 +40,9 @@ ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, doub
 {
 }
 
-void ProbeLog::initial(const Steppable& simulation) { write(reader_.initial(simulation)); }
+void ProbeLog::initial(const SimulationHandle& simulation) { write(reader_.initial(simulation)); }
 
-void ProbeLog::step(const Steppable& simulation, bool isReflected)
+void ProbeLog::step(const SimulationHandle& simulation, bool isReflected)
 {
     if (const auto reading = reader_.step(simulation, isReflected)) write(*reading);
 }

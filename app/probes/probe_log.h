@@ -9,7 +9,7 @@
 
 namespace app {
 
-class Steppable;
+class SimulationHandle;
 
 inline constexpr const char* kProbesFile = "probes.csv";
 
@@ -23,9 +23,9 @@ class ProbeLog {
              const ForceTotals& sinceReading);
 
     /// The state before the first step.
-    void initial(const Steppable& simulation);
+    void initial(const SimulationHandle& simulation);
     /// @param isReflected  the state is one of particles that hold no flow: readings wait for the next one
-    void step(const Steppable& simulation, bool isReflected);
+    void step(const SimulationHandle& simulation, bool isReflected);
 
     bool isNew() const { return reader_.isNew(); }        ///< nothing was read yet
     std::uintmax_t size() const { return file_.size(); }  ///< of the file [bytes]

@@ -1,6 +1,6 @@
 #include "app/probes/probe_reader.h"
 
-#include "app/parts.h"
+#include "app/backends.h"
 
 #include <spdlog/spdlog.h>
 
@@ -19,19 +19,19 @@ std::int64_t readingsUpTo(double time, double every) { return std::llround(std::
 ProbeReader::ProbeReader(const Probes& probes, double start, double time, const ForceTotals& sinceReading)
     : probes_(probes), start_(start), next_(readingsUpTo(time - start, probes.every) + 1)
 {
-    probes_.measures->goOnWith(sinceReading);
+    probes_.measures->setInterval(sinceReading);
 }
 
-ProbeReading ProbeReader::initial(const Steppable& simulation)
+ProbeReading ProbeReader::initial(const SimulationHandle& simulation)
 {
     probes_.measures->look(simulation);
     return read(simulation);
 }
 
-std::optional<ProbeReading> ProbeReader::step(const Steppable& simulation, bool isReflected)
+std::optional<ProbeReading> ProbeReader::step(const SimulationHandle& simulation, bool isReflected)
 {
-    probes_.measures->goOnLooking(simulation);
-    probes_.measures->tookStep();
+    probes_.measures->setSimulation(simulation);
+    probes_.measures->afterStep();
     if (isReflected || readingsUpTo(simulation.state().time - start_, probes_.every) < next_) return std::nullopt;
     return read(simulation);
 }
@@ -45,7 +45,7 @@ try {
     return std::nullopt;
 }
 
-ProbeReading ProbeReader::read(const Steppable& simulation)
+ProbeReading ProbeReader::read(const SimulationHandle& simulation)
 {
     ProbeReading reading{.time = simulation.state().time, .values = {}};
     for (const Probe& probe : probes_.all) {

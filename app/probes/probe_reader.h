@@ -11,7 +11,7 @@
 
 namespace app {
 
-class Steppable;
+class SimulationHandle;
 
 /// What the probes of a scene tell at one time.
 struct ProbeReading {
@@ -29,17 +29,17 @@ class ProbeReader {
     ProbeReader(const Probes& probes, double start, double time, const ForceTotals& sinceReading);
 
     /// Of the state before the first step.
-    ProbeReading initial(const Steppable& simulation);
+    ProbeReading initial(const SimulationHandle& simulation);
     /// Of the state after a step, if a reading is due.
     /// @param isReflected  the state is one of particles that hold no flow: readings wait for the next one
-    std::optional<ProbeReading> step(const Steppable& simulation, bool isReflected);
+    std::optional<ProbeReading> step(const SimulationHandle& simulation, bool isReflected);
 
     const Probes& probes() const { return probes_; }
     bool isNew() const { return next_ == 0; }  ///< nothing was read yet
     const ForceTotals& sinceReading() const { return probes_.measures->interval(); }
 
  private:
-    ProbeReading read(const Steppable& simulation);
+    ProbeReading read(const SimulationHandle& simulation);
     std::optional<double> valueOf(const Probe& probe, std::span<const double> at);
 
     Probes probes_;

@@ -1,4 +1,4 @@
-#include "app/parts.h"
+#include "app/backends.h"
 #include "app/readings/measures.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ std::optional<std::size_t> numberOf(const std::string& name, const std::vector<s
 
 }  // namespace
 
-void Measures::tookStep() { interval_.add(simulation_->forces()); }
+void Measures::afterStep() { interval_.add(simulation_->forces()); }
 
 std::vector<sim::FormulaNames::OfName> Measures::forces()
 {

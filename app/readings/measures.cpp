@@ -1,6 +1,6 @@
 #include "app/readings/measures.h"
 
-#include "app/parts.h"
+#include "app/backends.h"
 
 #include <fmt/format.h>
 

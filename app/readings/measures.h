@@ -15,7 +15,7 @@
 
 namespace app {
 
-class Steppable;
+class SimulationHandle;
 
 /// A plane, or the disc of it within a radius, through which liquid goes.
 struct Hoop {
@@ -50,20 +50,20 @@ class Measures {
     /// Names for formulas; they look at what this looks at.
     std::vector<sim::FormulaNames::Function> names();
     std::vector<sim::FormulaNames::OfName> forces();
-    void look(const Steppable& simulation)
+    void look(const SimulationHandle& simulation)
     {
         simulation_ = &simulation;
         startInterval();
     }
     /// The same, in the middle of an interval.
-    void goOnLooking(const Steppable& simulation) { simulation_ = &simulation; }
+    void setSimulation(const SimulationHandle& simulation) { simulation_ = &simulation; }
     void addHoop(const std::string& name, const Hoop& hoop) { hoops_[name] = hoop; }
     sim::FormulaNames::OfName flux();
     /// Readings of forces are means over the steps that were taken since.
     void startInterval() { interval_ = {}; }
-    void tookStep();
+    void afterStep();
     const ForceTotals& interval() const { return interval_; }
-    void goOnWith(const ForceTotals& interval) { interval_ = interval; }
+    void setInterval(const ForceTotals& interval) { interval_ = interval; }
     /// Formulas of x, y, z, t.
     void setFlow(std::array<sim::Formula, sim::kAxes> flow) { flow_ = std::move(flow); }
 
@@ -97,7 +97,7 @@ class Measures {
     ForceNames forceNames_;
     ForceTotals interval_;
     std::map<std::string, Hoop> hoops_;
-    const Steppable* simulation_ = nullptr;
+    const SimulationHandle* simulation_ = nullptr;
     std::optional<std::array<sim::Formula, sim::kAxes>> flow_;
 };
 

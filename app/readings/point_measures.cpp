@@ -1,4 +1,4 @@
-#include "app/parts.h"
+#include "app/backends.h"
 #include "app/readings/measures.h"
 
 #include <fmt/format.h>

@@ -77,13 +77,13 @@ void claimFolder(const fs::path& folder, const FolderOwner& owner)
     makeFolder(folder);
     requireOwner(folder, owner);
     removeFrom(folder, isRunFile);
-    forgetLaterThan(-1, folder);
+    removeFramesAfter(-1, folder);
     std::error_code isNotEmpty;
     for (const NumberedFiles& files : kNumberedFiles)
         if (!files.folder.empty()) fs::remove(folder / files.folder, isNotEmpty);
 }
 
-void forgetLaterThan(std::int64_t frame, const fs::path& folder)
+void removeFramesAfter(std::int64_t frame, const fs::path& folder)
 {
     for (const NumberedFiles& files : kNumberedFiles)
         removeFrom(folder / files.folder, [&](const std::string& name) { return numberIn(name, files.before, files.after) > frame; });

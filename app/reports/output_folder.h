@@ -18,7 +18,7 @@ struct FolderOwner {
 void claimFolder(const std::filesystem::path& folder, const FolderOwner& owner);
 
 /// Remove pictures and states that a run has left of frames after this one. Geometry has a function of its own, in app/export/geometry_files.h.
-void forgetLaterThan(std::int64_t frame, const std::filesystem::path& folder);
+void removeFramesAfter(std::int64_t frame, const std::filesystem::path& folder);
 
 /// Make the folder that holds the variants of a comparison; others' subfolders in it do not matter. Throws InputError if
 /// it is a file.

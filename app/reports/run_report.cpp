@@ -1,6 +1,6 @@
 #include "app/reports/run_report.h"
 
-#include "app/parts.h"
+#include "app/backends.h"
 #include "app/reports/report_json.h"
 #include "app/reports/step_logs.h"
 #include "app/system/peak_memory.h"
@@ -90,7 +90,7 @@ LogsSoFar Reports::soFar() const
     return soFar;
 }
 
-void Reports::initial(const Steppable& simulation)
+void Reports::initial(const SimulationHandle& simulation)
 {
     const sim::State& state = simulation.state();
     const sim::Fabric& fabric = simulation.fabric();
@@ -104,7 +104,7 @@ void Reports::initial(const Steppable& simulation)
     if (energy_) energy_->add(energyRow(state, energies, state.ledger.emittedMass - state.ledger.leftMass, gravity_));
 }
 
-void Reports::step(const Steppable& simulation, const sim::StepReport& report)
+void Reports::step(const SimulationHandle& simulation, const sim::StepReport& report)
 {
     const sim::State& state = simulation.state();
     const sim::Forces& forces = simulation.forces();

@@ -91,8 +91,8 @@ class Reports {
             double time);
 
     /// The state before the first step: the first rows of energy.csv and probes.csv.
-    void initial(const Steppable& simulation);
-    void step(const Steppable& simulation, const sim::StepReport& report);
+    void initial(const SimulationHandle& simulation);
+    void step(const SimulationHandle& simulation, const sim::StepReport& report);
     void frameDone() { ++summary_.frames; }
 
     /// Write report.json as it stands; `reason` for runs that did not get to their end.

@@ -61,15 +61,15 @@ void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::p
 
 }  // namespace
 
-std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder)
+std::vector<ComparedRun> comparedRuns(const Options& options, const Backends& backends, const std::filesystem::path& folder)
 {
-    const SceneSetup asWritten = parts.loadScene({options.scene, "", options.sets});
-    tellNotes(asWritten);
+    const SceneSetup asWritten = backends.loadScene({options.scene, "", options.sets});
+    logNotes(asWritten);
     const std::uint64_t program = programHash();
     std::vector<ComparedRun> runs;
     for (const auto& variant : wantedVariants(options, asWritten.pictures.compare)) {
         ComparedRun run;
-        run.setup = parts.loadScene({options.scene, variant.name, options.sets});
+        run.setup = backends.loadScene({options.scene, variant.name, options.sets});
         run.folder = folder / variant.name;
         run.contentHash = contentHash(run.setup, true, program);
         runs.push_back(std::move(run));
@@ -77,7 +77,7 @@ std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts
     return runs;
 }
 
-std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets, const Parts& parts)
+std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets, const Backends& backends)
 {
     std::vector<ComparedRun> runs;
     for (const auto& folder : folders) {
@@ -87,7 +87,7 @@ std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& fo
         if (numbersIn(folder, "frame_", ".png").empty())
             throw sim::InputError(fmt::format("--from {}: there are no pictures in it; drench render makes some of stored states", folder.string()));
         ComparedRun run = {
-            .setup = parts.loadScene({(folder / "resolved.yaml").string(), "", sets}), .folder = folder, .contentHash = report->contentHash};
+            .setup = backends.loadScene({(folder / "resolved.yaml").string(), "", sets}), .folder = folder, .contentHash = report->contentHash};
         run.setup.variant = report->variant;
         run.setup.label = report->label.empty() ? folder.lexically_normal().filename().string() : report->label;
         runs.push_back(std::move(run));
@@ -109,7 +109,7 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
 {
     std::vector<std::string> arguments = {"run", "--threads", fmt::format("{}", options.threads), "--panel", "--no-video"};
     if (!options.frames) arguments.push_back("--no-frames");
-    if (!options.force && canGoOn(run.folder, run.contentHash)) {
+    if (!options.force && canResume(run.folder, run.contentHash)) {
         arguments.insert(arguments.end(), {"--resume", run.folder.string()});
         return arguments;
     }
@@ -118,7 +118,7 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
     return arguments;
 }
 
-std::string whatWasSeen(const std::vector<ComparedRun>& runs)
+std::string summarizeRuns(const std::vector<ComparedRun>& runs)
 {
     std::vector<RunOutcome> outcomes;
     for (const ComparedRun& run : runs) {
@@ -173,7 +173,8 @@ std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Opti
     return done;
 }
 
-void makeProducts(const std::vector<ComparedRun>& runs, const ProductSettings& wanted, const Parts& parts, const std::function<bool()>& stopWanted)
+void makeComparisonOutputs(const std::vector<ComparedRun>& runs, const ComparisonOutputs& wanted, const Backends& backends,
+                           const std::function<bool()>& stopWanted)
 {
     const PictureSettings& pictures = wanted.pictures;
     const std::filesystem::path& folder = wanted.folder;
@@ -193,9 +194,9 @@ void makeProducts(const std::vector<ComparedRun>& runs, const ProductSettings& w
     if (!wanted.withFrames) return;
     std::vector<FrameSequence> sequences;
     for (const auto& run : runs) sequences.push_back(sequenceOf(run));
-    if (pictures.compare.sheet) composeSheet(sequences, kSheetRows, pictures, parts, folder);
+    if (pictures.compare.sheet) composeSheet(sequences, kSheetRows, pictures, backends, folder);
     if (!wanted.withVideo || !pictures.compare.video) return;
-    const auto made = composeSideBySide(sequences, pictures.output.every, pictures, parts, folder, stopWanted);
+    const auto made = composeSideBySide(sequences, pictures.output.every, pictures, backends, folder, stopWanted);
     if (!made.empty()) fmt::print("side by side: {}\n", made.string());
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/options.h"
-#include "app/parts.h"
 #include "app/pictures/side_by_side.h"
 
 #include <filesystem>
@@ -20,12 +20,13 @@ struct ComparedRun {
 
 /// The variants a comparison is about, every one of them loaded and so validated before the first one starts.
 /// Throws InputError when the scene has none, or none of a name asked for.
-std::vector<ComparedRun> comparedRuns(const Options& options, const Parts& parts, const std::filesystem::path& folder);
+std::vector<ComparedRun> comparedRuns(const Options& options, const Backends& backends, const std::filesystem::path& folder);
 
 /// Runs that are there, each in its folder, to be put side by side; pictures made anew by `render` are as good.
 /// @param sets  "dotted.key=value", of render, output and compare
 /// Throws InputError for folders without a run or without pictures.
-std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets, const Parts& parts);
+std::vector<ComparedRun> storedRuns(const std::vector<std::filesystem::path>& folders, const std::vector<std::string>& sets,
+                                    const Backends& backends);
 
 /// Is this very run, by this very program, already there to its end (with its pictures, if wanted)?
 bool isDone(const ComparedRun& run, bool withFrames);
@@ -39,19 +40,20 @@ std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Opti
                                 const std::function<bool()>& stopWanted);
 
 /// What was seen of runs that are done, in one sentence; "" where they have written no energies.
-std::string whatWasSeen(const std::vector<ComparedRun>& runs);
+std::string summarizeRuns(const std::vector<ComparedRun>& runs);
 
 /// Its pictures, as they are there.
 FrameSequence sequenceOf(const ComparedRun& run);
 
 /// What is to be made of runs that are done.
-struct ProductSettings {
+struct ComparisonOutputs {
     const PictureSettings& pictures;  ///< of the scene, which says what it wishes
     bool withFrames, withVideo;       ///< what is made of pictures, too; and videos of them
     std::filesystem::path folder;     ///< where products go
 };
 
 /// Table, energy plot with its CSV, contact sheet and side-by-side video of runs that are done, as the scene wishes.
-void makeProducts(const std::vector<ComparedRun>& runs, const ProductSettings& wanted, const Parts& parts, const std::function<bool()>& stopWanted);
+void makeComparisonOutputs(const std::vector<ComparedRun>& runs, const ComparisonOutputs& wanted, const Backends& backends,
+                           const std::function<bool()>& stopWanted);
 
 }  // namespace app

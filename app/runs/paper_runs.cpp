@@ -72,7 +72,7 @@ std::string paperTable(const std::vector<PaperResult>& results)
     return table;
 }
 
-void makePaper(const std::vector<PaperResult>& results, const Parts& parts, bool withFrames, const std::filesystem::path& folder)
+void makePaper(const std::vector<PaperResult>& results, const Backends& backends, bool withFrames, const std::filesystem::path& folder)
 {
     const std::string table = paperTable(results);
     writeWhole(folder / "table.md", table);
@@ -86,7 +86,7 @@ void makePaper(const std::vector<PaperResult>& results, const Parts& parts, bool
     if (!withFrames) return;
     std::vector<OverviewRow> rows;
     for (const PaperResult& result : results) rows.push_back(overviewRow(result));
-    composeOverview(rows, parts, folder / "sheet.png");
+    composeOverview(rows, backends, folder / "sheet.png");
 }
 
 }  // namespace app

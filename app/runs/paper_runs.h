@@ -36,6 +36,6 @@ struct PaperResult {
 std::string paperTable(const std::vector<PaperResult>& results);
 
 /// table.md, energy_dam_break.png and energy_splash.png with their scripts, and with pictures sheet.png: a row per scene.
-void makePaper(const std::vector<PaperResult>& results, const Parts& parts, bool withFrames, const std::filesystem::path& folder);
+void makePaper(const std::vector<PaperResult>& results, const Backends& backends, bool withFrames, const std::filesystem::path& folder);
 
 }  // namespace app

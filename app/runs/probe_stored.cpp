@@ -13,7 +13,7 @@ namespace app {
 namespace {
 
 /// A state as formulas look at it, without what only a run under way has.
-class StoredSimulation : public Steppable {
+class StoredSimulation : public SimulationHandle {
  public:
     explicit StoredSimulation(const sim::Scene& scene) : fabric_(sim::assembleFabric(scene.fabrics)) {}
     void show(const sim::State& state) { state_ = &state; }

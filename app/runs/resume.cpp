@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::int64_t frameToGoOnFrom(const ResumeRequest& request)
+std::int64_t checkpointFrame(const ResumeRequest& request)
 {
-    const std::vector<std::int64_t> frames = storedFrames(request.folder, StateKind::ForGoingOn);
+    const std::vector<std::int64_t> frames = storedFrames(request.folder, StateKind::ForResuming);
     if (frames.empty())
         throw sim::InputError(
             fmt::format("--resume {}: there is no checkpoint in it; output.data: [checkpoint] makes a run keep some", request.folder.string()));
@@ -29,7 +29,7 @@ std::int64_t frameToGoOnFrom(const ResumeRequest& request)
 }
 
 /// Says nothing about how the state goes on.
-bool isAboutTheRun(const std::string& set)
+bool isRunSetting(const std::string& set)
 {
     return set.starts_with("time.duration=") || set.starts_with("render.") || set.starts_with("output.") || set.starts_with("compare.");
 }
@@ -39,7 +39,7 @@ SceneSetup load(const fs::path& scene, const std::vector<std::string>& sets, std
 {
     SceneRequest request = {.file = scene.string(), .variant = "", .sets = {}};
     std::vector<std::string> changed;
-    for (const std::string& set : sets) (isAboutTheRun(set) ? request.sets : changed).push_back(set);
+    for (const std::string& set : sets) (isRunSetting(set) ? request.sets : changed).push_back(set);
     if (changed.empty()) return loadScene(request);
     ChangedScene settings(request, loadScene);
     settings.change(changed, step);
@@ -58,21 +58,21 @@ void requireSameScene(const SceneSetup& setup, const Checkpoint& checkpoint, con
 
 }  // namespace
 
-bool canGoOn(const fs::path& folder, const std::string& contentHash)
+bool canResume(const fs::path& folder, const std::string& contentHash)
 {
     const auto report = readReport(folder);
     return report && report->contentHash == contentHash && report->status != "done" && report->status != "failed" &&
-           !storedFrames(folder, StateKind::ForGoingOn).empty();
+           !storedFrames(folder, StateKind::ForResuming).empty();
 }
 
-bool hasNothingLeft(const ResumeRequest& request)
+bool isFinished(const ResumeRequest& request)
 {
     const auto setsAnEnd = [](const std::string& set) { return set.starts_with("time.duration="); };
-    const bool asksForMore = request.fromFrame || !request.out.empty() || std::ranges::any_of(request.sets, setsAnEnd) ||
-                             !std::ranges::all_of(request.sets, isAboutTheRun);
+    const bool asksForMore =
+        request.fromFrame || !request.out.empty() || std::ranges::any_of(request.sets, setsAnEnd) || !std::ranges::all_of(request.sets, isRunSetting);
     if (asksForMore || !fs::exists(request.folder / "resolved.yaml")) return false;
     const auto report = readReport(request.folder);
-    return report && report->status == "done" && storedFrames(request.folder, StateKind::ForGoingOn).empty();
+    return report && report->status == "done" && storedFrames(request.folder, StateKind::ForResuming).empty();
 }
 
 ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetup(const SceneRequest&)>& loadScene)
@@ -81,7 +81,7 @@ ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetu
     if (!fs::exists(scene))
         throw sim::InputError(fmt::format("--resume {}: this is no folder of a run: it has no resolved.yaml", request.folder.string()));
     ResumedRun run;
-    run.checkpoint = loadCheckpoint(stateFile(request.folder, StateKind::ForGoingOn, frameToGoOnFrom(request)));
+    run.checkpoint = loadCheckpoint(stateFile(request.folder, StateKind::ForResuming, checkpointFrame(request)));
     const CheckpointOrigin& origin = run.checkpoint.origin;
     requireSameScene(load(scene, {}, 0, loadScene), run.checkpoint, request.folder);
     run.setup = load(scene, request.sets, run.checkpoint.state.step, loadScene);

@@ -28,10 +28,10 @@ struct ResumedRun {
 };
 
 /// Has this very run, by this very program, been stopped or killed with a checkpoint to go on from?
-bool canGoOn(const std::filesystem::path& folder, const std::string& contentHash);
+bool canResume(const std::filesystem::path& folder, const std::string& contentHash);
 
 /// Has this run come to its end without a checkpoint, and is nothing asked of it that lies behind its end?
-bool hasNothingLeft(const ResumeRequest& request);
+bool isFinished(const ResumeRequest& request);
 
 /// Reads a run's scene and the checkpoint to go on from. In its own folder a run may be given another end and other
 /// pictures. In another folder, a branch, all may change that can change during a run: from the next step on, as

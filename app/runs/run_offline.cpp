@@ -5,8 +5,8 @@
 #include "app/export/geometry_sink.h"
 #include "app/pictures/frame_sink.h"
 #include "app/provenance/provenance.h"
+#include "app/reports/blocked_sources.h"
 #include "app/reports/output_folder.h"
-#include "app/reports/shut_sources.h"
 #include "app/system/gnuplot.h"
 #include "app/system/progress.h"
 #include "sim/core/check.h"
@@ -24,13 +24,13 @@ namespace {
 /// What a run leaves of its frames, as far as it is wanted: pictures, geometry and states.
 class Frames {
  public:
-    Frames(const SceneSetup& setup, const Parts& parts, const RunOptions& options, const std::string& provenance)
-        : geometry_(setup, parts, options.out, provenance),
+    Frames(const SceneSetup& setup, const Backends& backends, const RunOptions& options, const std::string& provenance)
+        : geometry_(setup, backends, options.out, provenance),
           states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash(), provenance})
     {
-        if (options.frames) pictures_.emplace(setup, parts, options.out, options.asPanel, options.from == nullptr);
+        if (options.frames) pictures_.emplace(setup, backends, options.out, options.asPanel, options.from == nullptr);
     }
-    void take(const Steppable& simulation, std::int64_t frame)
+    void take(const SimulationHandle& simulation, std::int64_t frame)
     {
         const std::uint64_t hash = simulation.stateHash();
         if (pictures_) pictures_->take(simulation.state(), simulation.fabric(), simulation.contacts(), frame, hash);
@@ -38,14 +38,14 @@ class Frames {
         states_.picture(simulation.state(), frame, hash);
     }
     /// If it is time for one, or the run will not go on.
-    void checkpoint(const Steppable& simulation, std::int64_t frame, bool isStopped, const Reports& reports)
+    void checkpoint(const SimulationHandle& simulation, std::int64_t frame, bool isStopped, const Reports& reports)
     {
         if (!isStopped && !states_.isDue(frame)) return;
         if (pictures_) pictures_->drain();  // what a checkpoint follows on is there
         states_.checkpoint(simulation.state(), frame, simulation.stateHash(), reports.soFar());
     }
     /// The run has failed after this state, which is a good one. Whatever prevents to keep it, the failure is what counts.
-    void keepLastGood(const Steppable& simulation, std::int64_t frame, const Reports& reports)
+    void saveLastValidState(const SimulationHandle& simulation, std::int64_t frame, const Reports& reports)
     try {
         if (pictures_) pictures_->drain();
         states_.checkpoint(simulation.state(), frame, simulation.stateHash(), reports.soFar());
@@ -59,11 +59,11 @@ class Frames {
  private:
     std::optional<FrameSink> pictures_;
     GeometrySink geometry_;
-    StateKeeper states_;
+    StateWriter states_;
 };
 
 /// Step up to `until`, logging every step. Throws RunError for a state that cannot be trusted.
-void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& progress, ShutSources& shut)
+void stepUntil(double until, SimulationHandle& simulation, Reports& reports, Progress& progress, BlockedSources& shut)
 {
     // Steps end on `until` itself but for the rounding of sums.
     constexpr double kRounding = 1.0e-12;
@@ -79,12 +79,12 @@ void stepUntil(double until, Steppable& simulation, Reports& reports, Progress& 
 }
 
 /// All frames behind `first`, then what is left of the duration after the last one. True if it came to the end.
-bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, Frames& kept, Reports& reports)
+bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept, Reports& reports)
 {
     const auto& time = setup.scene.settings.time;
     const std::int64_t frames = frameCount(setup);
     const double end = time.start + time.duration;
-    ShutSources shut(setup.scene);
+    BlockedSources shut(setup.scene);
     Progress progress(stderr, setup.label, simulation.state().time, end, frames, first);
     progress.setRunsToFollow(options.runsToFollow);
 
@@ -103,35 +103,35 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
 }
 
 /// The same; of a run that fails in a mode that takes bad steps back, the last good state is kept.
-bool runFramesOrKeepState(const SceneSetup& setup, const RunOptions& options, std::int64_t first, Steppable& simulation, Frames& kept,
+bool runFramesOrKeepState(const SceneSetup& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept,
                           Reports& reports)
 try {
     return runFrames(setup, options, first, simulation, kept, reports);
 } catch (const sim::RunError&) {
     if (setup.scene.settings.time.mode == sim::TimeMode::Adaptive)
-        kept.keepLastGood(simulation, lastFrameUpTo(setup, simulation.state().time), reports);
+        kept.saveLastValidState(simulation, lastFrameUpTo(setup, simulation.state().time), reports);
     throw;
 }
 
-bool goesOnInItsFolder(const RunOptions& options) { return options.from && !options.isBranch; }
+bool resumesInPlace(const RunOptions& options) { return options.from && !options.isBranch; }
 
 /// The logs of a run that begins, or of one that is gone on with, in a folder without anything later.
 Reports openReports(const SceneSetup& setup, const RunOptions& options, const std::string& provenance)
 {
-    if (goesOnInItsFolder(options)) {
+    if (resumesInPlace(options)) {
         Reports reports(options.out, setup, options.contentHash, provenance, options.from->origin.logs, options.from->state.time);
-        forgetLaterThan(options.from->origin.frame, options.out);
-        forgetGeometryLaterThan(options.from->origin.frame, options.out);
+        removeFramesAfter(options.from->origin.frame, options.out);
+        removeGeometryAfter(options.from->origin.frame, options.out);
         return reports;
     }
     claimFolder(options.out, {setup.scene.name, setup.variant});
-    forgetGeometryLaterThan(-1, options.out);
+    removeGeometryAfter(-1, options.out);
     return Reports(options.out, setup, options.contentHash, provenance);
 }
 
-std::unique_ptr<Steppable> startOrResume(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
+std::unique_ptr<SimulationHandle> startOrResume(const SceneSetup& setup, const Backends& backends, const RunOptions& options)
 {
-    auto simulation = options.from ? parts.resumeSimulation(setup, options.from->state) : parts.startSimulation(setup);
+    auto simulation = options.from ? backends.resumeSimulation(setup, options.from->state) : backends.startSimulation(setup);
     if (setup.pictures.output.ledger) simulation->bookEnergy();
     return simulation;
 }
@@ -145,18 +145,18 @@ try {
 
 }  // namespace
 
-RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOptions& options)
+RunSummary runOffline(const SceneSetup& setup, const Backends& backends, const RunOptions& options)
 {
     // First what the user may have got wrong: earlier results stay until this run can begin.
-    const auto simulation = startOrResume(setup, parts, options);
+    const auto simulation = startOrResume(setup, backends, options);
     const std::int64_t first = options.from ? options.from->origin.frame : 0;
     const std::string provenance =
-        provenanceOf(setup, options.threads, options.frames ? parts.drawnBy() : "", options.from ? options.from->origin.provenance : "");
+        provenanceOf(setup, options.threads, options.frames ? backends.drawnBy() : "", options.from ? options.from->origin.provenance : "");
     Reports reports = openReports(setup, options, provenance);
     try {
         writeWhole(options.out / "resolved.yaml", setup.resolved);
-        Frames kept(setup, parts, options, provenance);
-        if (!goesOnInItsFolder(options)) {
+        Frames kept(setup, backends, options, provenance);
+        if (!resumesInPlace(options)) {
             reports.initial(*simulation);
             kept.take(*simulation, first);
         }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/checkpoint/checkpoint.h"
-#include "app/parts.h"
 #include "app/reports/run_report.h"
 
 #include <filesystem>
@@ -16,13 +16,13 @@ struct RunOptions {
     bool frames = true;                                       ///< draw pictures
     bool asPanel = false;                                     ///< pictures are to stand beside others
     int runsToFollow = 0;                                     ///< in the same command, for the time that is left of it
-    const Checkpoint* from = nullptr;                         ///< go on from there instead of the start …
-    bool isBranch = false;                                    ///< … but in another folder, which then begins with that state
+    const Checkpoint* from = nullptr;                         ///< state to resume from instead of the start, or null
+    bool isBranch = false;                                    ///< the resumed run has a folder of its own, which begins with that state
     std::function<bool()> stopWanted = [] { return false; };  ///< looked at after every frame
 };
 
 /// Run a scene to its end without a window: step, draw, write; a run that is stopped leaves a checkpoint. Returns what report.json says at the end:
 /// done or interrupted. What goes wrong is thrown after report.json says "failed" and why; frames before it are kept.
-RunSummary runOffline(const SceneSetup& setup, const Parts& parts, const RunOptions& options);
+RunSummary runOffline(const SceneSetup& setup, const Backends& backends, const RunOptions& options);
 
 }  // namespace app

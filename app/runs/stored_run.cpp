@@ -13,18 +13,18 @@ namespace app {
 
 namespace fs = std::filesystem;
 
-StoredRun openStoredRun(const fs::path& folder, const std::vector<std::string>& sets, const Parts& parts)
+StoredRun openStoredRun(const fs::path& folder, const std::vector<std::string>& sets, const Backends& backends)
 {
     const fs::path scene = folder / "resolved.yaml";
     if (!fs::exists(scene)) throw sim::InputError(fmt::format("{}: this is no folder of a run: it has no resolved.yaml", folder.string()));
-    StoredRun run = {.folder = folder, .setup = parts.loadScene({scene.string(), "", sets}), .kind = StateKind::ForPictures, .frames = {}};
-    if (trajectoryHash(run.setup) != trajectoryHash(parts.loadScene({scene.string(), "", {}})))
+    StoredRun run = {.folder = folder, .setup = backends.loadScene({scene.string(), "", sets}), .kind = StateKind::ForPictures, .frames = {}};
+    if (trajectoryHash(run.setup) != trajectoryHash(backends.loadScene({scene.string(), "", {}})))
         throw sim::InputError(fmt::format("--set: {} holds what was simulated; only render and output can be set anew", folder.string()));
     if (const auto report = readReport(folder)) {
         run.setup.variant = report->variant;
         run.setup.label = report->label;
     }
-    for (const StateKind kind : {StateKind::ForGoingOn, StateKind::ForPictures})
+    for (const StateKind kind : {StateKind::ForResuming, StateKind::ForPictures})
         if (auto frames = storedFrames(folder, kind); !frames.empty() && frames.size() >= run.frames.size()) {
             run.kind = kind;
             run.frames = std::move(frames);
@@ -48,10 +48,10 @@ bool forEachState(const StoredRun& run, const std::function<bool()>& stopWanted,
     return true;
 }
 
-bool drawStoredRun(const StoredRun& run, const fs::path& out, bool asPanel, const Parts& parts, const std::function<bool()>& stopWanted)
+bool drawStoredRun(const StoredRun& run, const fs::path& out, bool asPanel, const Backends& backends, const std::function<bool()>& stopWanted)
 {
     const sim::Fabric fabric = sim::assembleFabric(run.setup.scene.fabrics);
-    FrameSink sink(run.setup, parts, out, asPanel, run.frames.front() == 0);
+    FrameSink sink(run.setup, backends, out, asPanel, run.frames.front() == 0);
     const bool ended = forEachState(
         run, stopWanted, [&](const Checkpoint& stored) { sink.take(stored.state, fabric, nullptr, stored.origin.frame, stored.origin.stateHash); });
     sink.finish();

@@ -75,11 +75,11 @@ struct OutputSettings {
     bool energy = true, stats = true;  ///< energy.csv, steps.jsonl
     bool ledger = false;               ///< energy_ledger.csv
     bool states = false;               ///< the state of every frame, to make pictures of it again
-    bool checkpoint = false;           ///< states to go on from …
-    double checkpointEvery = 0.25;     ///< … after so much simulated time [s] …
-    int checkpointKeep = 1;            ///< … the last so many; 0: all
-    bool geometry = false;             ///< geometry/ with every frame's liquid, fabric and obstacles, as …
-    GeometryFormats geometryFormats;   ///< … these
+    bool checkpoint = false;           ///< write states to resume from
+    double checkpointEvery = 0.25;     ///< simulated time between those states [s]
+    int checkpointKeep = 1;            ///< number of the last of those states that are kept; 0: all
+    bool geometry = false;             ///< write geometry/ with every frame's liquid, fabric and obstacles
+    GeometryFormats geometryFormats;   ///< formats of the geometry files
     bool geometrySurface = false;      ///< with a mesh of the liquid's surface
     std::string probes;                ///< the section of what is read as a run goes, on one line; empty: none
     double videoFps = 50.0;

@@ -12,7 +12,7 @@ namespace app {
 
 std::string hexDigits(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
-void tellNotes(const SceneSetup& setup)
+void logNotes(const SceneSetup& setup)
 {
     for (const std::string& note : setup.scene.notes) spdlog::warn("{}", note);
 }

@@ -50,7 +50,7 @@ std::filesystem::path defaultFolder(const SceneSetup& setup);
 std::filesystem::path defaultComparisonFolder(const SceneSetup& setup);
 
 /// Tells the user what was mended in the scene's files, and what in them asks for nothing.
-void tellNotes(const SceneSetup& setup);
+void logNotes(const SceneSetup& setup);
 
 /// Frames after the initial one that the scene asks for.
 std::int64_t frameCount(const SceneSetup& setup);

@@ -6,7 +6,7 @@
 
 namespace app {
 
-std::vector<sim::DeclaredKey> keysAskedFor(const std::string& text, const std::function<void(const sim::Node&)>& read)
+std::vector<sim::DeclaredKey> keysReadBy(const std::string& text, const std::function<void(const sim::Node&)>& read)
 {
     std::vector<sim::DeclaredKey> keys;
     const auto source = std::make_shared<sim::TextSource>();

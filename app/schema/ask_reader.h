@@ -11,6 +11,6 @@ namespace app {
 
 /// Keys of a map that only its reader knows: it is given a text to read, and is asked which keys it looked for in the last map that it
 /// came to. What it thinks of the text does not count.
-std::vector<sim::DeclaredKey> keysAskedFor(const std::string& text, const std::function<void(const sim::Node&)>& read);
+std::vector<sim::DeclaredKey> keysReadBy(const std::string& text, const std::function<void(const sim::Node&)>& read);
 
 }  // namespace app

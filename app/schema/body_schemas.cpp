@@ -25,7 +25,7 @@ const DeclaredKey kLength = {
 SchemaJson pointSchema() { return keySchema(kLength, SchemaOf::Body); }
 
 /// A map of keys that the reader is asked for; what other code reads behind some of them is told here.
-SchemaJson askedMap(const std::vector<DeclaredKey>& keys, const std::vector<std::pair<std::string, SchemaJson>>& others)
+SchemaJson schemaOfKeysRead(const std::vector<DeclaredKey>& keys, const std::vector<std::pair<std::string, SchemaJson>>& others)
 {
     SchemaJson schema = mapSchema(keys, SchemaOf::Body);
     for (const auto& [key, value] : others) schema["properties"].at(key).update(value);
@@ -36,7 +36,7 @@ SchemaJson shapeKindSchema(const std::string& kind)
 {
     if (kind == "invert") return definitionOf("shape");
     if (kind == "union" || kind == "intersect" || kind == "subtract") return listSchema(definitionOf("shape"), 1);
-    return mapSchema(keysAskedFor(fmt::format("{{{}: {{}}}}", kind), [](const Node& node) { sim::readShape(node, "", 1.0); }), SchemaOf::Body);
+    return mapSchema(keysReadBy(fmt::format("{{{}: {{}}}}", kind), [](const Node& node) { sim::readShape(node, "", 1.0); }), SchemaOf::Body);
 }
 
 SchemaJson shapeSchema()
@@ -52,42 +52,42 @@ SchemaJson shapeSchema()
 
 SchemaJson rotateSchema()
 {
-    return mapSchema(keysAskedFor("{}", [](const Node& node) { sim::readRotation(node, "", sim::Vec3::Zero()); }), SchemaOf::Body);
+    return mapSchema(keysReadBy("{}", [](const Node& node) { sim::readRotation(node, "", sim::Vec3::Zero()); }), SchemaOf::Body);
 }
 
 SchemaJson sourceSchema()
 {
-    const auto keys = keysAskedFor("liquid: {sources: [{}]}", [](const Node& node) { sim::readSources(node, {}, false); });
+    const auto keys = keysReadBy("liquid: {sources: [{}]}", [](const Node& node) { sim::readSources(node, {}, false); });
     sim::KeyList emission, fill;
     sim::Emission emissionValues;
     sim::FillSettings fillValues;
     sim::describe(emission, emissionValues);
     sim::describe(fill, fillValues);
     const SchemaJson fillMap = mapSchema(fill.keys, SchemaOf::Section);
-    return askedMap(keys, {{"name", textSchema()},
-                           {"shape", definitionOf("shape")},
-                           {"velocity_field", {{"type", "array"}, {"items", textSchema()}, {"minItems", 3}, {"maxItems", 3}}},
-                           {"fill", {{"anyOf", {fillMap["properties"]["pattern"], fillMap}}}},
-                           {"emit", listSchema(mapSchema(emission.keys, SchemaOf::Body), 1)}});
+    return schemaOfKeysRead(keys, {{"name", textSchema()},
+                                   {"shape", definitionOf("shape")},
+                                   {"velocity_field", {{"type", "array"}, {"items", textSchema()}, {"minItems", 3}, {"maxItems", 3}}},
+                                   {"fill", {{"anyOf", {fillMap["properties"]["pattern"], fillMap}}}},
+                                   {"emit", listSchema(mapSchema(emission.keys, SchemaOf::Body), 1)}});
 }
 
 SchemaJson obstacleSchema()
 {
-    const auto keys = keysAskedFor("obstacles: [{}]", [](const Node& node) { sim::readObstacles(node, {}); });
-    return askedMap(keys, {{"name", textSchema()}, {"shape", definitionOf("shape")}, {"motion", definitionOf("motion")}});
+    const auto keys = keysReadBy("obstacles: [{}]", [](const Node& node) { sim::readObstacles(node, {}); });
+    return schemaOfKeysRead(keys, {{"name", textSchema()}, {"shape", definitionOf("shape")}, {"motion", definitionOf("motion")}});
 }
 
 SchemaJson fabricKindSchema(const std::string& kind)
 {
-    const auto keys = keysAskedFor("{}", [&](const Node& node) { sim::readFabricShape(node, "", kind); });
-    SchemaJson schema = askedMap(keys, {{"material", textSchema()}});
+    const auto keys = keysReadBy("{}", [&](const Node& node) { sim::readFabricShape(node, "", kind); });
+    SchemaJson schema = schemaOfKeysRead(keys, {{"material", textSchema()}});
     if (schema["properties"].contains("points")) schema["properties"]["points"].update(listSchema(pointSchema(), 2));
     return schema;
 }
 
 SchemaJson fabricSchema()
 {
-    const auto keys = keysAskedFor("fabrics: [{}]", [](const Node& node) { sim::readFabrics(node, {}); });
+    const auto keys = keysReadBy("fabrics: [{}]", [](const Node& node) { sim::readFabrics(node, {}); });
     std::vector<std::pair<std::string, SchemaJson>> others = {
         {"name", textSchema()},
         {"material", textSchema()},
@@ -95,23 +95,23 @@ SchemaJson fabricSchema()
         {"transform",
          {{"type", "object"}, {"properties", {{"rotate", definitionOf("rotate")}, {"translate", pointSchema()}}}, {"additionalProperties", false}}}};
     for (const std::string& kind : sim::fabricShapeKinds()) others.emplace_back(kind, fabricKindSchema(kind));
-    SchemaJson schema = askedMap(keys, others);
+    SchemaJson schema = schemaOfKeysRead(keys, others);
     requireOneOf(sim::fabricShapeKinds(), schema);
     return schema;
 }
 
 SchemaJson pinSchema()
 {
-    const auto keys = keysAskedFor("{}", [](const Node& node) { sim::readPins(node, "", {}, {}, 1.0); });
+    const auto keys = keysReadBy("{}", [](const Node& node) { sim::readPins(node, "", {}, {}, 1.0); });
     const SchemaJson ends = {{"type", "string"}};
     SchemaJson shape = shapeSchema();
-    SchemaJson schema = askedMap(keys, {{"corners", {{"anyOf", {{{"const", "all"}}, listSchema(ends)}}}},
-                                        {"edge", ends},
-                                        {"nodes", listSchema({{"type", "integer"}, {"minimum", 0}})},
-                                        {"shape", definitionOf("shape")},
-                                        {"box", shape["properties"]["box"]},
-                                        {"ball", shape["properties"]["ball"]},
-                                        {"motion", definitionOf("motion")}});
+    SchemaJson schema = schemaOfKeysRead(keys, {{"corners", {{"anyOf", {{{"const", "all"}}, listSchema(ends)}}}},
+                                                {"edge", ends},
+                                                {"nodes", listSchema({{"type", "integer"}, {"minimum", 0}})},
+                                                {"shape", definitionOf("shape")},
+                                                {"box", shape["properties"]["box"]},
+                                                {"ball", shape["properties"]["ball"]},
+                                                {"motion", definitionOf("motion")}});
     requireOneOf({"corners", "edge", "nodes", "shape", "box", "ball"}, schema);
     return schema;
 }
@@ -125,9 +125,9 @@ SchemaJson pieceSchema()
         for (const DeclaredKey& key : more)
             if (std::ranges::find(all, key.name, &DeclaredKey::name) == all.end()) all.push_back(key);
     };
-    for (const char* kind : {"{translate: [0, 1, 0]}", "{rotate: {}}", "{oscillate: {}}", "{keys: []}"}) add(keysAskedFor(kind, read), keys);
-    std::vector<DeclaredKey> swing = keysAskedFor("{t: [0, 1], oscillate: {}}", read);
-    const std::vector<DeclaredKey> turning = keysAskedFor("{t: [0, 1], oscillate: {axis: [0, 1, 0]}}", read);
+    for (const char* kind : {"{translate: [0, 1, 0]}", "{rotate: {}}", "{oscillate: {}}", "{keys: []}"}) add(keysReadBy(kind, read), keys);
+    std::vector<DeclaredKey> swing = keysReadBy("{t: [0, 1], oscillate: {}}", read);
+    const std::vector<DeclaredKey> turning = keysReadBy("{t: [0, 1], oscillate: {axis: [0, 1, 0]}}", read);
     for (DeclaredKey& key : swing)  // a length, or about an axis an angle
         if (key.name == "amplitude") key.quantity = sim::Quantity::None, key.range = sim::Range::any();
     add(turning, swing);
@@ -135,9 +135,9 @@ SchemaJson pieceSchema()
     oscillate["properties"]["amplitude"] = {{"anyOf", {{{"type", "number"}}, {{"type", "string"}}}}, {"description", "[cm], or about an axis [deg]"}};
     SchemaJson row = pointSchema();
     row["minItems"] = row["maxItems"] = 4;
-    return askedMap(keys, {{"rotate", mapSchema(keysAskedFor("{t: [0, 1], rotate: {}}", read), SchemaOf::Body)},
-                           {"oscillate", oscillate},
-                           {"keys", listSchema(row, 2)}});
+    return schemaOfKeysRead(
+        keys,
+        {{"rotate", mapSchema(keysReadBy("{t: [0, 1], rotate: {}}", read), SchemaOf::Body)}, {"oscillate", oscillate}, {"keys", listSchema(row, 2)}});
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ SchemaJson compareSchema()
 
 SchemaJson changesSchema()
 {
-    const auto keys = keysAskedFor("changes: [{}]", [](const Node& node) { sim::readChanges(node, {}); });
+    const auto keys = keysReadBy("changes: [{}]", [](const Node& node) { sim::readChanges(node, {}); });
     SchemaJson change = mapSchema(keys, SchemaOf::Body);
     change["properties"]["set"].update(settingsSchema());
     return listSchema(change);
@@ -66,14 +66,14 @@ SchemaJson changesSchema()
 
 /// Keys of the last map that the reader of a section comes to: what stands behind them are words and formulas.
 template <class Read>
-SchemaJson lastAskedFor(const std::string& text, Read read)
+SchemaJson lastKeyRead(const std::string& text, Read read)
 {
     SceneSetup setup;
-    return mapSchema(keysAskedFor(text,
-                                  [&](const Node& node) {
-                                      setup.file.root = node;
-                                      read(setup);
-                                  }),
+    return mapSchema(keysReadBy(text,
+                                [&](const Node& node) {
+                                    setup.file.root = node;
+                                    read(setup);
+                                }),
                      SchemaOf::Body);
 }
 
@@ -98,8 +98,8 @@ SchemaJson tableSchema()
 template <class Read>
 SchemaJson readingsSchema(const std::string& section, const std::string& list, Read read)
 {
-    SchemaJson schema = lastAskedFor(section + ": {}", read);
-    SchemaJson reading = lastAskedFor(section + ": {every: 1, " + list + ": [{}]}", read);
+    SchemaJson schema = lastKeyRead(section + ": {}", read);
+    SchemaJson reading = lastKeyRead(section + ": {every: 1, " + list + ": [{}]}", read);
     reading["properties"]["table"].update(tableSchema());
     schema["properties"][list].update(listSchema(reading));
     addNamesOfFormulas(schema);
@@ -108,7 +108,7 @@ SchemaJson readingsSchema(const std::string& section, const std::string& list, R
 
 SchemaJson probesSchema()
 {
-    const auto within = [](const std::string& probes) { return lastAskedFor("output: {probes: {" + probes + "}}", readProbes); };
+    const auto within = [](const std::string& probes) { return lastKeyRead("output: {probes: {" + probes + "}}", readProbes); };
     SchemaJson schema = within(""), reading = within("readings: [{}]");
     addNamesOfFormulas(schema);
     reading["properties"]["along"].update(within("readings: [{read: 1, along: {}}]"));
@@ -139,7 +139,7 @@ SchemaJson precisionSchema()
     for (const char* key : {"methods", "integrators", "steps", "resolutions"}) schema["properties"][key].update(listSchema(settingsSchema(), 1));
     for (const char* key : {"published", "quick"})
         schema["properties"][key].update(
-            lastAskedFor(fmt::format("precision: {{every: 1, errors: [{{read: t, expect: 1}}], {}: {{}}}}", key), readPrecision));
+            lastKeyRead(fmt::format("precision: {{every: 1, errors: [{{read: t, expect: 1}}], {}: {{}}}}", key), readPrecision));
     return schema;
 }
 

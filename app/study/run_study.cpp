@@ -44,7 +44,7 @@ std::vector<std::string> runArguments(const StudyRun& run, const StudyPlaces& pl
 {
     const std::filesystem::path folder = places.of(run);
     std::vector<std::string> arguments = {"run"};
-    if (canGoOn(folder, contentHash(run.setup, false, programHash()))) {
+    if (canResume(folder, contentHash(run.setup, false, programHash()))) {
         arguments.insert(arguments.end(), {"--resume", folder.string()});
     } else {
         arguments.insert(arguments.end(), {run.request.file, "--out", folder.string()});

@@ -32,7 +32,7 @@ namespace {
 }
 
 /// The child's side of fork(): nothing here may allocate, since other threads of the parent may have held locks.
-[[noreturn]] void becomeProgram(const char* program, char* const* arguments, const char* folder, int input, int output, int errors)
+[[noreturn]] void execProgram(const char* program, char* const* arguments, const char* folder, int input, int output, int errors)
 {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -114,7 +114,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vect
 
     id_ = fork();
     if (id_ == 0)
-        becomeProgram(name.c_str(), argv.data(), options.folder.c_str(), options.feed ? sockets[1] : nowhere, options.quiet ? nowhere : -1, errors_);
+        execProgram(name.c_str(), argv.data(), options.folder.c_str(), options.feed ? sockets[1] : nowhere, options.quiet ? nowhere : -1, errors_);
     closeOnce(sockets[1]);
     closeOnce(nowhere);
     if (id_ < 0) throwCannotStart(program);

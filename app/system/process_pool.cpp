@@ -22,7 +22,7 @@ struct Member {
 };
 
 /// Takes those out that have ended, and ends those that take too long.
-void lookAfter(std::list<Member>& members, const ProcessPool& pool)
+void pollMembers(std::list<Member>& members, const ProcessPool& pool)
 {
     for (auto member = members.begin(); member != members.end();) {
         const auto exit = member->child.poll();
@@ -49,7 +49,7 @@ void runProcesses(const ProcessPool& pool)
         if (pool.stopWanted()) next = pool.count;
         for (; next < pool.count && members.size() < width; ++next) members.emplace_back(next, pool);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        lookAfter(members, pool);
+        pollMembers(members, pool);
     }
 }
 

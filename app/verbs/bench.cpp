@@ -34,16 +34,16 @@ void writeCsv(const std::string& scene, const Options& options, const std::vecto
 
 }  // namespace
 
-int runVerbBench(const Options& options, const Parts& parts)
+int runVerbBench(const Options& options, const Backends& backends)
 {
     SceneRequest request = options.request();
     request.file = benchScene(options.scene).string();
-    const SceneSetup setup = parts.loadScene(request);
+    const SceneSetup setup = backends.loadScene(request);
     std::vector<BenchResult> results;
     for (const int threads : options.benchThreads) {
         results.push_back({threads, {}});
         for (int n = 0; n < options.repeats; ++n)
-            results.back().repeats.push_back(withThreads(threads, [&] { return benchOnce(setup, parts, options); }));
+            results.back().repeats.push_back(withThreads(threads, [&] { return benchOnce(setup, backends, options); }));
     }
     fmt::print("{}, {} steps, {} repeats\n{}", setup.scene.name, options.steps, options.repeats, benchTable(results));
     if (!sameState(results)) {

@@ -64,16 +64,16 @@ const PrecisionRun* nextToRepeat(const std::vector<PrecisionRun>& runs, const Pr
 }
 
 /// All runs of a case that are not in the table, then its rows.
-PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& runs, const Options& options, const Parts& parts,
+PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& runs, const Options& options, const Backends& backends,
                       const fs::path& folder, PrecisionTable& table)
 {
     const auto isMissing = [&](const PrecisionRun& run) { return !table.find(run, options.threads, 1); };
     PrecisionCase of = caseOf(runs, options, table);
     std::vector<std::vector<Reading>> converged;
     if (of.precision.needsConverged() && (std::ranges::any_of(runs, isMissing) || nextToRepeat(runs, of, options.repeats)))
-        converged = convergedReadings(folder / (of.name + "_converged.csv"), convergedSetup(file, parts), options.threads, parts, stopWanted);
+        converged = convergedReadings(folder / (of.name + "_converged.csv"), convergedSetup(file, backends), options.threads, backends, stopWanted);
     const auto measure = [&](const PrecisionRun& run, int repeats) {
-        const PrecisionRow row = measurePrecision(run, converged, options.threads, repeats, parts, stopWanted);
+        const PrecisionRow row = measurePrecision(run, converged, options.threads, repeats, backends, stopWanted);
         table.add(row);
         tell(row);
     };
@@ -87,17 +87,17 @@ PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& 
 
 }  // namespace
 
-int runVerbBenchPrecision(const Options& options, const Parts& parts)
+int runVerbBenchPrecision(const Options& options, const Backends& backends)
 {
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::pair<std::string, std::vector<PrecisionRun>>> all;
     for (const fs::path& file : caseFiles(fs::path("bench") / "precision", options.cases))
-        all.emplace_back(file.string(), precisionRuns(file.string(), parts, options.quick));
+        all.emplace_back(file.string(), precisionRuns(file.string(), backends, options.quick));
     const fs::path folder = folderOf(options);
     makeFolder(folder);
     PrecisionTable table(folder / "precision.csv");
     std::vector<PrecisionCase> cases;
-    for (const auto& [file, runs] : all) cases.push_back(runCase(file, runs, options, parts, folder, table));
+    for (const auto& [file, runs] : all) cases.push_back(runCase(file, runs, options, backends, folder, table));
     if (canPlot()) plotPrecision(cases, folder);
     writeWhole(folder / "report.md", precisionReport(cases, machineOf(options), canPlot()));
     for (const PrecisionCase& of : cases)

@@ -4,10 +4,10 @@
 
 namespace app {
 
-int runVerbCheck(const Options& options, const Parts& parts)
+int runVerbCheck(const Options& options, const Backends& backends)
 {
-    const SceneSetup setup = parts.loadScene(options.request());
-    tellNotes(setup);
+    const SceneSetup setup = backends.loadScene(options.request());
+    logNotes(setup);
     fmt::print("{}", setup.resolved);
     return 0;
 }

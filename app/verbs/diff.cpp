@@ -15,7 +15,7 @@ namespace app {
 
 namespace {
 
-int tellDifferences(const Options& options)
+int printDifferences(const Options& options)
 {
     const DiffResult result = diffResults(options.diff, options.sets, stopWanted);
     if (!options.out.empty()) writeDiffPage(result, options.out);
@@ -28,9 +28,9 @@ int tellDifferences(const Options& options)
 }  // namespace
 
 /// Whatever goes wrong leaves the question open: it must not look like a difference.
-int runVerbDiff(const Options& options, const Parts&)
+int runVerbDiff(const Options& options, const Backends&)
 try {
-    return withThreads(options.threads, [&] { return tellDifferences(options); });
+    return withThreads(options.threads, [&] { return printDifferences(options); });
 } catch (const std::bad_alloc&) {
     throw sim::InputError("out of memory");
 } catch (const std::exception& error) {

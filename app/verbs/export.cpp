@@ -11,17 +11,17 @@
 
 namespace app {
 
-int runVerbExport(const Options& options, const Parts& parts)
+int runVerbExport(const Options& options, const Backends& backends)
 {
     std::vector<std::string> sets = options.sets;
     if (!options.formats.empty()) sets.push_back(fmt::format("output.geometry_format=[{}]", fmt::join(options.formats, ", ")));
-    StoredRun run = openStoredRun(options.scene, sets, parts);
+    StoredRun run = openStoredRun(options.scene, sets, backends);
     run.setup.pictures.output.geometry = true;
     const std::filesystem::path out = options.out.empty() ? run.folder : options.out;
     const sim::Fabric fabric = sim::assembleFabric(run.setup.scene.fabrics);
-    forgetGeometryLaterThan(-1, out);
+    removeGeometryAfter(-1, out);
     const std::string ofRun = loadCheckpoint(stateFile(run.folder, run.kind, run.frames.front())).origin.provenance;
-    GeometrySink sink(run.setup, parts, out, provenanceOf(run.setup, options.threads, "", ofRun));
+    GeometrySink sink(run.setup, backends, out, provenanceOf(run.setup, options.threads, "", ofRun));
     const bool ended = withThreads(options.threads, [&] {
         return forEachState(run, stopWanted, [&](const Checkpoint& stored) { sink.take(stored.state, fabric, stored.origin.frame); });
     });

@@ -5,11 +5,11 @@
 
 namespace app {
 
-int runVerbImport(const Options& options, const Parts& parts)
+int runVerbImport(const Options& options, const Backends& backends)
 {
     const std::filesystem::path xml = options.scene;
     const std::filesystem::path yaml = options.out.empty() ? xml.filename().replace_extension(".yaml") : options.out;
-    fmt::print("{}", importScene(xml, yaml, options.import, parts));
+    fmt::print("{}", importScene(xml, yaml, options.import, backends));
     return 0;
 }
 

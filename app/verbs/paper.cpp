@@ -27,13 +27,13 @@ Options optionsOf(const PaperScene& scene, const Options& options)
 
 }  // namespace
 
-int runVerbPaper(const Options& options, const Parts& parts)
+int runVerbPaper(const Options& options, const Backends& backends)
 {
     const auto folder = options.out.empty() ? std::filesystem::path("out") / (options.quick ? "paper_quick" : "paper") : options.out;
     makeFolder(folder);
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::vector<ComparedRun>> wanted;
-    for (const PaperScene& scene : paperScenes()) wanted.push_back(comparedRuns(optionsOf(scene, options), parts, folder / scene.name));
+    for (const PaperScene& scene : paperScenes()) wanted.push_back(comparedRuns(optionsOf(scene, options), backends, folder / scene.name));
 
     std::vector<PaperResult> results;
     std::size_t missing = 0;
@@ -46,7 +46,8 @@ int runVerbPaper(const Options& options, const Parts& parts)
         fmt::print("{} ({}/{})\n", scene.example, n + 1, wanted.size());
         makeFolder(folder / scene.name);
         const auto done = runAll(wanted[n], optionsOf(scene, options), withFrames, stopWanted);
-        if (!stopWanted() && !done.empty()) makeProducts(done, {pictures, withFrames, options.video, folder / scene.name}, parts, stopWanted);
+        if (!stopWanted() && !done.empty())
+            makeComparisonOutputs(done, {pictures, withFrames, options.video, folder / scene.name}, backends, stopWanted);
         if (stopWanted()) {
             spdlog::warn("stopped: the same command goes on where it was");
             return 1;
@@ -54,7 +55,7 @@ int runVerbPaper(const Options& options, const Parts& parts)
         missing += wanted[n].size() - done.size();
         if (!done.empty()) results.push_back({scene, pictures, done});
     }
-    if (!results.empty()) makePaper(results, parts, allFrames, folder);
+    if (!results.empty()) makePaper(results, backends, allFrames, folder);
     if (missing == 0) return 0;
     spdlog::error("{} runs did not get to their end", missing);
     return 1;

@@ -25,11 +25,11 @@ std::string probesOverride(const std::filesystem::path& file)
 
 }  // namespace
 
-int runVerbProbe(const Options& options, const Parts& parts)
+int runVerbProbe(const Options& options, const Backends& backends)
 {
     std::vector<std::string> sets = options.sets;
     if (!options.probes.empty()) sets.insert(sets.begin(), probesOverride(options.probes));
-    const StoredRun run = openStoredRun(options.scene, sets, parts);
+    const StoredRun run = openStoredRun(options.scene, sets, backends);
     const std::filesystem::path out = options.out.empty() ? run.folder / "probes" : options.out;
     if (std::filesystem::weakly_canonical(out) == std::filesystem::weakly_canonical(run.folder))
         throw sim::InputError(fmt::format("--out {}: there are the readings of the run itself; choose another folder", out.string()));

@@ -13,18 +13,18 @@
 
 namespace app {
 
-int runVerbRender(const Options& options, const Parts& parts)
+int runVerbRender(const Options& options, const Backends& backends)
 {
-    const StoredRun run = openStoredRun(options.scene, options.sets, parts);
+    const StoredRun run = openStoredRun(options.scene, options.sets, backends);
     const std::filesystem::path out = options.out.empty() ? run.folder / "pictures" : options.out;
     if (std::filesystem::weakly_canonical(out) == std::filesystem::weakly_canonical(run.folder))
         throw sim::InputError(fmt::format("--out {}: there are the pictures of the run itself; choose another folder", out.string()));
     claimFolder(out, {run.setup.scene.name, run.setup.variant});
-    forgetGeometryLaterThan(-1, out);
+    removeGeometryAfter(-1, out);
     // Whose pictures they are, so that they can be made anew and compared.
     writeWhole(out / "report.json", readWhole(run.folder / "report.json"));
     writeWhole(out / "resolved.yaml", run.setup.resolved);
-    const bool ended = withThreads(options.threads, [&] { return drawStoredRun(run, out, options.asPanel, parts, stopWanted); });
+    const bool ended = withThreads(options.threads, [&] { return drawStoredRun(run, out, options.asPanel, backends, stopWanted); });
     if (!ended) {
         spdlog::error("stopped by the user; what was drawn is in {}", out.string());
         return 1;

@@ -37,11 +37,11 @@ RunOptions runOptions(const Options& options, const SceneSetup& setup)
 }
 
 /// A run that fails says where its last good state is, if it has kept one.
-RunSummary runTellingWhatIsKept(const SceneSetup& setup, const RunOptions& run, const Parts& parts)
+RunSummary runReportingKeptState(const SceneSetup& setup, const RunOptions& run, const Backends& backends)
 try {
-    return runOffline(setup, parts, run);
+    return runOffline(setup, backends, run);
 } catch (const sim::RunError&) {
-    if (!storedFrames(run.out, StateKind::ForGoingOn).empty())
+    if (!storedFrames(run.out, StateKind::ForResuming).empty())
         spdlog::warn("go on from the last good state with other settings: drench run --resume {} --out FOLDER --set key=value", run.out.string());
     throw;
 }
@@ -49,9 +49,9 @@ try {
 /// A run that was done without pictures and is gone on with has none either.
 bool hasPictures(const std::filesystem::path& folder) { return !numbersIn(folder, "frame_", ".png").empty(); }
 
-RunSummary runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Parts& parts)
+RunSummary runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Backends& backends)
 {
-    RunSummary summary = withThreads(options.threads, [&] { return runTellingWhatIsKept(setup, run, parts); });
+    RunSummary summary = withThreads(options.threads, [&] { return runReportingKeptState(setup, run, backends); });
     if (run.frames && options.video && summary.status == RunStatus::Done && hasPictures(run.out)) makeVideo(run.out, setup.pictures.output);
     printOutcome(summary, run.out);
     if (!options.asPanel) fmt::print("{}", stageTable(summary.times));
@@ -62,35 +62,35 @@ RunSummary runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Opt
 
 int exitCodeOf(const RunSummary& summary) { return summary.status == RunStatus::Done ? 0 : 1; }
 
-int goOn(const Options& options, const Parts& parts)
+int continueRun(const Options& options, const Backends& backends)
 {
     const ResumeRequest request = {options.resume, options.fromFrame, options.sets, options.out};
-    if (hasNothingLeft(request)) {
+    if (isFinished(request)) {
         fmt::print("{}: the run is done, and there is nothing left to go on with\n", options.resume.string());
         return 0;
     }
-    const ResumedRun resumed = resumeRun(request, parts.loadScene);
+    const ResumedRun resumed = resumeRun(request, backends.loadScene);
     RunOptions run = runOptions(options, resumed.setup);
     run.out = resumed.out;
     run.from = &resumed.checkpoint;
     run.isBranch = resumed.isBranch;
     if (resumed.checkpoint.origin.program != programHash())
         spdlog::warn("{} was begun by another build of this program: what follows may differ in its last digits", options.resume.string());
-    return exitCodeOf(runToItsEnd(resumed.setup, run, options, parts));
+    return exitCodeOf(runToItsEnd(resumed.setup, run, options, backends));
 }
 
 /// Beside the report, where the results of its run are, unless --out says so.
-int runAgain(const Options& options, const Parts& parts)
+int runAgain(const Options& options, const Backends& backends)
 {
     const RunToRepeat repeated = readRunToRepeat(options.again);
-    SceneSetup setup = parts.loadScene(repeated.request);
+    SceneSetup setup = backends.loadScene(repeated.request);
     setup.variant = repeated.variant;
     setup.label = repeated.label;
     RunOptions run = runOptions(options, setup);
     if (options.out.empty()) run.out = repeated.report.parent_path() / "again";
     if (std::filesystem::weakly_canonical(run.out) == std::filesystem::weakly_canonical(repeated.report).parent_path())
         throw sim::InputError(fmt::format("--out {}: there are the results of the run itself; choose another folder", run.out.string()));
-    const RunSummary again = runToItsEnd(setup, run, options, parts);
+    const RunSummary again = runToItsEnd(setup, run, options, backends);
     if (again.status != RunStatus::Done) throw sim::InputError("stopped before the run could be compared");
     fmt::print("{}\n", verdictOf(repeated, again));
     return isSame(repeated, again) ? 0 : 1;
@@ -98,13 +98,13 @@ int runAgain(const Options& options, const Parts& parts)
 
 }  // namespace
 
-int runVerbRun(const Options& options, const Parts& parts)
+int runVerbRun(const Options& options, const Backends& backends)
 {
-    if (!options.resume.empty()) return goOn(options, parts);
-    if (!options.again.empty()) return runAgain(options, parts);
-    const SceneSetup setup = parts.loadScene(options.request());
-    tellNotes(setup);
-    return exitCodeOf(runToItsEnd(setup, runOptions(options, setup), options, parts));
+    if (!options.resume.empty()) return continueRun(options, backends);
+    if (!options.again.empty()) return runAgain(options, backends);
+    const SceneSetup setup = backends.loadScene(options.request());
+    logNotes(setup);
+    return exitCodeOf(runToItsEnd(setup, runOptions(options, setup), options, backends));
 }
 
 }  // namespace app

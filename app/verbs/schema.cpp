@@ -8,7 +8,7 @@
 
 namespace app {
 
-int runVerbSchema(const Options& options, const Parts&)
+int runVerbSchema(const Options& options, const Backends&)
 {
     const std::string text = options.scene == "keys" ? keyTables() : options.scene == "study" ? studySchema() : sceneSchema();
     if (options.out.empty()) fmt::print("{}", text);

@@ -73,15 +73,15 @@ double wholeDuration(double duration, const std::vector<double>& steps)
     return longest * std::max(1.0, std::round(duration / longest));
 }
 
-StabilityResult mapOf(const std::string& scene, const Options& options, const Parts& parts, const std::filesystem::path& folder)
+StabilityResult mapOf(const std::string& scene, const Options& options, const Backends& backends, const std::filesystem::path& folder)
 {
     constexpr double kFirstMoments = 0.32, kQuick = 0.24;  // [s]: so long until water and fabric of the paper's splashes have met
     const auto file = sceneFile(scene);
-    const SceneSetup setup = parts.loadScene({file.string(), "", options.sets});
+    const SceneSetup setup = backends.loadScene({file.string(), "", options.sets});
     const double whole = setup.scene.settings.time.duration;
     const double wanted = options.duration > 0.0 ? options.duration : std::min(whole, options.quick ? kQuick : kFirstMoments);
     std::vector<StabilityMethod> methods = stabilityMethods(setup, options.methods);
-    if (!options.knob.empty()) methods = withKnob(methods, setup, options.knob, options.knobFactors);
+    if (!options.knob.empty()) methods = withParameter(methods, setup, options.knob, options.knobFactors);
     const std::vector<double> steps = stepsOf(options);
     const StabilityMap map{.scene = file.string(),
                            .sets = options.sets,
@@ -97,12 +97,12 @@ StabilityResult mapOf(const std::string& scene, const Options& options, const Pa
     return {setup.scene.name, title, map, {}};
 }
 
-int mapStability(const Options& options, const Parts& parts)
+int mapStability(const Options& options, const Backends& backends)
 {
     const auto folder = options.out.empty() ? std::filesystem::path("out/stress") : options.out;
     // All are loaded, and so validated, before the first one starts.
     std::vector<StabilityResult> results;
-    for (const std::string& scene : sceneNames(options)) results.push_back(mapOf(scene, options, parts, folder));
+    for (const std::string& scene : sceneNames(options)) results.push_back(mapOf(scene, options, backends, folder));
     for (StabilityResult& result : results) {
         fmt::print("{}\n", result.title);
         result.rows = runStabilityMap(result.map);
@@ -118,9 +118,9 @@ int mapStability(const Options& options, const Parts& parts)
 
 }  // namespace
 
-int runVerbStress(const Options& options, const Parts& parts)
+int runVerbStress(const Options& options, const Backends& backends)
 {
-    return options.randomScenes > 0 ? stressRandomScenes(options) : mapStability(options, parts);
+    return options.randomScenes > 0 ? stressRandomScenes(options) : mapStability(options, backends);
 }
 
 }  // namespace app

@@ -19,16 +19,16 @@ namespace app {
 
 namespace {
 
-SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Parts& parts)
+SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Backends& backends)
 {
     SceneRequest request{file.string(), "", {}};
-    SceneSetup setup = parts.loadScene(request);
+    SceneSetup setup = backends.loadScene(request);
     const std::optional<Validation> validation = readValidation(setup);
     if (!validation) throw sim::InputError(fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
-    tellNotes(setup);
+    logNotes(setup);
     if (!isQuick || validation->quick.empty()) return setup;
     request.sets = validation->quick;
-    return parts.loadScene(request);
+    return backends.loadScene(request);
 }
 
 void tell(const CaseResult& result)
@@ -39,16 +39,16 @@ void tell(const CaseResult& result)
 
 }  // namespace
 
-int runVerbValidate(const Options& options, const Parts& parts)
+int runVerbValidate(const Options& options, const Backends& backends)
 {
     const auto folder = options.out.empty() ? std::filesystem::path("out") / (options.quick ? "validation_quick" : "validation") : options.out;
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::pair<std::string, SceneSetup>> cases;
-    for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options.quick, parts));
+    for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options.quick, backends));
     makeFolder(folder);
     std::vector<CaseResult> results;
     for (const auto& loaded : cases) {
-        results.push_back(withThreads(options.threads, [&] { return runCase(loaded.first, loaded.second, parts, stopWanted); }));
+        results.push_back(withThreads(options.threads, [&] { return runCase(loaded.first, loaded.second, backends, stopWanted); }));
         if (stopWanted()) break;
         tell(results.back());
         writeReadings(results.back(), folder);

@@ -4,17 +4,17 @@
 
 namespace app {
 
-int runVerbView(const Options& options, const Parts& parts)
+int runVerbView(const Options& options, const Backends& backends)
 {
     SceneRequest request = options.request();
-    tellNotes(parts.loadScene(request));  // mistakes in it are told with or without a display
+    logNotes(backends.loadScene(request));  // mistakes in it are told with or without a display
     if (!options.view.beside.empty()) {
         request.variant = options.view.beside;
-        parts.loadScene(request);
+        backends.loadScene(request);
     }
-    if (!parts.view) throw sim::RunError("this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
+    if (!backends.view) throw sim::RunError("this program was built without windows (libglfw3-dev, libimgui-dev); drench run needs none");
     withThreads(options.threads, [&] {
-        parts.view(options.request(), parts, options.view);
+        backends.view(options.request(), backends, options.view);
         return 0;
     });
     return 0;

@@ -34,7 +34,7 @@ void LivePanel::draw(LivePair& pair)
 {
     drawStatus(pair);
     drawButtons(pair);
-    drawMoments(pair);
+    drawRewindPoints(pair);
     const bool isPair = pair.sides().size() > 1;
     for (std::size_t s = 0; s < pair.sides().size(); ++s) {
         ImGui::PushID(static_cast<int>(s));
@@ -67,7 +67,7 @@ void LivePanel::drawButtons(LivePair& pair) const
 }
 
 /// The slider over the moments that are kept.
-void LivePanel::drawMoments(LivePair& pair) const
+void LivePanel::drawRewindPoints(LivePair& pair) const
 {
     const LiveStatus status = pair.first().status();
     const int last = static_cast<int>(status.moments.size()) - 1;

@@ -18,7 +18,7 @@ class LivePanel {
  private:
     void drawStatus(const LivePair& pair) const;
     void drawButtons(LivePair& pair) const;
-    void drawMoments(LivePair& pair) const;
+    void drawRewindPoints(LivePair& pair) const;
 
     std::array<StepPlots, 2> plots_;  ///< one for each side
 };

@@ -48,7 +48,7 @@ void ProbePanel::Course::add(const ProbeTitle& title, double time, std::span<con
 }
 
 /// Of a line the values are those of one time: all hold, or none.
-void ProbePanel::Course::forgetAfter(double time)
+void ProbePanel::Course::dropAfter(double time)
 {
     if (latestTime <= time) return;
     const auto kept = std::ranges::upper_bound(times, time) - times.begin();
@@ -65,7 +65,7 @@ void ProbePanel::Course::plot(bool isLine, float width) const
     ImGui::PlotLines("##course", values.data(), static_cast<int>(values.size()), 0, text.c_str(), FLT_MAX, FLT_MAX, size);
 }
 
-bool ProbePanel::Side::hasTheProbesOf(const Side& other) const { return titles && other.titles && *titles == *other.titles; }
+bool ProbePanel::Side::hasSameProbes(const Side& other) const { return titles && other.titles && *titles == *other.titles; }
 
 void ProbePanel::Side::add(const LiveReadings& taken)
 {
@@ -73,7 +73,7 @@ void ProbePanel::Side::add(const LiveReadings& taken)
     titles = taken.titles;
     if (!titles) return;
     courses.resize(titles->size());
-    for (Course& course : courses) course.forgetAfter(taken.forgetAfter);
+    for (Course& course : courses) course.dropAfter(taken.dropAfter);
     for (const ProbeReading& reading : taken.readings) {
         std::span<const std::optional<double>> left = reading.values;
         for (std::size_t i = 0; i < courses.size(); ++i) {
@@ -124,7 +124,7 @@ void ProbePanel::draw(const LivePair& pair) const
     ImGui::SetNextWindowSize(ImVec2(width, 0.48f * ImGui::GetIO().DisplaySize.y), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Probes")) {
         const std::span<const Side> sides = std::span(sides_).first(count);
-        if (count == 1 || sides[0].hasTheProbesOf(sides[1])) {
+        if (count == 1 || sides[0].hasSameProbes(sides[1])) {
             if (count > 1) ImGui::TextDisabled("A left, B right");
             drawProbes(sides);
         } else {

@@ -26,7 +26,7 @@ class ProbePanel {
         std::optional<double> latest;  ///< value, if there is one; for points along a line that at the first
         double latestTime = 0.0;       ///< of the last reading [s]
         void add(const ProbeTitle& title, double time, std::span<const std::optional<double>> read);
-        void forgetAfter(double time);
+        void dropAfter(double time);
         void plot(bool isLine, float width) const;  ///< with the latest value in it, or the range along the line; so wide [pixels]
     };
     /// Of one simulation.
@@ -34,7 +34,7 @@ class ProbePanel {
         std::shared_ptr<const std::vector<ProbeTitle>> titles;  ///< null where it has no probes
         std::vector<Course> courses;                            ///< one for each of them
         void add(const LiveReadings& taken);
-        bool hasTheProbesOf(const Side& other) const;
+        bool hasSameProbes(const Side& other) const;
     };
     /// Of sides with the same probes: each probe once, with what it reads in all of them.
     void drawProbes(std::span<const Side> sides) const;

@@ -45,7 +45,7 @@ void Viewer::Inner::open(const std::string& file)
 {
     try {
         const SceneRequest other = {.file = file, .variant = "", .sets = {}};
-        auto opened = std::make_unique<LivePair>(other, parts);
+        auto opened = std::make_unique<LivePair>(other, backends);
         pair = std::move(opened);
         request = other;
         livePanel = {};
@@ -56,12 +56,12 @@ void Viewer::Inner::open(const std::string& file)
     }
 }
 
-void Viewer::Inner::putBeside(const std::string& variant)
+void Viewer::Inner::addSecondSide(const std::string& variant)
 {
     try {
-        if (variant.empty()) pair->removeBeside();
-        else pair->putBeside(withVariant(request, variant), parts);
-        showWhatIsWanted();
+        if (variant.empty()) pair->removeSecondSide();
+        else pair->addSecondSide(withVariant(request, variant), backends);
+        showRequested();
         livePanel = {};
         scenePanel.beside = variant;
         camera.reset();
@@ -70,7 +70,7 @@ void Viewer::Inner::putBeside(const std::string& variant)
     }
 }
 
-void Viewer::Inner::showWhatIsWanted()
+void Viewer::Inner::showRequested()
 {
     pair->all([&](LiveSimulation& live) { live.show(lookPanel->wanted()); });
 }
@@ -129,7 +129,8 @@ bool Viewer::Inner::isChanging() const
     return ImGui::IsAnyMouseDown() || std::ranges::any_of(pair->sides(), isPlaying);
 }
 
-Viewer::Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options) : inner_(std::make_unique<Inner>(request, parts, options))
+Viewer::Viewer(const SceneRequest& request, const Backends& backends, const ViewOptions& options)
+    : inner_(std::make_unique<Inner>(request, backends, options))
 {
 }
 
@@ -166,9 +167,9 @@ std::string Viewer::message() const { return inner_->scenePanel.message; }
 
 std::vector<std::string> Viewer::takeGlMessages() { return inner_->window.context().takeGlMessages(); }
 
-void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options)
+void view(const SceneRequest& request, const Backends& backends, const ViewOptions& options)
 {
-    Viewer viewer(request, parts, options);
+    Viewer viewer(request, backends, options);
     while (viewer.frame() && interruptsSeen() == 0) {
     }
 }

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/live/live_pair.h"
 #include "app/options.h"
-#include "app/parts.h"
 
 #include <array>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace app {
 class Viewer {
  public:
     /// Throws InputError for what is wrong with the scene, RunError where there is no display or no OpenGL 3.3 core.
-    Viewer(const SceneRequest& request, const Parts& parts, const ViewOptions& options);
+    Viewer(const SceneRequest& request, const Backends& backends, const ViewOptions& options);
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
@@ -40,6 +40,6 @@ class Viewer {
 };
 
 /// Show a scene until its window is closed.
-void view(const SceneRequest& request, const Parts& parts, const ViewOptions& options);
+void view(const SceneRequest& request, const Backends& backends, const ViewOptions& options);
 
 }  // namespace app

@@ -49,7 +49,7 @@ void Viewer::Inner::follow(const SceneCommands& commands)
     }
     if (commands.picture) pictureFile = freeName(scene().name, ".png");
     if (commands.record) record(*commands.record);
-    if (commands.beside) putBeside(*commands.beside);
+    if (commands.beside) addSecondSide(*commands.beside);
     if (commands.open) open(*commands.open);  // last: the scene is another one then
 }
 

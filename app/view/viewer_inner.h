@@ -23,20 +23,20 @@ std::string windowTitle(const sim::Scene& scene);
 /// What stands behind a Viewer. Its functions are in viewer.cpp (scenes and their pictures), viewer_panels.cpp and viewer_commands.cpp (what the user
 /// wants done).
 struct Viewer::Inner {
-    Inner(const SceneRequest& asked, const Parts& p, const ViewOptions& options)
-        : parts(p),
+    Inner(const SceneRequest& asked, const Backends& p, const ViewOptions& options)
+        : backends(p),
           request(asked),
-          pair(std::make_unique<LivePair>(request, parts)),
+          pair(std::make_unique<LivePair>(request, backends)),
           window(windowTitle(scene()), options.width, options.height),
           renderer(window.context())
     {
         isFirstUse = recent.files().empty();
         lookAtScene();
-        if (!options.beside.empty()) putBeside(options.beside);
+        if (!options.beside.empty()) addSecondSide(options.beside);
         if (!options.paused) pair->playOrPause();
     }
 
-    const Parts parts;
+    const Backends backends;
     SceneRequest request;
     std::unique_ptr<LivePair> pair;
     Window window;
@@ -64,8 +64,8 @@ struct Viewer::Inner {
 
     void lookAtScene();
     void open(const std::string& file);
-    void putBeside(const std::string& variant);
-    void showWhatIsWanted();
+    void addSecondSide(const std::string& variant);
+    void showRequested();
     void takeNewest();
     void moveCamera();
     void followKeys();

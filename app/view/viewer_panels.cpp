@@ -60,7 +60,7 @@ void Viewer::Inner::drawPicturePanel()
     ImGui::SameLine();
     if (ImGui::Button("Camera of the file")) camera.reset();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("C");
-    if (lookPanel->draw()) showWhatIsWanted();
+    if (lookPanel->draw()) showRequested();
 }
 
 void Viewer::Inner::drawSettings()

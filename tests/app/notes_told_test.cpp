@@ -1,7 +1,7 @@
 // Every verb that reads a scene tells its notes, once each.
 #include "app/verbs/verbs.h"
 #include "sim/core/check.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/log.h"
 #include "tests/app/temporary_folder.h"
 
@@ -12,15 +12,15 @@ namespace {
 
 constexpr const char* kNote = "toy.yaml:4: obstacle lid is 0.1 cm thick";
 
-Parts partsWithANote()
+Backends partsWithANote()
 {
-    Parts parts = test::toyParts({});
-    parts.loadScene = [](const SceneRequest&) {
+    Backends backends = test::toyBackends({});
+    backends.loadScene = [](const SceneRequest&) {
         SceneSetup setup = test::toySetup({});
         setup.scene.notes.emplace_back(kNote);
         return setup;
     };
-    return parts;
+    return backends;
 }
 
 void expectToldOnce(const std::string& words)
@@ -56,9 +56,9 @@ TEST(NotesTold, ByRun)
 TEST(NotesTold, ByView)
 {
     const test::Log log;
-    Parts parts = partsWithANote();
-    parts.view = {};
-    EXPECT_THROW(runVerbView({}, parts), sim::RunError);
+    Backends backends = partsWithANote();
+    backends.view = {};
+    EXPECT_THROW(runVerbView({}, backends), sim::RunError);
     expectToldOnce(log.words());
 }
 

@@ -1,4 +1,4 @@
-// The whole program as a process, around the toy of fake_parts.h: TOY_PROGRAM is its file.
+// The whole program as a process, around the toy of fake_backends.h: TOY_PROGRAM is its file.
 
 #include "app/frames/frame_pipeline.h"
 #include "app/options.h"

@@ -1,4 +1,4 @@
 #include "app/program.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 
-int main(int argc, char** argv) { return app::runProgram(argc, argv, app::test::toyPartsFromFiles()); }
+int main(int argc, char** argv) { return app::runProgram(argc, argv, app::test::toyBackendsFromFiles()); }

@@ -1,6 +1,6 @@
 #include "app/lab/checks/run_and_read.h"
 
-#include "app/reports/shut_sources.h"
+#include "app/reports/blocked_sources.h"
 #include "sim/core/check.h"
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 
 namespace app {
 
-Followed follow(Steppable& simulation, const sim::Scene& scene, double every, const std::function<void(double time)>& read,
-                const std::function<void()>& stepped, const std::function<bool()>& stopWanted)
+RunReadings runAndRead(SimulationHandle& simulation, const sim::Scene& scene, double every, const std::function<void(double time)>& read,
+                       const std::function<void()>& stepped, const std::function<bool()>& stopWanted)
 {
     using Clock = std::chrono::steady_clock;
     // Readings end on the duration itself but for the rounding of sums.
     constexpr double kRounding = 1.0e-9;
     const sim::TimeSettings& time = scene.settings.time;
     const auto count = static_cast<std::int64_t>(std::floor(time.duration / every + kRounding));
-    Followed followed;
-    ShutSources shut(scene);
+    RunReadings followed;
+    BlockedSources shut(scene);
     read(time.start);
     for (std::int64_t n = 1; n <= count; ++n) {
         const double until = time.start + static_cast<double>(n) * every;

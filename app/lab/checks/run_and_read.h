@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/parts.h"
+#include "app/backends.h"
 
 #include <cstdint>
 #include <functional>
@@ -8,7 +8,7 @@
 namespace app {
 
 /// What it took to follow a run to its end.
-struct Followed {
+struct RunReadings {
     std::int64_t steps = 0;
     double stepSeconds = 0.0;  ///< of the clock on the wall, in the steps alone
     double largestCfl = 0.0;   ///< [-]
@@ -16,7 +16,7 @@ struct Followed {
 
 /// Steps to the end, and calls `read` at the start and after every `every` seconds, `stepped` after every step. Throws RunError, also when
 /// it is to stop. Tells of sources that stop.
-Followed follow(Steppable& simulation, const sim::Scene& scene, double every, const std::function<void(double time)>& read,
-                const std::function<void()>& stepped, const std::function<bool()>& stopWanted);
+RunReadings runAndRead(SimulationHandle& simulation, const sim::Scene& scene, double every, const std::function<void(double time)>& read,
+                       const std::function<void()>& stepped, const std::function<bool()>& stopWanted);
 
 }  // namespace app

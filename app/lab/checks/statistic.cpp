@@ -41,14 +41,14 @@ double slopeOfLogarithm(std::span<const Reading> all, bool isOfBoth)
 }
 
 /// Where readings pass their mean, and the largest distance from it between two passings.
-struct Swings {
+struct Oscillations {
     std::vector<double> passings;
     std::vector<Reading> peaks;
 };
 
-Swings swingsOf(std::span<const Reading> all)
+Oscillations oscillationsOf(std::span<const Reading> all)
 {
-    Swings swings;
+    Oscillations swings;
     const double level = mean(all);
     Reading peak;
     for (std::size_t i = 1; i < all.size(); ++i) {
@@ -65,7 +65,7 @@ Swings swingsOf(std::span<const Reading> all)
 
 double period(std::span<const Reading> all)
 {
-    const std::vector<double> passings = swingsOf(all).passings;
+    const std::vector<double> passings = oscillationsOf(all).passings;
     if (passings.size() < 3) return kNone;
     return 2.0 * (passings.back() - passings.front()) / static_cast<double>(passings.size() - 1);
 }
@@ -112,7 +112,7 @@ double statisticOf(Statistic what, std::span<const Reading> all, double level)
         case Statistic::Slope: return slope(all);
         case Statistic::Exponent: return slopeOfLogarithm(all, true);
         case Statistic::Rate: return -slopeOfLogarithm(all, false);
-        case Statistic::EnvelopeRate: return -slopeOfLogarithm(swingsOf(all).peaks, false);
+        case Statistic::EnvelopeRate: return -slopeOfLogarithm(oscillationsOf(all).peaks, false);
         case Statistic::Period: return period(all);
         case Statistic::MeanError: {
             const auto of = errors(all);

@@ -45,7 +45,7 @@ Contents contentsOf(const std::filesystem::path& folder, double liquidMass)
 }
 
 /// Speed [cm/s] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
-double unfeltSpeed(double cell, double time)
+double negligibleSpeed(double cell, double time)
 {
     constexpr double kUnfelt = 1.0e-9;  // cells
     return time > 0.0 ? kUnfelt * cell / time : 0.0;
@@ -86,7 +86,7 @@ Energy energyOf(const std::filesystem::path& csv)
 
 /// Speed of the fastest of these points that a motion leads, in a run of this duration [s] [cm/s].
 template <class Points>
-double fastestLed(const sim::Motion& motion, const Points& points, double duration)
+double fastestPrescribed(const sim::Motion& motion, const Points& points, double duration)
 {
     constexpr int kParts = 64;  // of the run, in each of which they go at one speed
     if (motion.isStatic()) return 0.0;
@@ -99,26 +99,26 @@ double fastestLed(const sim::Motion& motion, const Points& points, double durati
 }
 
 /// Of the corners of boxes around solids that move, and of the vertices of fabric that pins lead [cm/s].
-double fastestLed(const sim::Scene& scene, double duration)
+double fastestPrescribed(const sim::Scene& scene, double duration)
 {
     double fastest = 0.0;
     for (const sim::ObstacleSettings& obstacle : scene.obstacles) {
         std::array<sim::Vec3, 8> corners;
         const Eigen::AlignedBox3d box = obstacle.shape.bounds();
         for (int c = 0; c < 8; ++c) corners[c] = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c));
-        fastest = std::max(fastest, fastestLed(obstacle.motion, corners, duration));
+        fastest = std::max(fastest, fastestPrescribed(obstacle.motion, corners, duration));
     }
     for (const sim::FabricPiece& piece : scene.fabrics)
         for (const sim::PinGroup& pins : piece.pins) {
             std::vector<sim::Vec3> led;
             for (int v : pins.vertices) led.push_back(piece.points[v]);
-            fastest = std::max(fastest, fastestLed(pins.motion, led, duration));
+            fastest = std::max(fastest, fastestPrescribed(pins.motion, led, duration));
         }
     return fastest;
 }
 
 /// √(2 P/ρ), to which suction P [dyn/cm^2] takes liquid that nothing slows down [cm/s].
-double fastestDrawn(const sim::Scene& scene)
+double fastestBySuction(const sim::Scene& scene)
 {
     constexpr double kAlong = 2.0;  // suction along fibres, relative to that across
     const sim::Settings& settings = scene.settings;
@@ -153,12 +153,12 @@ RunCourse courseOf(const std::filesystem::path& folder)
     double weight = 0.0;
     if (const auto file = folder / "resolved.yaml"; std::filesystem::exists(file) && course.time > 0.0) {
         const sim::Scene scene = sim::loadScene(file);
-        course.ledSpeed = fastestLed(scene, course.time);
-        course.drawnSpeed = fastestDrawn(scene);
+        course.prescribedSpeed = fastestPrescribed(scene, course.time);
+        course.suctionSpeed = fastestBySuction(scene);
         weight = scene.settings.gravity.norm();
     }
     const Contents contents = contentsOf(folder, mass);
-    const double least = std::max(unfeltSpeed(contents.cell, course.time), weight * longest);
+    const double least = std::max(negligibleSpeed(contents.cell, course.time), weight * longest);
     const double scale = std::max(energy.largestKinetic, 0.5 * contents.mass * least * least);
     if (scale > 0.0) course.energyGain = energy.gain / scale;
     return course;
@@ -167,7 +167,8 @@ RunCourse courseOf(const std::filesystem::path& folder)
 std::string whyUnsound(const RunCourse& course)
 {
     if (course.energyGain > kAllowedGain) return fmt::format("energy: gained {:.3g} of its largest kinetic energy", course.energyGain);
-    if (course.commonSpeed > 0.0 && course.largestSpeed > std::max(kAllowedSpeed * std::max(course.commonSpeed, course.ledSpeed), course.drawnSpeed))
+    if (course.commonSpeed > 0.0 &&
+        course.largestSpeed > std::max(kAllowedSpeed * std::max(course.commonSpeed, course.prescribedSpeed), course.suctionSpeed))
         return fmt::format("speed: a particle at {:.3g} cm/s; all liquid {:.3g} cm/s", course.largestSpeed, course.commonSpeed);
     return "";
 }

@@ -17,21 +17,21 @@ namespace {
 using Choices = std::vector<PrecisionChoice>;
 using AllReadings = std::vector<std::vector<Reading>>;
 
-SceneSetup load(const std::string& file, const std::vector<std::string>& sets, const Parts& parts)
+SceneSetup load(const std::string& file, const std::vector<std::string>& sets, const Backends& backends)
 {
-    SceneSetup setup = parts.loadScene({.file = file, .variant = "", .sets = sets});
+    SceneSetup setup = backends.loadScene({.file = file, .variant = "", .sets = sets});
     if (!readPrecision(setup)) throw sim::InputError(fmt::format("{}: has no section precision, which tells what to run it with", file));
     return setup;
 }
 
 /// The changes of a combination, the step by the cell where it is told in cells.
-std::vector<std::string> setsOf(const std::string& file, const std::array<const PrecisionChoice*, 4>& of, const Parts& parts)
+std::vector<std::string> setsOf(const std::string& file, const std::array<const PrecisionChoice*, 4>& of, const Backends& backends)
 {
     std::vector<std::string> sets;
     for (const PrecisionChoice* choice : of) sets.insert(sets.end(), choice->sets.begin(), choice->sets.end());
     const PrecisionChoice& step = *of[3];
     if (step.cells <= 0.0) return sets;
-    const SceneSetup setup = load(file, sets, parts);
+    const SceneSetup setup = load(file, sets, backends);
     const double speed = readPrecision(setup)->speed;
     if (!(speed > 0.0))
         throw sim::InputError(fmt::format("{}: precision.speed is missing: how fast is liquid that crosses so many cells per step?", file));
@@ -52,14 +52,14 @@ std::vector<Check> checksAgainst(const Precision& precision, const AllReadings& 
 struct Outcome {
     AllReadings errors;
     std::vector<Reading> energies;
-    Followed followed;
+    RunReadings followed;
 };
 
 /// @param checks  that look at the section's measures
-Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::vector<Check>& checks, const Parts& parts,
+Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::vector<Check>& checks, const Backends& backends,
                 const std::function<bool()>& stopWanted)
 {
-    const auto simulation = parts.startSimulation(setup);
+    const auto simulation = backends.startSimulation(setup);
     precision.measures->look(*simulation);
     Outcome outcome;
     outcome.errors.resize(checks.size());
@@ -69,8 +69,8 @@ Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::
         if (precision.energy) outcome.energies.push_back({time, (*precision.energy)(std::array{time}), 0.0});
         precision.measures->startInterval();
     };
-    outcome.followed = follow(
-        *simulation, setup.scene, precision.every, read, [&] { precision.measures->tookStep(); }, stopWanted);
+    outcome.followed = runAndRead(
+        *simulation, setup.scene, precision.every, read, [&] { precision.measures->afterStep(); }, stopWanted);
     return outcome;
 }
 
@@ -113,9 +113,9 @@ std::string settingsOf(const SceneSetup& setup)
     return contentHash(asked, false, 0);
 }
 
-std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& parts, bool isQuick)
+std::vector<PrecisionRun> precisionRuns(const std::string& file, const Backends& backends, bool isQuick)
 {
-    const Precision precision = *readPrecision(load(file, {}, parts));
+    const Precision precision = *readPrecision(load(file, {}, backends));
     const auto wanted = [&](Choices choices) {
         std::erase_if(choices, [&](const PrecisionChoice& choice) { return isQuick && !choice.isQuick; });
         return choices;
@@ -126,24 +126,27 @@ std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& pa
             for (const auto& integrator : wanted(precision.integrators))
                 for (const auto& step : wanted(precision.steps)) {
                     const PrecisionNames names{method.name, integrator.name, step.name, resolution.name};
-                    SceneSetup setup = load(file, setsOf(file, {&resolution, &method, &integrator, &step}, parts), parts);
+                    SceneSetup setup = load(file, setsOf(file, {&resolution, &method, &integrator, &step}, backends), backends);
                     const std::string settings = settingsOf(setup);
                     runs.push_back({setup.scene.name, names, std::move(setup), settings});
                 }
     return runs;
 }
 
-SceneSetup convergedSetup(const std::string& file, const Parts& parts) { return load(file, readPrecision(load(file, {}, parts))->converged, parts); }
+SceneSetup convergedSetup(const std::string& file, const Backends& backends)
+{
+    return load(file, readPrecision(load(file, {}, backends))->converged, backends);
+}
 
-AllReadings readErrors(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted)
+AllReadings readErrors(const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted)
 {
     const Precision precision = *readPrecision(setup);
     std::vector<Check> checks = precision.errors;
     for (Check& check : checks) check.statistic = Statistic::Last;  // nothing to compare with yet: all readings are kept
-    return runOnce(setup, precision, checks, parts, stopWanted).errors;
+    return runOnce(setup, precision, checks, backends, stopWanted).errors;
 }
 
-PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& converged, int threads, int repeats, const Parts& parts,
+PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& converged, int threads, int repeats, const Backends& backends,
                               const std::function<bool()>& stopWanted)
 {
     const Precision precision = *readPrecision(run.setup);
@@ -152,7 +155,7 @@ PrecisionRow measurePrecision(const PrecisionRun& run, const AllReadings& conver
     std::vector<double> seconds;
     try {
         for (int n = 0; n < repeats; ++n) {
-            const Outcome outcome = withThreads(threads, [&] { return runOnce(run.setup, precision, checks, parts, stopWanted); });
+            const Outcome outcome = withThreads(threads, [&] { return runOnce(run.setup, precision, checks, backends, stopWanted); });
             seconds.push_back(outcome.followed.stepSeconds);
             row.steps = outcome.followed.steps;
             row.cfl = outcome.followed.largestCfl;

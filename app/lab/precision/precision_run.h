@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/lab/precision/precision_row.h"
-#include "app/parts.h"
 
 #include <functional>
 #include <string>
@@ -22,17 +22,17 @@ std::string settingsOf(const SceneSetup& setup);
 
 /// All combinations of the scene's choices. Throws InputError, also where it has no section precision.
 /// @param isQuick  only those that its part `quick` names
-std::vector<PrecisionRun> precisionRuns(const std::string& file, const Parts& parts, bool isQuick);
+std::vector<PrecisionRun> precisionRuns(const std::string& file, const Backends& backends, bool isQuick);
 
 /// The run that others are held against.
-SceneSetup convergedSetup(const std::string& file, const Parts& parts);
+SceneSetup convergedSetup(const std::string& file, const Backends& backends);
 
 /// What a run reads for each of the errors, to its end. Throws RunError.
-std::vector<std::vector<Reading>> readErrors(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted);
+std::vector<std::vector<Reading>> readErrors(const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted);
 
 /// Run it so many times. What keeps a run from its end stands in the row; a wish to stop is thrown as RunError.
 /// @param converged  readings of the run to compare with, of each of the errors; empty where all is known
 PrecisionRow measurePrecision(const PrecisionRun& run, const std::vector<std::vector<Reading>>& converged, int threads, int repeats,
-                              const Parts& parts, const std::function<bool()>& stopWanted);
+                              const Backends& backends, const std::function<bool()>& stopWanted);
 
 }  // namespace app

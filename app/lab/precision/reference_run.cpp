@@ -53,14 +53,14 @@ AllReadings readFile(const std::filesystem::path& file, const std::string& setti
 
 }  // namespace
 
-AllReadings convergedReadings(const std::filesystem::path& file, const SceneSetup& setup, int threads, const Parts& parts,
+AllReadings convergedReadings(const std::filesystem::path& file, const SceneSetup& setup, int threads, const Backends& backends,
                               const std::function<bool()>& stopWanted)
 {
     const std::string settings = settingsOf(setup);
     AllReadings all = readFile(file, settings, readPrecision(setup)->errors.size());
     if (!all.empty()) return all;
     const auto begin = std::chrono::steady_clock::now();
-    all = withThreads(threads, [&] { return readErrors(setup, parts, stopWanted); });
+    all = withThreads(threads, [&] { return readErrors(setup, backends, stopWanted); });
     writeWhole(file, textOf(all, settings));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     fmt::print("{:<14} converged run in {}\n", setup.scene.name, formatDuration(took.count()));

@@ -47,12 +47,12 @@ struct Escapes {
 
 }  // namespace
 
-std::string whatEscaped(const std::filesystem::path& file, const std::filesystem::path& folder, const std::optional<Eigen::AlignedBox3d>& vessel)
+std::string describeEscape(const std::filesystem::path& file, const std::filesystem::path& folder, const std::optional<Eigen::AlignedBox3d>& vessel)
 {
-    const auto frames = storedFrames(folder, StateKind::ForGoingOn);
+    const auto frames = storedFrames(folder, StateKind::ForResuming);
     if (frames.empty()) return "";
     const sim::Scene scene = sim::loadScene(file);
-    const sim::State state = loadCheckpoint(stateFile(folder, StateKind::ForGoingOn, frames.back())).state;
+    const sim::State state = loadCheckpoint(stateFile(folder, StateKind::ForResuming, frames.back())).state;
     sim::Obstacles obstacles;
     for (const sim::ObstacleSettings& obstacle : scene.obstacles) obstacles.add(obstacle.shape, obstacle.motion);
     obstacles.moveTo(state.time, state.time);

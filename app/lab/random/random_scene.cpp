@@ -9,14 +9,14 @@ namespace app {
 namespace {
 
 /// What a scene is about.
-struct Cast {
+struct Composition {
     bool hasLiquid = true, hasFabric = true, hasObstacles = true, hasTank = true;
 };
 
-Cast randomCast(RandomSource& random)
+Composition randomComposition(RandomSource& random)
 {
     const double what = random.between(0.0, 1.0);
-    Cast cast;
+    Composition cast;
     cast.hasFabric = what > 0.35;
     cast.hasLiquid = what < 0.8;
     cast.hasObstacles = random.chance(0.6);
@@ -168,7 +168,7 @@ RandomScene randomScene(std::uint64_t seed, int number)
     RandomSource random(seed, static_cast<std::uint64_t>(number));
     const double cell = random.acrossScales(0.08, 0.5), dt = kPublishedStep * random.acrossScales(0.5, 20.0);
     RandomPile pile{.cell = cell, .duration = dt * random.whole(30, 80), .height = 0.5 * cell};
-    const Cast cast = randomCast(random);
+    const Composition cast = randomComposition(random);
 
     std::string text = fmt::format("drench: 1\nscene: {{name: {}}}\n", randomSceneName(seed, number));
     text += randomTime(random, pile, dt);

@@ -51,7 +51,7 @@ void judgeLaws(const fs::path& file, const fs::path& folder, const RandomScene& 
         outcome.ending = StressEnding::Unsound;
         outcome.message = why;
     }
-    if (const std::string why = whatEscaped(file, folder, scene.vessel); !why.empty()) {
+    if (const std::string why = describeEscape(file, folder, scene.vessel); !why.empty()) {
         outcome.ending = StressEnding::Escaped;
         outcome.message = why;
     }

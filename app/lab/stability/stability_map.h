@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/parts.h"
+#include "app/backends.h"
 #include "app/system/process_pool.h"
 
 #include <filesystem>
@@ -47,8 +47,8 @@ std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std
 
 /// The same with one number of the scene made larger or smaller by factors: stiffness, density, viscosity or cell. Throws
 /// InputError for another one.
-std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
-                                      const std::vector<double>& factors);
+std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
+                                           const std::vector<double>& factors);
 
 /// Judge a run by how it ended and its logs in the folder.
 StabilityRow judgeStability(const ProcessEnd& end, const std::filesystem::path& folder, StabilityRow row);

@@ -33,7 +33,7 @@ void requireMethod(const std::string& name)
     if (std::ranges::find(known, name) == known.end()) throw sim::InputError(fmt::format("--method {}: there are {}", name, fmt::join(known, ", ")));
 }
 
-std::vector<std::string> knobSets(const SceneSetup& setup, const std::string& knob, double factor)
+std::vector<std::string> parameterOverrides(const SceneSetup& setup, const std::string& knob, double factor)
 {
     const sim::LiquidSettings& liquid = setup.scene.settings.liquid;
     if (knob == "density") return {fmt::format("liquid.density={:.6g}", factor * liquid.density)};
@@ -65,15 +65,15 @@ std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std
     return methods;
 }
 
-std::vector<StabilityMethod> withKnob(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
-                                      const std::vector<double>& factors)
+std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
+                                           const std::vector<double>& factors)
 {
     std::vector<StabilityMethod> all;
     for (const StabilityMethod& method : methods) {
         for (const double factor : factors) {
             StabilityMethod& turned = all.emplace_back(method);
             turned.name += fmt::format(" {}*{:g}", knob, factor);
-            std::ranges::copy(knobSets(setup, knob, factor), std::back_inserter(turned.sets));
+            std::ranges::copy(parameterOverrides(setup, knob, factor), std::back_inserter(turned.sets));
         }
     }
     return all;

@@ -53,9 +53,9 @@ void addStep(const sim::StepReport& report, double share, BenchRepeat& repeat)
 double BenchResult::minimum(int stage) const { return std::ranges::min(allRepeats(*this, stage)); }
 double BenchResult::middle(int stage) const { return median(allRepeats(*this, stage)); }
 
-BenchRepeat benchOnce(const SceneSetup& setup, const Parts& parts, const Options& options)
+BenchRepeat benchOnce(const SceneSetup& setup, const Backends& backends, const Options& options)
 {
-    const auto simulation = parts.startSimulation(setup);
+    const auto simulation = backends.startSimulation(setup);
     const sim::State& state = simulation->state();
     for (int n = 0; n < options.warmupSteps; ++n) simulation->step(nextFrameTime(setup, state.time));
     BenchRepeat repeat;

@@ -17,18 +17,18 @@ void readAll(const Validation& validation, double time, CaseResult& result)
         if (const auto reading = readOnce(validation.checks[i], time)) result.readings[i].push_back(*reading);
 }
 
-void follow(const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted, CaseResult& result)
+void runAndRead(const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted, CaseResult& result)
 {
     const Validation& validation = result.validation;
-    const auto simulation = parts.startSimulation(setup);
+    const auto simulation = backends.startSimulation(setup);
     validation.measures->look(*simulation);
     Measures& measures = *validation.measures;
     const auto read = [&](double time) {
         readAll(validation, time, result);
         measures.startInterval();
     };
-    result.steps = follow(
-                       *simulation, setup.scene, validation.every, read, [&] { measures.tookStep(); }, stopWanted)
+    result.steps = runAndRead(
+                       *simulation, setup.scene, validation.every, read, [&] { measures.afterStep(); }, stopWanted)
                        .steps;
 }
 
@@ -36,14 +36,14 @@ void follow(const SceneSetup& setup, const Parts& parts, const std::function<boo
 
 bool CaseResult::passes() const { return failure.empty() && std::ranges::all_of(findings, &Finding::passes); }
 
-CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted)
+CaseResult runCase(const std::string& name, const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted)
 {
     const auto begin = std::chrono::steady_clock::now();
     CaseResult result{.name = name, .setup = setup, .validation = *readValidation(setup), .readings = {}};
     const std::vector<Check>& checks = result.validation.checks;
     result.readings.resize(checks.size());
     try {
-        follow(setup, parts, stopWanted, result);
+        runAndRead(setup, backends, stopWanted, result);
         for (std::size_t i = 0; i < checks.size(); ++i) result.findings.push_back(judge(checks[i], result.readings[i]));
     } catch (const sim::RunError& error) {
         result.failure = error.what();

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/backends.h"
 #include "app/lab/validation/validation.h"
-#include "app/parts.h"
 
 #include <functional>
 #include <string>
@@ -24,6 +24,6 @@ struct CaseResult {
 };
 
 /// Runs a scene with a section `validate` to its end and compares it with what is known.
-CaseResult runCase(const std::string& name, const SceneSetup& setup, const Parts& parts, const std::function<bool()>& stopWanted);
+CaseResult runCase(const std::string& name, const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted);
 
 }  // namespace app

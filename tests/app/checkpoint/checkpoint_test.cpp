@@ -1,7 +1,7 @@
 // The file of a state: what is written is read, and nothing else is taken for it.
 #include "app/checkpoint/checkpoint.h"
 
-#include "app/parts.h"
+#include "app/backends.h"
 #include "sim/core/check.h"
 #include "sim/state_fields.h"
 #include "sim/state_hash.h"

@@ -4,7 +4,7 @@
 #include "app/diff/diff.h"
 #include "app/runs/run_offline.h"
 #include "sim/core/check.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/temporary_folder.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class DiffRuns : public testing::Test {
  protected:
     void run(const std::string& name, const ToySettings& toy = {}) const
     {
-        runOffline(toySetup(toy), toyParts(toy), {.out = folder / name, .contentHash = "0123", .threads = 2, .stopWanted = goOn});
+        runOffline(toySetup(toy), toyBackends(toy), {.out = folder / name, .contentHash = "0123", .threads = 2, .stopWanted = goOn});
     }
     DiffResult diff(const std::string& a, const std::string& b, const std::vector<std::string>& sets = {}) const
     {

@@ -1,6 +1,6 @@
 // Pictures of real scenes, drawn without a window.
+#include "app/backends.h"
 #include "app/frames/snapshot_from_state.h"
-#include "app/parts.h"
 #include "render/image.h"
 #include "tests/app/temporary_folder.h"
 
@@ -14,22 +14,22 @@ namespace {
 
 SceneSetup load(const std::string& name, std::vector<std::string> sets)
 {
-    return drenchParts().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/" + name + ".yaml", .variant = "", .sets = std::move(sets)});
+    return drenchBackends().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/" + name + ".yaml", .variant = "", .sets = std::move(sets)});
 }
 
 /// A run as far as `time` [s].
-std::unique_ptr<Steppable> runTo(double time, const SceneSetup& setup)
+std::unique_ptr<SimulationHandle> runTo(double time, const SceneSetup& setup)
 {
-    auto simulation = drenchParts().startSimulation(setup);
+    auto simulation = drenchBackends().startSimulation(setup);
     while (simulation->state().time < time) simulation->step(time);
     return simulation;
 }
 
-FrameSnapshot shotOf(const Steppable& simulation, const SceneSetup& setup, const SnapshotExtras& extras)
+FrameSnapshot shotOf(const SimulationHandle& simulation, const SceneSetup& setup, const SnapshotExtras& extras)
 {
     FrameSnapshot snapshot;
     takeSnapshot(simulation.state(), simulation.fabric(), simulation.contacts(), setup.scene.settings.liquid.density, extras, snapshot);
-    drenchParts().meshObstacles(setup)(simulation.state().time, snapshot.obstacles);
+    drenchBackends().meshObstacles(setup)(simulation.state().time, snapshot.obstacles);
     return snapshot;
 }
 
@@ -39,7 +39,7 @@ render::Image pictureOf(FrameSnapshot& snapshot, const SceneSetup& setup, const 
     const TemporaryFolder folder;
     const char* const keep = std::getenv("DRENCH_KEEP_PICTURES");
     const std::filesystem::path file = (keep != nullptr ? std::filesystem::path(keep) : folder / "") / (name + ".png");
-    drenchParts().startRenderer(setup, false)(snapshot)(file);
+    drenchBackends().startRenderer(setup, false)(snapshot)(file);
     return render::readPng(file);
 }
 

@@ -2,7 +2,7 @@
 
 #include "app/runs/run_offline.h"
 #include "tests/app/export/geometry_in_test.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ void runToy(const test::ToySettings& toy, const std::filesystem::path& out, bool
     SceneSetup setup = test::toySetup(toy);
     setup.scene.settings.liquid.density = 4.0;
     setup.pictures.output.geometry = geometry;
-    runOffline(setup, test::toyParts(toy), {.out = out, .contentHash = "0123", .frames = false});
+    runOffline(setup, test::toyBackends(toy), {.out = out, .contentHash = "0123", .frames = false});
 }
 
 TEST(RunWithGeometry, EveryFrameIsThereAtItsTime)

@@ -23,7 +23,7 @@ class Refused {
     {
         test::writeFile(folder_ / "bad.xml", content);
         try {
-            importScene(folder_ / "bad.xml", folder_ / "bad.yaml", {}, drenchParts());
+            importScene(folder_ / "bad.xml", folder_ / "bad.yaml", {}, drenchBackends());
         } catch (const sim::InputError& error) {
             message = error.what();
         }
@@ -60,12 +60,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 TEST(BadImport, NoFile)
 {
     test::TemporaryFolder folder;
-    EXPECT_THROW(importScene(folder / "none.xml", folder / "none.yaml", {}, drenchParts()), sim::InputError);
-    EXPECT_THROW(importScene(folder.path(), folder / "none.yaml", {}, drenchParts()), sim::InputError);
-    EXPECT_THROW(importScene(ownScene("odd"), folder / "no" / "folder.yaml", {}, drenchParts()), sim::InputError);
+    EXPECT_THROW(importScene(folder / "none.xml", folder / "none.yaml", {}, drenchBackends()), sim::InputError);
+    EXPECT_THROW(importScene(folder.path(), folder / "none.yaml", {}, drenchBackends()), sim::InputError);
+    EXPECT_THROW(importScene(ownScene("odd"), folder / "no" / "folder.yaml", {}, drenchBackends()), sim::InputError);
     const std::string sheet = test::contentOf(ownScene("sheet"));
     test::writeFile(folder / "scene.xml", sheet);
-    EXPECT_THROW(importScene(folder / "scene.xml", folder / "scene.xml", {}, drenchParts()), sim::InputError);
+    EXPECT_THROW(importScene(folder / "scene.xml", folder / "scene.xml", {}, drenchBackends()), sim::InputError);
     EXPECT_EQ(test::contentOf(folder / "scene.xml"), sheet) << "it does not write over what it reads";
 }
 

@@ -14,14 +14,14 @@ inline std::filesystem::path ownScene(const std::string& name) { return std::fil
 /// A scene of libWetCloth, imported into a folder of the test's own, and loaded from there.
 class Imported {
  public:
-    explicit Imported(const std::filesystem::path& xml, const ImportOptions& options = {}) : parts_(drenchParts())
+    explicit Imported(const std::filesystem::path& xml, const ImportOptions& options = {}) : backends_(drenchBackends())
     {
         yaml_ = folder_ / (xml.stem().string() + ".yaml");
-        report = importScene(xml, yaml_, options, parts_);
+        report = importScene(xml, yaml_, options, backends_);
     }
-    SceneSetup setup() const { return parts_.loadScene({yaml_.string(), "", {}}); }
+    SceneSetup setup() const { return backends_.loadScene({yaml_.string(), "", {}}); }
     sim::Scene scene() const { return setup().scene; }
-    std::unique_ptr<Steppable> start(const SceneSetup& setup) const { return parts_.startSimulation(setup); }
+    std::unique_ptr<SimulationHandle> start(const SceneSetup& setup) const { return backends_.startSimulation(setup); }
     std::string yaml() const { return contentOf(yaml_); }
     const std::filesystem::path& folder() const { return folder_.path(); }
 
@@ -29,7 +29,7 @@ class Imported {
 
  private:
     TemporaryFolder folder_;
-    Parts parts_;
+    Backends backends_;
     std::filesystem::path yaml_;
 };
 

@@ -1,7 +1,7 @@
 #include "drench/frames.h"
 
+#include "app/backends.h"
 #include "app/frames/snapshot_from_state.h"
-#include "app/parts.h"
 #include "render/image.h"
 #include "tests/app/temporary_folder.h"
 
@@ -19,14 +19,14 @@ constexpr const char* kShaders = DRENCH_SOURCE_DIR "/shaders";
 render::Image byProgram()
 {
     const TemporaryFolder folder;
-    const app::Parts parts = app::drenchParts();
-    const app::SceneSetup setup = parts.loadScene({.file = kScene, .variant = "", .sets = {}});
-    const auto simulation = parts.startSimulation(setup);
+    const app::Backends backends = app::drenchBackends();
+    const app::SceneSetup setup = backends.loadScene({.file = kScene, .variant = "", .sets = {}});
+    const auto simulation = backends.startSimulation(setup);
     app::FrameSnapshot snapshot;
     app::takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), setup.scene.settings.liquid.density,
                       app::extrasOf(setup.pictures.render), snapshot);
-    parts.meshObstacles(setup)(0.0, snapshot.obstacles);
-    parts.startRenderer(setup, false)(snapshot)(folder / "program.png");
+    backends.meshObstacles(setup)(0.0, snapshot.obstacles);
+    backends.startRenderer(setup, false)(snapshot)(folder / "program.png");
     return render::readPng(folder / "program.png");
 }
 

@@ -1,6 +1,6 @@
 #include "app/live/live_pair.h"
 
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +14,16 @@ namespace {
 struct Pair {
     LivePair pair;
 
-    static Parts parts(int stepMilliseconds, int failAtStep = 0)
+    static Backends backends(int stepMilliseconds, int failAtStep = 0)
     {
         ToySettings toy;
         toy.duration = 0.1;
         toy.dt = stepMilliseconds > 1 ? 0.004 : 0.002;
         toy.stepMilliseconds = stepMilliseconds;
         toy.failAtStep = failAtStep;
-        return toyParts(toy);
+        return toyBackends(toy);
     }
-    explicit Pair(int failAtStep = 0) : pair({}, parts(1)) { pair.putBeside({}, parts(7, failAtStep)); }
+    explicit Pair(int failAtStep = 0) : pair({}, backends(1)) { pair.addSecondSide({}, backends(7, failAtStep)); }
 
     double time(int side) const
     {
@@ -114,7 +114,7 @@ TEST(LivePair, OneThatFailsDoesNotHoldUpTheOther)
 TEST(LivePair, AloneItShowsWhatIsNewestOrEveryFrame)
 {
     Pair p;
-    p.pair.removeBeside();
+    p.pair.removeSecondSide();
     p.pair.showEveryFrame(true);
     p.pair.playOrPause();
     std::vector<double> times;

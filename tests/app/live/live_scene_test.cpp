@@ -21,8 +21,8 @@ SceneRequest shortDrop()
 
 std::uint64_t hashOfRun(const SceneRequest& request)
 {
-    const SceneSetup setup = drenchParts().loadScene(request);
-    const auto run = drenchParts().startSimulation(setup);
+    const SceneSetup setup = drenchBackends().loadScene(request);
+    const auto run = drenchBackends().startSimulation(setup);
     for (std::int64_t frame = 1; frame <= frameCount(setup); ++frame)
         while (run->state().time < frameTime(setup, frame)) run->step(frameTime(setup, frame));
     return run->stateHash();
@@ -31,7 +31,7 @@ std::uint64_t hashOfRun(const SceneRequest& request)
 struct LiveDrop {
     LiveSimulation live;
 
-    explicit LiveDrop(const SceneRequest& request = shortDrop()) : live(request, drenchParts()) {}
+    explicit LiveDrop(const SceneRequest& request = shortDrop()) : live(request, drenchBackends()) {}
 
     template <class F>
     bool comesTrue(F&& isTrue)
@@ -105,8 +105,8 @@ SceneRequest probedDrop()
 /// Of a run without a window.
 std::vector<ProbeReading> readingsOfRun(const SceneRequest& request)
 {
-    const SceneSetup setup = drenchParts().loadScene(request);
-    const auto run = drenchParts().startSimulation(setup);
+    const SceneSetup setup = drenchBackends().loadScene(request);
+    const auto run = drenchBackends().startSimulation(setup);
     ProbeReader reader(*readProbes(setup), setup.scene.settings.time.start);
     std::vector<ProbeReading> readings = {reader.initial(*run)};
     for (std::int64_t frame = 1; frame <= frameCount(setup); ++frame)
@@ -155,13 +155,13 @@ TEST(LiveScene, ReadingsAfterATimeAreForgottenAndReadAgain)
     drop.live.stateHash();  // when it is there
     drop.end();
     const LiveReadings again = drop.live.takeReadings();
-    EXPECT_EQ(again.forgetAfter, 0.01);
+    EXPECT_EQ(again.dropAfter, 0.01);
     expectSame(again.readings, {after, known.end()});
     drop.live.restart();
     drop.live.stateHash();
     drop.end();
     const LiveReadings anew = drop.live.takeReadings();
-    EXPECT_LT(anew.forgetAfter, 0.0);
+    EXPECT_LT(anew.dropAfter, 0.0);
     expectSame(anew.readings, known);
 }
 

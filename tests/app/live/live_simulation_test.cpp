@@ -1,6 +1,6 @@
 #include "app/live/live_simulation.h"
 
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ struct Live {
     ToySettings toy;
     LiveSimulation live;
 
-    explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20) : toy(t), live(SceneRequest(), toyParts(t), memory) {}
+    explicit Live(const ToySettings& t = {}, std::size_t memory = std::size_t{1} << 20) : toy(t), live(SceneRequest(), toyBackends(t), memory) {}
     bool comesTo(LiveMode mode)
     {
         return comesTrue([&] { return live.status().mode == mode; });

@@ -1,6 +1,6 @@
 #include "app/pictures/video.h"
 #include "app/pictures/side_by_side.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -72,9 +72,9 @@ TEST(SideBySide, FramesAreMatchedByTimeNotByNumber)
 TEST(SideBySide, WithoutFfmpegThereArePictures)
 {
     TemporaryFolder folder;
-    const auto parts = test::toyParts({});
+    const auto backends = test::toyBackends({});
     const auto setup = test::toySetup({});
-    const auto draw = parts.startRenderer(setup, true);
+    const auto draw = backends.startRenderer(setup, true);
     std::vector<FrameSequence> sequences;
     for (const char* name : {"a", "b"}) {
         std::filesystem::create_directory(folder / name);
@@ -86,7 +86,7 @@ TEST(SideBySide, WithoutFfmpegThereArePictures)
         sequences.push_back({.folder = folder / name, .label = name, .start = 0.0, .every = 0.01, .last = 2});
     }
     const EnvironmentVariable path("PATH", "");
-    const auto made = composeSideBySide(sequences, 0.01, setup.pictures, parts, folder.path(), [] { return false; });
+    const auto made = composeSideBySide(sequences, 0.01, setup.pictures, backends, folder.path(), [] { return false; });
     EXPECT_EQ(made, folder / "side_by_side");
     EXPECT_TRUE(std::filesystem::exists(made / frameFileName(2)));
     EXPECT_FALSE(std::filesystem::exists(made / frameFileName(3)));

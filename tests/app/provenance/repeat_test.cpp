@@ -125,7 +125,7 @@ TEST_F(Repeat, EveryResultSaysOfWhatItWasMade)
     EXPECT_NE(made.at("libraries").at("opengl").get<std::string>().find("Mesa"), std::string::npos);
     EXPECT_NE(made.at("command").get<std::string>().find("run small.yaml --no-video"), std::string::npos);
     EXPECT_EQ(json::parse(contentOf(folder / "run" / "geometry" / "provenance.json")), made);
-    for (const StateKind kind : {StateKind::ForPictures, StateKind::ForGoingOn})
+    for (const StateKind kind : {StateKind::ForPictures, StateKind::ForResuming})
         for (const std::int64_t frame : storedFrames(folder / "run", kind))
             EXPECT_EQ(json::parse(loadCheckpoint(stateFile(folder / "run", kind, frame)).origin.provenance), made) << frame;
     const std::string program = "Drench " + made.at("version").get<std::string>() + " (" + made.at("commit").get<std::string>() + ")";

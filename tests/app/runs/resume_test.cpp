@@ -21,7 +21,7 @@ class Resume : public testing::Test, protected SmallRuns {
         EXPECT_EQ(end.code, 2) << end.errorText;
         EXPECT_NE(end.lastWords().find(mentions), std::string::npos) << end.errorText;
     }
-    std::filesystem::path checkpointOf(const std::string& run, int frame) const { return stateFile(folder / run, StateKind::ForGoingOn, frame); }
+    std::filesystem::path checkpointOf(const std::string& run, int frame) const { return stateFile(folder / run, StateKind::ForResuming, frame); }
 };
 
 /// run(0 → T) is run(0 → t) and a resumed run to T, whatever is used to step.
@@ -87,7 +87,7 @@ TEST_F(Resume, GoesOnFromAnyFrameOfWhichThereIsACheckpoint)
     ASSERT_EQ(run("whole").code, 0);
     const std::string whole = hash("whole");
     const std::string last = contentOf(folder / "whole" / "frame_00020.png");
-    EXPECT_EQ(storedFrames(folder / "whole", StateKind::ForGoingOn), (std::vector<std::int64_t>{2, 4, 6, 8, 10, 12, 14, 16, 18, 20}));
+    EXPECT_EQ(storedFrames(folder / "whole", StateKind::ForResuming), (std::vector<std::int64_t>{2, 4, 6, 8, 10, 12, 14, 16, 18, 20}));
     for (const char* frame : {"12", "4"}) {
         std::filesystem::remove(folder / "whole" / "frame_00020.png");
         ASSERT_EQ(resume("whole", {"--from-frame", frame}).code, 0);
@@ -101,7 +101,7 @@ TEST_F(Resume, GoesOnFromAnyFrameOfWhichThereIsACheckpoint)
 TEST_F(Resume, KeepsAsManyCheckpointsAsWanted)
 {
     ASSERT_EQ(run("run", {"--set", "output.checkpoint.keep=2"}).code, 0);
-    EXPECT_EQ(storedFrames(folder / "run", StateKind::ForGoingOn), (std::vector<std::int64_t>{18, 20}));
+    EXPECT_EQ(storedFrames(folder / "run", StateKind::ForResuming), (std::vector<std::int64_t>{18, 20}));
     EXPECT_EQ(storedFrames(folder / "run", StateKind::ForPictures).size(), 21u);
     ASSERT_EQ(run("run", {"--set", "output.data=[energy]"}).code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "run" / "checkpoints")) << "those of the run before are gone";
@@ -237,7 +237,7 @@ TEST_F(Resume, AFullDiskIsSurvived)
     const ChildExit end = runChild(*findProgram("sh"), {"-c", script, DRENCH_PROGRAM}, {.folder = folder.path()});
     EXPECT_EQ(end.code, 1);
     EXPECT_NE(end.lastWords().find("File too large"), std::string::npos) << end.errorText;
-    EXPECT_EQ(storedFrames(folder / "run", StateKind::ForGoingOn).back(), 10);
+    EXPECT_EQ(storedFrames(folder / "run", StateKind::ForResuming).back(), 10);
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "run"))
         EXPECT_NE(entry.path().extension(), ".part") << entry.path();
     ASSERT_EQ(resume("run", {"--set", "time.duration=0.08"}).code, 0);
@@ -269,7 +269,7 @@ TEST_F(Resume, KilledFiftyTimesItComesToTheSameEnd)
     std::mt19937 random(1);
     int kills = 0, ends = 0;
     while (kills < kKills) {
-        const auto there = storedFrames(folder / "run", StateKind::ForGoingOn);
+        const auto there = storedFrames(folder / "run", StateKind::ForResuming);
         std::vector<std::string> arguments = {"run", "--no-video", "--threads", "1"};
         if (there.empty()) arguments.insert(arguments.end(), {"small.yaml", "--out", "run"});
         else arguments.insert(arguments.end(), {"--resume", "run"});
@@ -286,7 +286,7 @@ TEST_F(Resume, KilledFiftyTimesItComesToTheSameEnd)
         }
         ASSERT_EQ(end.code, 128 + SIGKILL) << end.errorText;
         ++kills;
-        const auto now = storedFrames(folder / "run", StateKind::ForGoingOn);
+        const auto now = storedFrames(folder / "run", StateKind::ForResuming);
         for (const std::int64_t frame : now) ASSERT_NO_THROW(loadCheckpoint(checkpointOf("run", static_cast<int>(frame))));
         if (!there.empty()) {
             ASSERT_FALSE(now.empty());
@@ -310,7 +310,7 @@ TEST_F(Resume, KilledFiftyTimesItComesToTheSameEnd)
             EXPECT_NO_THROW(report("run"));
         }
     }
-    if (std::filesystem::exists(folder / "run" / "resolved.yaml") && !storedFrames(folder / "run", StateKind::ForGoingOn).empty()) {
+    if (std::filesystem::exists(folder / "run" / "resolved.yaml") && !storedFrames(folder / "run", StateKind::ForResuming).empty()) {
         ASSERT_EQ(resume("run").code, 0);
         EXPECT_EQ(hash("run"), hash("whole"));
         expectSameFiles("run", "whole");

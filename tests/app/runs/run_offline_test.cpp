@@ -2,7 +2,7 @@
 
 #include "app/reports/output_folder.h"
 #include "sim/core/check.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ RunSummary runToy(
     const ToySettings& toy, const std::filesystem::path& out, std::function<bool()> stopWanted = [] { return false; })
 {
     const RunOptions options = {.out = out, .contentHash = "0123", .threads = 2, .stopWanted = std::move(stopWanted)};
-    return runOffline(test::toySetup(toy), test::toyParts(toy), options);
+    return runOffline(test::toySetup(toy), test::toyBackends(toy), options);
 }
 
 json reportOf(const std::filesystem::path& out) { return json::parse(test::contentOf(out / "report.json")); }
@@ -41,7 +41,7 @@ TEST(RunOffline, WritesOnlyTheLogsTheSceneWants)
         SceneSetup setup = test::toySetup({});
         setup.pictures.output.energy = energy;
         setup.pictures.output.stats = !energy;
-        runOffline(setup, test::toyParts({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
+        runOffline(setup, test::toyBackends({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
         EXPECT_EQ(std::filesystem::exists(folder / "energy.csv"), energy);
         EXPECT_EQ(std::filesystem::exists(folder / "steps.jsonl"), !energy);
         EXPECT_EQ(reportOf(folder.path()).at("steps"), 15);
@@ -53,7 +53,7 @@ TEST(RunOffline, LedgerOfEnergyTellsWhatIsNotBooked)
     TemporaryFolder folder;
     SceneSetup setup = test::toySetup({});
     setup.pictures.output.ledger = true;
-    runOffline(setup, test::toyParts({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
+    runOffline(setup, test::toyBackends({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
     EXPECT_EQ(test::linesOf(folder / "energy_ledger.csv").size(), 1u + 1u + 15u) << "header, initial state, steps";
     const json report = reportOf(folder.path()), ledger = report.at("energy_ledger");
     const double time = report.at("simulated_time");
@@ -191,7 +191,7 @@ TEST(RunOffline, PicturesDoNotChangeTheResult)
 {
     TemporaryFolder with, without;
     const auto drawn = runToy({}, with.path());
-    const auto undrawn = runOffline(test::toySetup({}), test::toyParts({}), {.out = without.path(), .contentHash = "", .frames = false});
+    const auto undrawn = runOffline(test::toySetup({}), test::toyBackends({}), {.out = without.path(), .contentHash = "", .frames = false});
     EXPECT_EQ(drawn.stateHash, undrawn.stateHash);
     EXPECT_EQ(drawn.steps, undrawn.steps);
     EXPECT_FALSE(std::filesystem::exists(without / frameFileName(0)));
@@ -274,9 +274,9 @@ TEST(RunOffline, ASceneThatCannotBeginLeavesEarlierResultsAlone)
 {
     TemporaryFolder folder;
     runToy({}, folder.path());
-    auto parts = test::toyParts({});
-    parts.startSimulation = [](const SceneSetup&) -> std::unique_ptr<Steppable> { throw sim::InputError("no room for a particle"); };
-    EXPECT_THROW(runOffline(test::toySetup({}), parts, {.out = folder.path(), .contentHash = ""}), sim::InputError);
+    auto backends = test::toyBackends({});
+    backends.startSimulation = [](const SceneSetup&) -> std::unique_ptr<SimulationHandle> { throw sim::InputError("no room for a particle"); };
+    EXPECT_THROW(runOffline(test::toySetup({}), backends, {.out = folder.path(), .contentHash = ""}), sim::InputError);
     EXPECT_EQ(reportOf(folder.path()).at("status"), "done");
     EXPECT_TRUE(std::filesystem::exists(folder / frameFileName(5)));
 }

@@ -38,8 +38,8 @@ inline SceneRequest shortDrop()
 
 inline std::uint64_t hashOfRun(const std::string& file)
 {
-    const SceneSetup setup = drenchParts().loadScene({.file = file, .variant = "", .sets = {}});
-    const auto run = drenchParts().startSimulation(setup);
+    const SceneSetup setup = drenchBackends().loadScene({.file = file, .variant = "", .sets = {}});
+    const auto run = drenchBackends().startSimulation(setup);
     for (std::int64_t frame = 1; frame <= frameCount(setup); ++frame)
         while (run->state().time < frameTime(setup, frame)) run->step(frameTime(setup, frame));
     return run->stateHash();
@@ -71,7 +71,7 @@ class Desktop {
     Folder folder_;
 
  public:
-    Desktop(const SceneRequest& request, const ViewOptions& options) : viewer(request, drenchParts(), options) {}
+    Desktop(const SceneRequest& request, const ViewOptions& options) : viewer(request, drenchBackends(), options) {}
     ~Desktop()
     {
         for (const std::string& complaint : viewer.takeGlMessages()) ADD_FAILURE() << complaint;

@@ -4,7 +4,7 @@
 #include "app/drawing/look_from_settings.h"
 #include "app/frames/snapshot_from_state.h"
 #include "app/live/live_simulation.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -159,7 +159,7 @@ TEST(LookPanel, WhatIsChosenComesWithTheNextSnapshot)
 {
     Screen screen;
     LookPanel panel(settings());
-    LiveSimulation live(SceneRequest(), toyParts({}));
+    LiveSimulation live(SceneRequest(), toyBackends({}));
     std::mt19937 random(7);
     bool hasArrows = false, hasPressure = false;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(300);

@@ -15,16 +15,16 @@ namespace {
 
 TEST(Viewer, ShowsWhatARunDraws)
 {
-    const Parts parts = drenchParts();
-    const SceneSetup setup = parts.loadScene(drop());
+    const Backends backends = drenchBackends();
+    const SceneSetup setup = backends.loadScene(drop());
     Desktop desktop(drop(), kPaused);
     const render::Image window = desktop.shot();
 
     FrameSnapshot snapshot;
-    const auto simulation = parts.startSimulation(setup);
+    const auto simulation = backends.startSimulation(setup);
     takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0, extrasOf(setup.pictures.render), snapshot);
-    parts.meshObstacles(setup)(0.0, snapshot.obstacles);
-    parts.startRenderer(setup, false)(snapshot)("run.png");
+    backends.meshObstacles(setup)(0.0, snapshot.obstacles);
+    backends.startRenderer(setup, false)(snapshot)("run.png");
     const render::Image drawn = render::readPng("run.png");
     ASSERT_EQ(window.width, drawn.width);
     ASSERT_EQ(window.height, drawn.height);
@@ -133,7 +133,7 @@ TEST(Viewer, WithoutADisplayItSaysWhatWouldDo)
     const std::string kept = display;
     unsetenv("DISPLAY");
     try {
-        Viewer viewer(drop(), drenchParts(), kPaused);
+        Viewer viewer(drop(), drenchBackends(), kPaused);
         ADD_FAILURE() << "a window without a display";
     } catch (const sim::RunError& error) {
         EXPECT_NE(std::string(error.what()).find("drench run"), std::string::npos) << error.what();

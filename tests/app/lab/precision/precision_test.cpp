@@ -4,7 +4,7 @@
 #include "app/system/atomic_files.h"
 #include "sim/core/check.h"
 #include "sim/scene/scene_file.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -30,32 +30,32 @@ double numberAt(const sim::SceneFile& file, const std::string& section, const st
     return std::stod(node->find(key)->text);
 }
 
-Parts flightParts(const std::string& text)
+Backends flightParts(const std::string& text)
 {
-    Parts parts = test::toyParts({});
-    parts.loadScene = [text](const SceneRequest& request) {
+    Backends backends = test::toyBackends({});
+    backends.loadScene = [text](const SceneRequest& request) {
         const sim::SceneFile file = sim::sceneFileFromText(text, "flight.yaml", {.variant = "", .set = request.sets});
         SceneSetup setup = test::toySetup({.dt = numberAt(file, "time", "dt"), .speed = numberAt(file, "", "speed")});
         setup.scene.settings.cell = 0.2;
         setup.file = file;
         return setup;
     };
-    parts.startSimulation = [](const SceneSetup& setup) {
+    backends.startSimulation = [](const SceneSetup& setup) {
         const double speed = std::stod(setup.identity.substr(setup.identity.find("speed: ") + 7));
-        return test::toyParts({.dt = setup.scene.settings.time.dt, .speed = speed, .failAtStep = setup.scene.settings.cell < 0.0 ? 1 : 0})
+        return test::toyBackends({.dt = setup.scene.settings.time.dt, .speed = speed, .failAtStep = setup.scene.settings.cell < 0.0 ? 1 : 0})
             .startSimulation(setup);
     };
-    return parts;
+    return backends;
 }
 
 bool never() { return false; }
 
-PrecisionRow measure(const PrecisionRun& run, const Parts& parts) { return measurePrecision(run, {}, 1, 1, parts, never); }
+PrecisionRow measure(const PrecisionRun& run, const Backends& backends) { return measurePrecision(run, {}, 1, 1, backends, never); }
 
 TEST(Precision, RunsEveryCombinationOfItsChoices)
 {
-    const Parts parts = flightParts(kFlight);
-    const auto all = precisionRuns("", parts, false), quick = precisionRuns("", parts, true);
+    const Backends backends = flightParts(kFlight);
+    const auto all = precisionRuns("", backends, false), quick = precisionRuns("", backends, true);
     EXPECT_EQ(all.size(), 6u);
     ASSERT_EQ(quick.size(), 2u);
     EXPECT_EQ(quick[0].names, (PrecisionNames{"fast", "-", "long", "-"}));
@@ -64,9 +64,9 @@ TEST(Precision, RunsEveryCombinationOfItsChoices)
 
 TEST(Precision, TellsErrorStepsAndEnergyOfARun)
 {
-    const Parts parts = flightParts(kFlight);
-    for (const PrecisionRun& run : precisionRuns("", parts, false)) {
-        const PrecisionRow row = measure(run, parts);
+    const Backends backends = flightParts(kFlight);
+    for (const PrecisionRun& run : precisionRuns("", backends, false)) {
+        const PrecisionRow row = measure(run, backends);
         const bool isFast = run.names.method == "fast";
         EXPECT_NEAR(row.error, isFast ? 0.1 : 0.0, 1.0e-12);
         EXPECT_NEAR(row.energyLeft, 1.0, 1.0e-12);
@@ -83,25 +83,25 @@ TEST(Precision, HoldsRunsAgainstAConvergedOne)
     std::string text = kFlight;
     text.replace(text.find(", expect: t"), 11, "");
     text += "  converged: {speed: 2}\n";
-    const Parts parts = flightParts(text);
-    const SceneSetup setup = convergedSetup("", parts);
+    const Backends backends = flightParts(text);
+    const SceneSetup setup = convergedSetup("", backends);
     const auto file = folder.path() / "flight_converged.csv";
-    const auto readings = convergedReadings(file, setup, 1, parts, never);
-    const auto run = precisionRuns("", parts, false).front();
-    EXPECT_NEAR(measurePrecision(run, readings, 1, 1, parts, never).error, 0.5, 1.0e-12);
+    const auto readings = convergedReadings(file, setup, 1, backends, never);
+    const auto run = precisionRuns("", backends, false).front();
+    EXPECT_NEAR(measurePrecision(run, readings, 1, 1, backends, never).error, 0.5, 1.0e-12);
 
     SceneSetup falling = setup;  // it would fall over, but is read and not run
     falling.scene.settings.cell = -1.0;
-    const auto again = convergedReadings(file, falling, 1, parts, never);
-    EXPECT_NEAR(measurePrecision(run, again, 1, 1, parts, never).error, 0.5, 1.0e-9);
+    const auto again = convergedReadings(file, falling, 1, backends, never);
+    EXPECT_NEAR(measurePrecision(run, again, 1, 1, backends, never).error, 0.5, 1.0e-9);
 }
 
 TEST(Precision, ARunThatFailsIsARowOfItsOwn)
 {
-    const Parts parts = flightParts(kFlight);
-    PrecisionRun run = precisionRuns("", parts, true).front();
+    const Backends backends = flightParts(kFlight);
+    PrecisionRun run = precisionRuns("", backends, true).front();
     run.setup.scene.settings.cell = -1.0;
-    const PrecisionRow row = measure(run, parts);
+    const PrecisionRow row = measure(run, backends);
     EXPECT_FALSE(row.isDone());
     EXPECT_NE(row.outcome.find("the toy fell over"), std::string::npos) << row.outcome;
     EXPECT_TRUE(std::isnan(row.error));
@@ -110,10 +110,10 @@ TEST(Precision, ARunThatFailsIsARowOfItsOwn)
 TEST(Precision, TableKnowsWhichRunsItHas)
 {
     test::TemporaryFolder folder;
-    const Parts parts = flightParts(kFlight);
+    const Backends backends = flightParts(kFlight);
     const auto file = folder.path() / "precision.csv";
-    PrecisionRun run = precisionRuns("", parts, true).front();
-    PrecisionTable(file).add(measure(run, parts));
+    PrecisionRun run = precisionRuns("", backends, true).front();
+    PrecisionTable(file).add(measure(run, backends));
     const PrecisionTable table(file);
     ASSERT_TRUE(table.find(run, 1, 1));
     EXPECT_NEAR(table.find(run, 1, 1)->error, 0.1, 1.0e-6);
@@ -151,8 +151,8 @@ TEST(Precision, TableRefusesFilesThatAreNoneOfIts)
 /// A case with the rows of the published scheme at 8 s and of ours.
 PrecisionCase caseOf(const std::vector<Cost>& ours)
 {
-    const Parts parts = flightParts(kFlight);
-    const auto runs = precisionRuns("", parts, false);
+    const Backends backends = flightParts(kFlight);
+    const auto runs = precisionRuns("", backends, false);
     PrecisionCase of{"flight", "Flight", *readPrecision(runs.front().setup), {}};
     const auto add = [&](const std::string& method, const std::string& step, const Cost& cost) {
         PrecisionRow& row = of.rows.emplace_back();

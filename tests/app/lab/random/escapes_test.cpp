@@ -41,16 +41,16 @@ struct KeptRun {
     }
     std::string told()
     {
-        std::filesystem::create_directories(stateFolder(folder.path(), StateKind::ForGoingOn));
-        saveCheckpoint({}, state, stateFile(folder.path(), StateKind::ForGoingOn, 1));
-        return whatEscaped(folder / "scene.yaml", folder.path(), vessel);
+        std::filesystem::create_directories(stateFolder(folder.path(), StateKind::ForResuming));
+        saveCheckpoint({}, state, stateFile(folder.path(), StateKind::ForResuming, 1));
+        return describeEscape(folder / "scene.yaml", folder.path(), vessel);
     }
 };
 
 TEST(Escapes, NothingOfASoundState)
 {
     KeptRun run;
-    EXPECT_EQ(whatEscaped(run.folder / "scene.yaml", run.folder.path(), run.vessel), "") << "nothing is kept yet";
+    EXPECT_EQ(describeEscape(run.folder / "scene.yaml", run.folder.path(), run.vessel), "") << "nothing is kept yet";
     EXPECT_EQ(run.told(), "");
     run.vessel.reset();
     EXPECT_EQ(run.told(), "");

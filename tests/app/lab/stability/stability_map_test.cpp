@@ -147,9 +147,9 @@ TEST(StabilityMap, MethodsGoWithBothFabricSolversWhereThereIsFabric)
     EXPECT_EQ(stabilityMethods(setup, {}).size(), 12u);
     const auto two = stabilityMethods(setup, {"polypic_27"});
     ASSERT_EQ(two.size(), 2u);
-    EXPECT_EQ(withKnob(two, setup, "density", {0.1, 10.0}).back().sets.back(), "liquid.density=10");
+    EXPECT_EQ(withParameter(two, setup, "density", {0.1, 10.0}).back().sets.back(), "liquid.density=10");
     EXPECT_THROW(stabilityMethods(setup, {"flip_9"}), sim::InputError);
-    EXPECT_THROW(withKnob(two, setup, "colour", {1.0}), sim::InputError);
+    EXPECT_THROW(withParameter(two, setup, "colour", {1.0}), sim::InputError);
 }
 
 }  // namespace

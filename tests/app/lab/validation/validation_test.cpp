@@ -1,7 +1,7 @@
 #include "app/lab/validation/run_case.h"
 #include "app/lab/validation/validation_report.h"
 #include "sim/core/check.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ CaseResult fly(const std::string& checks, const test::ToySettings& toy = {})
 {
     SceneSetup setup = test::toySetup(toy);
     setup.file = caseOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks));
-    return runCase("flight", setup, test::toyParts(toy), [] { return false; });
+    return runCase("flight", setup, test::toyBackends(toy), [] { return false; });
 }
 
 TEST(Validation, ComparesReadingsWithWhatIsKnown)

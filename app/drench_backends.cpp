@@ -1,8 +1,8 @@
+#include "app/backends.h"
 #include "app/drawing/obstacle_meshes.h"
 #include "app/drawing/offscreen_renderer.h"
 #include "app/lab/precision/precision.h"
 #include "app/lab/validation/validation.h"
-#include "app/parts.h"
 #include "app/probes/probes.h"
 #include "app/real_simulation.h"
 #include "app/scene/read_picture_settings.h"
@@ -53,7 +53,7 @@ SceneSetup loadScene(const SceneRequest& request)
 
 }  // namespace
 
-Parts drenchParts()
+Backends drenchBackends()
 {
     return {.loadScene = loadScene,
             .startSimulation = [](const SceneSetup& setup) { return std::make_unique<RealSimulation>(setup.scene); },

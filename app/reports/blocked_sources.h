@@ -9,11 +9,11 @@
 namespace app {
 
 /// Tells of each source of a run that has to stop because what it flows into is closed and full, the first time that it does.
-class ShutSources {
+class BlockedSources {
  public:
-    explicit ShutSources(const sim::Scene& scene);
+    explicit BlockedSources(const sim::Scene& scene);
     /// After a step: what is new, a line for each source.
-    std::vector<std::string> news(const sim::State& state);
+    std::vector<std::string> newlyBlocked(const sim::State& state);
     /// Tells it to the user.
     void look(const sim::State& state);
 

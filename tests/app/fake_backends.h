@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/parts.h"
+#include "app/backends.h"
 
 // A program with a toy in the place of the physics and another in the place of the renderer, so that everything around
 // them can be tested in milliseconds.
@@ -22,9 +22,9 @@ struct ToySettings {
 };
 
 SceneSetup toySetup(const ToySettings& toy);
-Parts toyParts(const ToySettings& toy);
+Backends toyBackends(const ToySettings& toy);
 
 /// The same from files, for a whole program.
-Parts toyPartsFromFiles();
+Backends toyBackendsFromFiles();
 
 }  // namespace app::test

@@ -1,8 +1,8 @@
-#include "app/reports/shut_sources.h"
+#include "app/reports/blocked_sources.h"
 
 #include "app/lab/validation/run_case.h"
 #include "app/runs/run_offline.h"
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 #include "tests/app/log.h"
 #include "tests/app/temporary_folder.h"
 
@@ -22,24 +22,24 @@ sim::Scene twoSources()
     return scene;
 }
 
-TEST(ShutSources, AreToldOfOnceEachWithTimeAndVolume)
+TEST(BlockedSources, AreToldOfOnceEachWithTimeAndVolume)
 {
-    ShutSources shut(twoSources());
+    BlockedSources shut(twoSources());
     sim::State state;
-    EXPECT_TRUE(shut.news(state).empty()) << "nothing was looked at yet";
+    EXPECT_TRUE(shut.newlyBlocked(state).empty()) << "nothing was looked at yet";
     state.time = 1.5;
     state.emittedVolume = {12.25, 3.0};
     state.memory.sources.resize(2);
-    EXPECT_TRUE(shut.news(state).empty());
+    EXPECT_TRUE(shut.newlyBlocked(state).empty());
     state.memory.sources[0].isShut = 1.0;
-    EXPECT_EQ(shut.news(state),
+    EXPECT_EQ(shut.newlyBlocked(state),
               std::vector<std::string>{"cup.yaml:7: liquid.sources.tap: stops at 1.5 s after 12.25 cm^3: what it flows into is closed "
                                        "and full; it goes on as soon as there is room"});
-    EXPECT_TRUE(shut.news(state).empty());
+    EXPECT_TRUE(shut.newlyBlocked(state).empty());
     state.memory.sources[0].isShut = 0.0;
-    EXPECT_TRUE(shut.news(state).empty());
+    EXPECT_TRUE(shut.newlyBlocked(state).empty());
     state.memory.sources[0].isShut = state.memory.sources[1].isShut = 1.0;
-    const std::vector<std::string> second = shut.news(state);
+    const std::vector<std::string> second = shut.newlyBlocked(state);
     ASSERT_EQ(second.size(), 1u);
     EXPECT_NE(second[0].find("liquid.sources.jet: stops at 1.5 s after 3 cm^3"), std::string::npos) << second[0];
 }
@@ -60,22 +60,22 @@ int timesTold(const std::string& words)
 }
 
 /// The toy's third step ends at 0.01 s, where a frame is, or 0.012 s.
-TEST(ShutSources, AreToldOfByValidate)
+TEST(BlockedSources, AreToldOfByValidate)
 {
     const test::ToySettings toy{.every = 0.05, .shutAtStep = 3};
     SceneSetup setup = setupOf(toy);
     setup.file = sim::sceneFileFromText("drench: 1\nvalidate:\n  every: 0.05\n  checks:\n    - {read: liquid_x, at_most: 9}\n", "case.yaml");
     const test::Log log;
-    EXPECT_TRUE(runCase("cup", setup, test::toyParts(toy), [] { return false; }).passes());
+    EXPECT_TRUE(runCase("cup", setup, test::toyBackends(toy), [] { return false; }).passes());
     EXPECT_EQ(timesTold(log.words()), 1) << log.words();
 }
 
-TEST(ShutSources, AreToldOfByRun)
+TEST(BlockedSources, AreToldOfByRun)
 {
     const test::ToySettings toy{.every = 0.05, .shutAtStep = 3};
     const test::TemporaryFolder folder;
     const test::Log log;
-    runOffline(setupOf(toy), test::toyParts(toy), {.out = folder / "out", .contentHash = "0", .stopWanted = [] { return false; }});
+    runOffline(setupOf(toy), test::toyBackends(toy), {.out = folder / "out", .contentHash = "0", .stopWanted = [] { return false; }});
     EXPECT_EQ(timesTold(log.words()), 1) << log.words();
 }
 

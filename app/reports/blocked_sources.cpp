@@ -1,4 +1,4 @@
-#include "app/reports/shut_sources.h"
+#include "app/reports/blocked_sources.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -7,12 +7,12 @@
 
 namespace app {
 
-ShutSources::ShutSources(const sim::Scene& scene)
+BlockedSources::BlockedSources(const sim::Scene& scene)
 {
     for (const sim::SourceSettings& source : scene.sources) sources_.push_back({source.where, source.name});
 }
 
-std::vector<std::string> ShutSources::news(const sim::State& state)
+std::vector<std::string> BlockedSources::newlyBlocked(const sim::State& state)
 {
     std::vector<std::string> lines;
     const std::vector<sim::SourceMemory>& memory = state.memory.sources;
@@ -28,9 +28,9 @@ std::vector<std::string> ShutSources::news(const sim::State& state)
     return lines;
 }
 
-void ShutSources::look(const sim::State& state)
+void BlockedSources::look(const sim::State& state)
 {
-    for (const std::string& line : news(state)) spdlog::warn("{}", line);
+    for (const std::string& line : newlyBlocked(state)) spdlog::warn("{}", line);
 }
 
 }  // namespace app

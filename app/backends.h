@@ -18,10 +18,10 @@ namespace app {
 
 struct ViewOptions;
 
-/// What the program needs of a simulation. The real one is in drench_parts.cpp, tests have a small one of their own.
-class Steppable {
+/// What the program needs of a simulation. The real one is in drench_backends.cpp, tests have a small one of their own.
+class SimulationHandle {
  public:
-    virtual ~Steppable() = default;
+    virtual ~SimulationHandle() = default;
     virtual const sim::State& state() const = 0;
     virtual const sim::Fabric& fabric() const = 0;            ///< what state().fabric is the state of
     virtual const sim::ActiveContacts* contacts() const = 0;  ///< between fabric and fabric, of the last step; null where there are none
@@ -50,11 +50,11 @@ struct Panel {
 };
 
 /// What the program is put together from.
-struct Parts {
-    std::function<SceneSetup(const SceneRequest&)> loadScene;                      ///< throws InputError
-    std::function<std::unique_ptr<Steppable>(const SceneSetup&)> startSimulation;  ///< throws InputError
+struct Backends {
+    std::function<SceneSetup(const SceneRequest&)> loadScene;                             ///< throws InputError
+    std::function<std::unique_ptr<SimulationHandle>(const SceneSetup&)> startSimulation;  ///< throws InputError
     /// The same from a state of that scene: what follows is what would have followed.
-    std::function<std::unique_ptr<Steppable>(const SceneSetup&, const sim::State&)> resumeSimulation;
+    std::function<std::unique_ptr<SimulationHandle>(const SceneSetup&, const sim::State&)> resumeSimulation;
     std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
     /// Called on the thread that will draw. Panels of a comparison have no label, time and colour bar of their own.
     std::function<DrawFrame(const SceneSetup&, bool asPanel)> startRenderer;
@@ -64,10 +64,10 @@ struct Parts {
     std::function<RgbPicture(const std::vector<Panel>&, const PictureSettings&, double time)> putSideBySide;
     std::function<void(const RgbPicture&, const std::filesystem::path&)> writePng;  ///< whole or not at all
     /// Show a scene in a window until that is closed. Empty in a program without windows; throws RunError where there is no display.
-    std::function<void(const SceneRequest&, const Parts&, const ViewOptions&)> view;
+    std::function<void(const SceneRequest&, const Backends&, const ViewOptions&)> view;
 };
 
 /// The real ones.
-Parts drenchParts();
+Backends drenchBackends();
 
 }  // namespace app

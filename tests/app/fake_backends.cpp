@@ -1,4 +1,4 @@
-#include "tests/app/fake_parts.h"
+#include "tests/app/fake_backends.h"
 
 #include "app/runs/paper_runs.h"
 #include "sim/core/check.h"
@@ -29,7 +29,7 @@ constexpr int kWidth = 32, kHeight = 16;
 void wait(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
 
 /// One particle that moves along x; nothing else.
-class ToySimulation : public Steppable {
+class ToySimulation : public SimulationHandle {
  public:
     explicit ToySimulation(const ToySettings& toy) : toy_(toy)
     {
@@ -181,26 +181,26 @@ SceneSetup toySetup(const ToySettings& toy)
     return setup;
 }
 
-Parts toyParts(const ToySettings& toy)
+Backends toyBackends(const ToySettings& toy)
 {
-    Parts parts;
-    parts.loadScene = [toy](const SceneRequest&) { return toySetup(toy); };
-    parts.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(toy); };
-    parts.resumeSimulation = [toy](const SceneSetup&, const sim::State& state) { return std::make_unique<ToySimulation>(toy, state); };
-    parts.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
-    parts.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
-    parts.drawnBy = [] { return "toy"; };
-    parts.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };
-    parts.writePng = writePicture;
-    return parts;
+    Backends backends;
+    backends.loadScene = [toy](const SceneRequest&) { return toySetup(toy); };
+    backends.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(toy); };
+    backends.resumeSimulation = [toy](const SceneSetup&, const sim::State& state) { return std::make_unique<ToySimulation>(toy, state); };
+    backends.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
+    backends.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
+    backends.drawnBy = [] { return "toy"; };
+    backends.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };
+    backends.writePng = writePicture;
+    return backends;
 }
 
-Parts toyPartsFromFiles()
+Backends toyBackendsFromFiles()
 {
     // The scene that was loaded last tells the other parts what to do.
     const auto toy = std::make_shared<ToySettings>();
-    Parts parts = toyParts({});
-    parts.loadScene = [toy](const SceneRequest& request) {
+    Backends backends = toyBackends({});
+    backends.loadScene = [toy](const SceneRequest& request) {
         *toy = readToy(request);
         SceneSetup setup = toySetup(*toy);
         setup.variant = request.variant.empty() ? "default" : request.variant;
@@ -211,8 +211,8 @@ Parts toyPartsFromFiles()
         setup.label = request.variant == "b" ? "B|2" : request.variant == "a" ? "A" : "";
         return setup;
     };
-    parts.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(*toy); };
-    return parts;
+    backends.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(*toy); };
+    return backends;
 }
 
 }  // namespace app::test

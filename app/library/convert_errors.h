@@ -10,7 +10,7 @@ namespace drench {
 
 /// Runs what is behind a call of the face, and throws its mistakes in the face's own words. What a program's own motions throw passes.
 template <class Body>
-decltype(auto) toldErrors(Body&& body)
+decltype(auto) convertErrors(Body&& body)
 {
     try {
         return std::forward<Body>(body)();
