@@ -36,6 +36,7 @@ struct Escapes {
         deepest = std::max(deepest, depth);
         outside += vessel && vessel->exteriorDistance(x) > tolerance;
     }
+    bool any() const { return inside + outside > 0; }
     std::string text(const char* what) const
     {
         std::string told;
@@ -61,13 +62,16 @@ std::string describeEscape(const std::filesystem::path& file, const std::filesys
     atStart.moveTo(0.0, 0.0);
     const auto startsOutside = [&](const sim::Vec3& x) { return atStart.distance(x) >= 0.0 && (!vessel || vessel->contains(x)); };
     Escapes particles{obstacles, vessel, tolerance}, vertices{obstacles, vessel, tolerance};
-    const bool feelsSolids = scene.settings.fabric.contact;
-    // Fabric that feels no solid drips wherever it has got to.
-    const bool mayDripAnywhere = !feelsSolids && !scene.fabrics.empty() && scene.settings.coupling.drip;
-    for (std::size_t p = 0; !mayDripAnywhere && p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
     const sim::Simulation start(scene);
-    for (std::size_t v = 0; feelsSolids && v < state.fabric.x.size(); ++v)
-        if (!start.fabric().pinned[v] && startsOutside(start.state().fabric.x[v])) vertices.look(state.fabric.x[v]);
+    const bool feelsSolids = scene.settings.fabric.contact;
+    Escapes led{obstacles, vessel, tolerance};
+    for (std::size_t v = 0; v < state.fabric.x.size(); ++v) {
+        if (start.fabric().pinned[v]) led.look(state.fabric.x[v]);
+        else if (feelsSolids && startsOutside(start.state().fabric.x[v])) vertices.look(state.fabric.x[v]);
+    }
+    // Fabric that feels no solid, or is led through one, drips wherever it has got to.
+    const bool mayDripAnywhere = scene.settings.coupling.drip && !scene.fabrics.empty() && (!feelsSolids || led.any());
+    for (std::size_t p = 0; !mayDripAnywhere && p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
     return particles.text("particles") + vertices.text("vertices");
 }
 

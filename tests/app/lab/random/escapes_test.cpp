@@ -112,6 +112,20 @@ TEST(Escapes, FabricThatBeganInASolidOrFeelsNoneIsNotCounted)
     EXPECT_EQ(unfelt.told(), "");
 }
 
+/// Pins go through solids where they are led, and the fabric on them drips there: that has not passed through anything. Beside fabric that they
+/// hold in the vessel it has.
+TEST(Escapes, WhatLedFabricDripsBehindASolidIsNotCounted)
+{
+    KeptRun run;
+    run.place(5, {2.5, 1.0, 0.0});
+    run.state.fabric.x[0] = {-1.0, 2.0, 2.5};
+    EXPECT_EQ(run.told(), "");
+    run.state.fabric.x[0] = {0.05, 1.0, 0.0};
+    EXPECT_EQ(run.told(), "");
+    run.state.fabric.x[0] = {-1.0, 2.0, 1.5};
+    EXPECT_EQ(run.told(), "1 particles outside of the vessel ");
+}
+
 /// A state that is not finite is nowhere.
 TEST(Escapes, WhatIsNowhereHasEscaped)
 {
