@@ -87,7 +87,7 @@ void VertexSystem::sumUp(const NewtonPoint& at, std::span<const ObstacleContact>
             }
     }
     addObstacles(obstacles);
-    if (!pairs_.empty()) addContacts(*contacts);
+    if (!pairs_.empty()) addContacts();
     weighFreePieces(at, obstacles);
     holdPins();
 }
