@@ -119,5 +119,48 @@ TEST(OnBlades, HoldsBelowTheFrictionAngleWithNoneOfItsVertices)
         for (double steepness : {0.3, 0.8}) EXPECT_LT(OnBlades(isYarn, steepness).creep(), 2.0e-3) << isYarn << " steepness " << steepness;
 }
 
+/// Two yarns that cross, pressed against each other and pushed sideways by the pins at their ends, which then turn with all of it.
+struct TurningCross {
+    TurningCross(const Vec3& axis, double angle)
+    {
+        constexpr double kPressed = 1.6 * kRadius, kTo = 0.5, kFrom = 0.1;
+        std::vector<FabricPiece> pieces;
+        for (int n = 0; n < 2; ++n) {
+            const Vec3 along = n == 0 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.5, 0.0, 0.87), at = n == 0 ? Vec3(0.0, 0.0, 0.0) : Vec3(0.0, 2.4 * kRadius, 0.0);
+            pieces.push_back(pieceOf(strand(at - along, at + along, 21), testing::wool(), {kRadius, kRadius}));
+            pieces.back().material.frictionAngle = std::atan(kFriction);
+            Motion motion;
+            if (n == 1) motion.addTranslation(0.0, kFrom, Vec3(0.3 * kRadius, kPressed - 2.4 * kRadius, 0.3 * kRadius), 0.0, 0.0);
+            motion.addRotation(kFrom, kTo, {.direction = axis, .through = Vec3::Zero()}, angle, 0.1, 0.0);
+            pieces.back().pins = {pinned({0, 21}, false, motion)};
+        }
+        run.emplace(pieces, FabricSettings{});
+        run->gravity.setZero();
+        run->solver.bookEnergy();
+        run->steps(200, 1.0e-3);  // at full speed
+    }
+    std::optional<FabricRun> run;
+};
+
+/// What turns as a whole neither slides nor gains: friction that is held across the gap of a pair would else drive it, or brake it, all around.
+TEST(FabricGrip, TurnsOfAPairGiveNothing)
+{
+    testing::Noise random(12);
+    for (int n = 0; n < 6; ++n) {
+        const Vec3 axis = n == 0 ? Vec3::UnitX().eval() : n == 1 ? Vec3::UnitZ().eval() : random.vector().normalized();
+        TurningCross cross(axis, n % 2 == 0 ? 6.0 : -6.0);
+        double held = 0.0, work = 0.0, turned = 0.0;
+        for (int i = 0; i < 300; ++i) {
+            const EnergyChanges changes = *cross.run->step(1.0e-3).energyChanges;
+            for (const Vec3& force : cross.run->state.vertexSolver.onFabric.force) held = std::max(held, force.norm());
+            work += changes[EnergyChange::Friction];
+            turned += 6.0 * 1.0e-3 / 0.35;
+        }
+        ASSERT_GT(held, 0.0);
+        // By as much as a pair's moment would: force times gap times angle.
+        EXPECT_LT(std::abs(work), 0.02 * held * 2.0 * kRadius * turned) << n;
+    }
+}
+
 }  // namespace
 }  // namespace sim::test

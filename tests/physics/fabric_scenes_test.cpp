@@ -45,14 +45,6 @@ TEST(ClothOverSphere, NoFaceIsPierced)
     EXPECT_EQ(run.simulation().fabric().rest.size(), 9801u);
 }
 
-/// The rods come to rest in their coils. With a Newton that knows nothing of their torque they tremble: 2e3 erg.
-TEST(TwistAndBuckle, ComesToRest)
-{
-    WatchedRun run(loadScene(kScenes / "twist_and_buckle.yaml"));
-    expectThick(run.run(5.0, 0.1));
-    EXPECT_LT(run.simulation().energies().fabric.kinetic, 10.0);  // erg
-}
-
 class ShippedScenes : public testing::TestWithParam<std::tuple<std::string, double>> {};
 
 /// In long steps and with yarns and cloth softer and stiffer than they are. The stiffness of contact is what a step can resolve: yarns

@@ -84,7 +84,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
 void FabricContact::Parts::resizeActive(std::size_t n)
 {
     active.vertices.resize(n), active.firstSide.resize(n), active.weights.resize(n), active.normal.resize(n), active.force.resize(n);
-    active.stiffness.resize(n), active.frictionStiffness.resize(n), active.between.resize(n), frictionPairs.resize(n);
+    active.stiffness.resize(n), active.frictionStiffness.resize(n), active.lever.resize(n), active.between.resize(n), frictionPairs.resize(n);
     heldForce.resize(n);
 }
 
@@ -98,11 +98,10 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     const std::array<double, 4> c = pairWeights(pairs.kind, pairs.p[place], pairs.q[place]);
 
     Vec3 apart = Vec3::Zero();
-    double meanMass = 0.0, mobility = 0.0;
+    double meanMass = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
         apart += c[k] * x[v[k]];
         meanMass += 0.25 * mass[v[k]];
-        mobility += c[k] * c[k] * inverseMass[v[k]];
     }
     const double distance = pairs.distance[place];
     const Vec3 normal = distance > 0.0 ? Vec3(apart / distance) : Vec3::UnitX().eval();
@@ -116,18 +115,18 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.weights[slot] = c;
     active.normal[slot] = normal;
     active.between[slot] = {a, b};
-    frictionPairs[slot] = {pairs.range(place), apart, stiffness, meanMass / (springStep * springStep), primitives.friction2(a, b),
-                           h * h * mobility,   false};
+    frictionPairs[slot] = {pairs.range(place),         apart, directionsAt(x, slot), stiffness, meanMass / (springStep * springStep),
+                           primitives.friction2(a, b), false};
     if (bridges()) {
         Vec3 before = Vec3::Zero();
         for (std::size_t k = 0; k < 4; ++k) before += c[k] * start[v[k]];
         const double longest = list.bridge(a, b);  // a bridge comes about between steps, so that Newton's iterations do not make and break it
         if (before.norm() < pairs.reach[place] + longest) frictionPairs[slot].bridge = longest;
     }
+    active.stiffness[slot] = energy.curvature;
     const Friction sideways = friction(x, expected, energy, distance, slot);
     frictionPairs[slot].slides = sideways.slides;
     active.force[slot] = energy.slope * normal + sideways.force;
-    active.stiffness[slot] = energy.curvature;
     active.frictionStiffness[slot] = sideways.along;
 }
 

@@ -12,21 +12,69 @@
 
 namespace sim {
 
+/// Begin and end, among the four vertices of a pair, of the two directions in it that tell how it turns: those of its edges, or two sides of its
+/// face.
+/// @param firstSide  vertices of its first side
+constexpr std::array<std::array<int, 2>, 2> directionsOfPair(int firstSide)
+{
+    return firstSide == 2 ? std::array{std::array{0, 1}, std::array{2, 3}} : std::array{std::array{1, 2}, std::array{1, 3}};
+}
+
 /// Pairs of fabric primitives (edge-edge, vertex-face) close enough to push on each other; sorted, one array per quantity.
 /// With c the weights and x the positions of its four vertices, a pair's separation is Σ c x. Its first side are the first two
 /// vertices, or the first alone where a vertex meets a face.
+///
+/// Friction acts across the gap between the two: where it pushes them sideways it also turns them, and as the pair turns as a whole nothing slides
+/// (PairTurn). How fast the two slide is Σ c v − Σ Λ (v_end − v_begin), over the two directions by which that turn is told; friction acts by the
+/// transpose of it, so that it has no moment about the pair, and does the work that its slip takes.
 struct ActiveContacts {
+    /// Λ of the two directions [-]; 0 without friction.
+    using Lever = std::array<Mat3, 2>;
+
     std::vector<std::array<int, 4>> vertices;
     std::vector<std::uint8_t> firstSide;         ///< vertices of the first side: 2 or 1
     std::vector<std::array<double, 4>> weights;  ///< of both sides, those of the second negative: they sum to zero [-]
     std::vector<Vec3> normal;                    ///< unit, from the second side to the first
-    std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient c_a force [dyn]
+    std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient B_aᵀ force (answer) [dyn]
     std::vector<double> stiffness;               ///< along the normal, k_n [dyn/cm]
-    std::vector<double> frictionStiffness;       ///< across it, k_t: the block of a, b is c_a c_b (k_n n nᵀ + k_t (1 − n nᵀ)) [dyn/cm]
-    std::vector<Vec2i> between;                  ///< the two, as contact/primitives.h counts them: ascending
+    std::vector<double> frictionStiffness;  ///< across it, k_t: the block of a, b is B_aᵀ (k_n n nᵀ + k_t (1 − n nᵀ)) B_b (answer) [dyn/cm]
+    std::vector<Lever> lever;
+    std::vector<Vec2i> between;  ///< the two, as contact/primitives.h counts them: ascending
 
     std::size_t size() const { return vertices.size(); }
     bool empty() const { return vertices.empty(); }
+
+    /// B of vertex k but for its weight: what a move of it turns the pair by, as its separation sees that.
+    Mat3 turning(std::size_t i, int k) const
+    {
+        Mat3 sum = Mat3::Zero();
+        const auto ends = directionsOfPair(firstSide[i]);
+        for (int n = 0; n < 2; ++n) {
+            if (ends[n][0] == k) sum += lever[i][n];
+            if (ends[n][1] == k) sum -= lever[i][n];
+        }
+        return sum;
+    }
+    /// B of vertex k: Σ B u is how the separation of pair i changes with moves u of its vertices, but for what it turns as a whole.
+    Mat3 answer(std::size_t i, int k) const
+    {
+        const Mat3 own = weights[i][k] * Mat3::Identity();
+        return frictionStiffness[i] > 0.0 ? own + turning(i, k) : own;
+    }
+    /// What a force on the separation of pair i is on its vertices: Bᵀ f.
+    std::array<Vec3, 4> onVertices(std::size_t i, const Vec3& onPair) const
+    {
+        std::array<Vec3, 4> on;
+        for (int k = 0; k < 4; ++k) on[k] = weights[i][k] * onPair;
+        if (!(frictionStiffness[i] > 0.0)) return on;
+        const auto ends = directionsOfPair(firstSide[i]);
+        for (int n = 0; n < 2; ++n) {
+            const Vec3 couple = lever[i][n].transpose() * onPair;
+            on[ends[n][0]] += couple;
+            on[ends[n][1]] -= couple;
+        }
+        return on;
+    }
 };
 
 /// What limiting the moves of one step took.

@@ -16,14 +16,14 @@ struct FabricContact::Parts {
     /// What the friction of an active pair goes by.
     struct FrictionPair {
         contact::PairRange range;
-        Vec3 apart;           ///< separation where it was looked at last [cm]
-        double stiffness;     ///< of the pair [dyn/cm]
-        double perStep;       ///< mean mass of its vertices over springStep² [dyn/cm]
-        double coefficient;   ///< Coulomb's [-]
-        double perMass;       ///< h² over the mass that its separation has [cm/dyn]
-        bool slides;          ///< friction is at its bound
-        double bridge = 0.0;  ///< longest length of its liquid bridge beyond the reach [cm]
-        double pull = 0.0;    ///< force of its liquid bridge [dyn]
+        Vec3 apart;                      ///< separation where it was looked at last [cm]
+        std::array<Vec3, 2> directions;  ///< ends less begins of the pair's directions there [cm]
+        double stiffness;                ///< of the pair [dyn/cm]
+        double perStep;                  ///< mean mass of its vertices over springStep² [dyn/cm]
+        double coefficient;              ///< Coulomb's [-]
+        bool slides;                     ///< friction is at its bound
+        double bridge = 0.0;             ///< longest length of its liquid bridge beyond the reach [cm]
+        double pull = 0.0;               ///< force of its liquid bridge [dyn]
     };
     /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
     struct Acted {
@@ -37,14 +37,15 @@ struct FabricContact::Parts {
     void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::CandidatePool& pairs,
                   std::span<const contact::PairPlace> places, std::size_t first);
     void describe(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::CandidatePool& pairs, std::size_t place, std::size_t slot);
-    Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::PairEnergy& energy, double distance,
-                      std::size_t slot) const;
+    Friction friction(std::span<const Vec3> x, std::span<const Vec3> expected, const contact::PairEnergy& energy, double distance, std::size_t slot);
+    double mobility(std::size_t slot) const;
     void resizeActive(std::size_t n);
     void findHeld();
     template <class Body>
     void forEachSeeker(Body&& body) const;
     double bridgeForceOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
     void findBridges(std::span<const Vec3> x);
+    std::array<Vec3, 2> directionsAt(std::span<const Vec3> x, std::size_t slot) const;
     Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
     double touchingMass();
 

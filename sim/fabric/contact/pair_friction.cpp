@@ -21,12 +21,32 @@ void FabricContact::Parts::findHeld()
     find(facePairs, edgePairs.size());
 }
 
-/// Of an active pair that is described but for it, at x or where the moves expected lead.
+std::array<Vec3, 2> FabricContact::Parts::directionsAt(std::span<const Vec3> x, std::size_t slot) const
+{
+    const std::array<int, 4>& v = active.vertices[slot];
+    const auto ends = directionsOfPair(active.firstSide[slot]);
+    return {x[v[ends[0][1]]] - x[v[ends[0][0]]], x[v[ends[1][1]]] - x[v[ends[1][0]]]};
+}
+
+/// Of an active pair's separation across its normal, with what turns the pair: mean over the two directions [1/g].
+double FabricContact::Parts::mobility(std::size_t slot) const
+{
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        const double weight = active.weights[slot][k];
+        const Mat3 turning = active.turning(slot, k);  // across the normal
+        sum += inverseMass[active.vertices[slot][k]] * (weight * weight + weight * turning.trace() + 0.5 * turning.squaredNorm());
+    }
+    return sum;
+}
+
+/// Of an active pair that is described but for it, at x or where the moves expected lead; gives the pair its lever.
 Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
-                                        std::size_t slot) const
+                                        std::size_t slot)
 {
     const FrictionPair& grip = frictionPairs[slot];
     const double pressed = grip.range.reach - distance;
+    active.frictionStiffness[slot] = 0.0;
     if (!(grip.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
     const std::array<int, 4>& v = active.vertices[slot];
     const std::array<double, 4>& c = active.weights[slot];
@@ -37,13 +57,16 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
         before += c[k] * start[v[k]];
         if (!expected.empty()) further += c[k] * expected[v[k]];
     }
-    const PairTurn turn(active.firstSide[slot] == 2 ? PairKind::EdgeEdge : PairKind::VertexFace, v, start, x);
+    const PairTurn turn(active.firstSide[slot], v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
     const FrictionSpring spring{along(turn * heldForce[slot]), pairFrictionStiffness(-energy.slope, pressed, grip.perStep),
                                 grip.coefficient * -energy.slope};
+    active.lever[slot] = turn.lever(before);
+    for (Mat3& lever : active.lever[slot]) lever -= normal * (normal.transpose() * lever);  // what presses is not felt as a moment
+    active.frictionStiffness[slot] = spring.stiffness;
     if (expected.empty()) return spring.at(along(apart - carried));
-    return spring.expected(along(apart - carried), along(before + further - carried), spring.stiffness * grip.perMass);
+    return spring.expected(along(apart - carried), along(before + further - carried), h * h * mobility(slot) * spring.stiffness);
 }
 
 FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::span<const Vec3> x) const
@@ -51,7 +74,13 @@ FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::sp
     const Vec3& n = active.normal[i];
     Vec3 apart = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) apart += active.weights[i][k] * x[active.vertices[i][k]];
-    const Vec3 moved = apart - frictionPairs[i].apart, acted = active.force[i] + active.frictionStiffness[i] * moved;
+    const Vec3 moved = apart - frictionPairs[i].apart;
+    Vec3 slid = moved;
+    if (active.frictionStiffness[i] > 0.0) {
+        const std::array<Vec3, 2> now = directionsAt(x, i);
+        for (int d = 0; d < 2; ++d) slid -= active.lever[i][d] * (now[d] - frictionPairs[i].directions[d]);
+    }
+    const Vec3 acted = active.force[i] + active.frictionStiffness[i] * slid;
     const double normalForce = frictionPairs[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
     return {apart, acted - acted.dot(n) * n, frictionPairs[i].coefficient * std::max(normalForce, 0.0)};
 }

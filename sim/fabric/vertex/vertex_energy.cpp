@@ -15,15 +15,15 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
     const auto move = [&](int v) -> Vec3 { return state.x[v] - start_.x[v]; };
     for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) {
         const std::array<int, 4>& v = contacts_->vertices[i];
-        const std::array<double, 4>& weight = contacts_->weights[i];
         const Vec3& normal = contacts_->normal[i];
         Vec3 apart = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) apart += weight[k] * move(v[k]);
+        for (int k = 0; k < 4; ++k) apart += contacts_->answer(i, k) * move(v[k]);
         const Vec3 force = forceAtEnd(i);
         const Vec3 push = normal.dot(force) * normal;
         changes[EnergyChange::Contact] -= push.dot(apart);
         changes[EnergyChange::Friction] -= (force - push).dot(apart);
-        for (int k = 0; k < 4; ++k) gradient[v[k]] += weight[k] * force;
+        const std::array<Vec3, 4> onVertices = contacts_->onVertices(i, force);
+        for (int k = 0; k < 4; ++k) gradient[v[k]] += onVertices[k];
     }
     for (const ObstacleContact& contact : touching_) {
         const std::array<int, 3> v = contact.vertices();

@@ -15,14 +15,40 @@ struct Side {
 };
 Side sideOf(int firstSide, int which) { return which == 0 ? Side{0, firstSide} : Side{firstSide, 4}; }
 
-/// k n nᵀ + across · 1 of a pair.
-Mat3 blockOf(const std::array<double, 4>& normal, double stiffness, double across)
+}  // namespace
+
+/// B of a vertex but for its weight.
+Mat3Columns VertexSystem::PairBlock::turning(int k) const
 {
-    const Vec3 n(normal[0], normal[1], normal[2]);
-    return stiffness * n * n.transpose() + across * Mat3::Identity();
+    Mat3Columns sum;
+    const auto ends = directionsOfPair(firstSide);
+    for (int d = 0; d < 2; ++d) {
+        if (ends[d][0] == k) sum += Mat3Columns(lever[d]);
+        if (ends[d][1] == k) sum -= Mat3Columns(lever[d]);
+    }
+    return sum;
 }
 
-}  // namespace
+VertexSystem::PairBlock::Blocks VertexSystem::PairBlock::blocks(int k, int other) const
+{
+    const double weight = weights[k], otherWeight = weights[other];
+    const HalfPack n{normal[0], normal[1], normal[2], 0.0};
+    Blocks blocks;
+    for (int a = 0; a < 3; ++a) {
+        HalfPack pressed = (stiffness * n[a]) * n;
+        pressed[a] += across;
+        blocks.own.column[a] = (weight * weight) * pressed;
+        blocks.withOther.column[a] = (weight * otherWeight) * pressed;
+    }
+    if (!hasLever) return blocks;
+    const Mat3Columns turn = turning(k), transpose = turn.transposed();
+    for (int a = 0; a < 3; ++a) {
+        const HalfPack both = transpose * turn.column[a];
+        blocks.own.column[a] += across * (weight * (turn.column[a] + transpose.column[a]) + both);
+        blocks.withOther.column[a] += across * (otherWeight * transpose.column[a] - weight * turn.column[a] - both);
+    }
+    return blocks;
+}
 
 /// Each vertex's pairs, in the pairs' order.
 void VertexSystem::sortIncidence()
@@ -38,17 +64,24 @@ void VertexSystem::sortIncidence()
         const PairBlock& pair = pairs_[n];
         for (int k = 0; k < 4; ++k) {
             const int v = pair.vertices[k], side = k < pair.firstSide ? 0 : 1;
-            incidence_[cursor_[v]++] = {2 * n + side, k, pair.weights[k]};
-            if (!pair.inStrands[side] && unknowns_.isOnStrand(v) && !fabric_.pinned[v]) uncoupled_.push_back({v, n, pair.weights[k]});
+            incidence_[cursor_[v]++] = {n, k};
+            if (!pair.inStrands[side] && unknowns_.isOnStrand(v) && !fabric_.pinned[v]) uncoupled_.push_back({v, n, k});
         }
     }
 }
 
-/// What the solver reads of the pairs.
+void VertexSystem::copyLever(const ActiveContacts::Lever& lever, PairBlock& pair)
+{
+    for (int d = 0; d < 2; ++d)
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) pair.lever[d][a][b] = static_cast<float>(lever[d](b, a));
+}
+
+/// What the solver reads of the pairs, and in pairForce_ their gradients.
 void VertexSystem::copyPairs(const ActiveContacts* contacts)
 {
     pairs_.resize(contacts ? contacts->size() : 0);
-    pairForce_.resize(8 * pairs_.size());
+    pairForce_.resize(16 * pairs_.size());
     parallelFor(pairs_.size(), 1024, [&](std::size_t n) {
         const ActiveContacts& c = *contacts;
         const Vec3& normal = c.normal[n];
@@ -59,7 +92,12 @@ void VertexSystem::copyPairs(const ActiveContacts* contacts)
                 c.stiffness[n] - c.frictionStiffness[n],
                 c.frictionStiffness[n],
                 c.firstSide[n],
+                {},
+                c.frictionStiffness[n] > 0.0,
                 {}};
+        if (pair.hasLever) copyLever(c.lever[n], pair);
+        const std::array<Vec3, 4> gradient = c.onVertices(n, c.force[n]);
+        for (int k = 0; k < 4; ++k) Eigen::Map<Vec3>(pairForce_.data() + 4 * (4 * n + k)) = gradient[k];
         for (int which = 0; which < 2; ++which) {
             const Side side = sideOf(pair.firstSide, which);
             const int first = pair.vertices[side.begin], last = pair.vertices[side.end - 1];
@@ -70,35 +108,34 @@ void VertexSystem::copyPairs(const ActiveContacts* contacts)
 }
 
 /// Gradient, and what S or the preconditioner of the cloth takes of the matrix.
-void VertexSystem::addContacts(const ActiveContacts& c)
+void VertexSystem::addContacts()
 {
     sortIncidence();
     parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
         if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;
         const int slot = unknowns_.slot[v];
         Vec3 gradient = Vec3::Zero();
-        Mat3 own = Mat3::Zero(), before = Mat3::Zero();
+        Mat3Columns own, before;
         bool hasBefore = false;
         for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i) {
-            const auto [pairSide, place, weight] = incidence_[i];
-            const PairBlock& pair = pairs_[pairSide / 2];
-            gradient += weight * c.force[pairSide / 2];
-            const Mat3 block = blockOf(pair.normal, pair.stiffness, pair.across);
-            own += weight * weight * block;
-            if (!pair.inStrands[pairSide % 2]) continue;
-            const Side side = sideOf(pair.firstSide, pairSide % 2);
-            for (int other = side.begin; other < side.end; ++other)
-                if (unknowns_.slot[pair.vertices[other]] == slot - kNextVertex) {
-                    before += weight * pair.weights[other] * block;
-                    hasBefore = true;
-                }
+            const auto [number, place] = incidence_[i];
+            const PairBlock& pair = pairs_[number];
+            gradient += Eigen::Map<const Vec3>(pairForce_.data() + 4 * (4 * static_cast<std::size_t>(number) + place));
+            const Side side = sideOf(pair.firstSide, place < pair.firstSide ? 0 : 1);
+            const int other = side.begin + side.end - 1 - place;
+            const PairBlock::Blocks blocks = pair.blocks(place, side.end - side.begin == 2 ? other : place);
+            own += blocks.own;
+            if (side.end - side.begin != 2 || !pair.inStrands[side.begin == 0 ? 0 : 1]) continue;
+            if (unknowns_.slot[pair.vertices[other]] != slot - kNextVertex) continue;
+            before += blocks.withOther;
+            hasBefore = true;
         }
         for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += gradient[a];
-        addToDiagonal(static_cast<int>(v), own);
+        addToDiagonal(static_cast<int>(v), own.matrix());
         if (!hasBefore) return;
         const int row = unknowns_.row(static_cast<int>(v)), lane = unknowns_.lane(static_cast<int>(v));
         for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b) strands_.at(row + a, 4 + a - b, lane) += before(a, b);
+            for (int b = 0; b < 3; ++b) strands_.at(row + a, 4 + a - b, lane) += before.column[b][a];
     });
 }
 

@@ -1,4 +1,5 @@
 #include "sim/core/parallel.h"
+#include "sim/fabric/vertex/mat3_columns.h"
 #include "sim/fabric/vertex/vertex_system.h"
 
 #include <cmath>
@@ -48,17 +49,32 @@ void VertexSystem::copyByVertex(const double* p, int g)
     }
 }
 
-/// C p of every pair, on either side.
+/// C p of every pair, on each of its vertices: Bᵀ H B p, but for what S has of it.
 void VertexSystem::applyPairs()
 {
     parallelFor(pairs_.size(), 512, [&](std::size_t n) {
         const PairBlock& pair = pairs_[n];
-        HalfPack first{}, second{};
-        for (int k = 0; k < 4; ++k) (k < pair.firstSide ? first : second) += pair.weights[k] * quad(pOfVertex_, pair.vertices[k]);
-        const HalfPack both = first + second, normal = asQuad(pair.normal);
-        const HalfPack onFirst = pair.inStrands[0] ? second : both, onSecond = pair.inStrands[1] ? first : both;
-        quad(pairForce_, 2 * n) = times(normal, pair.stiffness, pair.across, onFirst);
-        quad(pairForce_, 2 * n + 1) = times(normal, pair.stiffness, pair.across, onSecond);
+        const HalfPack normal = asQuad(pair.normal);
+        HalfPack p[4], side[2] = {};
+        for (int k = 0; k < 4; ++k) {
+            p[k] = quad(pOfVertex_, pair.vertices[k]);
+            side[k < pair.firstSide ? 0 : 1] += pair.weights[k] * p[k];
+        }
+        const auto ends = directionsOfPair(pair.firstSide);
+        if (pair.hasLever)
+            for (int d = 0; d < 2; ++d) side[pair.sideOfDirection(d)] -= Mat3Columns(pair.lever[d]) * (p[ends[d][1]] - p[ends[d][0]]);
+        const HalfPack both = side[0] + side[1];
+        const HalfPack on[2] = {times(normal, pair.stiffness, pair.across, pair.inStrands[0] ? side[1] : both),
+                                times(normal, pair.stiffness, pair.across, pair.inStrands[1] ? side[0] : both)};
+        HalfPack force[4];
+        for (int k = 0; k < 4; ++k) force[k] = pair.weights[k] * on[k < pair.firstSide ? 0 : 1];
+        if (pair.hasLever)
+            for (int d = 0; d < 2; ++d) {
+                const HalfPack turning = Mat3Columns(pair.lever[d]).transposed() * on[pair.sideOfDirection(d)];
+                force[ends[d][0]] += turning;
+                force[ends[d][1]] -= turning;
+            }
+        for (int k = 0; k < 4; ++k) quad(pairForce_, 4 * n + k) = force[k];
     });
 }
 
@@ -79,7 +95,7 @@ double VertexSystem::multiplyStrands()
                     if (v < 0 || unknowns_.slot[v] != slot || fabric_.pinned[v]) continue;
                     HalfPack sum{};
                     for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
-                        sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);
+                        sum += quad(pairForce_, 4 * incidence_[i].pair + incidence_[i].place);
                     for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] += sum[a];
                 }
         Pack product{};
@@ -96,7 +112,7 @@ double VertexSystem::applyLinks()
     for (const UncoupledVertex& loose : uncoupled_) {
         const PairBlock& pair = pairs_[loose.pair];
         const HalfPack u = quad(pOfVertex_, loose.vertex);
-        const HalfPack force = (loose.weight * loose.weight) * times(asQuad(pair.normal), pair.stiffness, pair.across, u);
+        const HalfPack force = pair.blocks(loose.place, loose.place).own * u;
         const int slot = unknowns_.slot[loose.vertex];
         for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] -= force[a];
         product -= dot(u, force);
@@ -130,7 +146,7 @@ double VertexSystem::multiplyCloth()
                 if (fabric_.pinned[v]) return;
                 if (!ownsDiagonal_[row] && !pairs_.empty())
                     for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
-                        sum += incidence_[i].weight * quad(pairForce_, incidence_[i].pairSide);
+                        sum += quad(pairForce_, 4 * incidence_[i].pair + incidence_[i].place);
                 for (int a = 0; a < 3; ++a) {
                     double& q = q_[slot + a * kLanes];
                     q = (ownsDiagonal_[row] ? q : 0.0) + sum[a];

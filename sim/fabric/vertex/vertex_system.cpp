@@ -87,7 +87,7 @@ void VertexSystem::assembleSums(const NewtonPoint& at, std::span<const ObstacleC
             }
     }
     addObstacles(obstacles);
-    if (!pairs_.empty()) addContacts(*contacts);
+    if (!pairs_.empty()) addContacts();
     weighFreePieces(at, obstacles);
     holdPins();
 }

@@ -5,6 +5,7 @@
 #include "sim/fabric/shells/shells.h"
 #include "sim/fabric/solids/obstacle_contact.h"
 #include "sim/fabric/vertex/cloth_preconditioner.h"
+#include "sim/fabric/vertex/mat3_columns.h"
 #include "sim/fabric/vertex_unknowns.h"
 
 #include <span>
@@ -72,6 +73,8 @@ class VertexSystem {
         std::array<std::array<double, 16>, 3> coupling;
     };
 
+    struct PairBlock;
+
     void assembleSums(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void findLinks();
     void addInertia(const NewtonPoint& at);
@@ -81,7 +84,8 @@ class VertexSystem {
     bool addCoupling(int a, int b, const Mat3& block);
     Eigen::Map<Mat3> asBlock(int entry) { return Eigen::Map<Mat3>(cloth_.block(entry)); }
     void copyPairs(const ActiveContacts* contacts);
-    void addContacts(const ActiveContacts& contacts);
+    void addContacts();
+    static void copyLever(const ActiveContacts::Lever& lever, PairBlock& pair);
     void sortIncidence();
     void holdPins();
     void copyByVertex(const double* p, int group);
@@ -113,29 +117,41 @@ class VertexSystem {
 
     /// A pair's part of C as the solver reads it; vectors have a fourth component, 0.
     struct PairBlock {
+        /// Λ of its directions by columns of 4 numbers (ActiveContacts).
+        using Lever = std::array<Mat3Columns::Floats, 2>;
+
         std::array<double, 4> normal;
         std::array<double, 4> weights;
         std::array<int, 4> vertices;
         double stiffness, across;       ///< k_n − k_t and k_t [dyn/cm]
         std::uint8_t firstSide;         ///< vertices of the first side
         std::array<bool, 2> inStrands;  ///< S holds all of the side's own part, else only the diagonals of its vertices on strands
+        bool hasLever;
+        Lever lever;
+
+        /// The side that a direction lies in.
+        int sideOfDirection(int direction) const { return firstSide == 2 && direction == 0 ? 0 : 1; }
+        Mat3Columns turning(int k) const;
+        /// Of its matrix, Bᵀ H B, what a vertex has with itself, and with the other end of its edge, by columns. Levers are across the normal.
+        struct Blocks {
+            Mat3Columns own, withOther;
+        };
+        Blocks blocks(int k, int other) const;
     };
     struct Incidence {
-        int pairSide;  ///< 2 · pair + side
-        int place;     ///< among the pair's vertices
-        double weight;
+        int pair;
+        int place;  ///< among the pair's vertices
     };
     /// A vertex on a strand whose side of a pair is not in S but for its own diagonal.
     struct UncoupledVertex {
-        int vertex, pair;
-        double weight;
+        int vertex, pair, place;
     };
 
     std::vector<PairBlock> pairs_;
     std::vector<int> incidenceBegin_, cursor_;
     std::vector<Incidence> incidence_;  ///< of each vertex, in the order of the pairs
     std::vector<UncoupledVertex> uncoupled_;
-    AlignedArray<double> pairForce_;    ///< C p on either side of each pair, 4 numbers each
+    AlignedArray<double> pairForce_;    ///< C p on each vertex of each pair, 4 numbers each
     AlignedArray<double> pOfVertex_;    ///< p of each vertex, 4 numbers each
     std::vector<int> heldSlots_;        ///< slots of the unknowns that are pinned
     std::vector<double> heldGradient_;  ///< gradient of the pinned unknowns before it is removed [dyn, dyn cm]

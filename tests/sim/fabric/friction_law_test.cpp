@@ -63,13 +63,43 @@ TEST(PairTurn, IsTheTurnOfARigidBody)
         std::vector<Vec3> now = before;
         const Vec3 shift = random.vector(), u = random.vector();
         for (Vec3& x : now) x = turn * x + shift;
-        for (contact::PairKind kind : {contact::PairKind::EdgeEdge, contact::PairKind::VertexFace}) {
-            const Vec3 first = kind == contact::PairKind::EdgeEdge ? before[1] - before[0] : before[2] - before[1];
-            const Vec3 second = kind == contact::PairKind::EdgeEdge ? before[3] - before[2] : before[3] - before[1];
+        for (int firstSide : {2, 1}) {
+            const auto ends = directionsOfPair(firstSide);
+            const Vec3 first = before[ends[0][1]] - before[ends[0][0]], second = before[ends[1][1]] - before[ends[1][0]];
             if (std::abs(first.normalized().dot(second.normalized())) > 0.9) continue;
-            EXPECT_LT((contact::PairTurn(kind, {0, 1, 2, 3}, before, now) * u - turn * u).norm(), 1.0e-10);
+            EXPECT_LT((contact::PairTurn(firstSide, {0, 1, 2, 3}, before, now) * u - turn * u).norm(), 1.0e-10);
         }
     }
+}
+
+/// What a turn does to a separation is what its lever makes of the changes of the pair's directions, however they turn and stretch: a force on the
+/// one does the work that its moment does on the others.
+TEST(PairTurn, DoesWhatItsLeverMakesOfTheChanges)
+{
+    Noise random(5);
+    int parallel = 0;
+    for (int i = 0; i < 500; ++i) {
+        std::vector<Vec3> before(4);
+        for (Vec3& x : before) x = random.vector();
+        const int firstSide = 1 + i % 2;
+        const auto ends = directionsOfPair(firstSide);
+        if (i % 3 == 0) before[ends[1][1]] = before[ends[1][0]] + 1.5 * (before[ends[0][1]] - before[ends[0][0]]) + 0.1 * random.vector();
+        std::vector<Vec3> now = before;
+        for (Vec3& x : now) x += 0.3 * random.vector();
+        const contact::PairTurn turn(firstSide, {0, 1, 2, 3}, before, now);
+        const Vec3 u = random.vector();
+        const ActiveContacts::Lever lever = turn.lever(u);
+        Vec3 change = Vec3::Zero();
+        std::array<Vec3, 2> direction;
+        for (int d = 0; d < 2; ++d) {
+            const Vec3 first = before[ends[d][1]] - before[ends[d][0]], last = now[ends[d][1]] - now[ends[d][0]];
+            change += lever[d] * (last - first);
+            direction[d] = (first.normalized() + last.normalized()).normalized();
+        }
+        parallel += std::abs(direction[0].dot(direction[1])) > 0.95;
+        EXPECT_LT((change - (turn * u - u)).norm(), 1.0e-9) << i;
+    }
+    EXPECT_GT(parallel, 50);
 }
 
 }  // namespace

@@ -181,6 +181,42 @@ TEST(FabricContact, FrictionOpposesSlidingAndIsBounded)
     }
 }
 
+/// Friction acts across the gap of a pair: its forces at the four vertices have neither a sum nor, by what they turn, a moment. Edges that are
+/// all but parallel tell no turn about themselves.
+TEST(FabricContact, FrictionHasNoMomentAboutItsPair)
+{
+    constexpr double kNearlyParallel = 0.9, kMove = 1.0e-4;  // cosine, cm
+    std::size_t seen = 0;
+    for (unsigned seed = 0; seed < 5; ++seed) {
+        ContactRun run(soup(seed, 60, 60));
+        for (unsigned i = 0; i < 10; ++i) run.moveSafely(randomMoves(run.fabric, 0.2, i));
+        run.contact.beginStep(run.x, run.fabric.mass, ContactRun::kStep, ContactRun::kStep);
+        const std::vector<Vec3> moves = randomMoves(run.fabric, kMove, 99 + seed);
+        for (std::size_t v = 0; v < run.x.size(); ++v) run.x[v] += moves[v];
+        const ActiveContacts& contacts = run.active();
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            const std::array<int, 4>& v = contacts.vertices[i];
+            const auto ends = directionsOfPair(contacts.firstSide[i]);
+            const auto direction = [&](int d) -> Vec3 { return (run.x[v[ends[d][1]]] - run.x[v[ends[d][0]]]).normalized(); };
+            const Vec3 friction = contacts.force[i] - contacts.normal[i].dot(contacts.force[i]) * contacts.normal[i];
+            if (friction.isZero(0.0) || std::abs(direction(0).dot(direction(1))) > kNearlyParallel) continue;
+            Vec3 sum = Vec3::Zero(), moment = Vec3::Zero(), apart = Vec3::Zero();
+            double sizes = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                const Vec3 force = contacts.answer(i, k).transpose() * friction;
+                sum += force;
+                moment += (run.x[v[k]] - run.x[v[0]]).cross(force);
+                apart += contacts.weights[i][k] * run.x[v[k]];
+                sizes += force.norm();
+            }
+            EXPECT_LT(sum.norm(), 1.0e-12 * sizes);
+            EXPECT_LT(moment.norm(), 0.02 * apart.norm() * sizes) << "moves of a hundredth of the gap and less";
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 50u);
+}
+
 TEST(FabricContact, FrictionIsZeroForCommonMotion)
 {
     Pressed run(0.09);
