@@ -10,7 +10,25 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff, Schema, Probe };
+enum class Verb {
+    Run,
+    Compare,
+    Check,
+    View,
+    Bench,
+    BenchPrecision,
+    Paper,
+    Validate,
+    Stress,
+    Import,
+    Render,
+    Export,
+    Sweep,
+    Ensemble,
+    Diff,
+    Schema,
+    Probe
+};
 
 /// How a window begins.
 struct ViewOptions {
@@ -71,10 +89,16 @@ struct Options {
 
     std::vector<std::string> formats;  ///< export: of geometry files; none: as the scene says
     std::filesystem::path probes;      ///< probe: a file with the section; empty: as the scene says
-    int jobs = 1;                      ///< sweep: runs side by side
-    bool onSlurm = false;              ///< sweep: hand them to Slurm …
+    int jobs = 1;                      ///< sweep, ensemble: runs side by side
+    bool onSlurm = false;              ///< sweep, ensemble: hand them to Slurm …
     bool wait = true;                  ///< … and wait until it has done them
     std::optional<std::size_t> task;   ///< sweep: do this run alone, as a job of Slurm's does
+
+    int members = 20;               ///< ensemble: how many runs …
+    int firstMember = 0;            ///< … with numbers from this one on
+    bool framesOfAll = false;       ///< ensemble: with pictures of all of them
+    std::vector<std::string> vary;  ///< ensemble: seed, positions, key=a..b; none: positions
+    double confidence = 0.99;       ///< compare: of all intervals of ensembles together
 
     ViewOptions view;  ///< view: how the window begins
 

@@ -35,6 +35,7 @@ int runVerb(const Options& options, const Parts& parts)
         case Verb::Schema: return runVerbSchema(options, parts);
         case Verb::Export: return runVerbExport(options, parts);
         case Verb::Sweep: return runVerbSweep(options, parts);
+        case Verb::Ensemble: return runVerbEnsemble(options, parts);
         case Verb::Import: return runVerbImport(options, parts);
     }
     return 1;

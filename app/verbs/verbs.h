@@ -22,6 +22,7 @@ int runVerbExport(const Options& options, const Parts& parts);
 int runVerbProbe(const Options& options, const Parts& parts);
 int runVerbSchema(const Options& options, const Parts& parts);
 int runVerbSweep(const Options& options, const Parts& parts);
+int runVerbEnsemble(const Options& options, const Parts& parts);
 int runVerbImport(const Options& options, const Parts& parts);
 
 }  // namespace app
