@@ -64,7 +64,7 @@ struct Options {
     int threads = 1;                    ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
     bool frames = true, video = true;
     bool asPanel = false;                     ///< pictures are to stand beside others: nothing is written over them
-    int runsToFollow = 0;                     ///< run: so many more in the same command, for the time that is left of it
+    double runsToFollow = 0.0;                ///< run: what follows in the same command takes so many times as long
     std::filesystem::path resume;             ///< run: go on with the run in this folder
     std::filesystem::path again;              ///< run: repeat the run of this report.json
     std::optional<std::int64_t> fromFrame;    ///< run: from this frame's checkpoint; nothing: the last one
@@ -98,6 +98,7 @@ struct Options {
     int firstMember = 0;            ///< … with numbers from this one on
     bool framesOfAll = false;       ///< ensemble: with pictures of all of them
     std::vector<std::string> vary;  ///< ensemble: seed, positions, key=a..b; none: positions
+    int paperRepeats = 1;           ///< paper: runs of each, with other particles
     double confidence = 0.99;       ///< compare: of all intervals of ensembles together
 
     ViewOptions view;  ///< view: how the window begins

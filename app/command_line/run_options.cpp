@@ -39,7 +39,8 @@ void addRun(CLI::App& program, Options& options)
         ->needs(resume);
     run->add_option("--again", options.again, "repeat the run of this report.json, and say whether it ends the same: exit code 0 same, 1 different");
     run->add_flag("--panel", options.asPanel, "pictures without label, time and colour bar, to stand beside others");
-    run->add_option("--runs-to-follow", options.runsToFollow, "so many more in the same command: its progress tells the time that is left of all")
+    run->add_option("--runs-to-follow", options.runsToFollow,
+                    "what follows in the same command takes so many times as long: progress tells the time that is left of all")
         ->check(CLI::NonNegativeNumber);
     run->callback([&options] {
         options.verb = Verb::Run;
@@ -78,6 +79,8 @@ void addPaper(CLI::App& program, Options& options)
     auto* paper = program.add_subcommand("paper", "the scenes of the PolyPIC paper, each with APIC and PolyPIC, in one report");
     addOutput(*paper, options);
     paper->add_flag("--quick", options.quick, "only the first moments of each scene");
+    paper->add_option("--repeats", options.paperRepeats, "runs of each with particles laid otherwise, so that all numbers have a spread (default: 1)")
+        ->check(CLI::Range(1, 1000));
     paper->add_flag("--force", options.force, "redo runs that are done");
     paper->add_option("--set", options.sets, "override a key of all scenes: dotted.key=value")->take_all()->allow_extra_args(false);
     paper->callback([&options] { options.verb = Verb::Paper; });

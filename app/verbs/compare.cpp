@@ -68,7 +68,7 @@ int runVerbCompare(const Options& options, const Parts& parts)
     const bool withFrames = options.frames && asWritten.pictures.output.frames;
     makeFolder(folder);
 
-    const auto done = runAll(runs, options, withFrames, stopWanted);
+    const auto done = runAll(runs, options, withFrames, 0.0, stopWanted);
     if (stopWanted()) return 1;
     if (!done.empty()) makeProducts(done, {asWritten.pictures, withFrames, options.video, folder}, parts, stopWanted);
     if (stopWanted()) return 1;
