@@ -57,9 +57,9 @@ void addDerived(Series& energies, double vertices)
 std::vector<Series> logOf(const Ensemble& ensemble, const char* name)
 {
     std::vector<Series> all;
-    for (std::size_t n = 0; n < ensemble.folders.size(); ++n) {
-        if (!fs::exists(ensemble.folders[n] / name)) return {};
-        Series series = readSeries(ensemble.folders[n] / name);
+    for (std::size_t n = 0; n < ensemble.runs.size(); ++n) {
+        if (!fs::exists(ensemble.runs[n].folder / name)) return {};
+        Series series = readSeries(ensemble.runs[n].folder / name);
         if (series.times.empty()) return {};
         if (series.values.contains("published_erg")) addDerived(series, ensemble.reports[n].values.at("fabric/vertices").front());
         all.push_back(std::move(series));
@@ -126,9 +126,9 @@ void addMachineColumns(const Ensemble& ensemble, std::vector<EnsembleColumn>& co
 {
     for (const MachineFigure& figure : kOfMachine) {
         EnsembleColumn column = {.name = figure.name, .values = {}, .isOfMachine = true};
-        for (const fs::path& folder : ensemble.folders) {
-            const auto report = readReport(folder);
-            column.values.push_back(report ? figure.of(*report) : kNothing);
+        for (std::size_t n = 0; n < ensemble.runs.size(); ++n) {
+            const auto report = readReport(ensemble.runs[n].folder);
+            column.values.push_back(report && n >= ensemble.timedFrom ? figure.of(*report) : kNothing);
         }
         columns.push_back(std::move(column));
     }
@@ -136,17 +136,17 @@ void addMachineColumns(const Ensemble& ensemble, std::vector<EnsembleColumn>& co
 
 }  // namespace
 
-Ensemble ensembleOf(const std::vector<fs::path>& folders, const std::string& label)
+Ensemble ensembleOf(const std::vector<EnsembleRun>& runs, const std::string& label)
 {
-    Ensemble ensemble = {.label = label, .folders = {}, .missing = 0, .reports = {}, .logs = {}};
-    for (const fs::path& folder : folders) {
-        const auto report = readReport(folder);
+    Ensemble ensemble = {.label = label, .runs = {}, .missing = 0, .timedFrom = 0, .reports = {}, .logs = {}};
+    for (const EnsembleRun& run : runs) {
+        const auto report = readReport(run.folder);
         if (!report || report->status != "done") {
             ++ensemble.missing;
             continue;
         }
-        ensemble.folders.push_back(folder);
-        ensemble.reports.push_back(readReportNumbers(folder / "report.json"));
+        ensemble.runs.push_back(run);
+        ensemble.reports.push_back(readReportNumbers(run.folder / "report.json"));
     }
     for (const char* log : {"energy.csv", "probes.csv"})
         if (auto all = logOf(ensemble, log); !all.empty()) ensemble.logs.push_back(std::move(all));
@@ -165,13 +165,18 @@ Ensemble readEnsemble(const fs::path& folder)
     const sim::Node root = sim::parseYaml(readWhole(file), source);
     const sim::Node* runs = root.find("runs");
     if (!runs || !runs->isList()) throw sim::InputError(fmt::format("{}: it lists no runs", file.string()));
-    std::vector<fs::path> folders;
-    for (const sim::Node& run : runs->items)
-        if (const sim::Node* name = run.find("name")) folders.push_back(folder / "runs" / name->text);
-    Ensemble ensemble = ensembleOf(folders, "");
-    if (ensemble.folders.empty())
+    std::vector<EnsembleRun> all;
+    for (sim::Node run : runs->items) {
+        const sim::Node* name = run.find("name");
+        if (!name) continue;
+        const fs::path of = folder / "runs" / name->text;
+        run.erase("name");
+        all.push_back({of, run.flow()});
+    }
+    Ensemble ensemble = ensembleOf(all, "");
+    if (ensemble.runs.empty())
         throw sim::InputError(fmt::format("{}: none of its runs is done; drench sweep {} does them", folder.string(), file.string()));
-    const RunResult report = *readReport(ensemble.folders.front());
+    const RunResult report = *readReport(ensemble.runs.front().folder);
     ensemble.label = report.label.empty() ? folder.lexically_normal().filename().string() : report.label;
     return ensemble;
 }

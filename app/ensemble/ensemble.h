@@ -11,12 +11,19 @@ namespace app {
 
 inline constexpr const char* kEnsembleFile = "ensemble.yaml";
 
+/// A run of an ensemble.
+struct EnsembleRun {
+    std::filesystem::path folder;
+    std::string draw;  ///< what chance has given it: runs of two ensembles with the same draw are a pair
+};
+
 /// Runs of the same but for chance, as they are read back.
 struct Ensemble {
-    std::string label;                           ///< in tables and legends
-    std::vector<std::filesystem::path> folders;  ///< of runs that are done
-    std::size_t missing = 0;                     ///< runs that did not get to their end, which do not count
-    std::vector<Series> reports;                 ///< numbers of report.json, one row for each run
+    std::string label;              ///< in tables and legends
+    std::vector<EnsembleRun> runs;  ///< that are done
+    std::size_t missing = 0;        ///< runs that did not get to their end, which do not count
+    std::size_t timedFrom = 0;      ///< seconds and memory are those of this run and of those after it: others had more to do
+    std::vector<Series> reports;    ///< numbers of report.json, one row for each run
     /// A log of each run, energy.csv and probes.csv; none of a kind that not all of them have.
     std::vector<std::vector<Series>> logs;
 };
@@ -32,7 +39,7 @@ struct EnsembleColumn {
 
 /// Runs that are done.
 /// Throws InputError where a log cannot be understood.
-Ensemble ensembleOf(const std::vector<std::filesystem::path>& folders, const std::string& label);
+Ensemble ensembleOf(const std::vector<EnsembleRun>& runs, const std::string& label);
 
 /// Is this the folder of an ensemble?
 bool isEnsemble(const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace app {
 
@@ -89,6 +90,19 @@ MeanDifference welchDifference(const Spread& a, const Spread& b, double confiden
     const double na = static_cast<double>(a.count), nb = static_cast<double>(b.count), variance = a.variance() / na + b.variance() / nb;
     if (variance > 0.0) found.margin = studentQuantile(1.0 - confidence, std::min(na, nb) - 1.0) * std::sqrt(variance);
     else if (found.difference == 0.0 || chanceOfSorting(na, nb) <= 1.0 - confidence) found.margin = 0.0;
+    return found;
+}
+
+MeanDifference pairedDifference(std::span<const double> a, std::span<const double> b, double confidence)
+{
+    std::vector<double> differences;
+    for (std::size_t n = 0; n < a.size(); ++n) differences.push_back(b[n] - a[n]);
+    const Spread spread = spreadOf(differences);
+    MeanDifference found = {spread.mean, kInfinity};
+    if (spread.count < 2) return found;
+    // Without a spread: chance gives all of them one sign once in 2^(n-1) times.
+    if (spread.deviation > 0.0) found.margin = spread.marginOfMean(confidence);
+    else if (spread.mean == 0.0 || std::ldexp(2.0, -static_cast<int>(spread.count)) <= 1.0 - confidence) found.margin = 0.0;
     return found;
 }
 

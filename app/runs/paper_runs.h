@@ -39,7 +39,7 @@ struct PaperResult {
 std::vector<ComparedRun> repeatsOf(const std::vector<ComparedRun>& runs, int repeats, const Parts& parts, const std::filesystem::path& folder);
 
 /// Each run with those of its repeats that are done. Those of which nothing but the run itself is done are left out.
-std::vector<Ensemble> ensemblesOf(const PaperScene& scene, const std::vector<ComparedRun>& runs, const std::vector<ComparedRun>& repeats);
+std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const std::vector<ComparedRun>& repeats);
 
 /// The paper's table (Markdown): duration, time step, mean seconds per step, minutes, peak memory, mean numbers of particles (those of
 /// liquid and the vertices), of liquid ones, and of elements. Of repeats it has means ± standard deviations.

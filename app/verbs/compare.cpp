@@ -34,8 +34,7 @@ int compareEnsembles(const Options& options)
         ensembles.push_back(readEnsemble(folder));
         const Ensemble& ensemble = ensembles.back();
         if (ensemble.missing > 0) spdlog::warn("{}: {} runs that are not done do not count", folder.string(), ensemble.missing);
-        if (ensemble.folders.size() < 2)
-            throw sim::InputError(fmt::format("{}: two runs at least must be done to tell their spread", folder.string()));
+        if (ensemble.runs.size() < 2) throw sim::InputError(fmt::format("{}: two runs at least must be done to tell their spread", folder.string()));
     }
     tellApart(ensembles, options.from);
     makeFolder(options.out);

@@ -27,7 +27,7 @@ void gatherEnsemble(const std::filesystem::path& folder, const std::string& name
 {
     const Ensemble ensemble = readEnsemble(folder);
     const std::string title =
-        fmt::format("{}: {} runs, varied: {}", name, ensemble.folders.size(), vary.empty() ? "positions" : fmt::format("{}", fmt::join(vary, ", ")));
+        fmt::format("{}: {} runs, varied: {}", name, ensemble.runs.size(), vary.empty() ? "positions" : fmt::format("{}", fmt::join(vary, ", ")));
     fmt::print("\n{}\n{}\n", writeEnsemble(ensemble, title, folder), (folder / "ensemble.csv").string());
 }
 

@@ -67,7 +67,7 @@ std::optional<PaperResult> runScene(const PaperWork& work, double costAfter, con
     const auto repeated = stopWanted() ? std::vector<ComparedRun>() : runAll(work.repeats, work.ofRepeats(), false, costAfter, stopWanted);
     if (stopWanted()) return std::nullopt;
     missing += work.runs.size() - done.size() + work.repeats.size() - repeated.size();
-    return PaperResult{work.scene, work.pictures(), done, ensemblesOf(work.scene, done, repeated)};
+    return PaperResult{work.scene, work.pictures(), done, ensemblesOf(done, repeated)};
 }
 
 }  // namespace

@@ -159,6 +159,7 @@ ToySettings readToy(const SceneRequest& request)
     ToySettings toy;
     for (std::string line; std::getline(in, line);) readLine(line, ':', toy);
     if (request.variant == "b") toy.speed = 2.0;
+    if (request.variant == "paper_polypic") toy.speed = 1.5;
     for (const auto& set : request.sets) readLine(set, '=', toy);
     return toy;
 }

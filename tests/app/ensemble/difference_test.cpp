@@ -38,19 +38,24 @@ std::vector<EnsembleColumn> drawn(const Draw& draw, int runs, std::uint64_t numb
     return columns;
 }
 
-/// How many of 2000 pairs of ensembles of one distribution seem to differ.
-int falseAlarms(const Draw& draw, int runs)
+constexpr int kTrials = 1000;
+
+/// How often two ensembles of one distribution seem to differ.
+int falseAlarms(const Draw& draw, int runs, bool isPaired)
 {
     int alarms = 0;
-    for (std::uint64_t pair = 0; pair < 2000; ++pair)
-        alarms += differenceOf(drawn(draw, runs, 2 * pair), drawn(draw, runs, 2 * pair + 1), 0.99).seen() > 0 ? 1 : 0;
+    for (std::uint64_t trial = 0; trial < kTrials; ++trial)
+        alarms += differenceOf(drawn(draw, runs, 2 * trial), drawn(draw, runs, 2 * trial + 1), 0.99, isPaired).seen() > 0 ? 1 : 0;
     return alarms;
 }
 
 TEST(EnsembleDifference, FalseAlarmsAreOnePercentAtMost)
 {
     for (const auto& [name, draw] : kDistributions)
-        for (const int runs : {5, 20}) EXPECT_LE(falseAlarms(draw, runs), 20) << name << ", " << runs << " runs";
+        for (const int runs : {5, 20})
+            for (const bool isPaired : {false, true}) {
+                EXPECT_LE(falseAlarms(draw, runs, isPaired), kTrials / 100) << name << ", " << runs << (isPaired ? " pairs" : " runs");
+            }
 }
 
 TEST(EnsembleDifference, AShiftOfTwoDeviationsIsFound)
@@ -93,6 +98,32 @@ TEST(EnsembleDifference, OneRunTellsNothing)
     const EnsembleDifference difference = differenceOf(a, b, 0.99);
     EXPECT_EQ(difference.seen(), 0u);
     EXPECT_NE(differenceTable(difference).find("too few runs"), std::string::npos);
+}
+
+TEST(EnsembleDifference, PairsTellWhatTheirSpreadWouldHide)
+{
+    const std::vector<EnsembleColumn> a = {{.name = "kinetic_erg, mean", .values = {1.0, 5.0, 9.0, 3.0, 2.0, 7.0}}};
+    std::vector<EnsembleColumn> b = a;
+    for (std::size_t n = 0; n < 6; ++n) b[0].values[n] += n % 2 == 0 ? 0.010 : 0.011;
+    EXPECT_EQ(differenceOf(a, b, 0.99).seen(), 0u);
+    EXPECT_EQ(differenceOf(a, b, 0.99, true).seen(), 1u);
+    EXPECT_EQ(differenceOf(a, a, 0.99, true).judged.size(), 0u) << "pairs that are the same differ in nothing";
+    b = a;
+    for (std::size_t n = 0; n < 6; ++n) b[0].values[n] *= 1.0 + 1.0e-12 * static_cast<double>(n + 1);
+    EXPECT_EQ(differenceOf(a, b, 0.99, true).judged.size(), 0u) << "rounding is no difference";
+}
+
+TEST(EnsembleDifference, WhatIsNothingBesideItsKindIsConstant)
+{
+    const std::vector<EnsembleColumn> a = {{.name = "kinetic_erg, mean", .values = {1.0, 5.0, 9.0}},
+                                           {.name = "modal_erg, mean", .values = {1.0e-29, 1.1e-29, 1.2e-29}},
+                                           {.name = "forces/floor/liquid/mean_force[1]", .values = {-7.0, -7.1, -7.2}},
+                                           {.name = "forces/floor/liquid/mean_torque[0]", .values = {1.0e-13, 1.1e-13, 2.0e-13}}};
+    std::vector<EnsembleColumn> b = a;
+    for (double& x : b[1].values) x *= 2.0;
+    const EnsembleDifference difference = differenceOf(a, b, 0.99);
+    EXPECT_EQ(difference.constant, (std::vector<std::string>{"modal_erg"}));
+    EXPECT_EQ(difference.judged.size(), 3u) << "torques have no other to be small beside";
 }
 
 }  // namespace

@@ -113,6 +113,8 @@ TEST_F(Ensembles, CompareTellsWhetherADifferenceIsSeen)
     EXPECT_NE(same.find("No difference seen between a and same in "), std::string::npos) << same;
     const std::string other = told({"compare", "--from", "a", "--from", "thick", "--out", "both"});
     EXPECT_NE(other.find("thick differs from a in "), std::string::npos) << other;
+    EXPECT_NE(other.find("of 6 pairs of runs"), std::string::npos) << "they start from the same positions: " << other;
+    EXPECT_NE(same.find("of 6 and 6 runs"), std::string::npos) << same;
     EXPECT_EQ(contentOf(folder / "both" / "compare.md") + "\nboth/compare.csv\n", other);
     for (const char* plot : {"energy.png", "probes.png"}) {
         EXPECT_GT(contentOf(folder / "both" / plot).size(), 5000u) << plot;
@@ -136,7 +138,7 @@ TEST_F(Ensembles, ARunIsOneLikeAnyOtherAndMoreRunsAreAddedToThoseThatAreThere)
     const std::string report = contentOf(folder / "a/runs/001/report.json");
     ASSERT_EQ(ensemble("a", {"-n", "3", "--variant", "apic"}).code, 0);
     EXPECT_EQ(contentOf(folder / "a/runs/001/report.json"), report) << "done already";
-    EXPECT_EQ(readEnsemble(folder / "a").folders.size(), 3u);
+    EXPECT_EQ(readEnsemble(folder / "a").runs.size(), 3u);
     // The file is a study of the same runs.
     ASSERT_EQ(drench({"sweep", "a/ensemble.yaml", "--out", "a"}).code, 0);
     EXPECT_EQ(contentOf(folder / "a/runs/001/report.json"), report) << "done already";

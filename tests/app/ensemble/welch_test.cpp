@@ -66,5 +66,20 @@ TEST(Welch, WithoutSpreadItTakesEnoughRuns)
     EXPECT_TRUE(difference(20, 1.0 - 1.0e-9).isSeen());
 }
 
+TEST(Welch, PairsAreComparedByTheirOwnDifferences)
+{
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> a = {1.0, 100.0, 10000.0, none, 7.0}, b = {2.0, 102.0, 10003.0, 5.0, none};
+    const MeanDifference found = pairedDifference(a, b, 0.9);
+    EXPECT_DOUBLE_EQ(found.difference, 2.0);
+    EXPECT_NEAR(found.margin, 2.9199856 / std::sqrt(3.0), 1.0e-6);
+    EXPECT_TRUE(found.isSeen());
+    EXPECT_FALSE(welchDifference(spreadOf(a), spreadOf(b), 0.9).isSeen()) << "not among what makes the pairs differ from each other";
+    const std::vector<double> same(7, 1.0), more(7, 1.5);
+    EXPECT_EQ(pairedDifference(same, same, 0.99).margin, 0.0);
+    EXPECT_FALSE(pairedDifference(same, more, 0.99).isSeen()) << "seven heads or tails come once in 64 times";
+    EXPECT_TRUE(pairedDifference(same, more, 0.98).isSeen());
+}
+
 }  // namespace
 }  // namespace app::test
