@@ -131,7 +131,7 @@ std::string plotHead(std::size_t columns, std::size_t rows, const std::string& t
         "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f} title {} noenhanced font ',14'\n"
         "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\nset xrange [*:*] noextend\n"
         "set key at screen 0.5,{:.4f} center center vertical maxrows 2 samplen 2\n",
-        width, height, gnuplotText(picture), rows, columns, 100.0 / width, 1.0 - 25.0 / width, 120.0 / height, 1.0 - 70.0 / height, 120.0 / width,
+        width, height, gnuplotText(picture), rows, columns, 125.0 / width, 1.0 - 25.0 / width, 120.0 / height, 1.0 - 70.0 / height, 145.0 / width,
         90.0 / height, gnuplotText(title), 25.0 / height);
 }
 

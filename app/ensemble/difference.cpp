@@ -183,14 +183,15 @@ std::string sentenceOf(const EnsembleDifference& difference)
     const std::string how = fmt::format("of {}, at {:.6g} % confidence in all together", runs, 100.0 * difference.confidence);
     const std::size_t seen = difference.seen(), all = difference.judged.size();
     if (all == 0) return fmt::format("No difference seen between {} and {}: all numbers of {} are the same.", difference.a, difference.b, runs);
-    if (seen == 0) return fmt::format("No difference seen between {} and {} in {} numbers {}.", difference.a, difference.b, all, how);
+    const std::string numbers = all == 1 ? "1 number" : fmt::format("{} numbers", all);
+    if (seen == 0) return fmt::format("No difference seen between {} and {} in {} {}.", difference.a, difference.b, numbers, how);
     const auto clearest = std::ranges::max_element(difference.judged, {}, &ColumnDifference::clearness);
     const double low = clearest->found.difference - clearest->found.margin, high = clearest->found.difference + clearest->found.margin;
     const std::string range = clearest->a.mean != 0.0 ? fmt::format("{} ({} to {})", inPercent(clearest->found.difference, clearest->a.mean),
                                                                     inPercent(low, clearest->a.mean), inPercent(high, clearest->a.mean))
                                                       : intervalOf(clearest->found);
-    return fmt::format("{} differs from {} in {} of {} numbers, most clearly in {}: {:.5g} against {:.5g}, {}, {}.", difference.b, difference.a, seen,
-                       all, clearest->name, clearest->b.mean, clearest->a.mean, range, how);
+    return fmt::format("{} differs from {} in {} of {}, most clearly in {}: {:.5g} against {:.5g}, {}, {}.", difference.b, difference.a, seen, all,
+                       clearest->name, clearest->b.mean, clearest->a.mean, range, how);
 }
 
 std::string differenceTable(const EnsembleDifference& difference)
