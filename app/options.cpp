@@ -40,6 +40,7 @@ void addVerbs(CLI::App& program, Options& options)
     addProbe(program, options);
     addSchema(program, options);
     addSweep(program, options);
+    addEnsemble(program, options);
     addStress(program, options);
     addImport(program, options);
     addCheck(program, options);

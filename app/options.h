@@ -10,7 +10,25 @@
 
 namespace app {
 
-enum class Verb { Run, Compare, Check, View, Bench, BenchPrecision, Paper, Validate, Stress, Import, Render, Export, Sweep, Diff, Schema, Probe };
+enum class Verb {
+    Run,
+    Compare,
+    Check,
+    View,
+    Bench,
+    BenchPrecision,
+    Paper,
+    Validate,
+    Stress,
+    Import,
+    Render,
+    Export,
+    Sweep,
+    Ensemble,
+    Diff,
+    Schema,
+    Probe
+};
 
 /// How a window begins.
 struct ViewOptions {
@@ -46,7 +64,7 @@ struct Options {
     int threads = 1;                    ///< all verbs but bench, which has benchThreads; stress: so many runs side by side
     bool frames = true, video = true;
     bool asPanel = false;                     ///< pictures are to stand beside others: nothing is written over them
-    int runsToFollow = 0;                     ///< run: so many more in the same command, for the time that is left of it
+    double runsToFollow = 0.0;                ///< run: what follows in the same command takes so many times as long
     std::filesystem::path resume;             ///< run: go on with the run in this folder
     std::filesystem::path again;              ///< run: repeat the run of this report.json
     std::optional<std::int64_t> fromFrame;    ///< run: from this frame's checkpoint; nothing: the last one
@@ -71,10 +89,17 @@ struct Options {
 
     std::vector<std::string> formats;  ///< export: of geometry files; none: as the scene says
     std::filesystem::path probes;      ///< probe: a file with the section; empty: as the scene says
-    int jobs = 1;                      ///< sweep: runs side by side
-    bool onSlurm = false;              ///< sweep: hand the runs to Slurm
-    bool wait = true;                  ///< sweep: wait until Slurm has done the runs
+    int jobs = 1;                      ///< sweep, ensemble: runs side by side
+    bool onSlurm = false;              ///< sweep, ensemble: hand the runs to Slurm
+    bool wait = true;                  ///< sweep, ensemble: wait until Slurm has done the runs
     std::optional<std::size_t> task;   ///< sweep: do this run alone, as a job of Slurm's does
+
+    int members = 20;               ///< ensemble: how many runs
+    int firstMember = 0;            ///< ensemble: number of the first run
+    bool framesOfAll = false;       ///< ensemble: with pictures of all of them
+    std::vector<std::string> vary;  ///< ensemble: seed, positions, key=a..b; none: positions
+    int paperRepeats = 1;           ///< paper: runs of each, with other particles
+    double confidence = 0.99;       ///< compare: of all intervals of ensembles together
 
     ViewOptions view;  ///< view: how the window begins
 

@@ -35,6 +35,7 @@ int runVerb(const Options& options, const Backends& backends)
         case Verb::Schema: return runVerbSchema(options, backends);
         case Verb::Export: return runVerbExport(options, backends);
         case Verb::Sweep: return runVerbSweep(options, backends);
+        case Verb::Ensemble: return runVerbEnsemble(options, backends);
         case Verb::Import: return runVerbImport(options, backends);
     }
     return 1;

@@ -20,6 +20,7 @@ void addRun(CLI::App& program, Options& options);
 void addCompare(CLI::App& program, Options& options);
 void addPaper(CLI::App& program, Options& options);
 void addSweep(CLI::App& program, Options& options);
+void addEnsemble(CLI::App& program, Options& options);
 void addView(CLI::App& program, Options& options);
 
 // file_options.cpp: verbs that make files of files.

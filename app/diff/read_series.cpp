@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <sstream>
 
 namespace app {
@@ -18,7 +17,6 @@ namespace app {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Keys that tell of the machine and the clock, or are compared elsewhere.
 constexpr std::array<std::string_view, 11> kNotOfTheRun = {

@@ -4,13 +4,17 @@
 #include "app/scene/tolerance.h"
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace app {
 
-/// Numbers by column, one of each per row: a log of a run, or its report as one row. A row that lacks a column has NaN in it.
+/// In the place of a number that is not there.
+inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Numbers by column, one of each per row: a log of a run, or its report as one row. A row that lacks a column has kNothing in it.
 struct Series {
     std::string name;                                   ///< of the file
     std::vector<std::string> columns;                   ///< in their order in the file

@@ -1,5 +1,6 @@
 #include "app/reports/compare_table.h"
 
+#include "app/system/markdown.h"
 #include "app/system/progress.h"
 
 #include <fmt/format.h>
@@ -11,16 +12,9 @@ namespace app {
 
 namespace {
 
-/// Text inside a cell of a Markdown table.
-std::string cell(std::string text)
-{
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
-    return text;
-}
-
 std::string runRow(const RunResult& run, const RunResult* reference)
 {
-    std::string row = fmt::format("| {} | {:.4f} |", cell(run.label), run.secondsPerStep);
+    std::string row = fmt::format("| {} | {:.4f} |", markdownCell(run.label), run.secondsPerStep);
     if (reference) row += fmt::format(" {:.2f} |", reference->secondsPerStep > 0.0 ? run.secondsPerStep / reference->secondsPerStep : 0.0);
     return row + fmt::format(" {} | {:.4g} | {} | {:.0f} | {} | {:.1f} | {} | `{}` |\n", run.steps, run.simulatedTime,
                              formatDuration(run.wallSeconds), run.peakMemoryMegabytes, run.particles, run.meanIterations, run.maxIterations,
@@ -32,7 +26,7 @@ std::string runTable(const std::vector<RunResult>& runs, const RunResult* refere
     std::string table = "| variant | s/step (median) |";
     std::string rule = "|---|---:|";
     if (reference) {
-        table += fmt::format(" × {} |", cell(reference->label));
+        table += fmt::format(" × {} |", markdownCell(reference->label));
         rule += "---:|";
     }
     table += " steps | simulated s | wall time | peak memory MB | particles | iterations/step | most iterations | state hash |\n";
@@ -45,7 +39,7 @@ std::string stageRows(const std::vector<RunResult>& runs)
 {
     std::string table = "| stage [median ms] |", rule = "|---|";
     for (const auto& run : runs) {
-        table += fmt::format(" {} |", cell(run.label));
+        table += fmt::format(" {} |", markdownCell(run.label));
         rule += "---:|";
     }
     table += "\n" + rule + "\n";

@@ -1,6 +1,8 @@
 #include "app/reports/energy_plot.h"
 
+#include "app/reports/step_logs.h"
 #include "app/system/atomic_files.h"
+#include "app/system/csv.h"
 #include "app/system/gnuplot.h"
 
 #include <fmt/format.h>
@@ -64,6 +66,13 @@ std::string head(int panels, const std::string& title, const std::string& unit, 
         550 * panels, gnuplotText(picture), panels, gnuplotText(title), unit);
 }
 
+/// "$13": a column of energy.csv by its name, as gnuplot counts them.
+std::string columnOfEnergies(const std::string& name)
+{
+    const std::vector<std::string> columns = csvCells(std::string(kEnergyHeader));
+    return fmt::format("${}", std::ranges::find(columns, name) - columns.begin() + 1);
+}
+
 /// Draw folder/name.png by script(curves, picture), whose curves are told relative to the folder.
 template <class Script>
 void draw(const std::vector<EnergyCurve>& curves, const std::filesystem::path& folder, const std::string& name, Script&& script)
@@ -101,8 +110,9 @@ std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std:
     const auto perParticle = [](const std::string& value) {
         return [=](const EnergyCurve& curve) { return fmt::format("{}/($6+{})", value, curve.vertices); };
     };
-    return head(2, title, "erg per particle", picture) + panel(curves, "kinetic + potential + elastic", perParticle("$5")) +
-           "unset key\nunset ylabel\n" + panel(curves, "as published (no motion of the liquid)", perParticle("$12")) + "unset multiplot\n";
+    return head(2, title, "erg per particle", picture) + panel(curves, "kinetic + potential + elastic", perParticle(columnOfEnergies("total_erg"))) +
+           "unset key\nunset ylabel\n" + panel(curves, "as published (no motion of the liquid)", perParticle(columnOfEnergies("published_erg"))) +
+           "unset multiplot\n";
 }
 
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)

@@ -113,8 +113,9 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
         arguments.insert(arguments.end(), {"--resume", run.folder.string()});
         return arguments;
     }
-    arguments.insert(arguments.end(), {options.scene, "--variant", run.setup.variant, "--out", run.folder.string()});
-    for (const auto& set : options.sets) arguments.insert(arguments.end(), {"--set", set});
+    const SceneRequest& request = run.setup.request;
+    arguments.insert(arguments.end(), {request.file, "--variant", request.variant, "--out", run.folder.string()});
+    for (const auto& set : request.sets) arguments.insert(arguments.end(), {"--set", set});
     return arguments;
 }
 
@@ -149,7 +150,14 @@ bool isLeftToDo(const ComparedRun& run, const Options& options, bool withFrames)
 
 }  // namespace
 
-std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
+double costOf(std::span<const ComparedRun> runs, const Options& options, bool withFrames)
+{
+    double cost = 0.0;
+    for (const ComparedRun& run : runs) cost += isLeftToDo(run, options, withFrames) ? run.cost : 0.0;
+    return cost;
+}
+
+std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames, double costAfter,
                                 const std::function<bool()>& stopWanted)
 {
     const auto begin = std::chrono::steady_clock::now();
@@ -163,9 +171,8 @@ std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Opti
             fmt::print("{}\n", head);
             std::fflush(stdout);
             std::vector<std::string> arguments = runArguments(runs[n], options);
-            const auto isLeft = [&](const ComparedRun& run) { return isLeftToDo(run, options, withFrames); };
-            const auto toFollow = std::count_if(runs.begin() + static_cast<std::ptrdiff_t>(n) + 1, runs.end(), isLeft);
-            arguments.insert(arguments.end(), {"--runs-to-follow", fmt::format("{}", toFollow)});
+            const double toFollow = costOf(std::span(runs).subspan(n + 1), options, withFrames) + costAfter;
+            arguments.insert(arguments.end(), {"--runs-to-follow", fmt::format("{:.6g}", toFollow / runs[n].cost)});
             if (!runChild("/proc/self/exe", arguments, {.folder = {}, .quiet = false}).ok()) continue;
         }
         done.push_back(runs[n]);

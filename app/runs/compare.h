@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ComparedRun {
     SceneSetup setup;
     std::filesystem::path folder;
     std::string contentHash;
+    double cost = 1.0;  ///< what it is expected to take, relative to other runs of the same command
 };
 
 /// The variants a comparison is about, every one of them loaded and so validated before the first one starts.
@@ -36,8 +38,12 @@ std::vector<std::string> runArguments(const ComparedRun& run, const Options& opt
 
 /// Run what is not done yet, each in a process of its own, so that its peak memory and its crash are its own. Returns those that got to
 /// their end; of a run that was stopped, those before it.
-std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames,
+/// @param costAfter  of what follows on them in the same command
+std::vector<ComparedRun> runAll(const std::vector<ComparedRun>& runs, const Options& options, bool withFrames, double costAfter,
                                 const std::function<bool()>& stopWanted);
+
+/// What those of them cost that are still to be done.
+double costOf(std::span<const ComparedRun> runs, const Options& options, bool withFrames);
 
 /// What was seen of runs that are done, in one sentence; "" where they have written no energies.
 std::string summarizeRuns(const std::vector<ComparedRun>& runs);

@@ -1,5 +1,8 @@
 #include "app/runs/paper_runs.h"
 
+#include "app/ensemble/band_plot.h"
+#include "app/ensemble/ensemble_products.h"
+#include "app/ensemble/vary.h"
 #include "app/reports/energy_plot.h"
 #include "app/reports/run_report.h"
 #include "app/system/atomic_files.h"
@@ -9,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 
 namespace app {
 
@@ -17,7 +21,16 @@ namespace {
 /// Of each scene's length, where its row of the overview shows it: the liquid is amid the fabric.
 constexpr double kShownAt = 0.8;
 
+/// With which all intervals of a scene hold together.
+constexpr double kConfidence = 0.99;
+
+/// What the paper tells of its methods: how much energy they keep, and what they take.
+constexpr std::array<std::string_view, 5> kClaims = {"total_erg, at the end", "total_erg, mean", "kinetic_erg, mean", "published_erg, mean",
+                                                     "s_per_step"};
+
 const std::string& methodOf(const ComparedRun& run) { return std::ranges::find(kPaperVariants, run.setup.variant, &PaperVariant::name)->method; }
+
+std::string nameOf(const PaperScene& scene, const ComparedRun& run) { return fmt::format("{}, {}", scene.example, methodOf(run)); }
 
 void plot(const std::vector<PaperResult>& results, bool withFabric, const std::string& title, const std::filesystem::path& folder,
           const std::string& name)
@@ -27,11 +40,28 @@ void plot(const std::vector<PaperResult>& results, bool withFabric, const std::s
         if (result.scene.hasFabric != withFabric) continue;
         for (const ComparedRun& run : result.runs) {
             const auto report = readReport(run.folder);
-            curves.push_back({run.setup.variant, fmt::format("{}, {}", result.scene.example, methodOf(run)), run.folder / "energy.csv",
-                              report ? report->fabricVertices : 0});
+            curves.push_back({run.setup.variant, nameOf(result.scene, run), run.folder / "energy.csv", report ? report->fabricVertices : 0});
         }
     }
     if (!curves.empty()) plotPerParticle(curves, title, folder, name);
+}
+
+/// The same with the bands of repeats.
+void plotBands(const std::vector<PaperResult>& results, bool withFabric, const std::string& title, const std::filesystem::path& folder,
+               const std::string& name)
+{
+    std::vector<BandCurve> curves;
+    for (const PaperResult& result : results) {
+        if (result.scene.hasFabric != withFabric) continue;
+        for (std::size_t n = 0; n < result.ensembles.size(); ++n) {
+            const Ensemble& ensemble = result.ensembles[n];
+            if (ensemble.logs.empty()) continue;
+            // writeDifferences leaves the table there
+            curves.push_back({fmt::format("{}, {}", result.scene.example, ensemble.label), bandsOf(ensemble.logs.front()),
+                              folder / result.scene.name / fmt::format("energy_bands_{}.csv", n + 1)});
+        }
+    }
+    if (!curves.empty()) drawBands(curves, perParticlePanels(), title, folder, name);
 }
 
 OverviewRow overviewRow(const PaperResult& result)
@@ -42,17 +72,109 @@ OverviewRow overviewRow(const PaperResult& result)
     return row;
 }
 
+/// Reports of a run and of its repeats.
+std::vector<RunResult> reportsOf(const PaperResult& result, std::size_t run)
+{
+    std::vector<EnsembleRun> runs = {{result.runs[run].folder, ""}};
+    if (run < result.ensembles.size()) runs = result.ensembles[run].runs;
+    std::vector<RunResult> reports;
+    for (const EnsembleRun& one : runs)
+        if (const auto report = readReport(one.folder)) reports.push_back(*report);
+    return reports;
+}
+
+/// "12.3", or of repeats "12.3 ± 0.4".
+template <class Of>
+std::string cellOf(const std::vector<RunResult>& reports, fmt::string_view format, Of&& of)
+{
+    std::vector<double> numbers;
+    for (const RunResult& report : reports) numbers.push_back(of(report));
+    const Spread spread = spreadOf(numbers);
+    const std::string mean = fmt::vformat(format, fmt::make_format_args(spread.mean));
+    return spread.count > 1 ? fmt::format("{} ± {:.2g}", mean, spread.deviation) : mean;
+}
+
+std::string paperRow(const PaperResult& result, std::size_t run, const std::vector<RunResult>& reports)
+{
+    const RunResult& first = reports.front();
+    // The first of many has drawn pictures, which takes time and memory.
+    const std::vector<RunResult> timed(reports.begin() + (reports.size() > 2 ? 1 : 0), reports.end());
+    return fmt::format("| {} | {:.4g} | {:.2g} | {} | {} | {} | {} | {} | {} |\n", nameOf(result.scene, result.runs[run]), first.simulatedTime,
+                       result.runs[run].setup.scene.settings.time.dt,
+                       cellOf(timed, "{:.4f}", [](const RunResult& r) { return r.meanSecondsPerStep; }),
+                       cellOf(timed, "{:.1f}", [](const RunResult& r) { return r.wallSeconds / 60.0; }),
+                       cellOf(timed, "{:.3f}", [](const RunResult& r) { return r.peakMemoryMegabytes / 1000.0; }),
+                       cellOf(reports, "{:.0f}", [](const RunResult& r) { return r.meanParticles + static_cast<double>(r.fabricVertices); }),
+                       cellOf(reports, "{:.0f}", [](const RunResult& r) { return r.meanParticles; }), first.fabricElements);
+}
+
+/// Only the rows of a difference that the paper makes claims about.
+EnsembleDifference claimsOf(EnsembleDifference difference)
+{
+    const auto isNone = [](const ColumnDifference& column) { return std::ranges::find(kClaims, column.name) == kClaims.end(); };
+    std::erase_if(difference.judged, isNone);
+    std::erase_if(difference.ofMachine, isNone);
+    difference.constant.clear();
+    return difference;
+}
+
+void drawEnergies(const std::vector<PaperResult>& results, const std::filesystem::path& folder)
+{
+    if (!canPlot()) {
+        spdlog::warn("no gnuplot along PATH, so no energy plots: the numbers are in the runs' energy.csv");
+        return;
+    }
+    const bool hasRepeats = std::ranges::all_of(results, [](const PaperResult& result) { return !result.ensembles.empty(); });
+    const auto& draw = hasRepeats ? plotBands : plot;
+    draw(results, false, "Dam break", folder, "energy_dam_break");
+    draw(results, true, "Water on cloth and yarns", folder, "energy_splash");
+}
+
 }  // namespace
 
 const std::vector<PaperScene>& paperScenes()
 {
+    // Costs: seconds per step of `drench paper --quick` on two cores.
     static const std::vector<PaperScene> scenes = {
-        {"dam_break_small", "dam break (small)", false, {"time.duration=0.3", "output.every=1e-2"}},
-        {"splash_cloth_small", "splash cloth (small)", true, {"time.duration=0.25", "time.dt=5e-4"}},
-        {"splash_yarn_small", "splash yarn (small)", true, {"time.duration=0.25", "time.dt=5e-4"}},
-        {"splash_yarn_medium", "splash yarn (medium)", true, {"time.duration=0.3", "time.dt=5e-4"}},
+        {"dam_break_small", "dam break (small)", false, {"time.duration=0.3", "output.every=1e-2"}, 0.03},
+        {"splash_cloth_small", "splash cloth (small)", true, {"time.duration=0.25", "time.dt=5e-4"}, 0.2},
+        {"splash_yarn_small", "splash yarn (small)", true, {"time.duration=0.25", "time.dt=5e-4"}, 0.6},
+        {"splash_yarn_medium", "splash yarn (medium)", true, {"time.duration=0.3", "time.dt=5e-4"}, 1.2},
     };
     return scenes;
+}
+
+std::vector<ComparedRun> repeatsOf(const std::vector<ComparedRun>& runs, int repeats, const Backends& backends, const std::filesystem::path& folder)
+{
+    const std::uint64_t program = programHash();
+    std::vector<ComparedRun> all;
+    for (const ComparedRun& run : runs)
+        for (int n = 1; n < repeats; ++n) {
+            SceneRequest request = run.setup.request;
+            for (const std::string& set : setsOfRun({readVary("positions")}, run.setup.scene, static_cast<std::uint64_t>(n)))
+                request.sets.push_back(set);
+            ComparedRun repeat = run;
+            repeat.setup = backends.loadScene(request);
+            repeat.contentHash = contentHash(repeat.setup, true, program);
+            repeat.setup.label = fmt::format("{}, repeat {}", run.setup.label, n + 1);
+            repeat.folder = folder / "repeats" / run.setup.variant / fmt::format("{:03}", n);
+            all.push_back(std::move(repeat));
+        }
+    return all;
+}
+
+std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const std::vector<ComparedRun>& repeats)
+{
+    std::vector<Ensemble> ensembles;
+    for (const ComparedRun& run : runs) {
+        std::vector<EnsembleRun> all = {{run.folder, "as published"}};
+        for (const ComparedRun& repeat : repeats)
+            if (repeat.setup.variant == run.setup.variant) all.push_back({repeat.folder, repeat.folder.filename().string()});
+        ensembles.push_back(ensembleOf(all, methodOf(run)));
+        if (ensembles.back().runs.size() > 2) ensembles.back().timedFrom = 1;  // the first one has drawn pictures
+    }
+    const bool areAlone = std::ranges::any_of(ensembles, [](const Ensemble& ensemble) { return ensemble.runs.size() < 2; });
+    return areAlone ? std::vector<Ensemble>() : ensembles;
 }
 
 std::string paperTable(const std::vector<PaperResult>& results)
@@ -61,28 +183,30 @@ std::string paperTable(const std::vector<PaperResult>& results)
         "| example | duration s | Δt s | s/step (mean) | total min | peak GB | particles (mean) | fluid (mean) | elements |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     for (const PaperResult& result : results)
-        for (const ComparedRun& run : result.runs) {
-            const auto r = readReport(run.folder);
-            if (!r) continue;
-            table += fmt::format("| {}, {} | {:.4g} | {:.2g} | {:.4f} | {:.1f} | {:.3f} | {:.0f} | {:.0f} | {} |\n", result.scene.example,
-                                 methodOf(run), r->simulatedTime, run.setup.scene.settings.time.dt, r->meanSecondsPerStep, r->wallSeconds / 60.0,
-                                 r->peakMemoryMegabytes / 1000.0, r->meanParticles + static_cast<double>(r->fabricVertices), r->meanParticles,
-                                 r->fabricElements);
-        }
+        for (std::size_t run = 0; run < result.runs.size(); ++run)
+            if (const auto reports = reportsOf(result, run); !reports.empty()) table += paperRow(result, run, reports);
     return table;
+}
+
+std::string paperClaims(const std::vector<PaperResult>& results)
+{
+    std::string text;
+    for (const PaperResult& result : results) {
+        if (result.ensembles.size() < 2) continue;
+        const EnsembleDifference difference = differenceOf(result.ensembles[0], result.ensembles[1], kConfidence);
+        text += fmt::format("\n## {}\n\n{}\n\n{}", result.scene.example, sentenceOf(difference), differenceTable(claimsOf(difference)));
+    }
+    return text;
 }
 
 void makePaper(const std::vector<PaperResult>& results, const Backends& backends, bool withFrames, const std::filesystem::path& folder)
 {
-    const std::string table = paperTable(results);
+    for (const PaperResult& result : results)
+        if (result.ensembles.size() > 1) writeDifferences(result.ensembles, result.scene.example, kConfidence, folder / result.scene.name);
+    const std::string table = paperTable(results) + paperClaims(results);
     writeWhole(folder / "table.md", table);
     fmt::print("\n{}\n", table);
-    if (canPlot()) {
-        plot(results, false, "Dam break", folder, "energy_dam_break");
-        plot(results, true, "Water on cloth and yarns", folder, "energy_splash");
-    } else {
-        spdlog::warn("no gnuplot along PATH, so no energy plots: the numbers are in the runs' energy.csv");
-    }
+    drawEnergies(results, folder);
     if (!withFrames) return;
     std::vector<OverviewRow> rows;
     for (const PaperResult& result : results) rows.push_back(overviewRow(result));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/ensemble/difference.h"
 #include "app/runs/compare.h"
 
 #include <string>
@@ -13,6 +14,7 @@ struct PaperScene {
     std::string example;             ///< as the paper's table names it
     bool hasFabric = true;           ///< is in the second of its energy plots
     std::vector<std::string> quick;  ///< overrides that shorten it
+    double stepCost = 1.0;           ///< what a step takes, relative to those of the other scenes
 };
 
 /// In the order of the paper's table.
@@ -28,14 +30,26 @@ inline const std::vector<PaperVariant> kPaperVariants = {{"paper_apic", "APIC"},
 struct PaperResult {
     PaperScene scene;
     PictureSettings pictures;
-    std::vector<ComparedRun> runs;  ///< that got to their end
+    std::vector<ComparedRun> runs;    ///< that got to their end
+    std::vector<Ensemble> ensembles;  ///< each of those with its repeats; none without repeats
 };
 
+/// Runs of a scene with the paper's variants again, with other random numbers for where particles are laid.
+/// @param repeats  of each in all, the first among them
+std::vector<ComparedRun> repeatsOf(const std::vector<ComparedRun>& runs, int repeats, const Backends& backends, const std::filesystem::path& folder);
+
+/// Each run with those of its repeats that are done. Those of which nothing but the run itself is done are left out.
+std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const std::vector<ComparedRun>& repeats);
+
 /// The paper's table (Markdown): duration, time step, mean seconds per step, minutes, peak memory, mean numbers of particles (those of
-/// liquid and the vertices), of liquid ones, and of elements.
+/// liquid and the vertices), of liquid ones, and of elements. Of repeats it has means ± standard deviations.
 std::string paperTable(const std::vector<PaperResult>& results);
 
-/// table.md, energy_dam_break.png and energy_splash.png with their scripts, and with pictures sheet.png: a row per scene.
+/// In which of what the paper claims the methods differ, with confidence intervals (Markdown); "" without repeats.
+std::string paperClaims(const std::vector<PaperResult>& results);
+
+/// table.md, energy_dam_break.png and energy_splash.png with their scripts, and with pictures sheet.png: a row per scene. With repeats plots have
+/// bands, and what differs stands below the table and in each scene's compare.md.
 void makePaper(const std::vector<PaperResult>& results, const Backends& backends, bool withFrames, const std::filesystem::path& folder);
 
 }  // namespace app

@@ -15,7 +15,7 @@ struct RunOptions {
     int threads = 1;                                          ///< as limited by the caller; written into the report
     bool frames = true;                                       ///< draw pictures
     bool asPanel = false;                                     ///< pictures are to stand beside others
-    int runsToFollow = 0;                                     ///< in the same command, for the time that is left of it
+    double runsToFollow = 0.0;                                ///< what follows in the same command takes so many times as long
     const Checkpoint* from = nullptr;                         ///< state to resume from instead of the start, or null
     bool isBranch = false;                                    ///< the resumed run has a folder of its own, which begins with that state
     std::function<bool()> stopWanted = [] { return false; };  ///< looked at after every frame

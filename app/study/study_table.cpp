@@ -101,6 +101,9 @@ std::optional<double> asNumber(const std::string& text)
     return error == std::errc() && end == text.data() + text.size() && !text.empty() ? std::optional(x) : std::nullopt;
 }
 
+/// Seeds have no order that a plot could show.
+bool isSeed(const std::string& key) { return key.ends_with(".seed"); }
+
 using Points = std::vector<std::pair<double, double>>;
 
 /// One line for each combination of the other parameters; empty unless the parameter has two numbers at least.
@@ -115,7 +118,7 @@ std::map<std::string, Points> curvesOver(const std::string& key, const std::vect
         if (!x || !y) continue;
         std::vector<std::string> others;
         for (const std::string& other : parameters)
-            if (other != key) others.push_back(valueOf(*row.run, other));
+            if (other != key && !isSeed(other)) others.push_back(valueOf(*row.run, other));
         curves[fmt::format("{}", fmt::join(others, " "))].emplace_back(*x, *y);
         if (std::ranges::find(values, *x) == values.end()) values.push_back(*x);
     }
@@ -150,7 +153,7 @@ std::vector<std::string> drawPlots(const std::vector<Row>& rows, const std::vect
     if (!canPlot()) return made;
     for (const std::string& key : parameters)
         for (const Figure& figure : kFigures) {
-            if (!figure.title) continue;
+            if (!figure.title || isSeed(key)) continue;
             const auto curves = curvesOver(key, rows, parameters, figure);
             if (curves.empty()) continue;
             made.push_back(fmt::format("{}_over_{}", figure.name, key));

@@ -81,7 +81,7 @@ void Progress::show()
     shown_ = std::chrono::steady_clock::now();
     const double wallSeconds = secondsSince(start_);
     state_.secondsLeft = secondsLeft(begin_, state_.time, end_, wallSeconds);
-    if (runsToFollow_ > 0 && state_.secondsLeft >= 0.0)
+    if (runsToFollow_ > 0.0 && state_.secondsLeft >= 0.0)
         state_.allSecondsLeft = state_.secondsLeft + runsToFollow_ * (wallSeconds + state_.secondsLeft);
     const std::string line = (label_.empty() ? "" : label_ + "  ") + progressLine(state_);
     // \033[K wipes what an earlier, longer line left behind.

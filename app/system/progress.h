@@ -40,8 +40,8 @@ class Progress {
     void stepDone(double time, double dt, double stepSeconds);
     void frameDone() { ++state_.frame; }
 
-    /// So many runs follow in the same command, each expected to take as long as this one.
-    void setRunsToFollow(int count) { runsToFollow_ = count; }
+    /// What follows in the same command is expected to take so many times as long as this run.
+    void setRunsToFollow(double count) { runsToFollow_ = count; }
     /// Write where it stands now.
     void show();
 
@@ -51,7 +51,7 @@ class Progress {
     const double begin_, end_;
     const bool terminal_;
     bool lineOpen_ = false;
-    int runsToFollow_ = 0;
+    double runsToFollow_ = 0.0;
     ProgressState state_;
     std::chrono::steady_clock::time_point start_, shown_;
 };

@@ -22,6 +22,7 @@ int runVerbExport(const Options& options, const Backends& backends);
 int runVerbProbe(const Options& options, const Backends& backends);
 int runVerbSchema(const Options& options, const Backends& backends);
 int runVerbSweep(const Options& options, const Backends& backends);
+int runVerbEnsemble(const Options& options, const Backends& backends);
 int runVerbImport(const Options& options, const Backends& backends);
 
 }  // namespace app

@@ -3,6 +3,8 @@
 #include "app/drawing/look_from_settings.h"
 #include "app/frames/snapshot_from_state.h"
 #include "app/scene/describe_picture.h"
+#include "app/scene/picture_parameters.h"
+#include "app/view/explain.h"
 
 #include <imgui.h>
 
@@ -57,14 +59,6 @@ bool choose(const char* label, const char* words, E& choice)
     return true;
 }
 
-void chooseColors(const char* rangeLabel, std::array<float, 2>& range, render::ColorMap& map)
-{
-    const float step = std::max(1.0e-4f, 0.005f * (range[1] - range[0]));
-    ImGui::DragFloatRange2(rangeLabel, &range[0], &range[1], step, 0.0f, 0.0f, "%.4g");
-    range[1] = std::max(range[1], range[0] + std::max(1.0e-6f, 1.0e-6f * std::abs(range[0])));
-    choose("colour map", "jet\0turbo\0viridis\0", map);
-}
-
 }  // namespace
 
 LookPanel::LookPanel(const PictureSettings& pictures)
@@ -92,38 +86,52 @@ render::Look LookPanel::lookFor(const FrameSnapshot& snapshot) const
 bool LookPanel::draw()
 {
     const SnapshotExtras before = wanted_;
+    explained_.reset();
     drawVisibility();
+    drawMarks();
     if (contents_.liquid && look_.liquid.isShown) drawLiquid();
-    if (contents_.yarns && look_.yarns.isShown) drawFabric("yarns by", wanted_.yarns, yarnRanges_, look_.yarns);
-    if (contents_.cloth && look_.cloth.isShown) drawFabric("cloth by", wanted_.cloth, clothRanges_, look_.cloth);
+    if (contents_.yarns && look_.yarns.isShown) drawFabric("yarns", wanted_.yarns, yarnRanges_, look_.yarns);
+    if (contents_.cloth && look_.cloth.isShown) drawFabric("cloth", wanted_.cloth, clothRanges_, look_.cloth);
     ImGui::ColorEdit3("background", look_.background.data(), ImGuiColorEditFlags_NoInputs);
+    explainSetting("background");
     return wanted_ != before;
 }
 
 void LookPanel::drawVisibility()
 {
-    if (contents_.liquid) ImGui::Checkbox("liquid", &look_.liquid.isShown);
-    if (contents_.liquid && contents_.fabric()) ImGui::SameLine();
+    if (contents_.liquid) {
+        ImGui::Checkbox("liquid", &look_.liquid.isShown);
+        explain("whether it is drawn");
+    }
+    if (!contents_.fabric()) return;
+    if (contents_.liquid) ImGui::SameLine();
     bool isFabricShown = look_.yarns.isShown;
-    if (contents_.fabric() && ImGui::Checkbox("fabric", &isFabricShown)) look_.yarns.isShown = look_.cloth.isShown = isFabricShown;
+    if (ImGui::Checkbox("fabric", &isFabricShown)) look_.yarns.isShown = look_.cloth.isShown = isFabricShown;
+    explain("whether it is drawn");
+}
+
+void LookPanel::drawMarks()
+{
     ImGui::Checkbox("blocks", &wanted_.blocks);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("of 8 x 8 x 8 cells: where the grid is");
+    explain("of 8 x 8 x 8 cells: where the grid is");
     if (contents_.fabric()) {
         ImGui::SameLine();
         ImGui::Checkbox("contacts", &wanted_.contacts);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("pairs of fabric that push on each other");
+        explain("pairs of fabric that push on each other");
     }
     if (contents_.liquid) {
         ImGui::SameLine();
         ImGui::Checkbox("arrows", &wanted_.arrows);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("where the liquid goes");
+        explain("where the liquid goes");
     }
     if (wanted_.arrows) {
         auto milliseconds = static_cast<float>(1000.0 * wanted_.arrowTime);
         if (ImGui::SliderFloat("arrows [ms]", &milliseconds, 0.1f, 1000.0f, "%.1f", ImGuiSliderFlags_Logarithmic))
             wanted_.arrowTime = 0.001 * milliseconds;
+        explain("simulated time in which the liquid would go as far as an arrow is long [ms]");
     }
     choose("obstacles", "translucent\0wire\0hidden\0solid\0", look_.obstacles.style);
+    explainSetting("obstacles.style");
 }
 
 void LookPanel::drawLiquid()
@@ -133,23 +141,49 @@ void LookPanel::drawLiquid()
         look_.liquid.style = liquidStyleOf(liquidStyle_);
         wanted_.surface = liquidStyle_ == LiquidStyle::Surface;
     }
+    explainSetting("liquid.style");
     ColorBy colorBy = look_.liquid.flat ? ColorBy::Flat : liquidColorBy(wanted_);
     if (choose("liquid by", "speed\0pressure\0one colour\0", colorBy)) {
         look_.liquid.flat = colorBy == ColorBy::Flat;
         wanted_.pressure = colorBy == ColorBy::Pressure;
     }
+    explainSetting("liquid.color_by");
     if (!look_.liquid.flat)
-        chooseColors(colorBy == ColorBy::Pressure ? "dyn/cm^2" : "cm/s", liquidRanges_[wanted_.pressure ? 1 : 0], look_.liquid.colorMap);
+        chooseColors("liquid", colorBy == ColorBy::Pressure ? "dyn/cm^2" : "cm/s", liquidRanges_[wanted_.pressure ? 1 : 0], look_.liquid.colorMap);
     ImGui::PopID();
 }
 
-void LookPanel::drawFabric(const char* name, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look)
+void LookPanel::drawFabric(const std::string& group, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look)
 {
-    ImGui::PushID(name);
-    choose(name, "material and wetness\0speed\0strain\0saturation\0", colorBy);
+    ImGui::PushID(group.c_str());
+    choose((group + " by").c_str(), "material and wetness\0speed\0strain\0saturation\0", colorBy);
+    explainSetting(group + ".color_by");
     if (colorBy != FabricColorBy::Material)
-        chooseColors(colorBy == FabricColorBy::Speed ? "cm/s" : "range", ranges[static_cast<std::size_t>(colorBy)], look.colorMap);
+        chooseColors(group, colorBy == FabricColorBy::Speed ? "cm/s" : "range", ranges[static_cast<std::size_t>(colorBy)], look.colorMap);
     ImGui::PopID();
+}
+
+void LookPanel::chooseColors(const std::string& group, const char* rangeLabel, Range& range, render::ColorMap& map)
+{
+    const float step = std::max(1.0e-4f, 0.005f * (range[1] - range[0]));
+    ImGui::DragFloatRange2(rangeLabel, &range[0], &range[1], step, 0.0f, 0.0f, "%.4g");
+    range[1] = std::max(range[1], range[0] + std::max(1.0e-6f, 1.0e-6f * std::abs(range[0])));
+    explainSetting(group + ".range");
+    choose("colour map", "jet\0turbo\0viridis\0", map);
+    explainSetting(group + ".colormap");
+}
+
+/// While the pointer is on the widget that was drawn last.
+/// @param path  below render
+void LookPanel::explainSetting(const std::string& path)
+{
+    if (!ImGui::IsItemHovered()) return;
+    RenderSettings now;  // which unit a range has, and whether there is one, depends on what the colours show
+    now.colorBy = liquidColorBy(wanted_);
+    now.yarns.colorBy = wanted_.yarns;
+    now.cloth.colorBy = wanted_.cloth;
+    explained_ = pictureParameter(now, "render." + path);
+    if (explained_) explain(*explained_);
 }
 
 }  // namespace app

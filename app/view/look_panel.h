@@ -3,8 +3,11 @@
 #include "app/frames/frame_snapshot.h"
 #include "app/scene/picture_settings.h"
 #include "render/look.h"
+#include "sim/scene/parameters.h"
 
 #include <array>
+#include <optional>
+#include <string>
 
 namespace app {
 
@@ -17,6 +20,8 @@ class LookPanel {
     /// The widgets. True if snapshots are to show something else from now on: wanted().
     bool draw();
     const SnapshotExtras& wanted() const { return wanted_; }
+    /// The setting of the scene's file that the pointer was on when the widgets were drawn last, with its unit and help; nothing if it was on none.
+    const std::optional<sim::Parameter>& explained() const { return explained_; }
     /// For this snapshot: colour bars tell what its values are, be they those that are wanted or, for a moment, those
     /// that were wanted before, and liquid whose surface is not there yet is drawn as spheres.
     render::Look lookFor(const FrameSnapshot& snapshot) const;
@@ -26,8 +31,11 @@ class LookPanel {
     using FabricRanges = std::array<Range, 4>;  ///< by FabricColorBy
 
     void drawVisibility();
+    void drawMarks();
     void drawLiquid();
-    void drawFabric(const char* name, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look);
+    void drawFabric(const std::string& group, FabricColorBy& colorBy, FabricRanges& ranges, render::FabricLook& look);
+    void chooseColors(const std::string& group, const char* rangeLabel, Range& range, render::ColorMap& map);
+    void explainSetting(const std::string& path);
 
     const SceneContents contents_;
     LiquidStyle liquidStyle_;
@@ -35,6 +43,7 @@ class LookPanel {
     SnapshotExtras wanted_;
     std::array<Range, 2> liquidRanges_;  ///< of speeds and of pressures
     FabricRanges yarnRanges_, clothRanges_;
+    std::optional<sim::Parameter> explained_;
 };
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #include "app/view/parameter_panel.h"
 
+#include "app/view/explain.h"
 #include "sim/scene/describe.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ namespace app {
 
 namespace {
 
-const ImVec4 kComplaint(1.0f, 0.45f, 0.35f, 1.0f), kWaits(1.0f, 0.8f, 0.3f, 1.0f);
+const ImVec4 kComplaint(1.0f, 0.45f, 0.35f, 1.0f);
 
 std::string groupOf(const std::string& path) { return path.substr(0, path.find('.')); }
 
@@ -28,29 +29,11 @@ bool applies(const sim::Parameter& parameter, const SceneContents& contents)
     return isOfFabric ? contents.fabric() : !isOfLiquid || contents.liquid;
 }
 
-/// " [cm]", or nothing for plain numbers.
-std::string inBrackets(const std::string& unit) { return unit.empty() ? "" : " [" + unit + "]"; }
-
 /// What stands behind its value, under the heading of its group.
 std::string labelOf(const sim::Parameter& parameter)
 {
     const std::string name = parameter.path.substr(std::min(parameter.path.size(), groupOf(parameter.path).size() + 1));
     return (name.empty() ? parameter.path : name) + inBrackets(parameter.unit);
-}
-
-/// Name, range and help while the pointer is on it.
-void explain(const sim::Parameter& parameter)
-{
-    if (!ImGui::IsItemHovered()) return;
-    const std::string range = parameter.range.text(parameter.unit);
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted((parameter.path + inBrackets(parameter.unit)).c_str());
-    if (!range.empty()) ImGui::TextDisabled("%s", range.c_str());
-    ImGui::TextUnformatted(parameter.help.c_str());
-    if (parameter.isFixed) ImGui::TextColored(kWaits, "holds for a whole run: a change waits for a restart");
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
 }
 
 }  // namespace

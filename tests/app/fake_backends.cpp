@@ -136,6 +136,11 @@ RgbPicture putToysSideBySide(const std::vector<Panel>& panels)
 /// "key: number" or "key=number"
 void readLine(const std::string& line, char between, ToySettings& toy)
 {
+    constexpr std::string_view kSeed = "liquid.sources.0.fill.seed=";
+    if (line.starts_with(kSeed)) {
+        toy.speed += 0.001 * std::stod(line.substr(kSeed.size()));
+        return;
+    }
     const std::map<std::string, double*> doubles = {{"duration", &toy.duration}, {"every", &toy.every}, {"dt", &toy.dt}, {"speed", &toy.speed}};
     const std::map<std::string, int*> ints = {{"step_ms", &toy.stepMilliseconds}, {"fail_at_step", &toy.failAtStep}};
     const auto split = line.find(between);
@@ -154,6 +159,7 @@ ToySettings readToy(const SceneRequest& request)
     ToySettings toy;
     for (std::string line; std::getline(in, line);) readLine(line, ':', toy);
     if (request.variant == "b") toy.speed = 2.0;
+    if (request.variant == "paper_polypic") toy.speed = 1.5;
     for (const auto& set : request.sets) readLine(set, '=', toy);
     return toy;
 }
@@ -203,8 +209,10 @@ Backends toyBackendsFromFiles()
     backends.loadScene = [toy](const SceneRequest& request) {
         *toy = readToy(request);
         SceneSetup setup = toySetup(*toy);
+        setup.request = request;
         setup.variant = request.variant.empty() ? "default" : request.variant;
         if (request.file.starts_with("scenes/")) {
+            setup.scene.sources.emplace_back().fill.pattern = sim::FillSettings::Pattern::Reference;
             setup.pictures.compare.variants.clear();
             for (const PaperVariant& variant : kPaperVariants) setup.pictures.compare.variants.push_back({variant.name, variant.method, {}});
         }

@@ -157,6 +157,33 @@ TEST_F(Program, PaperLeavesItsReportAndGoesOnWhereItWas)
     EXPECT_NE(contentOf(yarn / "report.json"), ofYarn) << "a frame was missing";
 }
 
+/// Three runs of each: every number with its spread, and how the methods differ.
+TEST_F(Program, PaperWithRepeatsTellsTheirSpread)
+{
+    std::filesystem::create_directory(folder.path() / "scenes");
+    for (const PaperScene& scene : paperScenes())
+        std::filesystem::copy_file(folder.path() / "toy.yaml", folder.path() / "scenes" / (scene.name + ".yaml"));
+    const ChildExit end = run({"paper", "--no-frames", "--repeats", "3", "--out", "three"});
+    ASSERT_TRUE(end.ok()) << end.errorText;
+    const auto out = folder.path() / "three";
+    const std::string table = contentOf(out / "table.md");
+    EXPECT_NE(table.find(" ± "), std::string::npos) << table;
+    std::size_t sentences = 0;
+    for (std::size_t at = 0; (at = table.find("PolyPIC differs from APIC in ", at)) != std::string::npos; ++at) ++sentences;
+    EXPECT_EQ(sentences, paperScenes().size()) << table;
+    EXPECT_NE(table.find("| total_erg, at the end | "), std::string::npos) << table;
+    const auto scene = out / "splash_cloth_small";
+    EXPECT_EQ(reportOf("three/splash_cloth_small/repeats/paper_apic/002").at("status"), "done");
+    EXPECT_FALSE(std::filesystem::exists(scene / "repeats/paper_apic/003"));
+    EXPECT_NE(contentOf(scene / "compare.md").find("**differs**"), std::string::npos);
+    EXPECT_EQ(contentOf(out / "energy_splash.gp").find("energy.csv"), std::string::npos) << "bands of all runs, no curves of one";
+    EXPECT_NE(end.errorText.find(", with those to follow "), std::string::npos) << end.errorText;
+
+    const std::string report = contentOf(scene / "repeats/paper_apic/002/report.json");
+    ASSERT_TRUE(run({"paper", "--no-frames", "--repeats", "3", "--out", "three"}).ok());
+    EXPECT_EQ(contentOf(scene / "repeats/paper_apic/002/report.json"), report) << "done already";
+}
+
 TEST_F(Program, CompareRunsOnlyWhatIsMissing)
 {
     ASSERT_TRUE(run({"compare", "toy.yaml", "--no-video"}).ok());

@@ -1,5 +1,7 @@
 #include "app/reports/compare_table.h"
 #include "app/reports/energy_plot.h"
+#include "app/reports/step_logs.h"
+#include "app/system/csv.h"
 #include "app/system/gnuplot.h"
 #include "tests/app/temporary_folder.h"
 
@@ -89,6 +91,17 @@ TEST(EnergyPlot, TellsWhatGnuplotDislikes)
         EXPECT_NE(std::string(error.what()).find("energy.png"), std::string::npos) << error.what();
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "energy.png"));
+}
+
+TEST(EnergyPlot, ParticlesAreTheirColumns)
+{
+    const std::string script = perParticleScript({{"apic", "APIC", "energy.csv", 7}}, "Splash", "p.png");
+    const auto column = [](const std::string& name) {
+        const std::vector<std::string> columns = csvCells(std::string(kEnergyHeader));
+        return std::to_string(std::ranges::find(columns, name) - columns.begin() + 1);
+    };
+    EXPECT_NE(script.find("$" + column("total_erg") + "/($" + column("particles") + "+7)"), std::string::npos) << script;
+    EXPECT_NE(script.find("$" + column("published_erg") + "/($" + column("particles") + "+7)"), std::string::npos) << script;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -99,6 +100,13 @@ class Screen {
         frame(draw);
         frame(draw);
     }
+    template <class Draw>
+    void pointAt(float x, float y, Draw&& draw)
+    {
+        ImGui::GetIO().MousePos = ImVec2(x, y);
+        frame(draw);
+        frame(draw);
+    }
     static constexpr float kWidth = 400.0f, kHeight = 800.0f;
 
  private:
@@ -152,6 +160,37 @@ TEST(LookPanel, AllCanBeChosenAndEveryChangeIsTold)
     EXPECT_EQ(std::ranges::count(yarns, true), 4);
     EXPECT_EQ(std::ranges::count(styles, true), 4);
     EXPECT_EQ(std::ranges::count(liquids, true), 3);
+}
+
+/// Whatever has a key in a scene's file is explained as the file's declarations have it, with the unit of what the colours show.
+TEST(LookPanel, SettingsAreExplainedByTheirDeclarations)
+{
+    Screen screen;
+    LookPanel panel(settings());
+    const auto draw = [&] {
+        ImGui::Begin("Picture", nullptr, ImGuiWindowFlags_NoDecoration);
+        panel.draw();
+        ImGui::End();
+    };
+    std::map<std::string, sim::Parameter> explained;
+    for (float y = 2.0f; y < 400.0f; y += 4.0f) {
+        screen.pointAt(40.0f, y, draw);
+        if (const auto& parameter = panel.explained()) explained[parameter->path] = *parameter;
+    }
+    // Yarns show strain, cloth its material, which has no range.
+    std::vector<std::string> paths;
+    for (const auto& [path, parameter] : explained) {
+        paths.push_back(path);
+        EXPECT_FALSE(parameter.help.empty()) << path;
+    }
+    EXPECT_EQ(paths, (std::vector<std::string>{"render.background", "render.cloth.color_by", "render.liquid.color_by", "render.liquid.colormap",
+                                               "render.liquid.range", "render.liquid.style", "render.obstacles.style", "render.yarns.color_by",
+                                               "render.yarns.colormap", "render.yarns.range"}));
+    EXPECT_EQ(explained["render.liquid.range"].unit, "dyn/cm^2");
+    EXPECT_EQ(explained["render.yarns.range"].unit, "");
+    EXPECT_EQ(explained["render.liquid.style"].words, (std::vector<std::string>{"points", "spheres", "surface"}));
+    screen.pointAt(390.0f, 790.0f, draw);
+    EXPECT_FALSE(panel.explained());
 }
 
 /// From a click to a snapshot that has what was clicked, while the simulation rests.
