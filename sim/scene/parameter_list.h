@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/scene/choice.h"
+#include "sim/scene/ignores_reading.h"
 #include "sim/scene/key_list.h"
 #include "sim/scene/parameters.h"
 #include "sim/scene/source_location.h"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +17,7 @@
 namespace sim {
 
 /// Visitor of the declarations: a Parameter for every plain setting.
-class ParameterList {
+class ParameterList : public IgnoresReading {
  public:
     ParameterList(std::vector<Parameter>& all, std::string path) : all_(all), path_(std::move(path)) {}
 
@@ -101,15 +101,6 @@ class ParameterList {
     {
         if (holds) fields(*this);
     }
-    template <class Action>
-    void whenReading(Action)
-    {
-    }
-    void onlyRuns(const char*, const char*, std::initializer_list<const char*>, const char*) {}
-    void later(const char*, const char*) {}
-    void other(const char*, const char*) {}
-    void needs(const char*, const char*) {}
-    void require(bool, const char*, const std::string&) {}
 
  private:
     ParameterList below(const char* key) const

@@ -2,6 +2,7 @@
 
 #include "sim/core/types.h"
 #include "sim/scene/choice.h"
+#include "sim/scene/ignores_reading.h"
 #include "sim/scene/node.h"
 #include "sim/scene/range.h"
 #include "sim/scene/units.h"
@@ -17,7 +18,7 @@ namespace sim {
 
 /// Visitor of the declarations in describe.h: writes a struct as YAML in cgs, every value with `# [unit] help`.
 /// What it writes reads back to the same struct.
-class SectionWriter {
+class SectionWriter : public IgnoresReading {
  public:
     explicit SectionWriter(int depth = 0) : depth_(depth) {}
 
@@ -122,15 +123,6 @@ class SectionWriter {
     {
         fields(*this);
     }
-    template <class Action>
-    void whenReading(Action)
-    {
-    }
-    void onlyRuns(const char*, const char*, std::initializer_list<const char*>, const char*) {}
-    void later(const char*, const char*) {}
-    void other(const char*, const char*) {}
-    void needs(const char*, const char*) {}
-    void require(bool, const char*, const std::string&) {}
 
  private:
     struct Line {

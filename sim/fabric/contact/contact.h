@@ -35,17 +35,17 @@ struct ActiveContacts {
     std::vector<std::uint8_t> firstSide;         ///< vertices of the first side: 2 or 1
     std::vector<std::array<double, 4>> weights;  ///< of both sides, those of the second negative: they sum to zero [-]
     std::vector<Vec3> normal;                    ///< unit, from the second side to the first
-    std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient B_aᵀ force (answer) [dyn]
+    std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient B_aᵀ force (slipJacobian) [dyn]
     std::vector<double> stiffness;               ///< along the normal, k_n [dyn/cm]
-    std::vector<double> frictionStiffness;  ///< across it, k_t: the block of a, b is B_aᵀ (k_n n nᵀ + k_t (1 − n nᵀ)) B_b (answer) [dyn/cm]
-    std::vector<Lever> lever;
-    std::vector<Vec2i> between;  ///< the two, as contact/primitives.h counts them: ascending
+    std::vector<double> frictionStiffness;  ///< across it, k_t: the block of a, b is B_aᵀ (k_n n nᵀ + k_t (1 − n nᵀ)) B_b (slipJacobian) [dyn/cm]
+    std::vector<Lever> lever;               ///< how the turn of the pair moves its separation
+    std::vector<Vec2i> between;             ///< the two, as contact/primitives.h counts them: ascending
 
     std::size_t size() const { return vertices.size(); }
     bool empty() const { return vertices.empty(); }
 
     /// B of vertex k but for its weight: what a move of it turns the pair by, as its separation sees that.
-    Mat3 turning(std::size_t i, int k) const
+    Mat3 turnJacobian(std::size_t i, int k) const
     {
         Mat3 sum = Mat3::Zero();
         const auto ends = directionsOfPair(firstSide[i]);
@@ -56,13 +56,13 @@ struct ActiveContacts {
         return sum;
     }
     /// B of vertex k: Σ B u is how the separation of pair i changes with moves u of its vertices, but for what it turns as a whole.
-    Mat3 answer(std::size_t i, int k) const
+    Mat3 slipJacobian(std::size_t i, int k) const
     {
         const Mat3 own = weights[i][k] * Mat3::Identity();
-        return frictionStiffness[i] > 0.0 ? own + turning(i, k) : own;
+        return frictionStiffness[i] > 0.0 ? own + turnJacobian(i, k) : own;
     }
     /// What a force on the separation of pair i is on its vertices: Bᵀ f.
-    std::array<Vec3, 4> onVertices(std::size_t i, const Vec3& onPair) const
+    std::array<Vec3, 4> forcesOnVertices(std::size_t i, const Vec3& onPair) const
     {
         std::array<Vec3, 4> on;
         for (int k = 0; k < 4; ++k) on[k] = weights[i][k] * onPair;

@@ -34,8 +34,8 @@ double FabricContact::Parts::mobility(std::size_t slot) const
     double sum = 0.0;
     for (int k = 0; k < 4; ++k) {
         const double weight = active.weights[slot][k];
-        const Mat3 turning = active.turning(slot, k);  // across the normal
-        sum += inverseMass[active.vertices[slot][k]] * (weight * weight + weight * turning.trace() + 0.5 * turning.squaredNorm());
+        const Mat3 turn = active.turnJacobian(slot, k);  // across the normal
+        sum += inverseMass[active.vertices[slot][k]] * (weight * weight + weight * turn.trace() + 0.5 * turn.squaredNorm());
     }
     return sum;
 }
@@ -44,14 +44,14 @@ double FabricContact::Parts::mobility(std::size_t slot) const
 Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
                                         std::size_t slot)
 {
-    const FrictionPair& grip = frictionPairs[slot];
-    const double pressed = grip.range.reach - distance;
+    const FrictionPair& pair = frictionPairs[slot];
+    const double pressed = pair.range.reach - distance;
     active.frictionStiffness[slot] = 0.0;
-    if (!(grip.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
+    if (!(pair.coefficient > 0.0 && pressed > 0.0)) return {Vec3::Zero()};
     const std::array<int, 4>& v = active.vertices[slot];
     const std::array<double, 4>& c = active.weights[slot];
     const Vec3& normal = active.normal[slot];
-    const Vec3& apart = grip.apart;
+    const Vec3& apart = pair.apart;
     Vec3 before = Vec3::Zero(), further = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) {
         before += c[k] * start[v[k]];
@@ -60,8 +60,8 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const PairTurn turn(active.firstSide[slot], v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
-    const FrictionSpring spring{along(turn * heldForce[slot]), pairFrictionStiffness(-energy.slope, pressed, grip.perStep),
-                                grip.coefficient * -energy.slope};
+    const FrictionSpring spring{along(turn * heldForce[slot]), pairFrictionStiffness(-energy.slope, pressed, pair.perStep),
+                                pair.coefficient * -energy.slope};
     active.lever[slot] = turn.lever(before);
     for (Mat3& lever : active.lever[slot]) lever -= normal * (normal.transpose() * lever);  // what presses is not felt as a moment
     active.frictionStiffness[slot] = spring.stiffness;

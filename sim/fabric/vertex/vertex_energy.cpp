@@ -17,12 +17,12 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
         const std::array<int, 4>& v = contacts_->vertices[i];
         const Vec3& normal = contacts_->normal[i];
         Vec3 apart = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) apart += contacts_->answer(i, k) * move(v[k]);
+        for (int k = 0; k < 4; ++k) apart += contacts_->slipJacobian(i, k) * move(v[k]);
         const Vec3 force = forceAtEnd(i);
         const Vec3 push = normal.dot(force) * normal;
         changes[EnergyChange::Contact] -= push.dot(apart);
         changes[EnergyChange::Friction] -= (force - push).dot(apart);
-        const std::array<Vec3, 4> onVertices = contacts_->onVertices(i, force);
+        const std::array<Vec3, 4> onVertices = contacts_->forcesOnVertices(i, force);
         for (int k = 0; k < 4; ++k) gradient[v[k]] += onVertices[k];
     }
     for (const ObstacleContact& contact : touching_) {

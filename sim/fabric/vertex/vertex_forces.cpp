@@ -18,7 +18,7 @@ Vec3 VertexSolver::forceAtEnd(std::size_t contact) const
 {
     const Vec3& normal = contacts_->normal[contact];
     Vec3 change = Vec3::Zero();
-    for (int k = 0; k < 4; ++k) change += contacts_->answer(contact, k) * solvedMove(contacts_->vertices[contact][k]);
+    for (int k = 0; k < 4; ++k) change += contacts_->slipJacobian(contact, k) * solvedMove(contacts_->vertices[contact][k]);
     const Vec3 along = normal.dot(change) * normal;
     return contacts_->force[contact] + contacts_->stiffness[contact] * along + contacts_->frictionStiffness[contact] * (change - along);
 }
@@ -53,7 +53,7 @@ void VertexSolver::reportContacts(double h, const FabricState& state) const
         const std::array<int, 4>& v = contacts_->vertices[i];
         const int first = fabric_.pieceOf(v[0]), second = fabric_.pieceOf(v[contacts_->firstSide[i]]);
         if (first == second) continue;
-        const std::array<Vec3, 4> impulses = contacts_->onVertices(i, -h * forceAtEnd(i));
+        const std::array<Vec3, 4> impulses = contacts_->forcesOnVertices(i, -h * forceAtEnd(i));
         Impulse onFirst;
         for (int k = 0; k < contacts_->firstSide[i]; ++k) onFirst += Impulse::at(state.x[v[k]], impulses[k]);
         forces_->meet(first, second, onFirst);

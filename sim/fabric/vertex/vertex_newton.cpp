@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kTolerance = 1.0e-2;    ///< of the linear solves, relative: looser ones act as damping (fabric/vertex/README.md, Linear solve) [-]
 constexpr double kMoveTolerance = 0.05;  ///< rms error of moves at which iterations end [radii]
-constexpr double kAcceptable =
-    0.05;  ///< rms error of accelerations at which iterations end: more makes energy from step to step [referenceAcceleration]
+/// rms error of accelerations at which iterations end: more makes energy from step to step [referenceAcceleration]
+constexpr double kAcceptable = 0.05;
 constexpr double kRoundings = 4.0;           ///< of places in a step: slower motion is none [-]
 constexpr double kLeftAtContact = 0.3;       ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
 constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [referenceAcceleration]

@@ -18,7 +18,7 @@ Side sideOf(int firstSide, int which) { return which == 0 ? Side{0, firstSide} :
 }  // namespace
 
 /// B of a vertex but for its weight.
-Mat3Columns VertexSystem::PairBlock::turning(int k) const
+Mat3Columns VertexSystem::PairBlock::turnJacobian(int k) const
 {
     Mat3Columns sum;
     const auto ends = directionsOfPair(firstSide);
@@ -41,7 +41,7 @@ VertexSystem::PairBlock::Blocks VertexSystem::PairBlock::blocks(int k, int other
         blocks.withOther.column[a] = (weight * otherWeight) * pressed;
     }
     if (!hasLever) return blocks;
-    const Mat3Columns turn = turning(k), transpose = turn.transposed();
+    const Mat3Columns turn = turnJacobian(k), transpose = turn.transposed();
     for (int a = 0; a < 3; ++a) {
         const HalfPack both = transpose * turn.column[a];
         blocks.own.column[a] += across * (weight * (turn.column[a] + transpose.column[a]) + both);
@@ -96,7 +96,7 @@ void VertexSystem::copyPairs(const ActiveContacts* contacts)
                 c.frictionStiffness[n] > 0.0,
                 {}};
         if (pair.hasLever) copyLever(c.lever[n], pair);
-        const std::array<Vec3, 4> gradient = c.onVertices(n, c.force[n]);
+        const std::array<Vec3, 4> gradient = c.forcesOnVertices(n, c.force[n]);
         for (int k = 0; k < 4; ++k) Eigen::Map<Vec3>(pairForce_.data() + 4 * (4 * n + k)) = gradient[k];
         for (int which = 0; which < 2; ++which) {
             const Side side = sideOf(pair.firstSide, which);

@@ -131,7 +131,7 @@ class VertexSystem {
 
         /// The side that a direction lies in.
         int sideOfDirection(int direction) const { return firstSide == 2 && direction == 0 ? 0 : 1; }
-        Mat3Columns turning(int k) const;
+        Mat3Columns turnJacobian(int k) const;
         /// Of its matrix, Bᵀ H B, what a vertex has with itself, and with the other end of its edge, by columns. Levers are across the normal.
         struct Blocks {
             Mat3Columns own, withOther;

@@ -203,7 +203,7 @@ TEST(FabricContact, FrictionHasNoMomentAboutItsPair)
             Vec3 sum = Vec3::Zero(), moment = Vec3::Zero(), apart = Vec3::Zero();
             double sizes = 0.0;
             for (int k = 0; k < 4; ++k) {
-                const Vec3 force = contacts.answer(i, k).transpose() * friction;
+                const Vec3 force = contacts.slipJacobian(i, k).transpose() * friction;
                 sum += force;
                 moment += (run.x[v[k]] - run.x[v[0]]).cross(force);
                 apart += contacts.weights[i][k] * run.x[v[k]];

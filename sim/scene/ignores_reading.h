@@ -1,0 +1,21 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+namespace sim {
+
+/// What the declarations of settings say for their reader alone: nothing to who lists or writes them.
+struct IgnoresReading {
+    template <class Action>
+    void whenReading(Action)
+    {
+    }
+    void onlyRuns(const char*, const char*, std::initializer_list<const char*>, const char*) {}
+    void later(const char*, const char*) {}
+    void other(const char*, const char*) {}
+    void needs(const char*, const char*) {}
+    void require(bool, const char*, const std::string&) {}
+};
+
+}  // namespace sim
