@@ -3,7 +3,13 @@
 #include "sim/core/simd.h"
 #include "sim/grid/face_fields.h"
 
+#include <cstdint>
+
 namespace sim {
+
+/// The bits of row j of a layer of a block, and of row (j, k) of its layers.
+[[gnu::always_inline]] inline PackMask rowBits(std::uint64_t layer, int j) { return maskOfBits(layer >> (j * kBlockEdge)); }
+[[gnu::always_inline]] inline PackMask rowBits(const std::uint64_t* layers, int j, int k) { return rowBits(layers[k], j); }
 
 /// Access to a block's cells in rows of 8 along x, and to the rows around them, across block borders.
 struct RowAccess {

@@ -45,7 +45,7 @@ bool weighDeepFaces(const CutGrid& cut, const LiquidGrid& liquid, const FreeLiqu
                            const Pack mass = loadPack(liquid.faces.sums.block(b, FaceFields::kMass + a) + row);
                            double* coefficient = work.coefficient.block(b, a) + row;
                            const Pack full = loadPack(coefficient), own = full * (room / maxPack(mass, kLeastFill * room));
-                           storePack(coefficient, select(maskOfBits(faces >> (j * kBlockEdge)), own, full));
+                           storePack(coefficient, select(rowBits(faces, j), own, full));
                        }
                    }
                }

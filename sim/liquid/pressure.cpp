@@ -7,9 +7,6 @@ namespace sim {
 
 namespace {
 
-/// The bits of row (j, k) of a block.
-[[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
-
 /// Bits of the cells of a block, and of their neighbours below along each axis.
 struct NeighbourBits {
     std::uint64_t own[kBlockEdge], below[kAxes][kBlockEdge];
@@ -37,10 +34,10 @@ void computeCoefficients(const CutGrid& cut, double scale, bool full, const Liqu
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
                     const Pack open = loadPack(cut.field.open(b, a) + row), room = liquid.fullMass * loadPack(cut.field.room(b, a) + row);
-                    const PackMask wet = rowOf(liquid.wet.block(b, a), j, k);
-                    const PackMask isFull = (rowOf(deep.own, j, k) & rowOf(deep.below[a], j, k)) | (full ? ~wet : PackMask{});
+                    const PackMask wet = rowBits(liquid.wet.block(b, a), j, k);
+                    const PackMask isFull = (rowBits(deep.own, j, k) & rowBits(deep.below[a], j, k)) | (full ? ~wet : PackMask{});
                     const Pack mass = select(isFull, room, loadPack(liquid.faces.sums.block(b, FaceFields::kMass + a) + row));
-                    const PackMask counts = (rowOf(inside.own, j, k) | rowOf(inside.below[a], j, k)) & (wet | isFull);
+                    const PackMask counts = (rowBits(inside.own, j, k) | rowBits(inside.below[a], j, k)) & (wet | isFull);
                     const PackMask known = counts & (open > 0.0) & (room > 0.0);
                     const Pack value = select(known, scale * open * room / maxPack(mass, kLeastFill * room), broadcast(0.0));
                     std::memcpy(work.coefficient.block(b, a) + row, &value, sizeof value);
@@ -90,13 +87,13 @@ void assembleBlock(const BlockGrid& grid, int b, const LiquidGrid& liquid, Press
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j) {
             const int row = cellInBlock(0, j, k);
-            const PackMask own = rowOf(inside.own, j, k);
+            const PackMask own = rowBits(inside.own, j, k);
             Pack diagonal = zero, coupling[3] = {zero, zero, zero};
             if (maskBits(own) != 0) {
                 unroll<3>([&](auto a) {
                     const Pack below = rows.row(work.coefficient, a, j, k);
                     diagonal += below + rows.above(work.coefficient, a, a, j, k);
-                    coupling[a] = select(own & rowOf(inside.below[a], j, k), below, zero);
+                    coupling[a] = select(own & rowBits(inside.below[a], j, k), below, zero);
                 });
                 diagonal = select(own, diagonal, zero);
             }
@@ -165,7 +162,7 @@ void findRightHandSide(const CutGrid& cut, const LiquidGrid& liquid, const Block
         const RowAccess rows(cut.grid, b);
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
-                const PackMask own = rowOf(liquid.inside.block(b), j, k);
+                const PackMask own = rowBits(liquid.inside.block(b), j, k);
                 Pack out = broadcast(0.0);
                 if (maskBits(own) != 0) out = select(own, rowOutflow(cut.field, velocity, rows, j, k) * (-1.0 / cut.grid.dx), out);
                 storePack(rhs.block(b) + cellInBlock(0, j, k), out);
@@ -181,7 +178,7 @@ double largestDivergence(const CutGrid& cut, const LiquidGrid& liquid)
         double largest = 0.0;
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
-                const PackMask inside = rowOf(liquid.inside.block(static_cast<int>(n)), j, k);
+                const PackMask inside = rowBits(liquid.inside.block(static_cast<int>(n)), j, k);
                 const Pack out = absPack(select(inside, rowOutflow(cut.field, liquid.faces.velocity, rows, j, k), broadcast(0.0)));
                 for (int l = 0; l < kLanes; ++l) largest = std::max(largest, out[l] / cut.grid.dx);
             }

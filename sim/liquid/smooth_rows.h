@@ -30,8 +30,6 @@ struct RowsAround {
     Pack rightOf(int j, int k, Pack row) const { return shiftLeft(row, at(j, k, 1)); }
 };
 
-inline PackMask rowBits(std::uint64_t word, int j) { return maskOfBits(word >> (j * kBlockEdge)); }
-
 /// Values of a field below and above the cells of a row of a block; a wall in the way mirrors.
 struct Sides {
     Pack below, above;

@@ -11,8 +11,6 @@ namespace {
 /// 1/m̂ of faces that have no part in the correction [-]: means with it are 0 for any number that matters.
 constexpr double kNoMass = 1.0e200;
 
-[[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
-
 /// Masses of the faces of a row as the pressure has them, relative to a full one [-].
 [[gnu::always_inline]] inline Pack massOf(const CutGrid& cut, const PressureWorkspace& pressure, int block, int axis, int row)
 {
@@ -33,12 +31,12 @@ void findImpulses(const CutGrid& cut, const BlockArray<double, 3>& before, const
                 const std::uint64_t deepFaces = liquid.deep.block(b)[k] & access.below(liquid.deep, 0, a, k);
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
-                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowOf(work.acts.block(b, a), j, k);
+                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowBits(work.acts.block(b, a), j, k);
                     const PackMask closed = loadPack(cut.field.open(b, a) + row) == 0.0;
                     Pack inverse = select(closed, broadcast(0.0), broadcast(kNoMass)), impulse = broadcast(0.0);
                     if (maskBits(known) != 0) {
                         const Pack own = massOf(cut, pressure, b, a, row), room = loadPack(cut.field.room(b, a) + row);
-                        const Pack mass = select(maskOfBits(deepFaces >> (j * kBlockEdge)), room, own);
+                        const Pack mass = select(rowBits(deepFaces, j), room, own);
                         const Pack now = loadPack(liquid.faces.velocity.block(b, a) + row), change = now - loadPack(before.block(b, a) + row);
                         const Pack pressed = now - loadPack(liquid.unpressed.block(b, a) + row);
                         inverse = select(known, 1.0 / mass, inverse);
@@ -94,7 +92,7 @@ void applyStrains(const CutGrid& cut, const PressureWorkspace& pressure, const S
             for (int j = 0; j < kBlockEdge; ++j) {
                 const int row = cellInBlock(0, j, k);
                 unroll<3>([&](auto a) {
-                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowOf(work.acts.block(b, a), j, k);
+                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowBits(work.acts.block(b, a), j, k);
                     if (maskBits(known) == 0) return;
                     constexpr int c = (a + 1) % 3, d = (a + 2) % 3;
                     Pack sum = rows.below(work.stretch, a, a, j, k) - rows.row(work.stretch, a, j, k);

@@ -14,8 +14,6 @@ namespace {
 /// Faces with less of a full one's mass carry nothing that would matter, but their reciprocals might overflow.
 constexpr double kLeastMass = 1.0e-12;
 
-[[gnu::always_inline]] inline PackMask rowOf(const std::uint64_t* words, int j, int k) { return maskOfBits(words[k] >> (j * kBlockEdge)); }
-
 /// Mass and room of a row of faces, and which of them are unknown.
 struct FaceRow {
     Pack mass, room;
@@ -64,7 +62,7 @@ class Faces {
     {
         const int row = cellInBlock(0, j, k);
         return {loadPack(liquid_.faces.sums.block(b, FaceFields::kMass + axis) + row), loadPack(obstacles_.room(b, axis) + row),
-                rowOf(unknown_.block(b, axis), j, k)};
+                rowBits(unknown_.block(b, axis), j, k)};
     }
 
     RowAccess rows_;
@@ -125,13 +123,13 @@ void findStrains(const CutGrid& cut, const LiquidGrid& liquid, double weight, in
             for (int j = 0; j < kBlockEdge; ++j) {
                 const int row = cellInBlock(0, j, k);
                 Pack normal = broadcast(0.0), shear = broadcast(0.0);
-                if (const PackMask is = maskOfBits(strained >> (j * kBlockEdge)); maskBits(is) != 0) {
+                if (const PackMask is = rowBits(strained, j); maskBits(is) != 0) {
                     Liquid sum;
                     sum.add(faces.at(a, a, 0, j, k));
                     sum.add(faces.at(a, a, 1, j, k));
                     normal = select(is, 2.0 * weight * sum.fill(), normal);
                 }
-                if (const PackMask is = maskOfBits(sheared >> (j * kBlockEdge)); maskBits(is) != 0) {
+                if (const PackMask is = rowBits(sheared, j); maskBits(is) != 0) {
                     Liquid sum;
                     sum.add(faces.at(c, d, 0, j, k));
                     sum.add(faces.at(c, d, -1, j, k));
@@ -184,7 +182,7 @@ void findDiagonal(const BlockGrid& grid, const LiquidGrid& liquid, int b, Viscou
                 sum += rows.row(system.shear, edge, j, k) + rows.above(system.shear, edge, along, j, k);
             }
             if (hasWalls) sum += loadPack(system.wall.block(b, a) + row);
-            storePack(system.diagonal.block(b, a) + row, select(rowOf(system.unknown.block(b, a), j, k), sum, broadcast(0.0)));
+            storePack(system.diagonal.block(b, a) + row, select(rowBits(system.unknown.block(b, a), j, k), sum, broadcast(0.0)));
         });
     }
 }
@@ -249,7 +247,7 @@ void ViscousSystem::multiply(const BlockGrid& grid, const BlockArray<double, 3>&
                 const Pack above = loadPack(own + kStep) + (loadPack(other + kStep) - loadPack(other + kStep - kUp));
                 sum -= access.row(shear, kEdge, j, k) * below + access.above(shear, kEdge, kAlong, j, k) * above;
             });
-            const PackMask is = rowOf(unknown.block(block, a), j, k);
+            const PackMask is = rowBits(unknown.block(block, a), j, k);
             storePack(out.block(block, a) + r * kBlockEdge, select(is, sum, broadcast(0.0)));
         });
     });

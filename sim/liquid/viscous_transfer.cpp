@@ -94,7 +94,7 @@ void findAnchor(const BlockGrid& grid, const ViscousSystem& system, int b, Block
         std::fill_n(anchor.block(b, a), kBlockCells, 0.0);
         forEachRow(system.rowsOf(b, a), [&](int r) {
             const int j = r % kBlockEdge, k = r / kBlockEdge;
-            const auto known = [&](std::uint64_t word) { return maskOfBits(word >> (j * kBlockEdge)); };
+            const auto known = [&](std::uint64_t word) { return rowBits(word, j); };
             const Pack zero = broadcast(0.0), own = rows.row(system.normal, a, j, k), lower = rows.below(system.normal, a, a, j, k);
             Pack sum = rows.row(system.diagonal, a, j, k);
             sum -= select(known(bits.above(system.unknown, a, a, k)), own, zero) + select(known(bits.below(system.unknown, a, a, k)), lower, zero);
