@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/components.h"
 #include "sim/fabric/fabric.h"
 
 #include <span>
@@ -18,15 +19,15 @@ class FabricGroups {
     void join(int first, int second);
     void joinVertices(std::span<const int> vertices);
     /// Something outside the fabric acts on the vertex, or on all of it.
-    void hold(int vertex) { isHeld_[rootOf(pieceOf_[vertex])] = 1; }
+    void hold(int vertex) { isHeld_[components_.rootOf(pieceOf(vertex))] = 1; }
     void holdAll();
 
-    int pieces() const { return static_cast<int>(root_.size()); }
-    int pieceOf(int vertex) const { return pieceOf_[vertex]; }
+    int pieces() const { return components_.pieces(); }
+    int pieceOf(int vertex) const { return components_.pieceOf(vertex); }
     /// The piece that stands for the group of a piece, or −1 where it is held.
     int freeGroupOf(int piece) const
     {
-        const int root = rootOf(piece);
+        const int root = components_.rootOf(piece);
         return isHeld_[root] != 0 ? -1 : root;
     }
     bool anyFree() const;
@@ -36,12 +37,9 @@ class FabricGroups {
     std::vector<Vec3> drifts(std::span<const double> mass, std::span<const Vec3> velocity) const;
 
  private:
-    int rootOf(int piece) const;
-
-    std::vector<int> pieceOf_;       ///< of each vertex: its mesh or strand
-    std::vector<char> isPinned_;     ///< of each piece
-    mutable std::vector<int> root_;  ///< of each piece, one nearer to that of its group
-    std::vector<char> isHeld_;       ///< of each group, at its root
+    FabricComponents components_;
+    std::vector<char> isPinned_;  ///< of each piece
+    std::vector<char> isHeld_;    ///< of each group, at its root
 };
 
 }  // namespace sim

@@ -23,19 +23,26 @@ double externalWork(const EnergyChanges& changes)
     return changes[EnergyChange::Pins] + changes[EnergyChange::Obstacles] + changes[EnergyChange::Drag];
 }
 
-double slowDown(double energy, const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, FabricState& state)
+double ownKinetic(const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, const FabricState& state)
 {
     const std::vector<Vec3> drift = groups.drifts(mass, state.v);
-    const auto relative = [&](std::size_t v) { return Vec3(state.v[v] - drift[groups.pieceOf(static_cast<int>(v))]); };
     double kinetic = 0.0;
     for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric.pinned[v]) kinetic += 0.5 * mass[v] * relative(v).squaredNorm();
+        if (!fabric.pinned[v]) kinetic += 0.5 * mass[v] * (state.v[v] - drift[groups.pieceOf(static_cast<int>(v))]).squaredNorm();
     for (std::size_t e = 0; e < state.omega.size(); ++e)
         if (!fabric.edges.twistHeld[e]) kinetic += 0.5 * twistInertia(fabric, state.absorbed, e) * state.omega[e] * state.omega[e];
-    if (!(energy > 0.0 && kinetic > 0.0)) return 0.0;
+    return kinetic;
+}
+
+double slowDown(double energy, const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, FabricState& state)
+{
+    if (!(energy > 0.0)) return 0.0;
+    const double kinetic = ownKinetic(fabric, groups, mass, state);
+    if (!(kinetic > 0.0)) return 0.0;
+    const std::vector<Vec3> drift = groups.drifts(mass, state.v);
     const double lost = 1.0 - std::sqrt(std::max(0.0, 1.0 - energy / kinetic));
     for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (!fabric.pinned[v]) state.v[v] -= lost * relative(v);
+        if (!fabric.pinned[v]) state.v[v] -= lost * (state.v[v] - drift[groups.pieceOf(static_cast<int>(v))]);
     for (std::size_t e = 0; e < state.omega.size(); ++e)
         if (!fabric.edges.twistHeld[e]) state.omega[e] *= 1.0 - lost;
     return std::min(energy, kinetic);

@@ -14,9 +14,12 @@ namespace sim {
 /// Work of pins, solids and the liquid on the fabric in a step [erg].
 double externalWork(const EnergyChanges& changes);
 
-/// Takes energy [erg] from the motion of what is not pinned, as far as there is any; groups that nothing holds keep their drift. Returns what
-/// it took.
+/// Kinetic energy of what is not pinned, against the drift of groups that nothing holds, by which no force of the fabric can pay [erg]: the same
+/// in every frame.
 /// @param mass  of each vertex, with what it has absorbed [g]
+double ownKinetic(const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, const FabricState& state);
+
+/// Takes energy [erg] from the motion of ownKinetic, as far as there is any. Returns what it took.
 double slowDown(double energy, const Fabric& fabric, const FabricGroups& groups, std::span<const double> mass, FabricState& state);
 
 /// Pays the energy [erg] that is due with the motion; the rest is owed from now on. Returns what was paid.

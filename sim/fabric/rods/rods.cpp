@@ -76,6 +76,11 @@ Rods::Rods(const Fabric& fabric, const FabricState& rest, const FabricSettings& 
 
 void Rods::includeTwistHessian() { std::ranges::fill(twistHessianShare_, broadcast(1.0)); }
 
+void Rods::excludeTwistHessian(const std::vector<Pack>& keep)
+{
+    for (std::size_t g = 0; g < keep.size(); ++g) twistHessianShare_[g] *= keep[g];
+}
+
 void Rods::transportFrames(FabricState& state) const
 {
     parallelFor(layout_.groups.size(), [&](std::size_t g) {

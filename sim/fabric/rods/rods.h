@@ -36,8 +36,8 @@ class Rods {
     /// From now on the matrix has the torque's part too, the second derivatives of the twist: without it Newton overshoots on rods
     /// that are twisted hard. It may be indefinite.
     void includeTwistHessian();
-    /// … but for the rods that have a 0 in `keep`, as StrandMatrix::definite tells them.
-    void excludeTwistHessian(const std::vector<Pack>& keep) { twistHessianShare_ = keep; }
+    /// … but for the rods that have a 0 in `keep`, of each group, as StrandMatrix::definite tells them.
+    void excludeTwistHessian(const std::vector<Pack>& keep);
     /// Elastic energy [erg]: stretching, bending, twisting.
     std::array<double, 3> energies(const FabricState& state) const;
 

@@ -38,14 +38,17 @@ double VertexSolver::referenceEnergy(double kinetic, double h) const
     return kinetic + 0.5 * totalMass_ * unfelt * unfelt;
 }
 
-/// Energy that a step gained from nothing, relative to that of its motion, beyond that of contact which was not seen at its start; less than
-/// what is not felt counts as none.
-double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state) const
+/// Energy that a step gained from nothing, relative to that of its motion but for the drift of what nothing holds, beyond that of contact which
+/// was not seen at its start; less than what is not felt counts as none.
+double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state)
 {
-    const FabricEnergies now = energies(state, gravity);
-    const double scale = referenceEnergy(now.kinetic, h);
-    if (now.total() <= startEnergies_.total() + kNegligibleGain * scale) return 0.0;
-    return std::max(0.0, now.total() - allowedEnergy(h, gravity, state) - undetectedAtStart_) / scale;
+    const double total = energies(state, gravity).total();
+    if (total <= startEnergies_.total()) return 0.0;
+    attemptGroups_.begin();
+    findGroups(attemptGroups_);
+    const double scale = referenceEnergy(ownKinetic(fabric_, attemptGroups_, mass_, state), h);
+    if (total <= startEnergies_.total() + kNegligibleGain * scale) return 0.0;
+    return std::max(0.0, total - allowedEnergy(h, gravity, state) - undetectedAtStart_) / scale;
 }
 
 /// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
@@ -66,35 +69,37 @@ void VertexSolver::removeSpuriousGain(const Part& part)
     const Vec3& gravity = part.gravity;
     FabricState& state = part.state;
     const double allowed = allowedEnergy(h, gravity, state);
-    const auto resting = [&] {
-        const FabricEnergies now = energies(state, gravity);
-        return now.total() - now.kinetic;
-    };
-    if (resting() <= allowed) {
-        slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);
+    const auto due = [&] { return energies(state, gravity).total() - allowed; };
+    const auto canPay = [&] { return due() <= ownKinetic(fabric_, groups_, mass_, state); };
+    if (canPay()) {
+        slowDown(due(), fabric_, groups_, mass_, state);
         return;
     }
     std::vector<Vec3> way(state.x.size());
     std::vector<double> turn(state.theta.size());
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
+    const std::vector<Vec3> drift = groups_.drifts(mass_, way);
     for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
     const double lastFraction = state.vertexSolver.lastFraction;
-    // Where all of the motion does not pay for it, only a part of the way can be.
+    // Where all of the motion does not pay for it, only a part of the way can be, but for the drift of what nothing holds.
     for (const double share : {0.5, 0.25, 0.125, 0.0}) {
-        if (resting() <= allowed) break;
+        if (canPay()) break;
         state = start_;
         state.vertexSolver.lastFraction = lastFraction;
         state.springStep = springStep_;
         solidLimiter_.moveTo(part.t, part.t + h);
         if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
-        for (std::size_t v = 0; v < way.size(); ++v) move_[v] = share * way[v];
+        for (std::size_t v = 0; v < way.size(); ++v) {
+            const Vec3& whole = drift[groups_.pieceOf(static_cast<int>(v))];
+            move_[v] = whole + share * (way[v] - whole);
+        }
         limit(state, part.report, part.clock);
         commit(state, part.clock);
         solidLimiter_.rest();
         for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += share * turn[e];
         finish(h, state);
     }
-    slowDown(energies(state, gravity).total() - allowed, fabric_, groups_, mass_, state);
+    slowDown(due(), fabric_, groups_, mass_, state);
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.

@@ -8,12 +8,12 @@
 namespace sim {
 
 /// Which pieces of fabric acted on each other at the end of the attempt, and what held them.
-void VertexSolver::findGroups()
+void VertexSolver::findGroups(FabricGroups& groups) const
 {
-    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) groups_.joinVertices(contacts_->vertices[i]);
+    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) groups.joinVertices(contacts_->vertices[i]);
     for (const ObstacleContact& contact : touching_)
-        for (int v : contact.vertices()) groups_.hold(v);
-    if (solidLimits_.blocked > 0) groups_.holdAll();
+        for (int v : contact.vertices()) groups.hold(v);
+    if (solidLimits_.blocked > 0) groups.holdAll();
 }
 
 /// Momentum of each piece at the start of the step.

@@ -52,7 +52,8 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     findContacts(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
     hasMovedSinceDetection_ = true;
     part.clock.start(Stage::FabricElastic);
-    system_.assemble({state, free_, freeAngle_, inertia_, h}, touching_, contacts_);
+    const NewtonPoint point{state, free_, freeAngle_, inertia_, h};
+    system_.assemble(point, touching_, contacts_);
     part.clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
     const double fall = referenceAcceleration_ * h;
@@ -60,8 +61,12 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
                                        std::min(kMoveTolerance * meanRadius_ / h, kAcceptable * fall), isTouching ? kLeftAtContact : 1.0,
                                        kRoundings * placeRounding_ / h};
-    const LinearReport linear = system_.solve(tolerance, newton.firstEnergy, kMaxLinearIterations);
-    if (newton.count == 0) newton.firstEnergy = linear.firstEnergy;
+    LinearReport linear = system_.solve(tolerance, newton.count == 0, kMaxLinearIterations);
+    if (linear.isIndefinite) {
+        report.iterations += linear.iterations;
+        system_.assembleDefinite(point, touching_, contacts_);
+        linear = system_.solve(tolerance, newton.count == 0, kMaxLinearIterations);
+    }
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
     ++report.newton;
     report.iterations += linear.iterations;

@@ -1,12 +1,14 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/vertex/mat3_columns.h"
+#include "sim/fabric/vertex/run_sums.h"
 #include "sim/fabric/vertex/vertex_system.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 // Conjugate gradients for A = S + K + C. The strands' S is never multiplied with: as z = S⁻¹ r, the product S p follows from the
-// recurrence of p itself (fabric/vertex/README.md, Linear solve). What strands do by themselves is done group by group in one pass.
+// recurrence of p itself (fabric/vertex/README.md, Linear solve). What strands do by themselves is done group by group in one pass. Every
+// component has scalars of its own; what has none that is still solved for is passed over.
 
 namespace sim {
 
@@ -30,8 +32,6 @@ HalfPack times(const HalfPack& normal, double stiffness, double across, const Ha
     return across * u + (stiffness * dot(normal, u)) * normal;
 }
 
-double sumOf(const std::vector<double>& parts) { return std::accumulate(parts.begin(), parts.end(), 0.0); }
-
 }  // namespace
 
 /// p of the vertices that a group of strands owns, vertex by vertex.
@@ -54,6 +54,7 @@ void VertexSystem::applyPairs()
 {
     parallelFor(pairs_.size(), 512, [&](std::size_t n) {
         const PairBlock& pair = pairs_[n];
+        if (!componentOf(pair.vertices[0]).isActive) return;
         const HalfPack normal = asQuad(pair.normal);
         HalfPack p[4], side[2] = {};
         for (int k = 0; k < 4; ++k) {
@@ -78,11 +79,12 @@ void VertexSystem::applyPairs()
     });
 }
 
-/// q = S p + C p on strands; p·q of them.
-double VertexSystem::multiplyStrands()
+/// q = S p + C p on strands.
+void VertexSystem::multiplyStrands()
 {
     const StrandLayout& layout = rods_.layout();
     parallelFor(layout.groups.size(), [&](std::size_t g) {
+        if (!isActive(strandPieces_[g])) return;
         const StrandLayout::Group& group = layout.groups[g];
         const std::size_t first = group.firstRow;
         const Pack *p = packs(p_) + first, *sp = packs(sp_) + first;
@@ -100,26 +102,25 @@ double VertexSystem::multiplyStrands()
                 }
         Pack product{};
         for (int r = 0; r < group.rows(); ++r) product += p[r] * q[r];
-        partialDot_[g] = sumLanes(product);
+        laneDot_[g] = product;
     });
-    return sumOf(partialDot_);
 }
 
-/// What shared vertices tie together, and takes back the diagonals of C that S has: added to q; their part of p·q.
-double VertexSystem::applyLinks()
+/// What shared vertices tie together, and takes back the diagonals of C that S has: added to q and p·q.
+void VertexSystem::applyLinks()
 {
-    double product = 0.0;
     for (const UncoupledVertex& loose : uncoupled_) {
         const PairBlock& pair = pairs_[loose.pair];
         const HalfPack u = quad(pOfVertex_, loose.vertex);
         const HalfPack force = pair.blocks(loose.place, loose.place).own * u;
         const int slot = unknowns_.slot[loose.vertex];
         for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] -= force[a];
-        product -= dot(u, force);
+        componentOf(loose.vertex).curvature -= dot(u, force);
     }
     for (const Link& link : links_) {
         if (fabric_.pinned[link.vertex]) continue;
         const int owner = unknowns_.slot[link.vertex];
+        double product = 0.0;
         for (int n = 0; n < 16; ++n) {
             if (link.slot[n] < 0) continue;
             for (int a = 0; a < 3; ++a) {
@@ -129,16 +130,19 @@ double VertexSystem::applyLinks()
                 product += 2.0 * coupling * here * there;
             }
         }
+        componentOf(link.vertex).curvature += product;
     }
-    return product;
 }
 
-/// q of vertices on cloth; their part of p·q that is not counted yet.
-double VertexSystem::multiplyCloth()
+/// q of vertices on cloth, and their part of p·q that is not counted yet.
+void VertexSystem::multiplyCloth()
 {
     const std::vector<int>& vertices = shells_.vertices();
-    return parallelSum(cloth_.chunks(), [&](std::size_t chunk) {
-        double product = 0.0;
+    std::ranges::fill(runDot_, 0.0);
+    parallelFor(cloth_.chunks(), [&](std::size_t chunk) {
+        const int first = static_cast<int>(chunk) * BlockMatrix::kRowsAtOnce;
+        if (!isAnyRowActive(first, first + BlockMatrix::kRowsAtOnce)) return;
+        RunSums dots(runDot_);
         cloth_.timesChunk(
             static_cast<int>(chunk), [&](int row) { return quad(pOfVertex_, vertices[row]); },
             [&](int row, HalfPack sum) {
@@ -151,29 +155,29 @@ double VertexSystem::multiplyCloth()
                     double& q = q_[slot + a * kLanes];
                     q = (ownsDiagonal_[row] ? q : 0.0) + sum[a];
                 }
-                product += dot(quad(pOfVertex_, v), sum);
+                dots.add(runOfRow_[row], dot(quad(pOfVertex_, v), sum));
             });
-        return product;
     });
 }
 
-/// q = A p; returns p·q.
-double VertexSystem::multiply()
+/// q = A p, and p·q.
+void VertexSystem::multiply()
 {
     if (!pairs_.empty()) applyPairs();
-    double product = multiplyStrands();
-    if (!shells_.empty()) product += multiplyCloth();
-    product += applyLinks();
+    multiplyStrands();
+    if (!shells_.empty()) multiplyCloth();
+    sumDots(&Component::curvature);
+    applyLinks();
     for (int slot : heldSlots_) q_[slot] = 0.0;
-    return product;
 }
 
-/// x += step p, r −= step q, z = the preconditioner's answer to r; returns r·z.
-double VertexSystem::precondition(double step)
+/// x += step p, r −= step q, z = the preconditioner's answer to r, and r·z.
+void VertexSystem::precondition()
 {
     const StrandLayout& layout = rods_.layout();
-    const Pack by = broadcast(step);
     parallelFor(layout.groups.size(), [&](std::size_t g) {
+        if (!isActive(strandPieces_[g])) return;
+        const Pack by = scalarsOf(strandPieces_[g], &Component::step);
         const StrandLayout::Group& group = layout.groups[g];
         const std::size_t first = group.firstRow;
         const Pack *p = packs(p_) + first, *q = packs(q_) + first;
@@ -185,54 +189,57 @@ double VertexSystem::precondition(double step)
         strands_.solve(group, r, z);
         Pack product{};
         for (int row = 0; row < group.rows(); ++row) product += r[row] * z[row];
-        partialDot_[g] = sumLanes(product);
+        laneDot_[g] = product;
     });
-    double product = sumOf(partialDot_);
-    if (shells_.empty()) return product;
-    Pack *x = packs(solution_), *r = packs(residual_);
-    const Pack *p = packs(p_), *q = packs(q_);
-    for (int i = unknowns_.strandSize / kLanes; i < unknowns_.size / kLanes; ++i) {
-        x[i] += by * p[i];
-        r[i] -= by * q[i];
+    Pack *x = packs(solution_) + unknowns_.strandSize / kLanes, *r = packs(residual_) + unknowns_.strandSize / kLanes;
+    const Pack *p = packs(p_) + unknowns_.strandSize / kLanes, *q = packs(q_) + unknowns_.strandSize / kLanes;
+    for (std::size_t i = 0; i < clothPieces_.size(); ++i) {
+        const Pack by = scalarsOf(clothPieces_[i], &Component::step);
+        for (std::size_t row = 3 * i; row < 3 * i + 3; ++row) {
+            x[row] += by * p[row];
+            r[row] -= by * q[row];
+        }
     }
-    return product + preconditionCloth();
+    if (!shells_.empty()) preconditionCloth();
+    sumDots(&Component::next);
 }
 
-/// z of the vertices that are on cloth only; their r·z.
-double VertexSystem::preconditionCloth()
+/// z of the vertices that are on cloth only, and their r·z.
+void VertexSystem::preconditionCloth()
 {
     const std::vector<int>& vertices = shells_.vertices();
-    std::array<double, 64> partial{};
+    std::ranges::fill(runDot_, 0.0);
     parallelFor(clothFactor_.parts(), [&](std::size_t n) {
         const int part = static_cast<int>(n), begin = clothFactor_.partBegin(part), end = clothFactor_.partBegin(part + 1);
+        if (!isAnyRowActive(begin, end)) return;
         for (int row = begin; row < end; ++row) {
             const int slot = unknowns_.slot[vertices[row]];
             for (int a = 0; a < 3; ++a) clothIn_[3 * row + a] = ownsDiagonal_[row] ? 0.0 : residual_[slot + a * kLanes];
         }
         clothFactor_.solve(part, clothIn_.data(), clothOut_.data());
-        double product = 0.0;
+        RunSums dots(runDot_);
         for (int row = begin; row < end; ++row) {
             if (ownsDiagonal_[row]) continue;
             const int slot = unknowns_.slot[vertices[row]];
             const bool isHeld = fabric_.pinned[vertices[row]];
+            double product = 0.0;
             for (int a = 0; a < 3; ++a) {
-                z_[slot + a * kLanes] = isHeld ? 0.0 : clothOut_[3 * row + a];
-                product += z_[slot + a * kLanes] * clothIn_[3 * row + a];
+                const double z = isHeld ? 0.0 : clothOut_[3 * row + a];
+                z_[slot + a * kLanes] = z;
+                product += z * clothIn_[3 * row + a];
             }
+            dots.add(runOfRow_[row], product);
         }
-        partial[n] = product;
     });
-    double sum = 0.0;
-    for (double product : partial) sum += product;
-    return sum;
 }
 
 /// p = z + ratio p and with it S p.
-void VertexSystem::nextDirection(double ratio)
+void VertexSystem::nextDirection()
 {
     const StrandLayout& layout = rods_.layout();
-    const Pack by = broadcast(ratio);
     parallelFor(layout.groups.size(), [&](std::size_t g) {
+        if (!isActive(strandPieces_[g])) return;
+        const Pack by = scalarsOf(strandPieces_[g], &Component::ratio);
         const std::size_t first = layout.groups[g].firstRow;
         Pack *p = packs(p_) + first, *sp = packs(sp_) + first;
         const Pack *z = packs(z_) + first, *r = packs(residual_) + first;
@@ -242,9 +249,12 @@ void VertexSystem::nextDirection(double ratio)
         }
         copyByVertex(p_.data(), static_cast<int>(g));
     });
-    Pack* p = packs(p_);
-    const Pack* z = packs(z_);
-    for (int i = unknowns_.strandSize / kLanes; i < unknowns_.size / kLanes; ++i) p[i] = z[i] + by * p[i];
+    Pack* p = packs(p_) + unknowns_.strandSize / kLanes;
+    const Pack* z = packs(z_) + unknowns_.strandSize / kLanes;
+    for (std::size_t i = 0; i < clothPieces_.size(); ++i) {
+        const Pack by = scalarsOf(clothPieces_[i], &Component::ratio);
+        for (std::size_t row = 3 * i; row < 3 * i + 3; ++row) p[row] = z[row] + by * p[row];
+    }
     for (std::size_t row = 0; row < shells_.vertices().size(); ++row) {
         if (ownsDiagonal_[row]) continue;
         const int v = shells_.vertices()[row], slot = unknowns_.slot[v];
@@ -252,34 +262,27 @@ void VertexSystem::nextDirection(double ratio)
     }
 }
 
-LinearReport VertexSystem::solve(const LinearTolerance& tolerance, double stepEnergy, int maxIterations)
+LinearReport VertexSystem::solve(const LinearTolerance& tolerance, bool isFirst, int maxIterations)
 {
-    solution_.fill(0.0);
-    p_.fill(0.0);
-    sp_.fill(0.0);
-    q_.fill(0.0);
+    for (AlignedArray<double>* v : {&solution_, &p_, &sp_, &q_, &z_}) v->fill(0.0);
     for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
 
     LinearReport report;
-    double energy = precondition(0.0);
-    nextDirection(0.0);
-    report.firstEnergy = energy;
-    const double share = tolerance.share * tolerance.share, speed = totalMass_ * tolerance.speed * tolerance.speed;
-    const double most = totalMass_ * tolerance.most * tolerance.most;
-    const double enough = std::min(std::max({share * energy, 0.09 * share * stepEnergy, speed}), most);
-    // One iteration at least, above round-off: as steps begin with the forces of the last, errors too small for one would stay for good.
-    const double roundOff = totalMass_ * tolerance.roundOff * tolerance.roundOff;
-    const double last = std::max(std::min(enough, tolerance.left * tolerance.left * energy), roundOff);
-    while (report.iterations < maxIterations && energy > (report.iterations == 0 ? roundOff : last)) {
-        const double curvature = multiply();
-        if (!(curvature > 0.0)) break;
-        const double next = precondition(energy / curvature);
-        nextDirection(next / energy);
-        energy = next;
+    beginComponents();
+    precondition();
+    nextDirection();
+    setTargets(tolerance, isFirst);
+    while (report.iterations < maxIterations && findUnsolved(report.iterations)) {
+        multiply();
+        findSteps();
+        precondition();
+        findRatios();
+        nextDirection();
         ++report.iterations;
     }
     balanceFreePieces();
-    report.speedError = totalMass_ > 0.0 ? std::sqrt(std::max(energy, 0.0) / totalMass_) : 0.0;
+    report.speedError = speedError();
+    report.isIndefinite = std::ranges::any_of(conjugate_, &Component::isIndefinite);
     return report;
 }
 

@@ -9,25 +9,17 @@ namespace sim {
 
 void VertexSystem::findFreePieces()
 {
-    std::vector<int> root(fabric_.vertexCount());
-    for (int v = 0; v < static_cast<int>(root.size()); ++v) root[v] = v;
-    const auto find = [&](int v) {
-        while (root[v] != v) v = root[v] = root[root[v]];
-        return v;
-    };
-    for (const Vec3i& f : fabric_.faces.vertices)
-        for (int k = 1; k < 3; ++k) root[find(f[k])] = find(f[0]);
-    std::vector<char> isHeld(root.size(), 0);
-    for (int v = 0; v < static_cast<int>(root.size()); ++v)
-        if (fabric_.pinned[v] || unknowns_.isOnStrand(v)) isHeld[find(v)] = 1;
-    std::vector<int> number(root.size(), -1);
-    pieceOf_.assign(root.size(), -1);
+    std::vector<char> isHeld(components_.pieces(), 0);
+    for (std::size_t v = 0; v < fabric_.vertexCount(); ++v)
+        if (fabric_.pinned[v] || unknowns_.isOnStrand(static_cast<int>(v))) isHeld[components_.pieceOf(static_cast<int>(v))] = 1;
+    std::vector<int> number(components_.pieces(), -1);
+    freePieceOf_.assign(fabric_.vertexCount(), -1);
     int count = 0;
     for (int v : shells_.vertices()) {
-        const int r = find(v);
-        if (isHeld[r]) continue;
-        if (number[r] < 0) number[r] = count++;
-        pieceOf_[v] = number[r];
+        const int piece = components_.pieceOf(v);
+        if (isHeld[piece]) continue;
+        if (number[piece] < 0) number[piece] = count++;
+        freePieceOf_[v] = number[piece];
     }
     pieceStiffness_.resize(count);
     pieceForce_.resize(count);
@@ -39,12 +31,12 @@ void VertexSystem::weighFreePieces(const NewtonPoint& at, std::span<const Obstac
     if (pieceStiffness_.empty()) return;
     const double perStep2 = 1.0 / (at.h * at.h);
     for (Mat3& m : pieceStiffness_) m.setZero();
-    for (std::size_t v = 0; v < pieceOf_.size(); ++v)
-        if (pieceOf_[v] >= 0) pieceStiffness_[pieceOf_[v]].diagonal() += perStep2 * at.inertia[v];
+    for (std::size_t v = 0; v < freePieceOf_.size(); ++v)
+        if (freePieceOf_[v] >= 0) pieceStiffness_[freePieceOf_[v]].diagonal() += perStep2 * at.inertia[v];
     for (const ObstacleContact& contact : obstacles)
-        if (pieceOf_[contact.vertex] >= 0) pieceStiffness_[pieceOf_[contact.vertex]] += contact.stiffness;
+        if (freePieceOf_[contact.vertex] >= 0) pieceStiffness_[freePieceOf_[contact.vertex]] += contact.stiffness;
     for (const PairBlock& pair : pairs_) {
-        const int first = pieceOf_[pair.vertices[0]], second = pieceOf_[pair.vertices[3]];
+        const int first = freePieceOf_[pair.vertices[0]], second = freePieceOf_[pair.vertices[3]];
         if (first == second) continue;
         const Vec3 n(pair.normal[0], pair.normal[1], pair.normal[2]);
         const Mat3 block = pair.stiffness * n * n.transpose() + pair.across * Mat3::Identity();
@@ -61,13 +53,13 @@ void VertexSystem::balanceFreePieces()
     for (Vec3& force : pieceForce_) force.setZero();
     const auto slots = [&](int v) { return std::array{unknowns_.slot[v], unknowns_.slot[v] + kLanes, unknowns_.slot[v] + 2 * kLanes}; };
     for (int v : shells_.vertices())
-        if (pieceOf_[v] >= 0)
-            for (int a = 0; a < 3; ++a) pieceForce_[pieceOf_[v]][a] += residual_[slots(v)[a]];
+        if (freePieceOf_[v] >= 0)
+            for (int a = 0; a < 3; ++a) pieceForce_[freePieceOf_[v]][a] += residual_[slots(v)[a]];
     for (std::size_t piece = 0; piece < pieceForce_.size(); ++piece)
         pieceForce_[piece] = pieceStiffness_[piece].ldlt().solve(pieceForce_[piece]).eval();
     for (int v : shells_.vertices())
-        if (pieceOf_[v] >= 0)
-            for (int a = 0; a < 3; ++a) solution_[slots(v)[a]] += pieceForce_[pieceOf_[v]][a];
+        if (freePieceOf_[v] >= 0)
+            for (int a = 0; a < 3; ++a) solution_[slots(v)[a]] += pieceForce_[freePieceOf_[v]][a];
 }
 
 }  // namespace sim

@@ -34,6 +34,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
       system_(fabric, settings),
       cohesion_(std::move(cohesion)),
       groups_(fabric),
+      attemptGroups_(fabric),
       restReference_(restState(fabric).reference),
       nearestPin_(nearestPins(fabric))
 {
@@ -148,7 +149,8 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     isDriven_ = solidsMove_ || std::ranges::any_of(fabric_.pins.motions, [&](const Motion& motion) { return motion.moves(t, t + h); });
     // Where something drives the fabric, a step is halved for the sake of stiffer springs, which all of the motion may pay for (dissipateGain).
     const double bearable = isDriven_ && h < wholeStep_ ? 1.0 : kStiffeningGain;
-    springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * referenceEnergy(startEnergies_.kinetic, h));
+    const double kinetic = start_.springStep > h ? ownKinetic(fabric_, groups_, mass_, start_) : 0.0;
+    springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * referenceEnergy(kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
     solidLimits_ = {};
@@ -203,7 +205,7 @@ bool VertexSolver::attempt(const Part& part)
     report.takenFraction = std::min(report.takenFraction, fraction);
 
     if (isShort) ++report.shortened;
-    findGroups();
+    findGroups(groups_);
     const bool mayHaveGained = startIsChecked_ || isShort;
     if (mayHaveGained && !isDriven_) removeSpuriousGain(part);
     std::optional<EnergyChanges> changes;

@@ -43,7 +43,6 @@ class VertexSolver final : public FabricIntegrator {
     /// The Newton iterations of one attempt so far.
     struct Newton {
         int count = 0;
-        double firstEnergy = 0.0;          ///< LinearReport::firstEnergy of the first [erg]
         double lastMove = 0.0;             ///< rms [radii]
         double wanted = 0.0, taken = 0.0;  ///< moves squared, and what the limiter left of them, by mass [g cm^2]
         double gain = 0.0;                 ///< where it ended [-]
@@ -82,12 +81,12 @@ class VertexSolver final : public FabricIntegrator {
     void finish(double h, FabricState& state);
     ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
     double referenceEnergy(double kinetic, double h) const;
-    double gain(double h, const Vec3& gravity, const FabricState& state) const;
+    double gain(double h, const Vec3& gravity, const FabricState& state);
     void iterate(const Part& part, Newton& newton);
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
     EnergyChanges dissipateGain(double h, const Vec3& gravity, FabricState& state) const;
     void removeSpuriousGain(const Part& part);
-    void findGroups();
+    void findGroups(FabricGroups& groups) const;
     void findMomenta(const FabricState& state);
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);
     std::vector<char> heldBySolids() const;
@@ -110,7 +109,7 @@ class VertexSolver final : public FabricIntegrator {
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
     SolidLimiter solidLimiter_;
-    FabricGroups groups_;                       ///< groups of pieces in the step under way
+    FabricGroups groups_, attemptGroups_;       ///< groups of pieces in the step under way, and in its last attempt alone
     std::vector<Vec3> momentum_;                ///< of each piece, at the start of the step [g cm/s]
     std::vector<Vec3> missing_, groupInertia_;  ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
     std::vector<Vec3> restReference_;           ///< of each yarn edge

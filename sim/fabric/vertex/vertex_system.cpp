@@ -12,7 +12,8 @@ VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
       rods_(fabric, restState(fabric), settings),
       shells_(fabric, settings),
       unknowns_(fabric, rods_.layout(), shells_),
-      cloth_(shells_.matrix())
+      cloth_(shells_.matrix()),
+      components_(fabric)
 {
     strands_.resize(rods_.layout());
     ownsDiagonal_.resize(shells_.vertices().size());
@@ -20,7 +21,7 @@ VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
     if (!shells_.empty()) clothFactor_ = ClothPreconditioner(cloth_, shells_.neighbors(), ownsDiagonal_);
     for (AlignedArray<double>* v : {&gradient_, &solution_, &residual_, &z_, &p_, &sp_, &q_}) v->resize(unknowns_.size);
     pOfVertex_.resize(4 * fabric.vertexCount());
-    partialDot_.resize(rods_.layout().groups.size());
+    layOutPieces();
     findLinks();
     findFreePieces();
     clothExtra_.resize(shells_.vertices().size());
@@ -58,6 +59,17 @@ void VertexSystem::findLinks()
 void VertexSystem::assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
     rods_.includeTwistHessian();
+    assembleFactored(at, obstacles, contacts);
+}
+
+void VertexSystem::assembleDefinite(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
+{
+    rods_.excludeTwistHessian(lanesNotIndefinite());
+    assembleFactored(at, obstacles, contacts);
+}
+
+void VertexSystem::assembleFactored(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
+{
     assembleSums(at, obstacles, contacts);
     if (!rods_.empty() && !strands_.factor(rods_.layout())) {
         rods_.excludeTwistHessian(strands_.definite());
@@ -89,6 +101,7 @@ void VertexSystem::assembleSums(const NewtonPoint& at, std::span<const ObstacleC
     addObstacles(obstacles);
     if (!pairs_.empty()) addContacts();
     weighFreePieces(at, obstacles);
+    findComponents(at);
     holdPins();
 }
 
@@ -124,7 +137,6 @@ void VertexSystem::addInertia(const NewtonPoint& at)
             gradient_[slot + a * kLanes] += at.inertia[v][a] * perStep2 * (at.state.x[v][a] - at.freePositions[v][a]);
         }
     });
-    totalMass_ = parallelSum(at.inertia.size(), [&](std::size_t v) { return fabric_.pinned[v] ? 0.0 : at.inertia[v].mean(); });
 }
 
 void VertexSystem::emptySharedRows()

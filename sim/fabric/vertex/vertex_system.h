@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/components.h"
 #include "sim/fabric/contact/contact.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
@@ -22,7 +23,7 @@ struct NewtonPoint {
     double h;                             ///< length of the step [s]
 };
 
-/// When a linear solve is good enough: √(rᵀz / total mass), the rms error of speeds, below `share` of what it was at first, 0.3 of
+/// When a component is solved for well enough: √(rᵀz / its mass), the rms error of its speeds, below `share` of what it was at first, 0.3 of
 /// that in the step's first iteration, or `speed`; and below `most` in any case. Of what is small enough from the start `left` remains at most.
 struct LinearTolerance {
     double share;           ///< [-]
@@ -34,13 +35,14 @@ struct LinearTolerance {
 /// Linear solve of one Newton iteration.
 struct LinearReport {
     int iterations = 0;
-    double firstEnergy = 0.0;  ///< rᵀz at the start [erg]
-    double speedError = 0.0;   ///< √(rᵀz / total mass) at the end [cm/s]
+    double speedError = 0.0;    ///< √(rᵀz / total mass) at the end [cm/s]
+    bool isIndefinite = false;  ///< a component has been left as soon as a direction of negative curvature was met
 };
 
 /// The Newton system in vertex space, A = S + K + C: S the strands with their inertia, the same-side part of their contacts and
 /// obstacles, factored exactly; K the cloth; C contact between different strands, and what shared vertices tie together.
-/// Solved by conjugate gradients with S and a block-incomplete factor of K as preconditioner (fabric/vertex/README.md, Linear solve).
+/// Solved by conjugate gradients with S and a block-incomplete factor of K as preconditioner, each connected component by itself
+/// (fabric/vertex/README.md, Linear solve).
 class VertexSystem {
  public:
     VertexSystem(const Fabric& fabric, const FabricSettings& settings);
@@ -53,8 +55,11 @@ class VertexSystem {
 
     /// Gradient and matrix at a point, with its factors.
     void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
-    /// Newton's move. `stepEnergy`: firstEnergy of the step's first iteration [erg]; 0 in that.
-    LinearReport solve(const LinearTolerance& tolerance, double stepEnergy, int maxIterations);
+    /// The same after a solve that met an indefinite component, there without the part of the twist that can be: strands are factored one by
+    /// one, without what they share, and together may be indefinite where each is not.
+    void assembleDefinite(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
+    /// Newton's move. `isFirst`: in the step's first iteration.
+    LinearReport solve(const LinearTolerance& tolerance, bool isFirst, int maxIterations);
 
     Vec3 move(int vertex) const;                                                  ///< of the last solve [cm]
     double turn(int edge) const { return solution_[unknowns_.twistSlot[edge]]; }  ///< [rad]
@@ -75,6 +80,41 @@ class VertexSystem {
 
     struct PairBlock;
 
+    /// Conjugate gradients of one component.
+    struct Component {
+        double mass = 0.0;          ///< of what is not pinned, with drag [g]
+        double energy = 0.0;        ///< rᵀz [erg]
+        double next = 0.0;          ///< rᵀz after the step that is being made [erg]
+        double curvature = 0.0;     ///< pᵀA p [erg]
+        double step = 0.0;          ///< along p [-]
+        double ratio = 0.0;         ///< of p in the next p [-]
+        double target = 0.0;        ///< rᵀz that is small enough, after an iteration [erg]
+        double roundOff = 0.0;      ///< rᵀz that is small enough for none [erg]
+        bool isActive = true;       ///< it is still solved for
+        bool isIndefinite = false;  ///< a direction of negative curvature was met
+    };
+    /// Pieces that the lanes of a pack belong to; −1 for none.
+    struct PieceLanes {
+        std::array<int, kLanes> piece;
+        int common;  ///< that of all lanes that belong to one; −1 if there are several
+        void findCommon();
+    };
+
+    void layOutPieces();
+    void findComponents(const NewtonPoint& at);
+    void beginComponents();
+    void setTargets(const LinearTolerance& tolerance, bool isFirst);
+    bool findUnsolved(int iterations);
+    void findSteps();
+    void findRatios();
+    double speedError() const;
+    std::vector<Pack> lanesNotIndefinite() const;
+    void sumDots(double Component::*to);
+    Component& componentOf(int vertex) { return conjugate_[components_.of(vertex)]; }
+    bool isActive(const PieceLanes& lanes) const;
+    bool isAnyRowActive(int begin, int end) const;
+    Pack scalarsOf(const PieceLanes& lanes, double Component::*which) const;
+    void assembleFactored(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void assembleSums(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void findLinks();
     void addInertia(const NewtonPoint& at);
@@ -90,13 +130,13 @@ class VertexSystem {
     void holdPins();
     void copyByVertex(const double* p, int group);
     void applyPairs();
-    double multiply();
-    double multiplyStrands();
-    double multiplyCloth();
-    double applyLinks();
-    double precondition(double step);
-    double preconditionCloth();
-    void nextDirection(double ratio);
+    void multiply();
+    void multiplyStrands();
+    void multiplyCloth();
+    void applyLinks();
+    void precondition();
+    void preconditionCloth();
+    void nextDirection();
     void findFreePieces();
     void weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles);
     void balanceFreePieces();
@@ -113,7 +153,6 @@ class VertexSystem {
     std::vector<Mat3> clothExtra_;                     ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
     mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
     std::vector<Link> links_;
-    double totalMass_ = 0.0;  ///< of what is not pinned, with drag [g]
 
     /// A pair's part of C as the solver reads it; vectors have a fourth component, 0.
     struct PairBlock {
@@ -155,11 +194,18 @@ class VertexSystem {
     AlignedArray<double> pOfVertex_;    ///< p of each vertex, 4 numbers each
     std::vector<int> heldSlots_;        ///< slots of the unknowns that are pinned
     std::vector<double> heldGradient_;  ///< gradient of the pinned unknowns before it is removed [dyn, dyn cm]
-    std::vector<int> pieceOf_;          ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
+    std::vector<int> freePieceOf_;      ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
     std::vector<Mat3> pieceStiffness_;  ///< of each of these pieces, moved as a whole [dyn/cm]
     std::vector<Vec3> pieceForce_;      ///< what is left of the forces on it [dyn]
 
-    std::vector<double> partialDot_;  ///< of each group of strands
+    FabricComponents components_;
+    std::vector<Component> conjugate_;              ///< of each component
+    std::vector<double> pieceMass_, pieceAtFirst_;  ///< of each piece: not pinned, with drag [g]; rᵀz per mass in the step's first iteration [erg/g]
+    std::vector<PieceLanes> strandPieces_;          ///< of each group of strands
+    std::vector<PieceLanes> clothPieces_;           ///< of kLanes vertices each that are on cloth only
+    std::vector<int> runOfRow_, runPiece_;          ///< runs of rows of cloth, of one piece and in one range that is worked on together
+    std::vector<Pack> laneDot_;                     ///< dot products of each group of strands
+    std::vector<double> runDot_;                    ///< of each run
     AlignedArray<double> gradient_, solution_, residual_, z_, p_, sp_, q_;
 };
 
