@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace app {
 
@@ -25,7 +27,8 @@ struct Escapes {
     int inside = 0, outside = 0;
     double deepest = 0.0;  ///< [cm]
 
-    void look(const sim::Vec3& x)
+    /// @param beganOutside  it may be out of the vessel
+    void look(const sim::Vec3& x, bool beganOutside = false)
     {
         if (!x.allFinite()) {
             ++outside;
@@ -34,7 +37,7 @@ struct Escapes {
         const double depth = -obstacles.distance(x);
         inside += depth > tolerance;
         deepest = std::max(deepest, depth);
-        outside += vessel && vessel->exteriorDistance(x) > tolerance;
+        outside += vessel && !beganOutside && vessel->exteriorDistance(x) > tolerance;
     }
     bool any() const { return inside + outside > 0; }
     std::string text(const char* what) const
@@ -44,6 +47,28 @@ struct Escapes {
         if (outside > 0) told += fmt::format("{} {} outside of the vessel ", outside, what);
         return told;
     }
+};
+
+/// Which particles began out of the vessel, or may have come off what did.
+class BeganOutside {
+ public:
+    /// @param tolerance  what is as near to the vessel's outside is on it [cm]
+    BeganOutside(const sim::Scene& scene, const sim::State& start, const std::optional<Eigen::AlignedBox3d>& vessel, double tolerance)
+        : isOutside_(start.liquid.count, vessel ? 0 : 1)
+    {
+        if (!vessel) return;
+        const sim::Vec3 margin = sim::Vec3::Constant(tolerance);
+        const Eigen::AlignedBox3d within(vessel->min() + margin, vessel->max() - margin);
+        const auto isOut = [&](const sim::Vec3& x) { return !within.contains(x); };
+        for (std::size_t p = 0; p < start.liquid.count; ++p) isOutside_[start.liquid.id[p]] = isOut(start.liquid.position(p)) ? 1 : 0;
+        laterMay_ = std::ranges::any_of(scene.sources, [&](const sim::SourceSettings& source) { return !within.contains(source.shape.bounds()); }) ||
+                    std::ranges::any_of(start.fabric.x, isOut);
+    }
+    bool of(std::uint32_t id) const { return id < isOutside_.size() ? isOutside_[id] != 0 : laterMay_; }
+
+ private:
+    std::vector<char> isOutside_;  ///< of each particle there was at the start, by id
+    bool laterMay_ = true;
 };
 
 }  // namespace
@@ -69,9 +94,11 @@ std::string describeEscape(const std::filesystem::path& file, const std::filesys
         if (start.fabric().pinned[v]) led.look(state.fabric.x[v]);
         else if (feelsSolids && startsOutside(start.state().fabric.x[v])) vertices.look(state.fabric.x[v]);
     }
+    const BeganOutside beganOutside(scene, start.state(), vessel, tolerance);
     // Fabric that feels no solid, or is led through one, drips wherever it has got to.
     const bool mayDripAnywhere = scene.settings.coupling.drip && !scene.fabrics.empty() && (!feelsSolids || led.any());
-    for (std::size_t p = 0; !mayDripAnywhere && p < state.liquid.count; ++p) particles.look(state.liquid.position(p));
+    for (std::size_t p = 0; !mayDripAnywhere && p < state.liquid.count; ++p)
+        particles.look(state.liquid.position(p), beganOutside.of(state.liquid.id[p]));
     return particles.text("particles") + vertices.text("vertices");
 }
 

@@ -76,7 +76,7 @@ void GridFabricSolver::startVelocities(double h, const Vec3& gravity, const Fabr
     std::ranges::copy(state.omega, velocity_.twist.begin());
 }
 
-/// Energy of the fabric when it has made a part of move_ in h: kinetic, by weight, elastic but for twist [erg].
+/// Energy of the fabric when it has made a part of move_ in h, with the angles that it already has: kinetic, by weight, elastic [erg].
 GridFabricSolver::Mechanical GridFabricSolver::energyAfter(double part, double h, const Vec3& gravity, const FabricState& state)
 {
     FabricState& at = trial_;
@@ -84,13 +84,11 @@ GridFabricSolver::Mechanical GridFabricSolver::energyAfter(double part, double h
     parallelFor(at.x.size(), 1024, [&](std::size_t v) { at.x[v] = state.x[v] + part * move_[v]; });
     at.theta = state.theta, at.tangent = state.tangent, at.reference = state.reference, at.referenceTwist = state.referenceTwist;
     stiffness_.rods().transportFrames(at);
-    const auto [stretching, bending, twisting] = stiffness_.rods().energies(at);
-    const auto [membrane, shellBending] = stiffness_.shells().energies(at.x);
     const double free = parallelSum(move_.size(), [&](std::size_t v) {
         const Vec3 move = part * move_[v];
         return mass_[v] * (0.5 * move.squaredNorm() / (h * h) - gravity.dot(move));
     });
-    return {free, stretching + bending + membrane + shellBending};
+    return {free, elasticEnergies(at, stiffness_.rods(), stiffness_.shells()).elastic()};
 }
 
 /// Of move_, which solids at rest have changed: the part with which they give the fabric no energy, or the least of it [0..1]. Where some
@@ -262,14 +260,14 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
     const double kept = particles_.keptVelocity(h);
-    moveVertices(t, h, gravity, state, report);
-    state.vertexSolver.onFabric.clear();
-    if (obstacles_.empty()) state.onObstacles.clear();
-    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
         state.omega[e] = kept * velocity_.twist[e];
         state.theta[e] += h * state.omega[e];
     }
+    moveVertices(t, h, gravity, state, report);
+    state.vertexSolver.onFabric.clear();
+    if (obstacles_.empty()) state.onObstacles.clear();
+    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
     state.gridSolver.sinceGather = h;
     stiffness_.rods().transportFrames(state);
 

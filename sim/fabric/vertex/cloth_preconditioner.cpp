@@ -15,7 +15,7 @@ using Block = Mat3;
 using BlockRef = Eigen::Map<Block>;
 using ConstBlockRef = Eigen::Map<const Block>;
 
-constexpr int kParts = 16;
+constexpr int kParts = 16, kRowsPerPart = 2048;  ///< what parts leave out of the factor costs iterations
 constexpr double kLeastPivot = 0.05;  ///< of a row's own diagonal block [-]
 
 }  // namespace
@@ -23,7 +23,7 @@ constexpr double kLeastPivot = 0.05;  ///< of a row's own diagonal block [-]
 ClothPreconditioner::ClothPreconditioner(const BlockMatrix& matrix, const std::vector<std::vector<int>>& pattern, const std::vector<char>& isSkipped)
     : skipped_(isSkipped)
 {
-    const int rows = matrix.rows(), parts = std::min(kParts, std::max(1, rows / 64));
+    const int rows = matrix.rows(), parts = std::clamp(rows / kRowsPerPart, 1, kParts);
     for (int part = 0; part <= parts; ++part) partBegin_.push_back(static_cast<int>(static_cast<long>(rows) * part / parts));
     begin_.push_back(0);
     droppedBegin_.push_back(0);

@@ -75,31 +75,42 @@ void VertexSolver::removeSpuriousGain(const Part& part)
         slowDown(due(), fabric_, groups_, mass_, state);
         return;
     }
-    std::vector<Vec3> way(state.x.size());
-    std::vector<double> turn(state.theta.size());
-    for (std::size_t v = 0; v < way.size(); ++v) way[v] = state.x[v] - start_.x[v];
-    const std::vector<Vec3> drift = groups_.drifts(mass_, way);
-    for (std::size_t e = 0; e < turn.size(); ++e) turn[e] = state.theta[e] - start_.theta[e];
-    const double lastFraction = state.vertexSolver.lastFraction;
+    Way way{std::vector<Vec3>(state.x.size()), {}, std::vector<double>(state.theta.size())};
+    for (std::size_t v = 0; v < state.x.size(); ++v) way.moves[v] = state.x[v] - start_.x[v];
+    for (std::size_t e = 0; e < state.theta.size(); ++e) way.turns[e] = state.theta[e] - start_.theta[e];
+    way.drift = groups_.drifts(mass_, way.moves);
     // Where all of the motion does not pay for it, only a part of the way can be, but for the drift of what nothing holds.
     for (const double share : {0.5, 0.25, 0.125, 0.0}) {
         if (canPay()) break;
-        state = start_;
-        state.vertexSolver.lastFraction = lastFraction;
-        state.springStep = springStep_;
-        solidLimiter_.moveTo(part.t, part.t + h);
-        if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
-        for (std::size_t v = 0; v < way.size(); ++v) {
-            const Vec3& whole = drift[groups_.pieceOf(static_cast<int>(v))];
-            move_[v] = whole + share * (way[v] - whole);
-        }
-        limit(state, part.report, part.clock);
-        commit(state, part.clock);
-        solidLimiter_.rest();
-        for (std::size_t e = 0; e < turn.size(); ++e) state.theta[e] += share * turn[e];
-        finish(h, state);
+        goPart(part, way, share);
+    }
+    if (!canPay()) {  // what is in the way of the drift deforms it
+        groups_.holdAll();
+        std::ranges::fill(way.drift, Vec3::Zero());
+        goPart(part, way, 0.0);
     }
     slowDown(due(), fabric_, groups_, mass_, state);
+}
+
+/// From the start of the attempt a share of the way against the drift, and all of that.
+void VertexSolver::goPart(const Part& part, const Way& way, double share)
+{
+    FabricState& state = part.state;
+    const double lastFraction = state.vertexSolver.lastFraction;
+    state = start_;
+    state.vertexSolver.lastFraction = lastFraction;
+    state.springStep = springStep_;
+    solidLimiter_.moveTo(part.t, part.t + part.h);
+    if (contact_) contact_->beginStep(state.x, mass_, part.h, springStep_, start_.vertexSolver.onFabric);
+    for (std::size_t v = 0; v < way.moves.size(); ++v) {
+        const Vec3& drift = way.drift[groups_.pieceOf(static_cast<int>(v))];
+        move_[v] = drift + share * (way.moves[v] - drift);
+    }
+    limit(state, part.report, part.clock);
+    commit(state, part.clock);
+    solidLimiter_.rest();
+    for (std::size_t e = 0; e < way.turns.size(); ++e) state.theta[e] += share * way.turns[e];
+    finish(part.h, state);
 }
 
 /// What touches where a step begins and ends, and not only where Newton looked last: contact that a small move has brought about.

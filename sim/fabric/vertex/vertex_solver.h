@@ -86,6 +86,13 @@ class VertexSolver final : public FabricIntegrator {
     double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
     EnergyChanges dissipateGain(double h, const Vec3& gravity, FabricState& state) const;
     void removeSpuriousGain(const Part& part);
+    /// What an attempt did.
+    struct Way {
+        std::vector<Vec3> moves;    ///< of each vertex [cm]
+        std::vector<Vec3> drift;    ///< of each piece: that of its group, where nothing holds it, else 0 [cm]
+        std::vector<double> turns;  ///< of each yarn edge [rad]
+    };
+    void goPart(const Part& part, const Way& way, double share);
     void findGroups(FabricGroups& groups) const;
     void findMomenta(const FabricState& state);
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);

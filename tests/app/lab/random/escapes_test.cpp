@@ -78,6 +78,19 @@ TEST(Escapes, ParticlesOutOfTheVesselAreCounted)
     EXPECT_EQ(run.told(), "");
 }
 
+TEST(Escapes, ParticlesThatBeganOutOfTheVesselAreNotCounted)
+{
+    std::string scene = kScene;
+    const std::string pool = "[-0.5, 1.0, 1.8]}}}";
+    scene.replace(scene.find(pool), pool.size(), "[-0.5, 1.0, 1.8]}}}, {name: above, shape: {box: {min: [-1, 4.5, -1], max: [0, 5, 1]}}}");
+    KeptRun run(scene);
+    EXPECT_EQ(run.told(), "");
+    std::size_t within = 0;
+    while (run.state.liquid.position(within).y() > 4.0) ++within;
+    run.place(within, {2.5, 1.0, 0.0});
+    EXPECT_EQ(run.told(), "1 particles outside of the vessel ");
+}
+
 TEST(Escapes, SolidsAreWhereTheyAreAtTheTimeOfTheState)
 {
     KeptRun run;
