@@ -16,7 +16,7 @@ using BlockRef = Eigen::Map<Block>;
 using ConstBlockRef = Eigen::Map<const Block>;
 
 constexpr int kParts = 16, kRowsPerPart = 2048;  ///< what parts leave out of the factor costs iterations
-constexpr double kLeastPivot = 0.05;  ///< of a row's own diagonal block [-]
+constexpr double kLeastPivot = 0.05;             ///< of a row's own diagonal block [-]
 
 }  // namespace
 
