@@ -153,7 +153,7 @@ Pack LiquidOnSolids::stepOf(const CutGrid& cut, const Outcome& outcome, const Fa
 {
     const auto [place, axis, row] = faces;
     const int b = blocks_[place];
-    const Pack coefficient = loadPack(outcome.system.coefficient.block(b, axis) + row), all = broadcast(outcome.perPressure);
+    const Pack coefficient = loadPack(outcome.system.coefficient().block(b, axis) + row), all = broadcast(outcome.perPressure);
     PackMask counts = coefficient > 0.0;
     if (hasOthers_) counts &= ~maskOfBits(shared_.block(static_cast<int>(place), axis)[row >> 6] >> (row & 63));
     const Pack mass = loadPack(outcome.liquid.faces.sums.block(b, FaceFields::kMass + axis) + row);

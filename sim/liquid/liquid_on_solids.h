@@ -46,7 +46,7 @@ class LiquidOnSolids {
     struct Outcome {
         const BlockArray<double, 3>& velocity;  ///< that they read [cm/s]
         const LiquidGrid& liquid;
-        const PressureWorkspace& system;
+        const PressureFaces& system;
         const BlockArray<double>& pressure;         ///< [dyn/cm^2]
         const BlockArray<double>* again;            ///< that of a reflection [dyn/cm^2], or null
         const BlockArray<double, 3>* flipVelocity;  ///< straight after P2G [cm/s]; null but for FLIP …

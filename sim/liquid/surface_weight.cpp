@@ -27,8 +27,8 @@ struct Column {
 class SurfaceColumns {
  public:
     /// @param up  direction along the axis against gravity, 1 or -1
-    SurfaceColumns(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const LiquidGrid& liquid, int axis, int up)
-        : grid_(cut.grid), obstacles_(cut.field), pressure_(pressure), bodies_(bodies), liquid_(liquid), axis_(axis), up_(up)
+    SurfaceColumns(const CutGrid& cut, const HeldBodies& bodies, int axis, int up)
+        : grid_(cut.grid), obstacles_(cut.field), bodies_(bodies), free_(bodies.free()), liquid_(bodies.liquid()), axis_(axis), up_(up)
     {
     }
 
@@ -37,7 +37,7 @@ class SurfaceColumns {
     {
         std::uint64_t known = 0;
         for (int j = 0; j < kBlockEdge; ++j) {
-            const Pack coefficient = loadPack(pressure_.coefficient.block(block, axis_) + cellInBlock(0, j, k));
+            const Pack coefficient = loadPack(bodies_.coefficient().block(block, axis_) + cellInBlock(0, j, k));
             known |= std::uint64_t{maskBits(coefficient > 0.0)} << (j * kBlockEdge);
         }
         return known & ~(liquid_.deep.block(block)[k] & access.below(liquid_.deep, 0, axis_, k));
@@ -53,7 +53,7 @@ class SurfaceColumns {
         for (CellRef at = lowest;; at = beside(at, up_)) {
             const bool known = isKnown(at);
             if (!known && (!isWet(at) || isSolid(at))) break;
-            if (column.size == kSurfaceColumn || isDeep(at) || (bodies_.hasFabric && !bodies_.bare.test(at.block, at.cell, axis_))) return {};
+            if (column.size == kSurfaceColumn || isDeep(at) || (free_.hasFabric && !free_.bare.test(at.block, at.cell, axis_))) return {};
             column.face[column.size++] = at;
             if (!known) {
                 column.isTopFree = true;
@@ -72,7 +72,7 @@ class SurfaceColumns {
         return cellNear(grid_, face.block, at.x(), at.y(), at.z());
     }
     bool exists(const CellRef& face) const { return face.block != grid_.count(); }
-    bool isKnown(const CellRef& face) const { return exists(face) && pressure_.coefficient.block(face.block, axis_)[face.cell] > 0.0; }
+    bool isKnown(const CellRef& face) const { return exists(face) && bodies_.coefficient().block(face.block, axis_)[face.cell] > 0.0; }
     bool isWet(const CellRef& face) const { return exists(face) && liquid_.wet.test(face.block, face.cell, axis_); }
     bool isSolid(const CellRef& face) const { return exists(face) && obstacles_.open(face.block, axis_)[face.cell] == 0.0; }
     bool isDeep(const CellRef& face) const
@@ -84,17 +84,17 @@ class SurfaceColumns {
     /// Does a solid hold the body that the face belongs to?
     bool isHeld(const CellRef& face) const
     {
-        const ConnectedComponents& components = pressure_.solver.components();
+        const ConnectedComponents& components = bodies_.components();
         const CellRef below = beside(face, -1);
         const int own = components.of(face.block, face.cell), other = exists(below) ? components.of(below.block, below.cell) : -1,
                   body = std::max(own, other);  // the same, where both are, as the face moves
-        return body >= 0 && bodies_.bodies[body].isHeld;
+        return body >= 0 && free_.bodies[body].isHeld;
     }
 
     const BlockGrid& grid_;
     const ObstacleField& obstacles_;
-    const PressureWorkspace& pressure_;
-    const FreeLiquid& bodies_;
+    const HeldBodies& bodies_;
+    const FreeLiquid& free_;
     const LiquidGrid& liquid_;
     int axis_, up_;
 };
@@ -173,14 +173,13 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
 
 }  // namespace
 
-void levelWeight(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const Vec3& gravityStep, LiquidGrid& liquid,
-                 LiquidOnSolids* onSolids)
+void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
 {
-    if (std::ranges::none_of(bodies.bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
+    if (std::ranges::none_of(bodies.free().bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
     if (onSolids != nullptr) onSolids->meetLevelling();
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
-        const SurfaceColumns columns(cut, pressure, bodies, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
+        const SurfaceColumns columns(cut, bodies, a, gravityStep[a] < 0.0 ? 1 : -1);
         parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
             const int b = static_cast<int>(n);
             const BitAccess access(cut.grid, b);

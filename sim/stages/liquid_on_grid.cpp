@@ -69,8 +69,8 @@ void findCells(StepContext& c)
 {
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Cells);
-    findLiquidCells(c.cut(), c.settings().liquid.full, c.work.grid);
-    findSurface(c.cut(), c.work.grid);
+    LiquidGrid& liquid = c.work.grid;
+    c.plan.surfaceCells = findSurface(c.cut(), findLiquidCells(c.cut(), c.settings().liquid.full, liquid), liquid);
 }
 
 }  // namespace sim
