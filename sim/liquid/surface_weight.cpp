@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 
 namespace sim {
@@ -149,7 +150,9 @@ void fillEvenly(std::span<double> full, double mass, bool free)
 }
 
 /// Put the weight of a column where its liquid would be if it were even.
-void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
+/// @param told  of what each face gets
+void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid,
+           const std::optional<LiquidOnSolids::Levelling>& told)
 {
     std::array<double, kSurfaceColumn> mass;
     double above = 0.0;
@@ -167,7 +170,7 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
         rest -= weight;
         const double change = gravityStep * (weight / mass[n] - 1.0);
         liquid.faces.velocity.block(block, axis)[cell] += change;
-        if (onSolids != nullptr) onSolids->weightGrew(block, axis, cell, mass[n] * change);
+        if (told) told->weightGrew(block, axis, cell, mass[n] * change);
     }
 }
 
@@ -176,7 +179,8 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
 void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
 {
     if (std::ranges::none_of(bodies.free().bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
-    if (onSolids != nullptr) onSolids->meetLevelling();
+    std::optional<LiquidOnSolids::Levelling> told;
+    if (onSolids != nullptr) told = onSolids->meetLevelling();
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
         const SurfaceColumns columns(cut, bodies, a, gravityStep[a] < 0.0 ? 1 : -1);
@@ -186,7 +190,7 @@ void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravi
             for (int k = 0; k < kBlockEdge; ++k)
                 for (std::uint64_t left = columns.shallow(access, b, k); left != 0; left &= left - 1) {
                     const Column column = columns.from({b, 64 * k + std::countr_zero(left)});
-                    if (column.size > 1) level(column, cut.field, a, gravityStep[a], liquid, onSolids);
+                    if (column.size > 1) level(column, cut.field, a, gravityStep[a], liquid, told);
                 }
         });
     }

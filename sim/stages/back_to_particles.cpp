@@ -106,9 +106,9 @@ void pushSolids(StepContext& c)
     const StageScope scope(c.clock, Stage::GridToParticles);
     Workspace& work = c.work;
     if (c.plan.separatedPhases) {
-        work.onSolids.meetFabric();
+        const LiquidOnSolids::Exchange exchange = work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseTaken(
-            *c.plan.separatedPhases, [&](int block, int axis, int cell, double impulse) { work.onSolids.fabricTook(block, axis, cell, impulse); });
+            *c.plan.separatedPhases, [&](int block, int axis, int cell, double impulse) { exchange.fabricTook(block, axis, cell, impulse); });
     }
     const LiquidOnSolids::Outcome outcome{.velocity = velocityRead(c),
                                           .liquid = work.grid,

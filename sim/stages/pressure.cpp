@@ -177,9 +177,10 @@ void correctStrain(StepContext& c)
     const PressureSystem& system = *c.plan.pressure;
     findStrainedFaces(c);
     c.energy.remember();
-    if (c.hasObstacles()) work.onSolids.beforeStrain(work.grid.faces.velocity);
+    std::optional<LiquidOnSolids::KeptVelocities> kept;
+    if (c.hasObstacles()) kept = work.onSolids.keepVelocities(work.grid.faces.velocity);
     correctStrain(c.cut(), c.isViscous() ? work.strain.viscous : work.grid.advected, system, work.strain, work.grid);
-    if (c.hasObstacles()) work.onSolids.afterStrain(c.cut(), work.strain, work.grid);
+    if (kept) work.onSolids.afterStrain(*kept, c.cut(), work.strain, work.grid);
     findRightHandSide(c.cut(), system, work.grid.faces.velocity, work.inflow, system.rightHandSide());
     const SolveTolerance tolerance(solver.pressureTolerance, solver.pressureTolerance * c.report.pressure.scale);
     const SolveReport again = system.solve(c.state.grid, tolerance, solver.maxIterations, c.state.pressureOfStrain);
