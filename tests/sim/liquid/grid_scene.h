@@ -188,4 +188,13 @@ inline Shape tankOfCells(const GridScene& scene, const Vec3i& first, const Vec3i
     return Shape::box(0.5 * (low + high), 0.5 * (high - low)).inverted();
 }
 
+/// A tank turned about a skew axis, so that no wall is aligned with the grid.
+inline Shape skewTank(const GridScene& scene)
+{
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translate(scene.corner({8, 8, 8}));
+    place.rotate(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()));
+    return Shape::box(Vec3::Zero(), Vec3(6.0, 5.0, 5.5) * scene.grid.dx).inverted().moved(place);
+}
+
 }  // namespace sim::test
