@@ -34,13 +34,12 @@ struct StepMemory {
     std::vector<SourceMemory> sources;                         ///< as many as the scene has, once any was looked at
 };
 
-/// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (workspace.h).
-struct State {
-    double time = 0.0;       ///< [s]
-    std::int64_t step = 0;   ///< steps taken
-    double lastDt = 0.0;     ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
-    bool reflected = false;  ///< the last step was the first of two: particles hold reflected velocities
-    LiquidParticles liquid;
+/// All that evolves but the liquid's particles, which are most of it.
+struct StateBesideLiquid {
+    double time = 0.0;                    ///< [s]
+    std::int64_t step = 0;                ///< steps taken
+    double lastDt = 0.0;                  ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
+    bool reflected = false;               ///< the last step was the first of two: particles hold reflected velocities
     std::uint32_t nextId = 0;             ///< id of the next particle to be born
     BlockGrid grid;                       ///< the blocks of the last step …
     BlockArray<double> pressure;          ///< … and the pressure in them, from where the next solve starts [dyn/cm^2]
@@ -51,6 +50,11 @@ struct State {
     double uncorrected = 0.0;           ///< time since the liquid's volume was last corrected [s]
     Ledger ledger;
     StepMemory memory;
+};
+
+/// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (workspace.h).
+struct State : StateBesideLiquid {
+    LiquidParticles liquid;
 };
 
 /// Is there liquid, or are there blocks of the grid that liquid has just left?

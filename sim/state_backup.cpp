@@ -33,37 +33,35 @@ void copyWithoutModes(const LiquidParticles& from, LiquidParticles& to)
 
 }  // namespace
 
-void StateBackup::keep(State& state)
+void StateBackup::keep(const State& state)
 {
-    LiquidParticles liquid = std::exchange(state.liquid, {});
     rest_ = state;
-    state.liquid = std::move(liquid);
     copyWithoutModes(state.liquid, liquid_);
-    hasModes_ = false;
+    if (modes_) room_ = std::move(*modes_);
+    modes_.reset();
 }
 
 void StateBackup::keepModes(LiquidParticles& particles, bool areRead)
 {
-    liquid_.modeStride = particles.modeStride;
+    modes_ = std::move(room_);
+    modes_->stride = particles.modeStride;
     for (int a = 0; a < kAxes; ++a) {
-        liquid_.modes[a].resize(particles.modes[a].size());
-        if (areRead) copyFirst(particles.modes[a], particles.modes[a].size(), liquid_.modes[a]);
-        else liquid_.modes[a].swap(particles.modes[a]);
+        modes_->values[a].resize(particles.modes[a].size());
+        if (areRead) copyFirst(particles.modes[a], particles.modes[a].size(), modes_->values[a]);
+        else modes_->values[a].swap(particles.modes[a]);
     }
-    hasModes_ = true;
 }
 
 void StateBackup::restore(State& state)
 {
-    LiquidParticles liquid = std::move(state.liquid);
-    state = rest_;
-    if (hasModes_) {
-        std::swap(liquid.modes, liquid_.modes);
-        std::swap(liquid.modeStride, liquid_.modeStride);
+    static_cast<StateBesideLiquid&>(state) = rest_;
+    if (modes_) {
+        std::swap(state.liquid.modes, modes_->values);
+        std::swap(state.liquid.modeStride, modes_->stride);
+        room_ = std::move(*modes_);
+        modes_.reset();
     }
-    copyWithoutModes(liquid_, liquid);
-    state.liquid = std::move(liquid);
-    hasModes_ = false;
+    copyWithoutModes(liquid_, state.liquid);
 }
 
 }  // namespace sim

@@ -2,14 +2,16 @@
 
 #include "sim/state.h"
 
+#include <optional>
+
 namespace sim {
 
 /// The state before a step, to go back to if the step turns out bad. Keeping it costs next to nothing: of the liquid it copies positions
 /// and masses, and the modes, which are most of it, change places with rows that G2P then fills.
 class StateBackup {
  public:
-    /// As it is now. Only for a moment is the liquid taken out of `state`.
-    void keep(State& state);
+    /// As it is now.
+    void keep(const State& state);
 
     /// Put the modes aside, to be called right before G2P writes all of them anew.
     /// @param areRead  G2P goes on from the old ones (FLIP), so they are copied
@@ -19,9 +21,16 @@ class StateBackup {
     void restore(State& state);
 
  private:
-    State rest_;              ///< everything but the liquid
-    LiquidParticles liquid_;  ///< modes: once keepModes() has been called, else room for them
-    bool hasModes_ = false;
+    /// Modes of all particles, as LiquidParticles has them.
+    struct Modes {
+        std::array<AlignedArray<double>, kAxes> values;  ///< [cm/s]
+        std::size_t stride = 0;
+    };
+
+    StateBesideLiquid rest_;
+    LiquidParticles liquid_;      ///< all of it but the modes
+    std::optional<Modes> modes_;  ///< that were put aside in this step
+    Modes room_;                  ///< where there are none: memory for them
 };
 
 }  // namespace sim

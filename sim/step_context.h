@@ -16,6 +16,11 @@ struct StepPlan {
     bool relaxes = false;      ///< particles are pushed apart
     bool corrects = false;     ///< the liquid's volume is corrected
     bool fabricIsWet = false;  ///< fabric holds liquid
+    // How far the liquid's cells and the system of its pressure have come, where there is liquid (liquid/cells.h, liquid/pressure.h).
+    std::optional<SurfaceCells> surfaceCells;
+    std::optional<SurfaceSteps> surfaceSteps;  ///< where surface tension acts
+    std::optional<PressureSystem> pressure;
+    std::optional<HeldBodies> heldBodies;
     // How far the mixture of liquid and fabric has come, where both are on some faces (Mixture).
     std::optional<Mixture::SharedFaces> sharedFaces;
     std::optional<Mixture::EliminatedDrag> eliminatedDrag;

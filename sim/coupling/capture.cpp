@@ -17,7 +17,7 @@ constexpr double kLeastShare = 1.0e-3;  ///< of the nominal mass, below which a 
 
 }  // namespace
 
-Capture::Capture(const Fabric& fabric, LiquidAround& around, const Settings& settings, double nominalMass)
+Capture::Capture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, double nominalMass)
     : fabric_(fabric),
       capacity_(poreCapacity(fabric, settings.liquid.density)),
       law_(settings.coupling.capture.law),
@@ -83,24 +83,28 @@ void Capture::computeDemand(double dt, const SortedVertices& vertices)
     parallelFor(wanted_.size(), 4096, [&](std::size_t v) {
         if (wanted_[v] > 0.0) wanted_[v] = std::min(wanted_[v], demand(v, dt));
     });
+    asked_.resize(vertices.grid.count());
+    parallelFor(vertices.grid.count(), 8, [&](std::size_t b) { std::fill_n(asked_.block(static_cast<int>(b)), kBlockCells, 0.0); });
     forEachColored(vertices.order, [&](int block) {
         forEachUnsaturated(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
-                around_.cell(b, c)[LiquidAround::kDemand] += wanted_[v] / around_.massAt(v) * weight * around_.cell(b, c)[LiquidAround::kMass];
+                asked_.block(b)[c] += wanted_[v] / around_.massAt(v) * weight * around_.cell(b, c)[LiquidAround::kMass];
             });
         });
     });
 }
 
-/// No cell gives more than it has: demands become shares of the cells' liquid, at most 1 …
-void Capture::limitDemand(const SortedVertices& vertices)
+/// Which share of its liquid is asked of each cell. It gives no more than it has: where the share is more than 1, each vertex gets its part of all.
+void Capture::findShares(const SortedVertices& vertices)
 {
     isAsked_.assign(vertices.grid.count() + 1, 0);
+    share_.resize(vertices.grid.count());
     parallelFor(vertices.grid.count(), 8, [&](std::size_t n) {
+        const int b = static_cast<int>(n);
         for (int c = 0; c < kBlockCells; ++c) {
-            Pack& cell = around_.cell(static_cast<int>(n), c);
-            cell[LiquidAround::kDemand] = cell[LiquidAround::kMass] > 0.0 ? cell[LiquidAround::kDemand] / cell[LiquidAround::kMass] : 0.0;
-            if (cell[LiquidAround::kDemand] > 0.0) isAsked_[n] = 1;
+            const double mass = around_.cell(b, c)[LiquidAround::kMass];
+            share_.block(b)[c] = mass > 0.0 ? asked_.block(b)[c] / mass : 0.0;
+            if (share_.block(b)[c] > 0.0) isAsked_[n] = 1;
         }
     });
 }
@@ -124,8 +128,7 @@ double Capture::absorb(const SortedVertices& vertices, FabricState& state)
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
                 const Pack& cell = around_.cell(b, c);
                 // Of what is asked of the cell it gives all, or as much as it has.
-                if (cell[LiquidAround::kMass] > 0.0)
-                    got += wanted_[v] / around_.massAt(v) * weight / std::max(1.0, cell[LiquidAround::kDemand]) * cell;
+                if (cell[LiquidAround::kMass] > 0.0) got += wanted_[v] / around_.massAt(v) * weight / std::max(1.0, share_.block(b)[c]) * cell;
             });
             got_[v] = got[LiquidAround::kMass];
             constexpr int kFirst = LiquidAround::kMomentum;
@@ -146,7 +149,7 @@ void Capture::removeFromParticles(const BlockGrid& grid, const ParticleOrder& or
         LiquidAround::forEachParticle(order, part, [&](int p) {
             double share = 0.0;
             const CellStencil stencil(liquid.position(p), corner, grid.dx);
-            stencil.forEach(blocks, [&](int b, int c, double weight) { share += weight * std::min(1.0, around_.cell(b, c)[LiquidAround::kDemand]); });
+            stencil.forEach(blocks, [&](int b, int c, double weight) { share += weight * std::min(1.0, share_.block(b)[c]); });
             liquid.mass[p] *= std::max(0.0, 1.0 - share);
         });
     });
@@ -197,7 +200,7 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
     std::ranges::fill(toPins_, Vec3::Zero());
     if (!findUnsaturatedVertices(vertices, state)) return 0.0;
     computeDemand(dt, vertices);
-    limitDemand(vertices);
+    findShares(vertices);
     const double mass = absorb(vertices, state);
     removeFromParticles(grid, order, liquid);
     return mass + absorbResiduals(grid, order, vertices, liquid, state);

@@ -18,7 +18,7 @@ namespace sim {
 class Capture {
  public:
     /// @param nominalMass  of a particle [g]
-    Capture(const Fabric& fabric, LiquidAround& around, const Settings& settings, double nominalMass);
+    Capture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, double nominalMass);
 
     /// Over dt [s], of the liquid around, which has been found. Velocities of pinned vertices stay.
     /// @return mass taken up [g]
@@ -37,7 +37,7 @@ class Capture {
     double roomOf(std::size_t v, const FabricState& state) const { return capacity_[v] - state.absorbed[v]; }
     bool findUnsaturatedVertices(const SortedVertices& vertices, const FabricState& state);
     void computeDemand(double dt, const SortedVertices& vertices);
-    void limitDemand(const SortedVertices& vertices);
+    void findShares(const SortedVertices& vertices);
     double absorb(const SortedVertices& vertices, FabricState& state);
     void removeFromParticles(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid);
     std::size_t nearestWithRoom(const Vec3& x, double dx, const std::array<int, 27>& blocks, const SortedVertices& vertices,
@@ -52,12 +52,14 @@ class Capture {
     std::vector<double> capacity_;       ///< of each vertex [g]
     std::vector<double> ratePerVertex_;  ///< law fabric: part of its pores that it fills per time; published: of the liquid around [1/s]
     CaptureLaw law_;
-    LiquidAround& around_;
+    const LiquidAround& around_;
     double leastMass_;  ///< of a particle that stays [g]
 
     // Of the step.
     std::vector<double> wanted_, got_;          ///< of each vertex [g]
     std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
+    BlockArray<double> asked_;                  ///< of each cell of the vertices' blocks, by all vertices [g]
+    BlockArray<double> share_;                  ///< the same relative to the liquid of the cell [-]
     std::vector<std::uint8_t> hasUnsaturated_;  ///< of each block of the vertices: has vertices with room
     std::vector<std::uint8_t> isAsked_;         ///< of each of them, and of an empty one: vertices want liquid of its cells
     std::vector<std::size_t> emptied_;          ///< particles, ascending

@@ -16,8 +16,8 @@ namespace sim {
 /// The liquid in the cells that vertices reach: particles bring it to cells, vertices see it there, both by quadratic B-splines.
 class LiquidAround {
  public:
-    /// What a pack tells of a cell: mass [g], momentum [g cm/s], mass times place [g cm] of its liquid, and what fabric asks of it [g].
-    enum Lane { kMass, kMomentum, kMoment = kMomentum + kAxes, kDemand = kMoment + kAxes };
+    /// What a pack tells of the liquid of a cell: mass [g], momentum [g cm/s], mass times place [g cm].
+    enum Lane { kMass, kMomentum, kMoment = kMomentum + kAxes };
 
     explicit LiquidAround(std::size_t vertices) : mass_(vertices), distance_(vertices) {}
 
@@ -31,7 +31,7 @@ class LiquidAround {
     /// 0.73 at 0.1 and 0.25 from that, r beside a drop at r, as of a normal distribution of variance 1/2 [cells].
     double distanceAt(std::size_t v) const { return distance_[v]; }
 
-    Pack& cell(int block, int c) { return reinterpret_cast<Pack*>(cells_.data())[block * kBlockCells + c]; }
+    const Pack& cell(int block, int c) const { return reinterpret_cast<const Pack*>(cells_.data())[block * kBlockCells + c]; }
     bool isReached(int block, int c) const { return reached_.block(block)[c] != 0; }
     bool isBlockReached(int block) const { return blockReached_[block] != 0; }
 
@@ -50,6 +50,7 @@ class LiquidAround {
     const std::array<int, 27>& blocksAround(int block) const { return nearBlocks_[block]; }
 
  private:
+    Pack& cell(int block, int c) { return reinterpret_cast<Pack*>(cells_.data())[block * kBlockCells + c]; }
     void findReached(const SortedVertices& vertices);
     CellMask cellsNear(const std::array<int, 27>& blocks) const;
     bool findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);

@@ -69,7 +69,7 @@ std::uint64_t besideAny(const BitAccess& access, const BlockBits<>& bits, int k)
 
 }  // namespace
 
-void findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid)
+LiquidCells findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid)
 {
     const double perCell = 1.0 / liquid.fullMass;
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
@@ -85,9 +85,10 @@ void findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid)
             liquid.inside.block(b)[k] = (noAir ? ~std::uint64_t{0} : inside) & ~cut.field.blocked(b)[k];
         }
     });
+    return LiquidCells(liquid);
 }
 
-void findSurface(const CutGrid& cut, LiquidGrid& liquid)
+SurfaceCells findSurface(const CutGrid& cut, const LiquidCells& cells, LiquidGrid& liquid)
 {
     BlockBits<>& dry = liquid.dry;
     parallelFor(cut.grid.count(), 16, [&](std::size_t n) {
@@ -106,15 +107,17 @@ void findSurface(const CutGrid& cut, LiquidGrid& liquid)
         for (int k = 0; k < kBlockEdge; ++k)
             liquid.deep.block(b)[k] = liquid.inside.block(b)[k] & ~(liquid.surface.block(b)[k] | besideAny(access, liquid.surface, k));
     });
+    return SurfaceCells(cells);
 }
 
-std::size_t countLiquidCells(const BlockGrid& grid, const LiquidGrid& liquid)
+std::size_t countLiquidCells(const BlockGrid& grid, const LiquidCells& cells)
 {
+    const BlockBits<>& inside = cells.liquid().inside;
     return parallelReduce(
         grid.count(), std::size_t{0},
         [&](std::size_t b) {
             std::size_t count = 0;
-            for (int k = 0; k < kBlockEdge; ++k) count += static_cast<std::size_t>(std::popcount(liquid.inside.block(static_cast<int>(b))[k]));
+            for (int k = 0; k < kBlockEdge; ++k) count += static_cast<std::size_t>(std::popcount(inside.block(static_cast<int>(b))[k]));
             return count;
         },
         std::plus<>());

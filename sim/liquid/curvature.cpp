@@ -223,10 +223,10 @@ void Curvature::findDivergence()
     });
 }
 
-void Curvature::find(const CutGrid& cut, const LiquidGrid& liquid, int passes)
+void Curvature::find(const CutGrid& cut, const SurfaceCells& cells, int passes)
 {
     fitTo(cut.grid);
-    takeFill(cut.field, liquid);
+    takeFill(cut.field, cells.liquid());
     findActive();
     for (int pass = 0; pass < passes; ++pass) smoothOnce();
     sharpen(kFillVariance + kDifferenceVariance + kPassVariance * passes);

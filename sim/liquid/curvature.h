@@ -2,7 +2,7 @@
 
 #include "sim/grid/cut_grid.h"
 #include "sim/grid/face_fields.h"
-#include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/cells.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,9 +18,9 @@ namespace sim {
 /// are not seen.
 class Curvature {
  public:
-    /// Curvature around all cells at the surface. Needs findSurface.
+    /// Curvature around all cells at the surface.
     /// @param passes  of smoothing; each adds a third of a cell squared to the kernel's variance
-    void find(const CutGrid& cut, const LiquidGrid& liquid, int passes);
+    void find(const CutGrid& cut, const SurfaceCells& cells, int passes);
 
     /// Where the surface, c = ½, crosses the line between the middles of a liquid cell and of an air cell beside it,
     /// both relative to `block` of the liquid's grid [1/cm]. At most that of a ball of one cell's radius.

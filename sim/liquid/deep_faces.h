@@ -9,8 +9,8 @@ namespace sim {
 /// a solid holds the liquid it bears the difference, and a pool under its weight stays at rest only if it is even. Liquid that nothing holds has
 /// no weight to bear: its deep faces weigh what they weigh, and it keeps its angular momentum to rounding (liquid/README.md, Free liquid).
 ///
-/// Changes the coefficients of the deep faces of free bodies, by findHeldBodies.
-/// @return are there any?
-bool weighDeepFaces(const CutGrid& cut, const LiquidGrid& liquid, const FreeLiquid& bodies, PressureWorkspace& work);
+/// Changes the coefficients of the deep faces of free bodies.
+/// @return are there any? Then the matrix of these faces has to be assembled anew.
+bool weighDeepFaces(const CutGrid& cut, const HeldBodies& bodies, PressureFaces& faces);
 
 }  // namespace sim

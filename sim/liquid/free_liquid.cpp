@@ -18,14 +18,14 @@ constexpr int kBlocksPerTask = 4;
 /// The fields that bodies are made of.
 struct Fields {
     const BlockGrid& grid;
-    const PressureWorkspace& pressure;
-    const LiquidGrid& liquid;
+    const PressureComponents& system;
     const BlockArray<double, 3>& others;
     const FreeLiquid& work;
     BlockArray<double, 3>& values;
 
-    const ConnectedComponents& components() const { return pressure.solver.components(); }
-    PackMask moving(int b, int a, int row) const { return loadPack(pressure.coefficient.block(b, a) + row) > 0.0; }
+    const ConnectedComponents& components() const { return system.components(); }
+    const LiquidGrid& liquid() const { return system.liquid(); }
+    PackMask moving(int b, int a, int row) const { return loadPack(system.coefficient().block(b, a) + row) > 0.0; }
 
     /// The one body that the lower faces of a block's cells belong to; kSeveral, or −1 if none.
     int bodyOf(int b) const
@@ -54,7 +54,7 @@ bool isHeld(const Fields& fields, int b)
     const BitAccess access(fields.grid, b);
     for (int a = 0; a < kAxes; ++a)
         for (int k = 0; k < kBlockEdge; ++k) {
-            const std::uint64_t inside = fields.liquid.inside.block(b)[k] | access.below(fields.liquid.inside, 0, a, k);
+            const std::uint64_t inside = fields.liquid().inside.block(b)[k] | access.below(fields.liquid().inside, 0, a, k);
             if ((inside & ~fields.work.unheld.block(b, a)[k]) != 0) return true;
         }
     return false;
@@ -66,7 +66,7 @@ void holdByFaces(const Fields& fields, int b, std::vector<Body>& bodies)
     const BitAccess access(fields.grid, b);
     for (int a = 0; a < kAxes; ++a)
         for (int k = 0; k < kBlockEdge; ++k) {
-            const std::uint64_t inside = fields.liquid.inside.block(b)[k] | access.below(fields.liquid.inside, 0, a, k);
+            const std::uint64_t inside = fields.liquid().inside.block(b)[k] | access.below(fields.liquid().inside, 0, a, k);
             for (std::uint64_t held = inside & ~fields.work.unheld.block(b, a)[k]; held != 0; held &= held - 1)
                 for (int body : fields.bodiesOf(b, a, 64 * k + std::countr_zero(held)))
                     if (body >= 0) bodies[body].isHeld = true;
@@ -93,7 +93,7 @@ void findHeld(const Fields& fields, std::vector<Body>& ofBlock, std::vector<Body
 void sumOverBlock(const Fields& fields, int b, Body& sum)
 {
     for (int a = 0; a < kAxes; ++a) {
-        const double *mass = fields.liquid.faces.sums.block(b, FaceFields::kMass + a), *value = fields.others.block(b, a);
+        const double *mass = fields.liquid().faces.sums.block(b, FaceFields::kMass + a), *value = fields.others.block(b, a);
         Pack masses = broadcast(0.0), values = masses;
         for (int row = 0; row < kBlockCells; row += kLanes) {
             const PackMask moving = fields.moving(b, a, row);
@@ -111,11 +111,11 @@ void addByFaces(const Fields& fields, int b, std::vector<Body>& bodies)
 {
     for (int a = 0; a < kAxes; ++a)
         for (int c = 0; c < kBlockCells; ++c) {
-            if (!(fields.pressure.coefficient.block(b, a)[c] > 0.0)) continue;
+            if (!(fields.system.coefficient().block(b, a)[c] > 0.0)) continue;
             const std::array<int, 2> both = fields.bodiesOf(b, a, c);
             const int body = std::max(both[0], both[1]);  // the same, where both are, as the face moves
             if (body < 0 || bodies[body].isHeld) continue;
-            const double mass = fields.liquid.faces.sums.block(b, FaceFields::kMass + a)[c];
+            const double mass = fields.liquid().faces.sums.block(b, FaceFields::kMass + a)[c];
             bodies[body].mass[a] += mass;
             bodies[body].sum[a] += mass * fields.others.block(b, a)[c];
         }
@@ -151,7 +151,7 @@ void addHolders(const Fields& fields, const ObstacleField& obstacles, int b, std
     const BitAccess access(fields.grid, b);
     for (int a = 0; a < kAxes; ++a)
         for (int k = 0; k < kBlockEdge; ++k) {
-            const std::uint64_t inside = fields.liquid.inside.block(b)[k] | access.below(fields.liquid.inside, 0, a, k);
+            const std::uint64_t inside = fields.liquid().inside.block(b)[k] | access.below(fields.liquid().inside, 0, a, k);
             for (std::uint64_t left = inside & ~fields.work.unheld.block(b, a)[k]; left != 0; left &= left - 1) {
                 const int c = 64 * k + std::countr_zero(left);
                 if (obstacles.open(b, a)[c] >= 1.0) continue;
@@ -206,7 +206,7 @@ void shiftBlock(const Fields& fields, int b)
 
 }  // namespace
 
-void findUnheldFaces(const CutGrid& cut, FreeLiquid& work)
+UnheldFaces findUnheldFaces(const CutGrid& cut, FreeLiquid& work)
 {
     work.unheld.resize(cut.grid.count());
     parallelFor(cut.grid.count(), kBlocksPerTask, [&](std::size_t n) {
@@ -221,26 +221,33 @@ void findUnheldFaces(const CutGrid& cut, FreeLiquid& work)
                     word |= std::uint64_t{maskBits(loadPack(cut.field.open(b, a) + cellInBlock(0, j, k)) >= 1.0)} << (j * kBlockEdge);
             }
     });
+    return UnheldFaces(work);
 }
 
-void findHeldBodies(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work)
+HeldBodies::HeldBodies(const BlockGrid& grid, const PressureComponents& system, const UnheldFaces& unheld)
+    : PressureComponents(system), work_(unheld.work_)
 {
-    findHeld({grid, pressure, liquid, liquid.faces.velocity, work, work.change}, work.ofBlock, work.bodies);
+    FreeLiquid& work = *unheld.work_;
+    findHeld({grid, system, system.liquid().faces.velocity, work, work.change}, work.ofBlock, work.bodies);
 }
 
-void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
-               FreeLiquid& work, BlockArray<double, 3>& values)
+HeldBodies findHeldBodies(const BlockGrid& grid, const PressureComponents& system, const UnheldFaces& unheld)
 {
-    const Fields fields{grid, pressure, liquid, others, work, values};
-    findHeld(fields, work.ofBlock, work.bodies);
+    return HeldBodies(grid, system, unheld);
+}
+
+void takeMeans(const BlockGrid& grid, const HeldBodies& bodies, const BlockArray<double, 3>& others, FreeLiquid& work, BlockArray<double, 3>& values)
+{
+    const Fields fields{grid, bodies, others, work, values};
+    for (Body& body : work.bodies) body = {.isHeld = body.isHeld};
     if (std::ranges::all_of(work.bodies, [](const Body& body) { return body.isHeld; })) return;
     findSums(fields, work.ofBlock, work.bodies);
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t b) { shiftBlock(fields, static_cast<int>(b)); });
 }
 
-void findFrames(const CutGrid& cut, const PressureWorkspace& pressure, const LiquidGrid& liquid, const Vec3& otherwise, FreeLiquid& work)
+void findFrames(const CutGrid& cut, const HeldBodies& bodies, const Vec3& otherwise, FreeLiquid& work)
 {
-    const Fields fields{cut.grid, pressure, liquid, liquid.faces.velocity, work, work.change};
+    const Fields fields{cut.grid, bodies, bodies.liquid().faces.velocity, work, work.change};
     work.holders.assign(fields.components().count(), {});
     for (int b : cut.field.blocksNearSolid()) addHolders(fields, cut.field, b, work.holders);
     for (FreeLiquid::Holder& holder : work.holders) holder.velocity = holder.faces > 0 ? Vec3(holder.velocity / holder.faces) : otherwise;
@@ -257,14 +264,15 @@ void findFrames(const CutGrid& cut, const PressureWorkspace& pressure, const Liq
     });
 }
 
-void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work)
+void findHeldCells(const BlockGrid& grid, const HeldBodies& bodies, FreeLiquid& work)
 {
-    const ConnectedComponents& components = pressure.solver.components();
+    const ConnectedComponents& components = bodies.components();
+    const BlockBits<>& insideLiquid = bodies.liquid().inside;
     for (BlockBits<>* bits : {&work.inHeld, &work.inFree, &work.held}) bits->resize(grid.count());
     parallelFor(grid.count(), kBlocksPerTask, [&](std::size_t n) {
         const int b = static_cast<int>(n), one = components.ofBlock(b);
         for (int k = 0; k < kBlockEdge; ++k) {
-            std::uint64_t inside = one == -1 ? 0 : liquid.inside.block(b)[k], held = one >= 0 && work.bodies[one].isHeld ? inside : 0;
+            std::uint64_t inside = one == -1 ? 0 : insideLiquid.block(b)[k], held = one >= 0 && work.bodies[one].isHeld ? inside : 0;
             for (std::uint64_t left = one == ConnectedComponents::kSeveral ? inside : 0; left != 0; left &= left - 1) {
                 const int body = components.of(b, 64 * k + std::countr_zero(left));
                 if (body >= 0 && work.bodies[body].isHeld) held |= left & -left;

@@ -31,25 +31,48 @@ struct FreeLiquid {
     BlockArray<double, 3> change;  ///< of velocities, by what acts within the liquid [cm/s]
 };
 
-/// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.
-void findUnheldFaces(const CutGrid& cut, FreeLiquid& work);
+/// The faces are known on which nothing holds the liquid, until the next findUnheldFaces in the same workspace.
+class UnheldFaces {
+    friend UnheldFaces findUnheldFaces(const CutGrid& cut, FreeLiquid& work);
+    friend class HeldBodies;
+    explicit UnheldFaces(FreeLiquid& work) : work_(&work) {}
 
-/// Which bodies something holds, by `unheld`. Needs the components of the pressure's matrix.
-void findHeldBodies(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);
+    FreeLiquid* work_;
+};
+
+/// It is known which bodies, components of the pressure's matrix, something holds.
+class HeldBodies : public PressureComponents {
+ public:
+    const FreeLiquid& free() const { return *work_; }
+
+ private:
+    friend HeldBodies findHeldBodies(const BlockGrid& grid, const PressureComponents& system, const UnheldFaces& unheld);
+    HeldBodies(const BlockGrid& grid, const PressureComponents& system, const UnheldFaces& unheld);
+
+    const FreeLiquid* work_;
+};
+
+/// Faces that no solid closes, not even in part. The caller takes out those on which something else holds the liquid.
+UnheldFaces findUnheldFaces(const CutGrid& cut, FreeLiquid& work);
+
+/// Which bodies something holds, on faces that are not among these.
+HeldBodies findHeldBodies(const BlockGrid& grid, const PressureComponents& system, const UnheldFaces& unheld);
 
 /// From values on the faces of each free piece take the mean, by mass, of others: in sum over the piece, these then did nothing. What gradients
 /// of a potential that is 0 around the piece do sums up to nothing by itself; of shortened ones, of those on faces that are taken to be fuller
 /// than they are, and of the jumps of surface tension something is left.
 /// @param others  on the faces, of values' unit; may be the values
-void takeMeans(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, const BlockArray<double, 3>& others,
-               FreeLiquid& work, BlockArray<double, 3>& values);
+/// @param work    of the bodies
+void takeMeans(const BlockGrid& grid, const HeldBodies& bodies, const BlockArray<double, 3>& others, FreeLiquid& work, BlockArray<double, 3>& values);
 
-/// Once it is known which bodies are held: how fast that moves which holds them, by blocks. What flows past a solid that moves does so as
+/// How fast that moves which holds the bodies, by blocks. What flows past a solid that moves does so as
 /// it would past the same solid at rest.
 /// @param otherwise  velocity of what else holds bodies on which there is no solid [cm/s]
-void findFrames(const CutGrid& cut, const PressureWorkspace& pressure, const LiquidGrid& liquid, const Vec3& otherwise, FreeLiquid& work);
+/// @param work       of the bodies
+void findFrames(const CutGrid& cut, const HeldBodies& bodies, const Vec3& otherwise, FreeLiquid& work);
 
-/// Once it is known what holds which body: the cells of those that are held.
-void findHeldCells(const BlockGrid& grid, const PressureWorkspace& pressure, const LiquidGrid& liquid, FreeLiquid& work);
+/// The cells of those bodies that are held.
+/// @param work  of the bodies
+void findHeldCells(const BlockGrid& grid, const HeldBodies& bodies, FreeLiquid& work);
 
 }  // namespace sim

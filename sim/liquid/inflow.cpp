@@ -64,14 +64,14 @@ double fillOf(int piece, const BlockGrid& grid, const LiquidGrid& liquid, const 
 
 }  // namespace
 
-void findInflowCells(const BlockGrid& grid, const LiquidGrid& liquid, const std::vector<Inflow>& inflows, double packing, double dt,
+void findInflowCells(const BlockGrid& grid, const LiquidCells& liquidCells, const std::vector<Inflow>& inflows, double packing, double dt,
                      std::vector<InflowCell>& cells)
 {
     cells.clear();
     const double cellVolume = packing * grid.dx * grid.dx * grid.dx;
     for (const Inflow& inflow : inflows) {
         const std::size_t begin = cells.size();
-        appendShares(grid, liquid, inflow, cells);
+        appendShares(grid, liquidCells.liquid(), inflow, cells);
         double sum = 0.0;
         for (std::size_t n = begin; n < cells.size(); ++n) sum += cells[n].rate;
         for (std::size_t n = begin; n < cells.size(); ++n) cells[n].rate *= inflow.volume / (cellVolume * dt * sum);
@@ -85,9 +85,9 @@ double inflowWork(const BlockGrid& grid, const std::vector<InflowCell>& cells, c
     return power * dt * grid.dx * grid.dx * grid.dx;
 }
 
-bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const BlockGrid& grid, const LiquidGrid& liquid,
-              const ConnectedComponents& pieces)
+bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const BlockGrid& grid, const PressureComponents& system)
 {
+    const ConnectedComponents& pieces = system.components();
     constexpr double kFull = 0.99;  // on average: what is left is the noise of the particles' places
     if (pieces.closedCount() == 0) return false;
     int last = -1;
@@ -97,7 +97,7 @@ bool isShutIn(std::size_t source, const std::vector<InflowCell>& cells, const Bl
         isAny = true;
         const int piece = pieces.closedOf(c.block, c.cell);
         if (piece == last && piece >= 0) continue;
-        if (piece < 0 || fillOf(piece, grid, liquid, pieces) < kFull) return false;
+        if (piece < 0 || fillOf(piece, grid, system.liquid(), pieces) < kFull) return false;
         last = piece;
     }
     return isAny;

@@ -77,15 +77,28 @@ void LiquidOnSolids::clearOthers()
     });
 }
 
-void LiquidOnSolids::beforeViscosity(const BlockArray<double, 3>& velocity)
+LiquidOnSolids::Levelling LiquidOnSolids::meetLevelling()
+{
+    clearOthers();
+    return Levelling(*this);
+}
+
+LiquidOnSolids::Exchange LiquidOnSolids::meetFabric()
+{
+    clearOthers();
+    return Exchange(*this);
+}
+
+LiquidOnSolids::KeptVelocities LiquidOnSolids::keepVelocities(const BlockArray<double, 3>& velocity)
 {
     clearOthers();
     before_.resize(static_cast<int>(blocks_.size()));
     parallelFor(blocks_.size(), 4,
                 [&](std::size_t n) { std::copy_n(velocity.block(blocks_[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n))); });
+    return KeptVelocities();
 }
 
-double LiquidOnSolids::afterViscosity(const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid)
+double LiquidOnSolids::afterViscosity(const KeptVelocities&, const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid)
 {
     const bool sticks = system.wall.size() > 0;
     return parallelSum(blocks_.size(), [&](std::size_t n) {
@@ -112,7 +125,7 @@ double LiquidOnSolids::afterViscosity(const CutGrid& cut, const ViscousSystem& s
     });
 }
 
-void LiquidOnSolids::afterStrain(const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid)
+void LiquidOnSolids::afterStrain(const KeptVelocities&, const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid)
 {
     parallelFor(blocks_.size(), 4, [&](std::size_t n) {
         const int b = blocks_[n], place = static_cast<int>(n);
@@ -153,7 +166,7 @@ Pack LiquidOnSolids::stepOf(const CutGrid& cut, const Outcome& outcome, const Fa
 {
     const auto [place, axis, row] = faces;
     const int b = blocks_[place];
-    const Pack coefficient = loadPack(outcome.system.coefficient.block(b, axis) + row), all = broadcast(outcome.perPressure);
+    const Pack coefficient = loadPack(outcome.system.coefficient().block(b, axis) + row), all = broadcast(outcome.perPressure);
     PackMask counts = coefficient > 0.0;
     if (hasOthers_) counts &= ~maskOfBits(shared_.block(static_cast<int>(place), axis)[row >> 6] >> (row & 63));
     const Pack mass = loadPack(outcome.liquid.faces.sums.block(b, FaceFields::kMass + axis) + row);

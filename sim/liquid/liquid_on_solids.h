@@ -19,34 +19,54 @@ class LiquidOnSolids {
  public:
     /// After P2G: what particles have brought to faces near solids, before weight, walls and forces act there.
     void begin(const CutGrid& cut, const FaceFields& faces);
-    /// Around the solve for viscosity, of whose stresses solids get those on closed faces and on walls that stick.
-    void beforeViscosity(const BlockArray<double, 3>& velocity);
+    /// Velocities are kept that something is going to change. Holds until the next call of keepVelocities.
+    class KeptVelocities {
+        friend LiquidOnSolids;
+        KeptVelocities() = default;
+    };
+    KeptVelocities keepVelocities(const BlockArray<double, 3>& velocity);
+    /// The solve for viscosity has changed them: of its stresses solids get those on closed faces and on walls that stick.
     /// @return  work that those of them which move did on the liquid by it [erg]
-    double afterViscosity(const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid);
-    /// Around the strain correction, of which solids get what it would give to closed faces.
-    void beforeStrain(const BlockArray<double, 3>& velocity) { beforeViscosity(velocity); }
-    void afterStrain(const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid);
-    /// Weight is moved between faces: then tell by how much that of each grew [g cm/s].
-    void meetLevelling() { clearOthers(); }
-    void weightGrew(int block, int axis, int cell, double impulse)
-    {
-        if (const int place = place_[block]; place != BlockGrid::kNone) others_.block(place, axis)[cell] += impulse;
-    }
-    /// There is fabric on faces: then tell what fabric and suction took from the liquid of each [g cm/s].
-    void meetFabric() { clearOthers(); }
-    void fabricTook(int block, int axis, int cell, double impulse)
-    {
-        const int place = place_[block];
-        if (place == BlockGrid::kNone) return;
-        others_.block(place, axis)[cell] -= impulse;
-        shared_.set(place, cell, axis);
-    }
+    double afterViscosity(const KeptVelocities&, const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid);
+    /// The strain correction has: solids get what it would give to closed faces.
+    void afterStrain(const KeptVelocities&, const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid);
+    /// Weight is moved between faces: is told by how much that of each grew [g cm/s].
+    class Levelling {
+     public:
+        void weightGrew(int block, int axis, int cell, double impulse) const
+        {
+            if (const int place = of_->place_[block]; place != BlockGrid::kNone) of_->others_.block(place, axis)[cell] += impulse;
+        }
+
+     private:
+        friend LiquidOnSolids;
+        explicit Levelling(LiquidOnSolids& of) : of_(&of) {}
+        LiquidOnSolids* of_;
+    };
+    Levelling meetLevelling();
+    /// There is fabric on faces: is told what fabric and suction took from the liquid of each [g cm/s].
+    class Exchange {
+     public:
+        void fabricTook(int block, int axis, int cell, double impulse) const
+        {
+            const int place = of_->place_[block];
+            if (place == BlockGrid::kNone) return;
+            of_->others_.block(place, axis)[cell] -= impulse;
+            of_->shared_.set(place, cell, axis);
+        }
+
+     private:
+        friend LiquidOnSolids;
+        explicit Exchange(LiquidOnSolids& of) : of_(&of) {}
+        LiquidOnSolids* of_;
+    };
+    Exchange meetFabric();
 
     /// What acted on the faces of which particles then read their momentum.
     struct Outcome {
         const BlockArray<double, 3>& velocity;  ///< that they read [cm/s]
         const LiquidGrid& liquid;
-        const PressureWorkspace& system;
+        const PressureFaces& system;
         const BlockArray<double>& pressure;         ///< [dyn/cm^2]
         const BlockArray<double>* again;            ///< that of a reflection [dyn/cm^2], or null
         const BlockArray<double, 3>* flipVelocity;  ///< straight after P2G [cm/s]; null but for FLIP …
@@ -102,7 +122,7 @@ class LiquidOnSolids {
         others_;  ///< momentum that a face got of viscous stresses, of the strain correction and of levelled weight, less what it gave to fabric [g cm/s] …
     BlockBits<3> shared_;           ///< … if fabric is on it …
     bool hasOthers_ = false;        ///< … where there are any of both
-    BlockArray<double, 3> before_;  ///< velocities before viscosity or the strain correction [cm/s]
+    BlockArray<double, 3> before_;  ///< KeptVelocities [cm/s]
     ChunkSums<OnSolid> sums_;
 };
 

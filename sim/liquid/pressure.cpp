@@ -109,32 +109,57 @@ void addInflow(std::span<const InflowCell> inflow, BlockArray<double>& rhs)
 
 }  // namespace
 
-void findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const LiquidGrid& liquid, PressureWorkspace& work)
+PressureMatrix::PressureMatrix(const PressureFaces& faces, const BlockGrid& grid) : PressureFaces(faces)
+{
+    work_->matrix.resize(grid.count());
+    parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, static_cast<int>(b), liquid(), *work_); });
+}
+
+PressureComponents::PressureComponents(const PressureMatrix& matrix, const BlockGrid& grid) : PressureMatrix(matrix)
+{
+    work_->solver.findComponents(grid, work_->matrix);
+}
+
+PressureSystem::PressureSystem(const PressureComponents& components, const BlockGrid& grid) : PressureComponents(components)
+{
+    work_->solver.buildHierarchy(grid, work_->matrix);
+}
+
+SolveReport PressureSystem::solve(const BlockGrid& grid, SolveTolerance tolerance, int maxIterations, BlockArray<double>& potential) const
+{
+    return work_->solver.solveAgain(grid, work_->matrix, work_->rhs, tolerance, maxIterations, potential);
+}
+
+PressureFaces findPressureFaces(const CutGrid& cut, const LiquidSettings& settings, double dt, const SurfaceCells& cells, PressureWorkspace& work)
 {
     work.ofFull = dt / (settings.density * cut.grid.dx * cut.grid.dx);
-    computeCoefficients(cut, work.ofFull, settings.full, liquid, work);
+    computeCoefficients(cut, work.ofFull, settings.full, cells.liquid(), work);
+    return PressureFaces(cells, work);
 }
 
-void assembleMatrix(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+PressureMatrix assembleMatrix(const PressureFaces& faces, const BlockGrid& grid) { return PressureMatrix(faces, grid); }
+
+PressureComponents findComponents(const PressureMatrix& matrix, const BlockGrid& grid) { return PressureComponents(matrix, grid); }
+
+PressureSystem buildHierarchy(const PressureMatrix&, const PressureComponents& components, const BlockGrid& grid)
 {
-    work.matrix.resize(grid.count());
-    parallelFor(grid.count(), [&](std::size_t b) { assembleBlock(grid, static_cast<int>(b), liquid, work); });
+    return PressureSystem(components, grid);
 }
 
-void preparePressure(const BlockGrid& grid, const LiquidGrid& liquid, PressureWorkspace& work)
+PressureSystem preparePressure(const PressureFaces& faces, const BlockGrid& grid)
 {
-    assembleMatrix(grid, liquid, work);
-    work.solver.prepare(grid, work.matrix);
+    const PressureComponents components = findComponents(assembleMatrix(faces, grid), grid);
+    return buildHierarchy(components, components, grid);
 }
 
-void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const BlockArray<double>& pressure, LiquidGrid& liquid)
+void subtractGradient(const CutGrid& cut, const PressureFaces& faces, const BlockArray<double>& pressure, LiquidGrid& liquid)
 {
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a) {
             std::uint64_t* valid = liquid.faces.valid.block(b, a);
             for (int k = 0; k < kBlockEdge; ++k) valid[k] = liquid.wet.block(b, a)[k] & ~cut.field.closed(b, a)[k];
-            forEachPressureFace(cut, work, pressure, b, a, [&](int row, PackMask known, Pack change) {
+            forEachPressureFace(cut, faces, pressure, b, a, [&](int row, PackMask known, Pack change) {
                 valid[row >> 6] |= static_cast<std::uint64_t>(maskBits(known)) << (row & 63);
                 double* velocity = liquid.faces.velocity.block(b, a) + row;
                 const Pack moved = loadPack(velocity) + change;
@@ -144,25 +169,26 @@ void subtractGradient(const CutGrid& cut, const PressureWorkspace& work, const B
     });
 }
 
-SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& work,
+SolveReport solvePressure(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, const PressureSystem& system,
                           LiquidGrid& liquid, BlockArray<double>& pressure)
 {
-    findRightHandSide(cut, liquid, liquid.faces.velocity, inflow, work.rhs);
-    const SolveReport report = work.solver.solveAgain(cut.grid, work.matrix, work.rhs, solver.pressureTolerance, solver.maxIterations, pressure);
-    subtractGradient(cut, work, pressure, liquid);
+    findRightHandSide(cut, system, liquid.faces.velocity, inflow, system.rightHandSide());
+    const SolveReport report = system.solve(cut.grid, solver.pressureTolerance, solver.maxIterations, pressure);
+    subtractGradient(cut, system, pressure, liquid);
     return report;
 }
 
-void findRightHandSide(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& velocity, std::span<const InflowCell> inflow,
+void findRightHandSide(const CutGrid& cut, const LiquidCells& cells, const BlockArray<double, 3>& velocity, std::span<const InflowCell> inflow,
                        BlockArray<double>& rhs)
 {
+    const BlockBits<>& inside = cells.liquid().inside;
     rhs.resize(cut.grid.count());
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         const RowAccess rows(cut.grid, b);
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
-                const PackMask own = rowBits(liquid.inside.block(b), j, k);
+                const PackMask own = rowBits(inside.block(b), j, k);
                 Pack out = broadcast(0.0);
                 if (maskBits(own) != 0) out = select(own, rowOutflow(cut.field, velocity, rows, j, k) * (-1.0 / cut.grid.dx), out);
                 storePack(rhs.block(b) + cellInBlock(0, j, k), out);

@@ -13,20 +13,20 @@ double reflectionTolerance(const SolverSettings& solver) { return std::min(1.0e-
 
 }  // namespace
 
-SolveReport reflect(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, PressureWorkspace& pressure,
-                    const LiquidGrid& liquid, ReflectionWorkspace& work)
+SolveReport reflect(const CutGrid& cut, const SolverSettings& solver, std::span<const InflowCell> inflow, const PressureSystem& system,
+                    ReflectionWorkspace& work)
 {
-    findRightHandSide(cut, liquid, liquid.advected, inflow, work.rhs);
+    const LiquidGrid& liquid = system.liquid();
+    findRightHandSide(cut, system, liquid.advected, inflow, system.rightHandSide());
     work.potential.resize(cut.grid.count());
     parallelFor(cut.grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
-    const SolveReport report =
-        pressure.solver.solveAgain(cut.grid, pressure.matrix, work.rhs, reflectionTolerance(solver), solver.maxIterations, work.potential);
+    const SolveReport report = system.solve(cut.grid, reflectionTolerance(solver), solver.maxIterations, work.potential);
 
     work.velocity = liquid.faces.velocity;
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a)
-            forEachPressureFace(cut, pressure, work.potential, b, a, [&](int row, PackMask, Pack change) {
+            forEachPressureFace(cut, system, work.potential, b, a, [&](int row, PackMask, Pack change) {
                 double* velocity = work.velocity.block(b, a) + row;
                 storePack(velocity, loadPack(velocity) + change);
             });

@@ -12,17 +12,17 @@ namespace {
 constexpr double kNoMass = 1.0e200;
 
 /// Masses of the faces of a row as the pressure has them, relative to a full one [-].
-[[gnu::always_inline]] inline Pack massOf(const CutGrid& cut, const PressureWorkspace& pressure, int block, int axis, int row)
+[[gnu::always_inline]] inline Pack massOf(const CutGrid& cut, const PressureFaces& faces, int block, int axis, int row)
 {
     const Pack open = loadPack(cut.field.open(block, axis) + row), room = loadPack(cut.field.room(block, axis) + row);
-    return pressure.ofFull * open * room / loadPack(pressure.coefficient.block(block, axis) + row);
+    return faces.ofFull() * open * room / loadPack(faces.coefficient().block(block, axis) + row);
 }
 
 /// Impulses and masses of the faces. Those between deep cells count as full, for with the noise of what P2G put there amid liquid the correction of a
 /// gradient would be none, and take energy from vortices; where the pressure has them otherwise what counts is its impulse.
-void findImpulses(const CutGrid& cut, const BlockArray<double, 3>& before, const LiquidGrid& liquid, const PressureWorkspace& pressure,
-                  StrainWorkspace& work)
+void findImpulses(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureFaces& faces, StrainWorkspace& work)
 {
+    const LiquidGrid& liquid = faces.liquid();
     parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         const BitAccess access(cut.grid, b);
@@ -31,11 +31,11 @@ void findImpulses(const CutGrid& cut, const BlockArray<double, 3>& before, const
                 const std::uint64_t deepFaces = liquid.deep.block(b)[k] & access.below(liquid.deep, 0, a, k);
                 for (int j = 0; j < kBlockEdge; ++j) {
                     const int row = cellInBlock(0, j, k);
-                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowBits(work.acts.block(b, a), j, k);
+                    const PackMask known = (loadPack(faces.coefficient().block(b, a) + row) > 0.0) & rowBits(work.acts.block(b, a), j, k);
                     const PackMask closed = loadPack(cut.field.open(b, a) + row) == 0.0;
                     Pack inverse = select(closed, broadcast(0.0), broadcast(kNoMass)), impulse = broadcast(0.0);
                     if (maskBits(known) != 0) {
-                        const Pack own = massOf(cut, pressure, b, a, row), room = loadPack(cut.field.room(b, a) + row);
+                        const Pack own = massOf(cut, faces, b, a, row), room = loadPack(cut.field.room(b, a) + row);
                         const Pack mass = select(rowBits(deepFaces, j), room, own);
                         const Pack now = loadPack(liquid.faces.velocity.block(b, a) + row), change = now - loadPack(before.block(b, a) + row);
                         const Pack pressed = now - loadPack(liquid.unpressed.block(b, a) + row);
@@ -83,7 +83,7 @@ void findStrains(const BlockGrid& grid, StrainWorkspace& work)
     });
 }
 
-void applyStrains(const CutGrid& cut, const PressureWorkspace& pressure, const StrainWorkspace& work, LiquidGrid& liquid)
+void applyStrains(const CutGrid& cut, const PressureFaces& faces, const StrainWorkspace& work, LiquidGrid& liquid)
 {
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
@@ -92,14 +92,14 @@ void applyStrains(const CutGrid& cut, const PressureWorkspace& pressure, const S
             for (int j = 0; j < kBlockEdge; ++j) {
                 const int row = cellInBlock(0, j, k);
                 unroll<3>([&](auto a) {
-                    const PackMask known = (loadPack(pressure.coefficient.block(b, a) + row) > 0.0) & rowBits(work.acts.block(b, a), j, k);
+                    const PackMask known = (loadPack(faces.coefficient().block(b, a) + row) > 0.0) & rowBits(work.acts.block(b, a), j, k);
                     if (maskBits(known) == 0) return;
                     constexpr int c = (a + 1) % 3, d = (a + 2) % 3;
                     Pack sum = rows.below(work.stretch, a, a, j, k) - rows.row(work.stretch, a, j, k);
                     sum += rows.row(work.shear, d, j, k) - rows.above(work.shear, d, c, j, k);
                     sum += rows.row(work.shear, c, j, k) - rows.above(work.shear, c, d, j, k);
                     double* velocity = liquid.faces.velocity.block(b, a) + row;
-                    const Pack change = sum / massOf(cut, pressure, b, a, row);
+                    const Pack change = sum / massOf(cut, faces, b, a, row);
                     storePack(velocity, loadPack(velocity) + select(known, change, broadcast(0.0)));
                 });
             }
@@ -115,13 +115,12 @@ void resize(int blocks, StrainWorkspace& work)
 
 }  // namespace
 
-void correctStrain(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureWorkspace& pressure, StrainWorkspace& work,
-                   LiquidGrid& liquid)
+void correctStrain(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureFaces& faces, StrainWorkspace& work, LiquidGrid& liquid)
 {
     resize(cut.grid.count(), work);
-    findImpulses(cut, before, liquid, pressure, work);
+    findImpulses(cut, before, faces, work);
     findStrains(cut.grid, work);
-    applyStrains(cut, pressure, work, liquid);
+    applyStrains(cut, faces, work, liquid);
 }
 
 }  // namespace sim

@@ -26,7 +26,6 @@ struct StrainWorkspace {
 /// @param before     velocities without weight, pressure and surface tension [cm/s]
 /// @param work       `acts` is given, the rest is scratch
 /// @param liquid     velocities of faces in the system are changed
-void correctStrain(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureWorkspace& pressure, StrainWorkspace& work,
-                   LiquidGrid& liquid);
+void correctStrain(const CutGrid& cut, const BlockArray<double, 3>& before, const PressureFaces& faces, StrainWorkspace& work, LiquidGrid& liquid);
 
 }  // namespace sim

@@ -8,9 +8,10 @@
 
 namespace sim {
 
-void findSurfaceSteps(const CutGrid& cut, const LiquidSettings& settings, const LiquidGrid& liquid, SurfaceTensionWorkspace& work)
+SurfaceSteps findSurfaceSteps(const CutGrid& cut, const LiquidSettings& settings, const SurfaceCells& cells, SurfaceTensionWorkspace& work)
 {
-    work.curvature.find(cut, liquid, settings.curvatureSmoothing);
+    const LiquidGrid& liquid = cells.liquid();
+    work.curvature.find(cut, cells, settings.curvatureSmoothing);
     work.step.resize(cut.grid.count());
     parallelFor(static_cast<std::size_t>(cut.grid.count()), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
@@ -31,15 +32,16 @@ void findSurfaceSteps(const CutGrid& cut, const LiquidSettings& settings, const 
             }
         }
     });
+    return SurfaceSteps(work);
 }
 
-void applySurfaceSteps(const CutGrid& cut, const PressureWorkspace& pressure, double share, const SurfaceTensionWorkspace& work, LiquidGrid& liquid)
+void applySurfaceSteps(const CutGrid& cut, const PressureFaces& faces, double share, const SurfaceSteps& steps, LiquidGrid& liquid)
 {
     parallelFor(static_cast<std::size_t>(cut.grid.count()), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int a = 0; a < kAxes; ++a)
             for (int row = 0; row < kBlockCells; row += kLanes) {
-                const Pack step = loadPack(work.step.block(b, a) + row), coefficient = loadPack(pressure.coefficient.block(b, a) + row);
+                const Pack step = loadPack(steps.step().block(b, a) + row), coefficient = loadPack(faces.coefficient().block(b, a) + row);
                 const PackMask acts = (step != 0.0) & (coefficient > 0.0);
                 if (maskBits(acts) == 0) continue;
                 const Pack change = -cut.grid.dx * share * coefficient / loadPack(cut.field.open(b, a) + row) * step;

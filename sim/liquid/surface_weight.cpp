@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 
 namespace sim {
@@ -27,8 +28,8 @@ struct Column {
 class SurfaceColumns {
  public:
     /// @param up  direction along the axis against gravity, 1 or -1
-    SurfaceColumns(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const LiquidGrid& liquid, int axis, int up)
-        : grid_(cut.grid), obstacles_(cut.field), pressure_(pressure), bodies_(bodies), liquid_(liquid), axis_(axis), up_(up)
+    SurfaceColumns(const CutGrid& cut, const HeldBodies& bodies, int axis, int up)
+        : grid_(cut.grid), obstacles_(cut.field), bodies_(bodies), free_(bodies.free()), liquid_(bodies.liquid()), axis_(axis), up_(up)
     {
     }
 
@@ -37,7 +38,7 @@ class SurfaceColumns {
     {
         std::uint64_t known = 0;
         for (int j = 0; j < kBlockEdge; ++j) {
-            const Pack coefficient = loadPack(pressure_.coefficient.block(block, axis_) + cellInBlock(0, j, k));
+            const Pack coefficient = loadPack(bodies_.coefficient().block(block, axis_) + cellInBlock(0, j, k));
             known |= std::uint64_t{maskBits(coefficient > 0.0)} << (j * kBlockEdge);
         }
         return known & ~(liquid_.deep.block(block)[k] & access.below(liquid_.deep, 0, axis_, k));
@@ -53,7 +54,7 @@ class SurfaceColumns {
         for (CellRef at = lowest;; at = beside(at, up_)) {
             const bool known = isKnown(at);
             if (!known && (!isWet(at) || isSolid(at))) break;
-            if (column.size == kSurfaceColumn || isDeep(at) || (bodies_.hasFabric && !bodies_.bare.test(at.block, at.cell, axis_))) return {};
+            if (column.size == kSurfaceColumn || isDeep(at) || (free_.hasFabric && !free_.bare.test(at.block, at.cell, axis_))) return {};
             column.face[column.size++] = at;
             if (!known) {
                 column.isTopFree = true;
@@ -72,7 +73,7 @@ class SurfaceColumns {
         return cellNear(grid_, face.block, at.x(), at.y(), at.z());
     }
     bool exists(const CellRef& face) const { return face.block != grid_.count(); }
-    bool isKnown(const CellRef& face) const { return exists(face) && pressure_.coefficient.block(face.block, axis_)[face.cell] > 0.0; }
+    bool isKnown(const CellRef& face) const { return exists(face) && bodies_.coefficient().block(face.block, axis_)[face.cell] > 0.0; }
     bool isWet(const CellRef& face) const { return exists(face) && liquid_.wet.test(face.block, face.cell, axis_); }
     bool isSolid(const CellRef& face) const { return exists(face) && obstacles_.open(face.block, axis_)[face.cell] == 0.0; }
     bool isDeep(const CellRef& face) const
@@ -84,17 +85,17 @@ class SurfaceColumns {
     /// Does a solid hold the body that the face belongs to?
     bool isHeld(const CellRef& face) const
     {
-        const ConnectedComponents& components = pressure_.solver.components();
+        const ConnectedComponents& components = bodies_.components();
         const CellRef below = beside(face, -1);
         const int own = components.of(face.block, face.cell), other = exists(below) ? components.of(below.block, below.cell) : -1,
                   body = std::max(own, other);  // the same, where both are, as the face moves
-        return body >= 0 && bodies_.bodies[body].isHeld;
+        return body >= 0 && free_.bodies[body].isHeld;
     }
 
     const BlockGrid& grid_;
     const ObstacleField& obstacles_;
-    const PressureWorkspace& pressure_;
-    const FreeLiquid& bodies_;
+    const HeldBodies& bodies_;
+    const FreeLiquid& free_;
     const LiquidGrid& liquid_;
     int axis_, up_;
 };
@@ -149,7 +150,9 @@ void fillEvenly(std::span<double> full, double mass, bool free)
 }
 
 /// Put the weight of a column where its liquid would be if it were even.
-void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
+/// @param told  of what each face gets
+void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid,
+           const std::optional<LiquidOnSolids::Levelling>& told)
 {
     std::array<double, kSurfaceColumn> mass;
     double above = 0.0;
@@ -167,27 +170,27 @@ void level(const Column& column, const ObstacleField& obstacles, int axis, doubl
         rest -= weight;
         const double change = gravityStep * (weight / mass[n] - 1.0);
         liquid.faces.velocity.block(block, axis)[cell] += change;
-        if (onSolids != nullptr) onSolids->weightGrew(block, axis, cell, mass[n] * change);
+        if (told) told->weightGrew(block, axis, cell, mass[n] * change);
     }
 }
 
 }  // namespace
 
-void levelWeight(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const Vec3& gravityStep, LiquidGrid& liquid,
-                 LiquidOnSolids* onSolids)
+void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
 {
-    if (std::ranges::none_of(bodies.bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
-    if (onSolids != nullptr) onSolids->meetLevelling();
+    if (std::ranges::none_of(bodies.free().bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
+    std::optional<LiquidOnSolids::Levelling> told;
+    if (onSolids != nullptr) told = onSolids->meetLevelling();
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
-        const SurfaceColumns columns(cut, pressure, bodies, liquid, a, gravityStep[a] < 0.0 ? 1 : -1);
+        const SurfaceColumns columns(cut, bodies, a, gravityStep[a] < 0.0 ? 1 : -1);
         parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
             const int b = static_cast<int>(n);
             const BitAccess access(cut.grid, b);
             for (int k = 0; k < kBlockEdge; ++k)
                 for (std::uint64_t left = columns.shallow(access, b, k); left != 0; left &= left - 1) {
                     const Column column = columns.from({b, 64 * k + std::countr_zero(left)});
-                    if (column.size > 1) level(column, cut.field, a, gravityStep[a], liquid, onSolids);
+                    if (column.size > 1) level(column, cut.field, a, gravityStep[a], liquid, told);
                 }
         });
     }

@@ -14,13 +14,12 @@ namespace sim {
 /// liquid; the two below it bear that, so that the centre stays. A column weighs what it did, so that the pressure below it, and all momentum,
 /// are the same; inertia stays where it is, so that the projection stays orthogonal in the kinetic energy.
 ///
-/// It acts only in bodies that solids hold (FreeLiquid::bodies, by findHeldBodies): in others nothing presses. Columns with fabric in them, thicker
+/// It acts only in bodies that solids hold: in others nothing presses. Columns with fabric in them, thicker
 /// than kSurfaceColumn, or on nothing deep or solid stay as they are.
 /// @param gravityStep  velocity that weight has given to all faces in this step [cm/s]
 /// @param liquid       velocity is changed; `unpressed` is not, for what weight and pressure together do is what moves liquid
 /// @param onSolids     is told, if not null, for what weight gives is not from solids
-void levelWeight(const CutGrid& cut, const PressureWorkspace& pressure, const FreeLiquid& bodies, const Vec3& gravityStep, LiquidGrid& liquid,
-                 LiquidOnSolids* onSolids);
+void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids);
 
 /// Faces that a column of the surface layer may have. A plane surface has at most four: two cells that are not deep, and the surface's own.
 inline constexpr int kSurfaceColumn = 5;

@@ -82,6 +82,7 @@ double volumeError(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& li
 
 void findSources(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, double strength, BlockArray<double>& source)
 {
+    source.resize(cut.grid.count());
     parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int c = 0; c < kBlockCells; ++c)
@@ -89,7 +90,7 @@ void findSources(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liqu
     });
 }
 
-void displaceFaces(const CutGrid& cut, const PressureWorkspace& pressure, VolumeWorkspace& work)
+void displaceFaces(const CutGrid& cut, const PressureFaces& faces, VolumeWorkspace& work)
 {
     const Pack largest = broadcast(kLargestCorrection * cut.grid.dx);
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
@@ -97,7 +98,7 @@ void displaceFaces(const CutGrid& cut, const PressureWorkspace& pressure, Volume
         for (int a = 0; a < kAxes; ++a) {
             double* displacement = work.displacement.block(b, a);
             std::fill_n(displacement, kBlockCells, 0.0);
-            forEachPressureFace(cut, pressure, work.potential, b, a, [&](int row, PackMask, Pack change) {
+            forEachPressureFace(cut, faces, work.potential, b, a, [&](int row, PackMask, Pack change) {
                 const Pack bounded = maxPack(-largest, -maxPack(-largest, -change));
                 std::memcpy(displacement + row, &bounded, sizeof bounded);
             });
@@ -107,17 +108,15 @@ void displaceFaces(const CutGrid& cut, const PressureWorkspace& pressure, Volume
 
 }  // namespace
 
-SolveReport correctVolume(const CutGrid& cut, const Settings& settings, double strength, const LiquidGrid& liquid, PressureWorkspace& pressure,
-                          VolumeWorkspace& work)
+SolveReport correctVolume(const CutGrid& cut, const Settings& settings, double strength, const PressureSystem& system, VolumeWorkspace& work)
 {
     const SolverSettings& solver = settings.solver;
     work.potential.resize(cut.grid.count());
     work.displacement.resize(cut.grid.count());
     parallelFor(cut.grid.count(), 8, [&](std::size_t b) { std::fill_n(work.potential.block(static_cast<int>(b)), kBlockCells, 0.0); });
-    findSources(cut, settings.gravity, liquid, strength, pressure.rhs);
-    const SolveReport report =
-        pressure.solver.solveAgain(cut.grid, pressure.matrix, pressure.rhs, volumeTolerance(solver), solver.maxIterations, work.potential);
-    displaceFaces(cut, pressure, work);
+    findSources(cut, settings.gravity, system.liquid(), strength, system.rightHandSide());
+    const SolveReport report = system.solve(cut.grid, volumeTolerance(solver), solver.maxIterations, work.potential);
+    displaceFaces(cut, system, work);
     return report;
 }
 

@@ -22,11 +22,10 @@ inline constexpr double kLargestCorrection = 0.2;
 
 /// Displacements that bring the liquid back to its volume: cells that hold too much expand, holes amid the liquid close
 /// (implicit density projection after Kugelstadt et al. 2019, for the errors that advection leaves behind). They are
-/// the gradient of a potential in the matrix of the pressure just solved, left in work.displacement; velocities, and so
-/// all momenta and the kinetic energy, stay as they are. Needs findSurface.
+/// the gradient of a potential in the matrix of the pressure, left in work.displacement; velocities, and so
+/// all momenta and the kinetic energy, stay as they are.
 /// @param settings  of which the direction of gravity tells ceilings, from which liquid may come off
 /// @param strength  share of the error that is corrected at once [0..1]
-SolveReport correctVolume(const CutGrid& cut, const Settings& settings, double strength, const LiquidGrid& liquid, PressureWorkspace& pressure,
-                          VolumeWorkspace& work);
+SolveReport correctVolume(const CutGrid& cut, const Settings& settings, double strength, const PressureSystem& system, VolumeWorkspace& work);
 
 }  // namespace sim

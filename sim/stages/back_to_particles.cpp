@@ -75,10 +75,10 @@ void findHeld(StepContext& c)
     if (!c.plan.isWet || !c.settings().time.reflects()) return;
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
-    findHeldCells(c.state.grid, work.pressure, work.grid, work.free);
+    findHeldCells(c.state.grid, *c.plan.heldBodies, work.free);
     if (!isFrameMoving(c)) return;
     const Vec3 ofFabric = c.plan.isMixed() ? meanVelocity(work.coupling->fabric, c.state.fabric) : Vec3(Vec3::Zero());
-    findFrames(c.cut(), work.pressure, work.grid, ofFabric, work.free);
+    findFrames(c.cut(), *c.plan.heldBodies, ofFabric, work.free);
 }
 
 void applyWalls(StepContext& c)
@@ -106,13 +106,13 @@ void pushSolids(StepContext& c)
     const StageScope scope(c.clock, Stage::GridToParticles);
     Workspace& work = c.work;
     if (c.plan.separatedPhases) {
-        work.onSolids.meetFabric();
+        const LiquidOnSolids::Exchange exchange = work.onSolids.meetFabric();
         work.coupling->mixture.forEachImpulseTaken(
-            *c.plan.separatedPhases, [&](int block, int axis, int cell, double impulse) { work.onSolids.fabricTook(block, axis, cell, impulse); });
+            *c.plan.separatedPhases, [&](int block, int axis, int cell, double impulse) { exchange.fabricTook(block, axis, cell, impulse); });
     }
     const LiquidOnSolids::Outcome outcome{.velocity = velocityRead(c),
                                           .liquid = work.grid,
-                                          .system = work.pressure,
+                                          .system = *c.plan.pressure,
                                           .pressure = c.state.pressure,
                                           .again = c.plan.reflects ? &work.reflection.potential : nullptr,
                                           .flipVelocity = c.isFlip() ? &work.grid.advected : nullptr,
@@ -141,7 +141,7 @@ void gridToParticles(StepContext& c)
     if (c.correctsStrain() && !c.isFlip()) c.report.energies.storeStrain(sums.strain);
     c.report.liquidMass = weights.mass;
     c.report.blocks = grid.count();
-    c.report.liquidCells = countLiquidCells(grid, work.grid);
+    c.report.liquidCells = countLiquidCells(grid, *c.plan.surfaceCells);
     if (!std::isfinite(held) || !std::isfinite(c.report.energies.total())) c.report.failure = "velocities are not finite";
     work.momentum.liquidMoved(sums.momentum, weights.mass * c.fallTime() * c.settings().gravity, work.onSolids, work.pushedSolids);
     c.energy.solidsGave();

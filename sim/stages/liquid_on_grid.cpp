@@ -50,9 +50,10 @@ void applyViscosity(StepContext& c)
     if (!c.isViscous()) return;
     const StageScope scope(c.clock, Stage::Viscosity);
     Workspace& work = c.work;
-    if (c.hasObstacles()) work.onSolids.beforeViscosity(work.grid.faces.velocity);
+    std::optional<LiquidOnSolids::KeptVelocities> kept;
+    if (c.hasObstacles()) kept = work.onSolids.keepVelocities(work.grid.faces.velocity);
     c.report.viscosity = solveViscosity(c.cut(), c.settings().liquid, c.settings().solver, c.fallTime(), work.viscosity, work.grid);
-    const double bySolids = c.hasObstacles() ? work.onSolids.afterViscosity(c.cut(), work.viscosity.system, work.grid) : 0.0;
+    const double bySolids = kept ? work.onSolids.afterViscosity(*kept, c.cut(), work.viscosity.system, work.grid) : 0.0;
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { velocity.block(0)[i] += work.viscosity.withheld.block(0)[i]; });
     if (c.correctsStrain()) {
@@ -69,8 +70,8 @@ void findCells(StepContext& c)
 {
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Cells);
-    findLiquidCells(c.cut(), c.settings().liquid.full, c.work.grid);
-    findSurface(c.cut(), c.work.grid);
+    LiquidGrid& liquid = c.work.grid;
+    c.plan.surfaceCells = findSurface(c.cut(), findLiquidCells(c.cut(), c.settings().liquid.full, liquid), liquid);
 }
 
 }  // namespace sim

@@ -34,11 +34,12 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
     findChange(velocity, grid.count(), work);
-    findUnheldFaces(c.cut(), work.free);
+    const UnheldFaces unheld = findUnheldFaces(c.cut(), work.free);
     const bool carries = c.plan.eliminatedDrag && c.settings().coupling.pressureOnFabric;
     if (carries) work.coupling->mixture.toMassesOfBoth(*c.plan.eliminatedDrag, work.grid, work.free.change);
     else if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
-    takeMeans(grid, work.pressure, work.grid, work.free.change, work.free, velocity);
+    c.plan.heldBodies = findHeldBodies(grid, *c.plan.pressure, unheld);
+    takeMeans(grid, *c.plan.heldBodies, work.free.change, work.free, velocity);
     if (carries) work.coupling->mixture.fromMassesOfBoth(*c.plan.eliminatedDrag, work.grid);
     if (c.hasObstacles()) work.gainAtWalls.bound(work.obstacleField, velocity);
 }
@@ -75,13 +76,10 @@ void addToPressure(const SolveReport& again, StepContext& c)
 }
 
 /// Liquid that nothing holds has the masses that P2G gave it amid itself, too. Where fabric goes through liquid they stay full.
-bool weighFreeLiquid(StepContext& c)
+bool weighFreeLiquid(StepContext& c, const PressureComponents& system, PressureFaces& faces)
 {
-    Workspace& work = c.work;
     if (c.plan.isMixed() || c.settings().liquid.full) return false;
-    findUnheldFaces(c.cut(), work.free);
-    findHeldBodies(c.state.grid, work.pressure, work.grid, work.free);
-    return weighDeepFaces(c.cut(), work.grid, work.free, work.pressure);
+    return weighDeepFaces(c.cut(), findHeldBodies(c.state.grid, system, findUnheldFaces(c.cut(), c.work.free)), faces);
 }
 
 /// Is there weight that solids may hold?
@@ -89,19 +87,18 @@ bool hasHeldWeight(const StepContext& c) { return c.hasObstacles() && !c.setting
 
 /// Take the noise out of the weight of liquid that solids hold. Fabric that goes through it keeps what is on its faces.
 /// @param onSolids  is told, if not null
-void levelHeldWeight(StepContext& c, LiquidOnSolids* onSolids)
+void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnSolids* onSolids)
 {
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    findUnheldFaces(c.cut(), work.free);
-    findHeldBodies(grid, work.pressure, work.grid, work.free);
+    const HeldBodies bodies = findHeldBodies(grid, system, findUnheldFaces(c.cut(), work.free));
     work.free.hasFabric = c.plan.isMixed();
     if (work.free.hasFabric) {
         work.free.bare.resize(grid.count());
         std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
         work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.bare);
     }
-    levelWeight(c.cut(), work.pressure, work.free, c.fallTime() * c.settings().gravity, work.grid, onSolids);
+    levelWeight(c.cut(), bodies, c.fallTime() * c.settings().gravity, work.grid, onSolids);
 }
 
 }  // namespace
@@ -110,23 +107,20 @@ void findSurfaceTension(StepContext& c)
 {
     if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
     const StageScope scope(c.clock, Stage::SurfaceTension);
-    findSurfaceSteps(c.cut(), c.settings().liquid, c.work.grid, c.work.surfaceTension);
+    c.plan.surfaceSteps = findSurfaceSteps(c.cut(), c.settings().liquid, *c.plan.surfaceCells, c.work.surfaceTension);
 }
 
 void withholdPressure(StepContext& c)
 {
     if (!c.isViscous()) return;
     const StageScope scope(c.clock, Stage::Viscosity);
-    const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     work.viscosity.withheld = velocity;
-    findLiquidCells(c.cut(), c.settings().liquid.full, work.grid);
-    findSurface(c.cut(), work.grid);
-    findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
-    preparePressure(grid, work.grid, work.pressure);
-    if (hasHeldWeight(c)) levelHeldWeight(c, nullptr);
-    c.report.withheld = solvePressure(c.cut(), c.settings().solver, {}, work.pressure, work.grid, c.state.pressure);
+    const SurfaceCells cells = findSurface(c.cut(), findLiquidCells(c.cut(), c.settings().liquid.full, work.grid), work.grid);
+    const PressureSystem system = preparePressure(findPressureFaces(c.cut(), c.settings().liquid, c.dt, cells, work.pressure), c.state.grid);
+    if (hasHeldWeight(c)) levelHeldWeight(c, system, nullptr);
+    c.report.withheld = solvePressure(c.cut(), c.settings().solver, {}, system, work.grid, c.state.pressure);
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { work.viscosity.withheld.block(0)[i] -= velocity.block(0)[i]; });
 }
 
@@ -134,14 +128,15 @@ void assemblePressure(StepContext& c)
 {
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Pressure);
+    const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    findPressureFaces(c.cut(), c.settings().liquid, c.dt, work.grid, work.pressure);
+    PressureFaces faces = findPressureFaces(c.cut(), c.settings().liquid, c.dt, *c.plan.surfaceCells, work.pressure);
     if (c.plan.sharedFaces)
-        c.plan.eliminatedDrag = work.coupling->mixture.eliminateDrag(*c.plan.sharedFaces, work.obstacleField, work.grid, work.pressure.coefficient);
-    assembleMatrix(c.state.grid, work.grid, work.pressure);
-    work.pressure.solver.findComponents(c.state.grid, work.pressure.matrix);
-    if (weighFreeLiquid(c)) assembleMatrix(c.state.grid, work.grid, work.pressure);
-    work.pressure.solver.buildHierarchy(c.state.grid, work.pressure.matrix);
+        c.plan.eliminatedDrag = work.coupling->mixture.eliminateDrag(*c.plan.sharedFaces, work.obstacleField, work.grid, faces.coefficient());
+    PressureMatrix matrix = assembleMatrix(faces, grid);
+    const PressureComponents components = findComponents(matrix, grid);
+    if (weighFreeLiquid(c, components, faces)) matrix = assembleMatrix(faces, grid);
+    c.plan.pressure = buildHierarchy(matrix, components, grid);
 }
 
 void levelWeight(StepContext& c)
@@ -149,16 +144,16 @@ void levelWeight(StepContext& c)
     if (!c.plan.isWet || !hasHeldWeight(c)) return;
     const StageScope scope(c.clock, Stage::Pressure);
     c.energy.remember();
-    levelHeldWeight(c, &c.work.onSolids);
+    levelHeldWeight(c, *c.plan.pressure, &c.work.onSolids);
     c.energy.levelled();
 }
 
 void applySurfaceTension(StepContext& c)
 {
-    if (!c.plan.isWet || !feelsSurfaceTension(c.settings().liquid)) return;
+    if (!c.plan.surfaceSteps) return;
     const StageScope scope(c.clock, Stage::SurfaceTension);
     c.energy.remember();
-    applySurfaceSteps(c.cut(), c.work.pressure, c.fallTime() / c.dt, c.work.surfaceTension, c.work.grid);
+    applySurfaceSteps(c.cut(), *c.plan.pressure, c.fallTime() / c.dt, *c.plan.surfaceSteps, c.work.grid);
     c.energy.surfaceTension(c.plan.sharedFaces);
 }
 
@@ -166,12 +161,11 @@ void project(StepContext& c)
 {
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Pressure);
-    const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
     if (c.hasObstacles()) work.gainAtWalls.begin(work.obstacleField, work.grid.faces.velocity);
-    findInflowCells(grid, work.grid, work.emission.inflows, work.packing, c.dt, work.inflow);
+    findInflowCells(c.state.grid, *c.plan.pressure, work.emission.inflows, work.packing, c.dt, work.inflow);
     const SolverSettings solver = c.correctsStrain() ? roughly(c.settings().solver) : c.settings().solver;
-    c.report.pressure = solvePressure(c.cut(), solver, work.inflow, work.pressure, work.grid, c.state.pressure);
+    c.report.pressure = solvePressure(c.cut(), solver, work.inflow, *c.plan.pressure, work.grid, c.state.pressure);
 }
 
 void correctStrain(StepContext& c)
@@ -180,17 +174,17 @@ void correctStrain(StepContext& c)
     const StageScope scope(c.clock, Stage::StrainCorrection);
     Workspace& work = c.work;
     const SolverSettings& solver = c.settings().solver;
-    PressureWorkspace& pressure = work.pressure;
+    const PressureSystem& system = *c.plan.pressure;
     findStrainedFaces(c);
     c.energy.remember();
-    if (c.hasObstacles()) work.onSolids.beforeStrain(work.grid.faces.velocity);
-    correctStrain(c.cut(), c.isViscous() ? work.strain.viscous : work.grid.advected, pressure, work.strain, work.grid);
-    if (c.hasObstacles()) work.onSolids.afterStrain(c.cut(), work.strain, work.grid);
-    findRightHandSide(c.cut(), work.grid, work.grid.faces.velocity, work.inflow, pressure.rhs);
+    std::optional<LiquidOnSolids::KeptVelocities> kept;
+    if (c.hasObstacles()) kept = work.onSolids.keepVelocities(work.grid.faces.velocity);
+    correctStrain(c.cut(), c.isViscous() ? work.strain.viscous : work.grid.advected, system, work.strain, work.grid);
+    if (kept) work.onSolids.afterStrain(*kept, c.cut(), work.strain, work.grid);
+    findRightHandSide(c.cut(), system, work.grid.faces.velocity, work.inflow, system.rightHandSide());
     const SolveTolerance tolerance(solver.pressureTolerance, solver.pressureTolerance * c.report.pressure.scale);
-    const SolveReport again =
-        pressure.solver.solveAgain(c.state.grid, pressure.matrix, pressure.rhs, tolerance, solver.maxIterations, c.state.pressureOfStrain);
-    subtractGradient(c.cut(), pressure, c.state.pressureOfStrain, work.grid);
+    const SolveReport again = system.solve(c.state.grid, tolerance, solver.maxIterations, c.state.pressureOfStrain);
+    subtractGradient(c.cut(), system, c.state.pressureOfStrain, work.grid);
     c.energy.strainCorrected();
     addToPressure(again, c);
 }
@@ -203,7 +197,7 @@ void pressIn(StepContext& c)
     const BlockGrid& grid = c.state.grid;
     c.report.inflowWork = inflowWork(grid, work.inflow, c.state.pressure, c.dt);
     for (const Inflow& inflow : work.emission.inflows) {
-        const bool isShut = isShutIn(inflow.source, work.inflow, grid, work.grid, work.pressure.solver.components());
+        const bool isShut = isShutIn(inflow.source, work.inflow, grid, *c.plan.pressure);
         c.state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
     }
     c.energy.pressedIn(c.report.inflowWork);
@@ -220,11 +214,12 @@ void correctVolume(StepContext& c)
     if (!c.plan.corrects) return;
     const StageScope scope(c.clock, Stage::Volume);
     const double strength = std::min(kLargestShare, rate * state.uncorrected);
-    c.report.volume = correctVolume(c.cut(), c.settings(), strength, work.grid, work.pressure, work.volume);
+    c.report.volume = correctVolume(c.cut(), c.settings(), strength, *c.plan.pressure, work.volume);
     state.uncorrected = 0.0;
-    findUnheldFaces(c.cut(), work.free);
+    const UnheldFaces unheld = findUnheldFaces(c.cut(), work.free);
     if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
-    takeMeans(state.grid, work.pressure, work.grid, work.volume.displacement, work.free, work.volume.displacement);
+    const HeldBodies bodies = findHeldBodies(state.grid, *c.plan.pressure, unheld);
+    takeMeans(state.grid, bodies, work.volume.displacement, work.free, work.volume.displacement);
 }
 
 void keepMomentum(StepContext& c)
@@ -239,7 +234,7 @@ void reflect(StepContext& c)
     if (!c.plan.reflects) return;
     const StageScope scope(c.clock, Stage::Reflection);
     Workspace& work = c.work;
-    c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, work.pressure, work.grid, work.reflection);
+    c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, *c.plan.pressure, work.reflection);
     restoreMomentum(c, work.reflection.velocity);
     c.energy.reflected(c.dt);
 }

@@ -143,9 +143,9 @@ TEST(Mixture, PressureActsOnAllTheRoom)
     Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
     GridScene& scene = bath.scene;
     ASSERT_TRUE(bath.find(mixture));
-    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
+    PressureFaces faces = scene.pressureFaces(kStep);
     const Vec3 before = bath.fabricMomentum() + mixture.liquidMomentum(*bath.shared, scene.liquid);
-    const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(*bath.shared, scene.field, scene.liquid, scene.work.coefficient);
+    const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(*bath.shared, scene.field, scene.liquid, faces.coefficient());
     // A pressure that falls evenly along x: what solvePressure would leave on the faces.
     constexpr double kSlope = 300.0;  // dyn/cm^3
     double room = 0.0;

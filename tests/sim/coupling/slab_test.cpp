@@ -94,8 +94,8 @@ TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
     for (int n = 0; n < 60; ++n) {
         stack.makeRoom();
         const Mixture::SharedFaces shared = stack.find(mixture);
-        findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
-        const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(shared, scene.field, scene.liquid, scene.work.coefficient);
+        PressureFaces faces = scene.pressureFaces(kStep);
+        const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(shared, scene.field, scene.liquid, faces.coefficient());
         scene.forEachCell([&](const Vec3i& c) {
             scene.velocity(1, c) += scene.work.coefficient.block(scene.at(c).block, 1)[scene.at(c).cell] * kCell * kCell * kSlope;
         });
@@ -123,10 +123,9 @@ Mixture::AppliedPressure pressAndDrag(Stack& stack, Mixture& mixture)
 {
     GridScene& scene = stack.scene;
     const Mixture::SharedFaces shared = stack.find(mixture);
-    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
-    const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(shared, scene.field, scene.liquid, scene.work.coefficient);
-    preparePressure(scene.grid, scene.liquid, scene.work);
-    solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+    PressureFaces faces = scene.pressureFaces(kStep);
+    const Mixture::EliminatedDrag eliminated = mixture.eliminateDrag(shared, scene.field, scene.liquid, faces.coefficient());
+    scene.project(preparePressure(faces, scene.grid));
     const Mixture::AppliedPressure applied = mixture.applyPressure(eliminated, scene.liquid);
     stack.moveFabric(mixture.vertexLoads(applied));
     return applied;

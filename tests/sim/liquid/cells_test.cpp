@@ -18,7 +18,7 @@ double splineUpTo(double x)
 
 /// The masses that P2G gives of liquid below the plane y = level [cells from the scene's origin], all over where there
 /// is room.
-void fillBelow(GridScene& scene, double level)
+LiquidCells fillBelow(GridScene& scene, double level)
 {
     scene.forEachFace([&](int a, const Vec3i& c) {
         const CellRef ref = scene.at(c);
@@ -26,7 +26,7 @@ void fillBelow(GridScene& scene, double level)
         scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] =
             scene.liquid.fullMass * scene.field.room(ref.block, a)[ref.cell] * splineUpTo(level - height);
     });
-    findLiquidCells(scene.cut(), scene.settings.full, scene.liquid);
+    return findLiquidCells(scene.cut(), scene.settings.full, scene.liquid);
 }
 
 double fillAt(const GridScene& scene, const Vec3i& c) { return scene.liquid.fill.block(scene.at(c).block)[scene.at(c).cell]; }
@@ -71,17 +71,16 @@ TEST(Cells, OfAFullBoxAreAllThatAreNotBlocked)
     GridScene scene({0, 0, 0}, {16, 16, 16});
     scene.settings.full = true;
     scene.add(tankOfCells(scene, {2, 3, 4}, {14, 12, 11}));
-    findLiquidCells(scene.cut(), scene.settings.full, scene.liquid);
+    const LiquidCells cells = findLiquidCells(scene.cut(), scene.settings.full, scene.liquid);
     EXPECT_EQ(scene.countLiquid(), 12u * 9u * 7u);
-    EXPECT_EQ(countLiquidCells(scene.grid, scene.liquid), 12u * 9u * 7u);
+    EXPECT_EQ(countLiquidCells(scene.grid, cells), 12u * 9u * 7u);
 }
 
 TEST(Cells, AtTheSurfaceAreThoseBesideAirNotThoseBesideWalls)
 {
     GridScene scene({-3, -3, -3}, {13, 13, 13});
     scene.add(tankOfCells(scene, {0, 0, 0}, {10, 12, 9}));
-    fillBelow(scene, 6.3);
-    findSurface(scene.cut(), scene.liquid);
+    findSurface(scene.cut(), fillBelow(scene, 6.3), scene.liquid);
     scene.forEachCell([&](const Vec3i& c) {
         const CellRef ref = scene.at(c);
         const bool inTank = (c.array() >= 0).all() && c.x() < 10 && c.z() < 9;

@@ -39,14 +39,14 @@ struct Pieces {
         });
         // Faces between deep cells are taken as full, whatever their mass: let there be none.
         for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(scene.liquid.deep.block(b), BlockBits<>::kWords, 0);
-        scene.project(1.0e-3);
+        const PressureSystem system = scene.system(1.0e-3);
         Settings settings;
         settings.gravity = Vec3(0.0, -981.0, 0.0);
-        correctVolume(scene.cut(), settings, 0.5, scene.liquid, scene.work, volume);
+        correctVolume(scene.cut(), settings, 0.5, system, volume);
         asFound = volume.displacement;
         FreeLiquid work;
-        findUnheldFaces(scene.cut(), work);
-        takeMeans(scene.grid, scene.work, scene.liquid, volume.displacement, work, volume.displacement);
+        const HeldBodies bodies = findHeldBodies(scene.grid, system, findUnheldFaces(scene.cut(), work));
+        takeMeans(scene.grid, bodies, volume.displacement, work, volume.displacement);
     }
 
     /// Mean displacement of one ball, and of the pool after them [cm].

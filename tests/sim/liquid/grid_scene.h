@@ -106,7 +106,22 @@ struct GridScene {
             const bool blocked = field.blocked(ref.block)[ref.cell >> 6] >> (ref.cell & 63) & 1;
             if ((settings.full || phi(c) < 0.0) && !blocked) liquid.inside.set(ref.block, ref.cell);
         });
-        findSurface(cut(), liquid);
+        findSurface(cut(), givenCells(), liquid);
+    }
+    /// The cells as they are given, in place of those that the masses on faces would make.
+    LiquidCells givenCells()
+    {
+        const LiquidGrid given = liquid;
+        const LiquidCells cells = findLiquidCells(cut(), settings.full, liquid);
+        liquid = given;
+        return cells;
+    }
+    SurfaceCells givenSurface()
+    {
+        const LiquidGrid given = liquid;
+        const SurfaceCells cells = findSurface(cut(), givenCells(), liquid);
+        liquid = given;
+        return cells;
     }
     /// Faces of liquid cells are wet. Between two such cells they are full, else they carry the ghost fluid's fraction:
     /// that of the way from the liquid cell's middle to the other one's on which there is liquid.
@@ -141,12 +156,11 @@ struct GridScene {
         forEachFace([&](int a, const Vec3i& c) { velocity(a, c) = unit(random); });
     }
 
-    SolveReport project(double dt)
-    {
-        findPressureFaces(cut(), settings, dt, liquid, work);
-        preparePressure(grid, liquid, work);
-        return solvePressure(cut(), solver, {}, work, liquid, pressure);
-    }
+    PressureFaces pressureFaces(double dt) { return findPressureFaces(cut(), settings, dt, givenSurface(), work); }
+    /// The system of a step of dt [s]. It is of this scene, not of copies.
+    PressureSystem system(double dt) { return preparePressure(pressureFaces(dt), grid); }
+    SolveReport project(double dt) { return project(system(dt)); }
+    SolveReport project(const PressureSystem& prepared) { return solvePressure(cut(), solver, {}, prepared, liquid, pressure); }
     double divergence() const { return largestDivergence(cut(), liquid); }
 
     /// max |u − expected| over the valid faces with open fraction > 0.
@@ -172,6 +186,15 @@ inline Shape tankOfCells(const GridScene& scene, const Vec3i& first, const Vec3i
 {
     const Vec3 low = scene.corner(first), high = scene.corner(end);
     return Shape::box(0.5 * (low + high), 0.5 * (high - low)).inverted();
+}
+
+/// A tank turned about a skew axis, so that no wall is aligned with the grid.
+inline Shape skewTank(const GridScene& scene)
+{
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translate(scene.corner({8, 8, 8}));
+    place.rotate(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()));
+    return Shape::box(Vec3::Zero(), Vec3(6.0, 5.0, 5.5) * scene.grid.dx).inverted().moved(place);
 }
 
 }  // namespace sim::test

@@ -18,8 +18,7 @@ struct StrainedScene {
 
     explicit StrainedScene(GridScene given) : scene(std::move(given))
     {
-        findPressureFaces(scene.cut(), scene.settings, kDt, scene.liquid, scene.work);
-        preparePressure(scene.grid, scene.liquid, scene.work);
+        scene.pressureFaces(kDt);  // with the coefficients that masses are told by
         const int blocks = scene.grid.count();
         strain.acts.resize(blocks);
         std::fill_n(strain.acts.block(0), static_cast<std::size_t>(blocks) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
@@ -50,7 +49,7 @@ struct StrainedScene {
     {
         const BlockArray<double, 3> kept = velocity();
         velocity() = u;
-        correctStrain(scene.cut(), before, scene.work, strain, scene.liquid);
+        correct();
         BlockArray<double, 3> correction = velocity();
         for (std::size_t i = 0; i < correction.size(); ++i) correction.block(0)[i] -= u.block(0)[i];
         velocity() = kept;
@@ -61,7 +60,8 @@ struct StrainedScene {
         scene.setRandomVelocities(1.0, seed);
         return velocity();
     }
-    void project() { solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure); }
+    void correct() { correctStrain(scene.cut(), before, scene.pressureFaces(kDt), strain, scene.liquid); }
+    void project() { scene.project(kDt); }
 };
 
 /// A ball of liquid that nothing holds.
@@ -136,7 +136,7 @@ TEST(StrainCorrection, DoesNothingWithoutASurface)
     scene.before = scene.scene.liquid.unpressed = scene.velocity();
     scene.project();
     const BlockArray<double, 3> once = scene.velocity();
-    correctStrain(scene.scene.cut(), scene.before, scene.scene.work, scene.strain, scene.scene.liquid);
+    scene.correct();
     double changed = 0.0, kept = 0.0;
     for (std::size_t i = 0; i < once.size(); ++i) changed = std::max(changed, std::abs(scene.velocity().block(0)[i] - once.block(0)[i]));
     scene.project();
@@ -159,7 +159,7 @@ StepEnergies stepFrom(StrainedScene& scene, const BlockArray<double, 3>& given)
     const double kinetic = scene.dot(given, given), strain = strainOf(given);
     scene.velocity() = scene.before = scene.scene.liquid.unpressed = given;
     scene.project();
-    correctStrain(scene.scene.cut(), scene.before, scene.scene.work, scene.strain, scene.scene.liquid);
+    scene.correct();
     scene.project();
     const BlockArray<double, 3> end = scene.velocity();
     return {scene.dot(end, end) / kinetic, strain / kinetic, strainOf(end) / kinetic};

@@ -49,7 +49,7 @@ struct Surface {
         });
         scene.findInside();
         scene.settings.surfaceTension = 1.0;
-        findSurfaceSteps(scene.cut(), scene.settings, liquid, work);
+        findSteps();
         scene.forEachFace([&](int a, const Vec3i& c) {
             const double step = work.step.block(scene.at(c).block, a)[scene.at(c).cell];
             if (step == 0.0) return;
@@ -57,6 +57,7 @@ struct Surface {
             faces.push_back({c.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a), kappa});
         });
     }
+    SurfaceSteps findSteps() { return findSurfaceSteps(scene.cut(), scene.settings, scene.givenSurface(), work); }
 };
 
 struct Errors {
@@ -162,15 +163,15 @@ TEST(SurfaceTension, ConstantCurvatureIsHeldToRounding)
         Vec3i::Constant(-12), Vec3i::Constant(12), [&](const Vec3& x) { return ballFill(x.norm() + 1.0e-9, 7.0); }, {}, 0.288);
     GridScene& scene = drop.scene;
     scene.setMasses();
+    const SurfaceSteps steps = drop.findSteps();
     for (int b = 0; b < scene.grid.count(); ++b)
         for (int n = 0; n < 3 * kBlockCells; ++n) {
             double& step = drop.work.step.block(b)[n];
             if (step != 0.0) step = std::copysign(kPressure, step);
         }
-    findPressureFaces(scene.cut(), scene.settings, kStep, scene.liquid, scene.work);
-    applySurfaceSteps(scene.cut(), scene.work, 1.0, drop.work, scene.liquid);
-    preparePressure(scene.grid, scene.liquid, scene.work);
-    const SolveReport report = solvePressure(scene.cut(), scene.solver, {}, scene.work, scene.liquid, scene.pressure);
+    const PressureSystem system = scene.system(kStep);
+    applySurfaceSteps(scene.cut(), system, 1.0, steps, scene.liquid);
+    const SolveReport report = scene.project(system);
     EXPECT_TRUE(report.converged);
     const double scale = kStep * kPressure / scene.grid.dx;  // what it would do to a full face alone
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_LT(std::abs(scene.velocity(a, c)), 1.0e-10 * scale); });

@@ -64,4 +64,30 @@ inline int eulerCharacteristic(const SurfaceMesh& mesh)
     return static_cast<int>(mesh.positions.size()) - static_cast<int>(mesh.triangles.size()) / 2;
 }
 
+/// Liquid of a shape.
+struct Body {
+    const char* name;
+    LiquidParticles liquid;
+};
+
+inline std::vector<Body> bodies()
+{
+    return {{"ball", ball(1.0)},
+            {"shaken ball", ball(1.0, 0.5)},
+            {"box", box({0.7, 1.1, 1.6})},
+            {"shaken box", box({0.7, 1.1, 1.6}, 0.5)},
+            {"sheet of one layer", box({1.5, kPitch, 1.7})},
+            {"sheet of two layers", box({1.5, 2.0 * kPitch, 1.7})},
+            {"shaken sheet of three layers", box({1.5, 3.0 * kPitch, 1.7}, 0.4)}};
+}
+
+/// v0 + gradient x.
+inline void setVelocities(LiquidParticles& liquid, const Vec3& v0, const Mat3& gradient)
+{
+    for (std::size_t p = 0; p < liquid.count; ++p) {
+        const Vec3 v = v0 + gradient * liquid.position(p);
+        for (int a = 0; a < kAxes; ++a) liquid.mode(a, 0)[p] = v[a];
+    }
+}
+
 }  // namespace sim::test
