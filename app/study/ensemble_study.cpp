@@ -41,7 +41,7 @@ Study ensembleStudy(const EnsembleRequest& request, const std::function<SceneSet
     const SceneSetup asWritten = load(request.scene);
     Study study = {.name = sim::asName(asWritten.scene.name + "_ensemble"), .file = request.folder / kEnsembleFile, .runs = {}, .retries = 1};
     for (int n = 0; n < request.count; ++n) {
-        const auto number = static_cast<std::uint64_t>(request.first + n);
+        const std::uint64_t number = static_cast<std::uint64_t>(request.first) + static_cast<std::uint64_t>(n);
         StudyRun run = {.name = fmt::format("{:03}", number), .values = {}, .request = request.scene, .setup = {}};
         for (const std::string& set : setsOfRun(request.varied, asWritten.scene, number)) {
             const std::size_t equals = set.find('=');

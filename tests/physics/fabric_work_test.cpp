@@ -66,6 +66,39 @@ TEST(FabricWork, PinsThatLeadGiveWhatIsGot)
     }
 }
 
+/// Pins that take energy from fabric take all that it loses: what it keeps of that it has from nothing, though its energy falls.
+TEST(FabricWork, PinsThatBrakeTakeWhatIsLost)
+{
+    Noise noise(4);
+    for (int n = 0; n < 16; ++n) {
+        ClothGrid grid;
+        grid.nodes = Vec2i(3, 5);
+        grid.spacing = {0.064, 0.064};
+        FabricPiece piece = pieceOf(clothGrid(grid), testing::wool(), {0.012, 0.01});
+        piece.material.young = std::pow(10.0, 7.0 + 0.5 * noise());
+        piece.material.density = 0.5;
+        Motion motion;
+        motion.addOscillation(0.0, 10.0, (Vec3::UnitY() + 0.3 * noise.vector()).normalized(), 0.05 + 0.02 * noise(), 5.0 + 2.0 * noise());
+        piece.pins = {pinned({0, 1}, false, motion)};
+        FabricSettings settings = withoutContact();
+        settings.tolerance = 0.0;  // that of scenes
+        settings.newton = 1 + n % 3;
+        settings.maxHalvings = 3;
+        FabricRun run(piece, settings);
+        run.gravity = Vec3(0.0, -90.0, 0.0);
+        run.solver.bookEnergy();
+        double given = 0.0, kinetic = 0.0, least = run.energies().total(), rise = 0.0;
+        for (int i = 0; i < 60; ++i) {
+            given += (*run.step(2.4e-3).energyChanges)[EnergyChange::Pins];
+            const double own = run.energies().total() - given;
+            rise = std::max(rise, own - least);
+            least = std::min(least, own);
+            kinetic = std::max(kinetic, run.energies().kinetic);
+        }
+        EXPECT_LT(rise, 0.01 * kinetic) << "cloth " << n;
+    }
+}
+
 /// Does a run of so many steps of length h [s] end in a jam? Until then the fabric must have no energy that nothing gave.
 bool endsInAJam(FabricRun& run, int steps, double h)
 {

@@ -42,13 +42,12 @@ double VertexSolver::referenceEnergy(double kinetic, double h) const
 /// was not seen at its start; less than what is not felt counts as none.
 double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state)
 {
-    const double total = energies(state, gravity).total();
-    if (total <= startEnergies_.total()) return 0.0;
+    const double made = energies(state, gravity).total() - allowedEnergy(h, gravity, state) - undetectedAtStart_;
+    if (made <= 0.0) return 0.0;
     attemptGroups_.begin();
     findGroups(attemptGroups_);
     const double scale = referenceEnergy(ownKinetic(fabric_, attemptGroups_, mass_, state), h);
-    if (total <= startEnergies_.total() + kNegligibleGain * scale) return 0.0;
-    return std::max(0.0, total - allowedEnergy(h, gravity, state) - undetectedAtStart_) / scale;
+    return made <= kNegligibleGain * scale ? 0.0 : made / scale;
 }
 
 /// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
