@@ -79,14 +79,29 @@ std::string workPanel(const PrecisionCase& of, std::size_t number)
     return text + "\n";
 }
 
-std::string head(std::size_t panels, const std::string& picture)
+/// What stands before the panels: a picture whose key has room for all names below them.
+std::string head(std::size_t panels, const std::vector<std::string>& names, const std::string& picture)
 {
+    constexpr std::size_t kPanelWidth = 640, kPerLetter = 7, kBesideName = 50, kPerRow = 14, kAboveKey = 490;  // pixels
+    std::size_t longest = 0;
+    for (const std::string& name : names) longest = std::max(longest, name.size());
+    const std::size_t columns = std::max<std::size_t>(1, kPanelWidth * panels / (kPerLetter * longest + kBesideName));
+    const std::size_t rows = std::max<std::size_t>(5, (names.size() + columns - 1) / columns);
     return fmt::format(
-        "set terminal pngcairo size {},560 font 'DejaVu Sans,11'\nset output {}\n"
+        "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\n"
         "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid lc rgb '#e4e4e4' lw 1\n"
-        "set logscale xy\nset format '10^{{%T}}'\nset bmargin 9\nset key at screen 0.5,0.03 center bottom vertical "
-        "maxrows 5 samplen 2.5 font ',9'\n",
-        640 * panels, gnuplotText(picture));
+        "set logscale xy\nset format '10^{{%T}}'\nset bmargin {}\nset key at screen 0.5,0.03 center bottom vertical "
+        "maxrows {} samplen 2.5 font ',9'\n",
+        kPanelWidth * panels, kAboveKey + kPerRow * rows, gnuplotText(picture), 4 + rows, rows);
+}
+
+/// Names in a picture's key: of all curves of a case, of the best of all, and of the published scheme.
+std::vector<std::string> namesOf(const PrecisionCase& of)
+{
+    std::vector<std::string> names = {"best of all", "published scheme"};
+    for (const Curve& curve : curvesOf(of, [&](auto&method, auto&integrator) { return pointsOf(of.costsOf(method, integrator)); }))
+        names.push_back(curve.name);
+    return names;
 }
 
 std::vector<std::array<double, 2>> viscositiesOf(const PrecisionCase& of, const std::string& method, const std::string& integrator)
@@ -104,7 +119,11 @@ std::vector<std::array<double, 2>> viscositiesOf(const PrecisionCase& of, const 
 
 std::string workPrecisionScript(const std::vector<const PrecisionCase*>& cases, const std::string& picture)
 {
-    std::string text = head(cases.size(), picture) + "set xlabel 'run time [s]'\nset ylabel 'relative error'\n";
+    std::vector<std::string> names;
+    for (const PrecisionCase* of : cases)
+        for (const std::string& name : namesOf(*of))
+            if (!std::ranges::count(names, name)) names.push_back(name);
+    std::string text = head(cases.size(), names, picture) + "set xlabel 'run time [s]'\nset ylabel 'relative error'\n";
     if (cases.size() > 1) text += fmt::format("set multiplot layout 1,{}\n", cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) text += workPanel(*cases[i], i);
     return cases.size() > 1 ? text + "unset multiplot\n" : text;
@@ -113,9 +132,9 @@ std::string workPrecisionScript(const std::vector<const PrecisionCase*>& cases, 
 std::string viscosityScript(const PrecisionCase& of, const std::string& picture)
 {
     const auto curves = curvesOf(of, [&](auto& method, auto& integrator) { return viscositiesOf(of, method, integrator); });
-    std::string text =
-        head(1, picture) + fmt::format("set xlabel 'time step [s]'\nset ylabel '|numerical viscosity| [cm^2/s]'\nset title {} noenhanced\n",
-                                       gnuplotText(of.title + ", " + of.precision.resolutions.front().name));
+    std::string text = head(1, namesOf(of), picture) +
+                       fmt::format("set xlabel 'time step [s]'\nset ylabel '|numerical viscosity| [cm^2/s]'\nset title {} noenhanced\n",
+                                   gnuplotText(of.title + ", " + of.precision.resolutions.front().name));
     for (std::size_t i = 0; i < curves.size(); ++i) text += block(fmt::format("curve_{}", i), curves[i].points);
     for (std::size_t i = 0; i < curves.size(); ++i)
         text += fmt::format("{} $curve_{} with linespoints pt 7 ps 0.7 lw 1.6 {} title {} noenhanced", i == 0 ? "plot" : ", \\\n ", i,

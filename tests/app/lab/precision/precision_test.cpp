@@ -1,3 +1,4 @@
+#include "app/lab/precision/precision_plot.h"
 #include "app/lab/precision/precision_report.h"
 #include "app/lab/precision/precision_table.h"
 #include "app/lab/precision/reference_run.h"
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 namespace app {
 namespace {
@@ -173,6 +175,32 @@ TEST(Precision, SaysWhatPartOfTheRunTimeIsNeeded)
     PrecisionCase without = caseOf({{1.0, 1.0}});
     without.precision.published = {};
     EXPECT_EQ(gainSentence(without), "");
+}
+
+/// The key of a plot is cut off where it has fewer rows than names stand below each other.
+TEST(Precision, PlotsNameAllOfTheirCurves)
+{
+    for (const std::size_t letters : {5, 21, 44}) {
+        PrecisionCase of = caseOf({});
+        of.precision.integrators = {{"-", {}}};
+        of.precision.methods.clear();
+        of.rows.clear();
+        for (int m = 0; m < 14; ++m) {
+            const std::string name = fmt::format("{:{}}", m, letters);
+            of.precision.methods.push_back({name, {}});
+            PrecisionRow& row = of.rows.emplace_back();
+            row.names = {name, "-", "short", "-"};
+            row.wallSeconds = row.error = 1.0 + m;
+        }
+        const std::string script = workPrecisionScript({&of}, "plot.png");
+        std::size_t rows = 0;
+        ASSERT_EQ(std::sscanf(script.c_str() + script.find("maxrows"), "maxrows %zu", &rows), 1);
+        const std::size_t columns = (16 + rows - 1) / rows;
+        EXPECT_LE(columns * (letters * 7 + 40), 640u) << letters << " letters in " << rows << " rows";
+        int height = 0;
+        ASSERT_EQ(std::sscanf(script.c_str() + script.find("size 640,"), "size 640,%d", &height), 1);
+        EXPECT_GE(height, 400 + 14 * static_cast<int>(rows));
+    }
 }
 
 TEST(Precision, MistakesNameTheirLine)
