@@ -99,8 +99,8 @@ std::string head(std::size_t panels, const std::vector<std::string>& names, cons
 std::vector<std::string> namesOf(const PrecisionCase& of)
 {
     std::vector<std::string> names = {"best of all", "published scheme"};
-    for (const Curve& curve : curvesOf(of, [&](auto&method, auto&integrator) { return pointsOf(of.costsOf(method, integrator)); }))
-        names.push_back(curve.name);
+    const auto curves = curvesOf(of, [&](auto& method, auto& integrator) { return pointsOf(of.costsOf(method, integrator)); });
+    for (const Curve& curve : curves) names.push_back(curve.name);
     return names;
 }
 

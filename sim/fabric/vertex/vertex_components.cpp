@@ -8,6 +8,13 @@
 
 namespace sim {
 
+namespace {
+
+/// Of its error in the step's first iteration a component is solved to this times the share that is asked for (LinearTolerance) [-].
+constexpr double kShareOfFirst = 0.3;
+
+}  // namespace
+
 void VertexSystem::PieceLanes::findCommon()
 {
     common = *std::ranges::max_element(piece);
@@ -75,7 +82,7 @@ void VertexSystem::setTargets(const LinearTolerance& tolerance, bool isFirst)
     for (Component& c : conjugate_) c.target = 0.0;
     if (!isFirst)
         for (int piece = 0; piece < components_.pieces(); ++piece)
-            conjugate_[components_.ofPiece(piece)].target += 0.09 * pieceMass_[piece] * pieceAtFirst_[piece];
+            conjugate_[components_.ofPiece(piece)].target += kShareOfFirst * kShareOfFirst * pieceMass_[piece] * pieceAtFirst_[piece];
     const double share = tolerance.share * tolerance.share, left = tolerance.left * tolerance.left;
     for (Component& c : conjugate_) {
         const double enough = std::max(share * std::max(c.energy, c.target), c.mass * tolerance.speed * tolerance.speed);
