@@ -1,4 +1,5 @@
 #include "sim/fabric/energies.h"
+#include "sim/fabric/owed_energy.h"
 #include "sim/fabric/pins.h"
 #include "sim/fabric/vertex/vertex_solver.h"
 
@@ -58,23 +59,16 @@ std::vector<char> VertexSolver::heldBySolids() const
     return held;
 }
 
-/// Work of what acted from start_ to the state, by the forces at the state: backward Euler's are those at the end of a step.
-EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state) const
+/// Elastic and viscous gradient at the state, over a step of a length [s] (internalGradient).
+InternalGradient VertexSolver::gradientAt(const FabricState& state, double length) const
 {
-    const auto gradientOver = [&](double length) {
-        return internalGradient(fabric_, state, length, system_.unknowns(), system_.rods(), system_.shells());
-    };
-    const auto along = [&](const InternalGradient& gradient) {
-        double sum = 0.0;
-        for (std::size_t v = 0; v < state.x.size(); ++v) sum += gradient.byPosition[v].dot(state.x[v] - start_.x[v]);
-        for (std::size_t e = 0; e < state.theta.size(); ++e) sum += gradient.byAngle[e] * (state.theta[e] - start_.theta[e]);
-        return sum;
-    };
-    EnergyChanges changes;
-    InternalGradient gradient = gradientOver(h);
-    const double elastic = along(gradientOver(std::numeric_limits<double>::infinity()));
-    changes[EnergyChange::Damping] = elastic - along(gradient);
-    changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - energies(start_, gravity).elastic() - elastic;
+    return internalGradient(fabric_, state, length, system_.unknowns(), system_.rods(), system_.shells());
+}
+
+/// Adds the work of pins, solids, contact and liquid from start_ to the state, by the forces at the state: backward Euler's are those at the end
+/// of a step. What contact adds to the gradient is its force.
+void VertexSolver::bookOutside(double h, const Vec3& gravity, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes) const
+{
     bookContacts(state, changes, gradient.byPosition);
     changes[EnergyChange::Contact] += state.stored.pressed - start_.stored.pressed;
     changes[EnergyChange::Friction] += state.stored.gripped - start_.stored.gripped;
@@ -83,30 +77,57 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     const double part = h / wholeStep_;
     const std::vector<char> isHeld = heldBySolids();
     for (std::size_t v = 0; v < state.v.size(); ++v) {
-        const Vec3 faster = state.v[v] - start_.v[v];
         Vec3 byLiquid = Vec3::Zero();
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
-        changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * faster.squaredNorm();
         if (!fabric_.pinned[v] && !isHeld[v] && nearestPin_[v] < 0) continue;
-        const Vec3 byHolder = mass_[v] * (faster - h * gravity) - byLiquid + h * gradient.byPosition[v];
+        const Vec3 byHolder = mass_[v] * (state.v[v] - start_.v[v] - h * gravity) - byLiquid + h * gradient.byPosition[v];
         if (!fabric_.pinned[v] && !isHeld[v]) {
             // Forces within the fabric sum up to nothing, and so do their errors: what Newton has left of the balance of a free vertex, pins have.
             changes[EnergyChange::Pins] += byHolder.dot(state.v[nearestPin_[v]]);
             continue;
         }
-        const double work = byHolder.dot(state.v[v]);
         // Solids at rest do no work on what they hold: what Newton has left of the balance there is the step's own.
         const EnergyChange bySolid = solidsMove_ ? EnergyChange::Obstacles : EnergyChange::Implicit;
-        changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += work;
+        changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += byHolder.dot(state.v[v]);
     }
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
-        const double inertia = twistInertia(fabric_, state.absorbed, e), faster = state.omega[e] - start_.omega[e];
-        changes[EnergyChange::Implicit] -= 0.5 * inertia * faster * faster;
         if (!fabric_.edges.twistHeld[e]) continue;
+        const double inertia = twistInertia(fabric_, state.absorbed, e), faster = state.omega[e] - start_.omega[e];
         const double turn = pinTurn(fabric_, restReference_, startTime_, startTime_ + h, state, static_cast<int>(e));
         changes[EnergyChange::Pins] += (inertia * faster / h + gradient.byAngle[e]) * turn;
     }
+}
+
+/// What pins, solids and liquid gave from start_ to the state [erg].
+double VertexSolver::workOutside(double h, const Vec3& gravity, const FabricState& state) const
+{
+    EnergyChanges changes;
+    InternalGradient gradient = gradientAt(state, h);
+    bookOutside(h, gravity, state, gradient, changes);
+    return externalWork(changes);
+}
+
+/// Work of all that acted from start_ to the state.
+EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state) const
+{
+    const auto along = [&](const InternalGradient& gradient) {
+        double sum = 0.0;
+        for (std::size_t v = 0; v < state.x.size(); ++v) sum += gradient.byPosition[v].dot(state.x[v] - start_.x[v]);
+        for (std::size_t e = 0; e < state.theta.size(); ++e) sum += gradient.byAngle[e] * (state.theta[e] - start_.theta[e]);
+        return sum;
+    };
+    EnergyChanges changes;
+    InternalGradient gradient = gradientAt(state, h);
+    const double elastic = along(gradientAt(state, std::numeric_limits<double>::infinity()));
+    changes[EnergyChange::Damping] = elastic - along(gradient);
+    changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - startEnergies_.elastic() - elastic;
+    for (std::size_t v = 0; v < state.v.size(); ++v) changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * (state.v[v] - start_.v[v]).squaredNorm();
+    for (std::size_t e = 0; e < state.omega.size(); ++e) {
+        const double faster = state.omega[e] - start_.omega[e];
+        changes[EnergyChange::Implicit] -= 0.5 * twistInertia(fabric_, state.absorbed, e) * faster * faster;
+    }
+    bookOutside(h, gravity, state, gradient, changes);
     return changes;
 }
 

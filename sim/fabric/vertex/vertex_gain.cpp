@@ -24,7 +24,7 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 /// liquid's work alone, and the rest need not be known.
 double VertexSolver::allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const
 {
-    if (isDriven_) return startEnergies_.total() + externalWork(energyChanges(h, gravity, state));
+    if (isDriven_) return startEnergies_.total() + workOutside(h, gravity, state);
     if (!loads_) return startEnergies_.total();
     return startEnergies_.total() + h / wholeStep_ * parallelSum(state.x.size(), [&](std::size_t v) {
                                         return (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v])).dot(state.v[v]);

@@ -97,6 +97,9 @@ class VertexSolver final : public FabricIntegrator {
     void findMomenta(const FabricState& state);
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);
     std::vector<char> heldBySolids() const;
+    InternalGradient gradientAt(const FabricState& state, double length) const;
+    void bookOutside(double h, const Vec3& gravity, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes) const;
+    double workOutside(double h, const Vec3& gravity, const FabricState& state) const;
     EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
