@@ -83,10 +83,12 @@ void VertexSolver::removeSpuriousGain(const Part& part)
         if (canPay()) break;
         goPart(part, way, share);
     }
-    if (!canPay()) {  // what is in the way of the drift deforms it
-        groups_.holdAll();
+    if (!canPay()) {  // what is in the way of the drift deforms it: all stays where it was, and keeps the momentum of its drift
         std::ranges::fill(way.drift, Vec3::Zero());
         goPart(part, way, 0.0);
+        const std::vector<Vec3> drift = groups_.drifts(mass_, start_.v);
+        for (std::size_t v = 0; v < state.v.size(); ++v)
+            if (!fabric_.pinned[v]) state.v[v] += drift[groups_.pieceOf(static_cast<int>(v))];
     }
     slowDown(due(), fabric_, groups_, mass_, state);
 }
