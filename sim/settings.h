@@ -94,10 +94,12 @@ enum class MembraneModel { StVk, NeoHookean };
 enum class BendingModel { ShapeOperator, Hinge };
 enum class HingeMeasure { Angle, Sin, Tan };
 enum class TorsionModel { Ellipse, Polar };
+enum class FabricTimeIntegrator { SecondOrder, BackwardEuler };
 
 /// How fabric is solved for (fabric/vertex/README.md, The step in vertices); what it is made of stands in FabricMaterial (fabric/pieces/piece.h).
 struct FabricSettings {
-    FabricSolver solver = FabricSolver::Vertex;  ///< Off: pins follow their motions, all else stays
+    FabricSolver solver = FabricSolver::Vertex;                             ///< Off: pins follow their motions, all else stays
+    FabricTimeIntegrator integrator = FabricTimeIntegrator::BackwardEuler;  ///< vertex only
     MembraneModel membrane = MembraneModel::StVk;
     BendingModel bending = BendingModel::ShapeOperator;
     double hingeConstant = 1.0;  ///< c (fabric/shells/README.md, Hinges), bending hinge only; the published code has 3 [-]

@@ -82,6 +82,13 @@ void visitFabric(V& v, Fabric& fabric)
     v.number("fabric/spring_step", "s", fabric.springStep);
     v.number("fabric/taken_fraction", "-", fabric.vertexSolver.lastFraction);
     v.number("fabric/owed_energy", "erg", fabric.vertexSolver.owed);
+    v.list("fabric/force", "dyn", fabric.vertexSolver.force);
+    v.list("fabric/mean_force", "dyn", fabric.vertexSolver.meanForce);
+    v.list("fabric/mean_contact_force", "dyn", fabric.vertexSolver.meanContactForce);
+    v.list("fabric/torque", "dyn cm", fabric.vertexSolver.torque);
+    v.list("fabric/mean_torque", "dyn cm", fabric.vertexSolver.meanTorque);
+    v.number("fabric/last_step", "s", fabric.vertexSolver.lastStep);
+    v.number("fabric/recoverable_energy", "erg", fabric.vertexSolver.recoverable);
     v.number("fabric/most_kinetic_energy", "erg", fabric.mostKinetic);
     visitFriction(v, "fabric/friction_on_fabric", fabric.vertexSolver.onFabric);
     v.list("fabric/across", "-", fabric.gridSolver.across);

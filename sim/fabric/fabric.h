@@ -103,6 +103,13 @@ struct FabricState {
         double owed = 0.0;          ///< energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
         double lastFraction = 1.0;  ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
         FrictionForces onFabric;    ///< friction between primitives, as contact/primitives.h counts them
+        /// Of integrator second_order only; empty before its first step.
+        std::vector<Vec3> force;                 ///< the fabric's own on each vertex at the end of the last step, but for impulses [dyn]
+        std::vector<Vec3> meanForce;             ///< recursive mean of those of the steps so far (bossak.h) [dyn]
+        std::vector<Vec3> meanContactForce;      ///< the part of it by all that touches the vertex [dyn]
+        std::vector<double> torque, meanTorque;  ///< the same on the twist of each yarn edge [dyn cm]
+        double lastStep = 0.0;                   ///< length of the last step or part of one [s]
+        double recoverable = 0.0;                ///< energy that its last steps took, half forgotten in each, and may yet give back [erg]
     };
     /// Of solver grid only; empty until its first step.
     struct GridSolverPart {

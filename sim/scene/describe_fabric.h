@@ -35,6 +35,13 @@ inline std::span<const Choice<HingeMeasure>> choicesOf(HingeMeasure)
     return kAll;
 }
 
+inline std::span<const Choice<FabricTimeIntegrator>> choicesOf(FabricTimeIntegrator)
+{
+    static constexpr Choice<FabricTimeIntegrator> kAll[] = {{"second_order", FabricTimeIntegrator::SecondOrder},
+                                                            {"backward_euler", FabricTimeIntegrator::BackwardEuler}};
+    return kAll;
+}
+
 inline std::span<const Choice<TorsionModel>> choicesOf(TorsionModel)
 {
     static constexpr Choice<TorsionModel> kAll[] = {{"ellipse", TorsionModel::Ellipse}, {"polar", TorsionModel::Polar}};
@@ -45,6 +52,8 @@ template <class V>
 void describe(V& v, FabricSettings& f)
 {
     v.fixed([&](auto& w) { w.choice("solver", f.solver, "off: pins follow their motions, all else stays where it is"); });
+    v.choice("integrator", f.integrator,
+             "second_order keeps the energy of what swings, backward_euler takes it; solver vertex only: grid is of first order");
     v.choice("membrane", f.membrane, "How cloth resists stretching");
     v.choice("bending", f.bending, "How cloth resists bending");
     v.group("hinge", "Read by bending: hinge only", [&](auto& w) {

@@ -28,7 +28,8 @@ void addFabricReaders(const Scene& scene, std::vector<Reader>& readers)
     for (std::string_view path : {"time.max_cfl.fabric", "transfer.method.fabric", "transfer.modes.fabric", "transfer.xi.fabric",
                                   "transfer.keep.fabric_", "materials.*.contact_stiffness", "materials.*.pin_stiffness"})
         readers.push_back({path, hasFabric && isGrid, "fabric.solver grid"});
-    for (std::string_view path : {"fabric.newton", "fabric.max_halvings"}) readers.push_back({path, isVertex, "fabric.solver vertex"});
+    for (std::string_view path : {"fabric.newton", "fabric.max_halvings", "fabric.integrator"})
+        readers.push_back({path, isVertex, "fabric.solver vertex"});
     readers.push_back({"materials.*.friction_angle", f.contact, "fabric.contact true"});
     readers.push_back({"fabric.hinge.", f.bending == BendingModel::Hinge, "fabric.bending hinge"});
     readers.push_back({"coupling.drag_exponent", c.drag != DragLaw::Linear, "coupling.drag nonlinear"});

@@ -53,6 +53,8 @@ class FabricObstacles {
     int inScene(int obstacle) const { return bodies_[obstacle].inScene; }
     /// Of those felt, the one that is nearest to a place.
     int nearest(const Vec3& x) const;
+    /// By how much one of those felt moves a place on it in the step [cm].
+    Vec3 moved(int obstacle, const Vec3& place) const { return bodies_[obstacle].carry * place - place; }
     /// Poses and motion of a step from t0 to t1 [s].
     void moveTo(double t0, double t1);
     /// How the points of the fabric come into a step of h [s].

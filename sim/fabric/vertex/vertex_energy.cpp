@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 namespace sim {
 
@@ -65,9 +66,52 @@ InternalGradient VertexSolver::gradientAt(const FabricState& state, double lengt
     return internalGradient(fabric_, state, length, system_.unknowns(), system_.rods(), system_.shells());
 }
 
+/// What a vertex needs beyond the fabric's own forces and the liquid to have come to its velocity [g cm/s].
+/// @param gradient  elastic, viscous and of contact, at the state [dyn]
+Vec3 VertexSolver::impulseOfHolder(std::size_t v, double h, const FabricState& state, const Vec3& gradient) const
+{
+    const Vec3 gained = mass_[v] * (state.v[v] - start_.v[v]);
+    if (!isSecondOrder_) return gained - h * (mass_[v] * gravity_ - gradient);
+    const Vec3 abrupt = abrupt_[v] - limiterForce(v, h);
+    return gained - h * mass_[v] * gravity_ - 0.25 * h * (meanForceBefore(v, h) - 3.0 * gradient - 2.0 * abrupt);
+}
+
+/// Its work [erg]: on the way that the vertex went, but for what changes the kinetic energy.
+double VertexSolver::workOfHolder(std::size_t v, double h, const FabricState& state, const Vec3& impulse) const
+{
+    if (!isSecondOrder_) return impulse.dot(state.v[v]);
+    const Vec3 mean = (state.x[v] - start_.x[v]) / h;
+    const Vec3 gained = mass_[v] * (state.v[v] - start_.v[v]);
+    return impulse.dot(mean) + gained.dot(workingVelocity(v, state) - mean);
+}
+
+/// Work of a pin with the scheme of second order [erg]: elastic energy changes by the mean of the forces at both ends of the way.
+/// @param before  the fabric's own force at the start of the step [dyn]
+double VertexSolver::workOfPin(std::size_t v, double h, const FabricState& state, const Vec3& byLiquid, const Vec3& gradient,
+                               const Vec3& before) const
+{
+    const Vec3 way = state.x[v] - start_.x[v];
+    const Vec3 force = 0.5 * (before - gradient);
+    const double kinetic = 0.5 * mass_[v] * (state.v[v].squaredNorm() - start_.v[v].squaredNorm());
+    return kinetic - way.dot(force + mass_[v] * gravity_ + byLiquid / h);
+}
+
+void VertexSolver::bookPins(double h, const FabricState& state, std::span<const Vec3> gradient, EnergyChanges& changes)
+{
+    const std::vector<Vec3>& before = start_.vertexSolver.force;
+    pinForce_.resize(fabric_.pins.vertex.size());
+    for (std::size_t i = 0; i < pinForce_.size(); ++i) {
+        const int v = fabric_.pins.vertex[i];
+        pinForce_[i] = -gradient[v];
+        Vec3 byLiquid = Vec3::Zero();
+        if (loads_) byLiquid = h / wholeStep_ * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
+        changes[EnergyChange::Pins] += workOfPin(v, h, state, byLiquid, gradient[v], before.empty() ? pinForce_[i] : before[v]);
+    }
+}
+
 /// Adds the work of pins, solids, contact and liquid from start_ to the state, by the forces at the state: backward Euler's are those at the end
 /// of a step. What contact adds to the gradient is its force.
-void VertexSolver::bookOutside(double h, const Vec3& gravity, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes) const
+void VertexSolver::bookOutside(double h, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes)
 {
     bookContacts(state, changes, gradient.byPosition);
     changes[EnergyChange::Contact] += state.stored.pressed - start_.stored.pressed;
@@ -79,9 +123,9 @@ void VertexSolver::bookOutside(double h, const Vec3& gravity, const FabricState&
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         Vec3 byLiquid = Vec3::Zero();
         if (loads_) byLiquid = part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
-        changes[EnergyChange::Drag] += byLiquid.dot(state.v[v]);
+        changes[EnergyChange::Drag] += byLiquid.dot(workingVelocity(v, state));
         if (!fabric_.pinned[v] && !isHeld[v] && nearestPin_[v] < 0) continue;
-        const Vec3 byHolder = mass_[v] * (state.v[v] - start_.v[v] - h * gravity) - byLiquid + h * gradient.byPosition[v];
+        const Vec3 byHolder = impulseOfHolder(v, h, state, gradient.byPosition[v]) - byLiquid;
         if (!fabric_.pinned[v] && !isHeld[v]) {
             // Forces within the fabric sum up to nothing, and so do their errors: what Newton has left of the balance of a free vertex, pins have.
             changes[EnergyChange::Pins] += byHolder.dot(state.v[nearestPin_[v]]);
@@ -89,8 +133,10 @@ void VertexSolver::bookOutside(double h, const Vec3& gravity, const FabricState&
         }
         // Solids at rest do no work on what they hold: what Newton has left of the balance there is the step's own.
         const EnergyChange bySolid = solidsMove_ ? EnergyChange::Obstacles : EnergyChange::Implicit;
-        changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += byHolder.dot(state.v[v]);
+        if (isSecondOrder_ && fabric_.pinned[v]) continue;
+        changes[fabric_.pinned[v] ? EnergyChange::Pins : bySolid] += workOfHolder(v, h, state, byHolder);
     }
+    if (isSecondOrder_) bookPins(h, state, gradient.byPosition, changes);
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         if (!fabric_.edges.twistHeld[e]) continue;
         const double inertia = twistInertia(fabric_, state.absorbed, e), faster = state.omega[e] - start_.omega[e];
@@ -100,16 +146,16 @@ void VertexSolver::bookOutside(double h, const Vec3& gravity, const FabricState&
 }
 
 /// What pins, solids and liquid gave from start_ to the state [erg].
-double VertexSolver::workOutside(double h, const Vec3& gravity, const FabricState& state) const
+double VertexSolver::workOutside(double h, const FabricState& state)
 {
     EnergyChanges changes;
     InternalGradient gradient = gradientAt(state, h);
-    bookOutside(h, gravity, state, gradient, changes);
+    bookOutside(h, state, gradient, changes);
     return externalWork(changes);
 }
 
 /// Work of all that acted from start_ to the state.
-EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state) const
+EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state)
 {
     const auto along = [&](const InternalGradient& gradient) {
         double sum = 0.0;
@@ -121,13 +167,19 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     InternalGradient gradient = gradientAt(state, h);
     const double elastic = along(gradientAt(state, std::numeric_limits<double>::infinity()));
     changes[EnergyChange::Damping] = elastic - along(gradient);
+    if (isSecondOrder_) {
+        bookOutside(h, state, gradient, changes);
+        const double all = std::accumulate(changes.of.begin(), changes.of.end(), 0.0);
+        changes[EnergyChange::Implicit] += energies(state, gravity).total() - startEnergies_.total() - all;
+        return changes;
+    }
     changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - startEnergies_.elastic() - elastic;
     for (std::size_t v = 0; v < state.v.size(); ++v) changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * (state.v[v] - start_.v[v]).squaredNorm();
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double faster = state.omega[e] - start_.omega[e];
         changes[EnergyChange::Implicit] -= 0.5 * twistInertia(fabric_, state.absorbed, e) * faster * faster;
     }
-    bookOutside(h, gravity, state, gradient, changes);
+    bookOutside(h, state, gradient, changes);
     return changes;
 }
 

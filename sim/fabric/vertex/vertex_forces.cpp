@@ -33,11 +33,11 @@ Vec3 VertexSolver::forceAtEnd(const ObstacleContact& contact) const
     return contact.gradient + contact.stiffness * change;
 }
 
-void VertexSolver::reportForces(double h, const Vec3& gravity, const FabricState& state) const
+void VertexSolver::reportForces(double h, const FabricState& state) const
 {
     reportContacts(h, state);
     if (solidLimiterActed_) reportSolidLimiter(h, state);
-    if (!fabric_.pins.vertex.empty()) reportPins(h, gravity, state);
+    if (!fabric_.pins.vertex.empty()) reportPins(h, state);
 }
 
 /// Penalty and friction, on solids and between pieces of the scene.
@@ -71,14 +71,14 @@ void VertexSolver::reportSolidLimiter(double h, const FabricState& state) const
 }
 
 /// What a held vertex, or a held twist angle, would do if it were not.
-void VertexSolver::reportPins(double h, const Vec3& gravity, const FabricState& state) const
+void VertexSolver::reportPins(double h, const FabricState& state) const
 {
     const std::vector<int>& pinned = fabric_.pins.vertex;
     const std::span<const double> gradient = system_.heldGradient();
     const double part = h / wholeStep_;
     for (std::size_t i = 0; i < pinned.size(); ++i) {
         const int v = pinned[i];
-        Vec3 got = mass_[v] * (h * gravity - (state.v[v] - start_.v[v])) - h * Vec3(gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]);
+        Vec3 got = -impulseOfHolder(v, h, state, Vec3(gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]));
         if (loads_) got += part * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
         forces_->pins[fabric_.pins.motion[i]] += Impulse::at(state.x[v], got);
     }

@@ -50,6 +50,26 @@ void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& stat
     }
     for (std::size_t v = 0; v < state.v.size(); ++v)
         if (const int group = groupOf(v); group >= 0) state.v[v] += missing_[group];
+    if (isSecondOrder_) keepForces(state);
+}
+
+/// Forces on a group that nothing holds sum up to none, whatever its pieces remember of what they have parted from.
+void VertexSolver::keepForces(FabricState& state)
+{
+    for (std::vector<Vec3>* force : {&state.vertexSolver.force, &state.vertexSolver.meanForce}) {
+        if (force->empty()) return;
+        missing_.assign(groups_.pieces(), Vec3::Zero());
+        groupInertia_.assign(groups_.pieces(), Vec3::Zero());
+        const auto groupOf = [&](std::size_t v) { return groups_.freeGroupOf(groups_.pieceOf(static_cast<int>(v))); };
+        for (std::size_t v = 0; v < force->size(); ++v) {
+            const int group = groupOf(v);
+            if (group < 0) continue;
+            missing_[group] -= (*force)[v];
+            groupInertia_[group] += Vec3::Constant(mass_[v]);
+        }
+        for (std::size_t v = 0; v < force->size(); ++v)
+            if (const int group = groupOf(v); group >= 0) (*force)[v] += mass_[v] * missing_[group].cwiseQuotient(groupInertia_[group]);
+    }
 }
 
 }  // namespace sim

@@ -52,7 +52,7 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     findContacts(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
     hasMovedSinceDetection_ = true;
     part.clock.start(Stage::FabricElastic);
-    const NewtonPoint point{state, free_, freeAngle_, inertia_, h};
+    const NewtonPoint point{state, free_, freeAngle_, inertia_, h, isSecondOrder_ ? 2.0 : 1.0};
     system_.assemble(point, touching_, contacts_);
     part.clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
@@ -134,7 +134,8 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         // Steps that something drives are halved instead: shorter ones take less energy from it that fabric cannot follow.
         if (frictionError > kFrictionError && newton.count < (isDriven_ ? most : std::max(most, kMostForFriction))) continue;
         newton.hasConverged = newton.hasConverged && frictionError <= kFrictionError;
-        finish(h, state);
+        findRates(h, state);
+        storeContacts(h, state);
         if (!settled) settled = newton;
         newton.hasConverged = settled->hasConverged, newton.wanted = settled->wanted, newton.taken = settled->taken;
         if (gain(h, part.gravity, state) <= kNegligibleGain) return;

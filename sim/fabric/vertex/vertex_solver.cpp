@@ -31,6 +31,7 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
                            std::optional<Cohesion> cohesion)
     : fabric_(fabric),
       settings_(settings),
+      isSecondOrder_(settings.integrator == FabricTimeIntegrator::SecondOrder),
       system_(fabric, settings),
       cohesion_(std::move(cohesion)),
       groups_(fabric),
@@ -60,6 +61,7 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
     loads_ = loads.onVertices;
     wholeStep_ = h;
     parallelFor(fabric_.vertexCount(), 4096, [&](std::size_t v) { mass_[v] = fabric_.mass[v] + state.absorbed[v]; });
+    gravity_ = gravity;
     referenceAcceleration_ = referenceAcceleration(
         gravity, mass_, state.v, fabric_.radius, [&] { return energies(state, gravity).elastic(); }, h);
     const double farthest = parallelMax(state.x.size(), [&](std::size_t v) { return state.x[v].cwiseAbs().maxCoeff(); });
@@ -98,12 +100,16 @@ void VertexSolver::predict(const Part& step)
         const double mass = mass_[v];
         inertia_[v] = Vec3::Constant(mass);
         move_[v] = h * state.v[v] + fall;
-        Vec3 byForces = h * h * state.acceleration[v];
-        if (loads_) {
+        if (isSecondOrder_) {
+            const bossak::Vertex at = bossakOf(v, h);
+            inertia_[v] = at.inertia();
+            move_[v] = at.freeMove();
+        } else if (loads_) {
             inertia_[v] += part * loads_->drag[v];
             move_[v] = (mass * move_[v] + (h * part) * loads_->impulse[v]).cwiseQuotient(inertia_[v]);
-            byForces = (mass * byForces).cwiseQuotient(inertia_[v]);
         }
+        Vec3 byForces = h * h * state.acceleration[v];
+        if (loads_ || isSecondOrder_) byForces = (mass * byForces).cwiseQuotient(inertia_[v]);
         const double most = expectedMove * fabric_.radius[v], size = byForces.norm();
         free_[v] = state.x[v] + move_[v];
         expected_[v] = move_[v] + byForces;
@@ -138,6 +144,7 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     startEnergies_ = energies(start_, part.gravity);
     start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
     startIsChecked_ = false;
+    pinForce_.clear();
     undetectedAtStart_ = 0.0;
     part.clock.start(Stage::FabricElastic);
     system_.rods().startStep(state);
@@ -154,7 +161,7 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     state.springStep = springStep_;
     limits_ = {};
     solidLimits_ = {};
-    if (contact_) contact_->beginStep(state.x, mass_, h, springStep_, start_.vertexSolver.onFabric);
+    if (contact_) contact_->beginStep(state.x, mass_, stepOfInertia(h), springStep_, start_.vertexSolver.onFabric);
 
     if (!followSolids(part, isLast)) return false;
     parallelFor(freeAngle_.size(), 4096,
@@ -163,21 +170,9 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     return true;
 }
 
-/// Velocities by which the state came from that at the start, and what the fabric's own forces did.
-void VertexSolver::findRates(double h, FabricState& state) const
+/// What a step leaves behind when the fabric is where it ends, besides rates: what friction holds, and the energy of contact.
+void VertexSolver::storeContacts(double h, FabricState& state)
 {
-    parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
-        state.v[v] = (state.x[v] - start_.x[v]) / h;
-        state.acceleration[v] = inertia_[v].cwiseProduct(state.x[v] - free_[v]) / (h * h * mass_[v]);
-        state.held[v] = fabric_.pinned[v] ? Vec3(Vec3::Ones()) : heldShare(state.acceleration[v], (state.v[v] - start_.v[v]) / h);
-    });
-    parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.omega[e] = (state.theta[e] - start_.theta[e]) / h; });
-}
-
-/// What a step leaves behind when the fabric is where it ends: rates, what friction holds, and the energy of contact.
-void VertexSolver::finish(double h, FabricState& state)
-{
-    findRates(h, state);
     if (contacts_) contact_->storeFriction(state.x, state.vertexSolver.onFabric);
     else state.vertexSolver.onFabric.clear();
     obstacles_.storeFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
@@ -193,6 +188,7 @@ bool VertexSolver::attempt(const Part& part)
     if (!beginAttempt(part, isLast)) return false;
     Newton newton;
     iterate(part, newton);
+    if (isSecondOrder_) keepRecoverable(state);
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
@@ -211,8 +207,10 @@ bool VertexSolver::attempt(const Part& part)
     std::optional<EnergyChanges> changes;
     if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = dissipateGain(h, part.gravity, state);
     if (state.vertexSolver.owed > 0.0) throwJammed(fabric_, state, referenceEnergy(energies(state, part.gravity).kinetic, h));
-    if (booksEnergy_) *report.energyChanges += changes ? *changes : energyChanges(h, part.gravity, state);
-    if (forces_) reportForces(h, part.gravity, state);
+    if (booksEnergy_ && !changes) changes = energyChanges(h, part.gravity, state);
+    for (std::size_t i = 0; i < pinForce_.size(); ++i) state.vertexSolver.force[fabric_.pins.vertex[i]] = pinForce_[i];
+    if (booksEnergy_) *report.energyChanges += *changes;
+    if (forces_) reportForces(h, state);
     return true;
 }
 

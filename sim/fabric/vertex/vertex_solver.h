@@ -8,17 +8,19 @@
 #include "sim/fabric/integrator.h"
 #include "sim/fabric/solids/obstacle_contact.h"
 #include "sim/fabric/solids/solid_limiter.h"
+#include "sim/fabric/vertex/bossak.h"
 #include "sim/fabric/vertex/vertex_system.h"
 #include "sim/forces.h"
 #include "sim/obstacle_settings.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace sim {
 
-/// `fabric.solver: vertex`: backward Euler in vertex space with a pairwise-limited Newton step (fabric/vertex/README.md, The step in vertices). Nothing ever
+/// `fabric.solver: vertex`: an implicit step in vertex space with a pairwise-limited Newton step (fabric/vertex/README.md, The step in vertices). Nothing ever
 /// crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
 class VertexSolver final : public FabricIntegrator {
  public:
@@ -77,14 +79,44 @@ class VertexSolver final : public FabricIntegrator {
     bool limitAlternately(const FabricState& state, StageClock& clock);
     SolidLimiter::Limited limitAtSolids(const FabricState& state);
     void turnHeldEdges(double t, FabricState& state) const;
-    void findRates(double h, FabricState& state) const;
-    void finish(double h, FabricState& state);
+    double lagOf(double h) const;
+    /// a0 of a step of h but for gravity, times the mass [dyn].
+    Vec3 meanForceBefore(std::size_t v, double h) const
+    {
+        const FabricState::VertexSolverPart& before = start_.vertexSolver;
+        if (before.force.empty()) return Vec3::Zero();
+        return before.force[v] + lagOf(h) * (before.meanForce[v] - before.force[v]);
+    }
+    bossak::Vertex bossakOf(std::size_t v, double h) const;
+    double stepOfInertia(double h) const;
+    Vec3 limiterForce(std::size_t v, double h) const;
+    /// What a contact does to its vertices; of those that it does not have four of, the last forces are 0.
+    struct ActingContact {
+        std::array<int, 4> vertices;
+        std::array<Vec3, 4> force;  ///< [dyn]
+        Vec3 velocity;              ///< of a solid's surface there; 0 between fabric [cm/s]
+        double abrupt = 0.0;        ///< abruptShare [-]
+    };
+    void findContactForces(double h, std::vector<Vec3>& sum);
+    double abruptShare(double h, const ActingContact& contact, std::span<const Vec3> all, const FabricState& state) const;
+    void findAbrupt(double h, FabricState& state);
+    void findRates(double h, FabricState& state);
+    void findMeanRates(double h, FabricState& state) const;
+    void findSecondOrderRates(double h, FabricState& state);
+    void storeContacts(double h, FabricState& state);
+    /// That by which an impulse from outside works [cm/s].
+    Vec3 workingVelocity(std::size_t v, const FabricState& state) const
+    {
+        return isSecondOrder_ ? Vec3(0.5 * (start_.v[v] + state.v[v])) : state.v[v];
+    }
     ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
     double referenceEnergy(double kinetic, double h) const;
     double gain(double h, const Vec3& gravity, const FabricState& state);
+    void keepRecoverable(FabricState& state) const;
+    double recovered(const FabricState& state, const Vec3& gravity, const FabricGroups& groups) const;
     void iterate(const Part& part, Newton& newton);
-    double allowedEnergy(double h, const Vec3& gravity, const FabricState& state) const;
-    EnergyChanges dissipateGain(double h, const Vec3& gravity, FabricState& state) const;
+    double allowedEnergy(double h, const FabricState& state);
+    EnergyChanges dissipateGain(double h, const Vec3& gravity, FabricState& state);
     void removeSpuriousGain(const Part& part);
     /// What an attempt did.
     struct Way {
@@ -96,24 +128,30 @@ class VertexSolver final : public FabricIntegrator {
     void findGroups(FabricGroups& groups) const;
     void findMomenta(const FabricState& state);
     void keepMomentum(double h, const Vec3& gravity, FabricState& state);
+    void keepForces(FabricState& state);
     std::vector<char> heldBySolids() const;
     InternalGradient gradientAt(const FabricState& state, double length) const;
-    void bookOutside(double h, const Vec3& gravity, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes) const;
-    double workOutside(double h, const Vec3& gravity, const FabricState& state) const;
-    EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state) const;
-    FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, h, springStep_}; }
+    void bookOutside(double h, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes);
+    Vec3 impulseOfHolder(std::size_t v, double h, const FabricState& state, const Vec3& gradient) const;
+    double workOfHolder(std::size_t v, double h, const FabricState& state, const Vec3& impulse) const;
+    double workOfPin(std::size_t v, double h, const FabricState& state, const Vec3& byLiquid, const Vec3& gradient, const Vec3& before) const;
+    void bookPins(double h, const FabricState& state, std::span<const Vec3> gradient, EnergyChanges& changes);
+    double workOutside(double h, const FabricState& state);
+    EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state);
+    FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, stepOfInertia(h), springStep_}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
     Vec3 solvedMove(int vertex) const;
     Vec3 forceAtEnd(std::size_t contact) const;
     Vec3 forceAtEnd(const ObstacleContact& contact) const;
-    void reportForces(double h, const Vec3& gravity, const FabricState& state) const;
+    void reportForces(double h, const FabricState& state) const;
     void reportContacts(double h, const FabricState& state) const;
     void reportSolidLimiter(double h, const FabricState& state) const;
-    void reportPins(double h, const Vec3& gravity, const FabricState& state) const;
+    void reportPins(double h, const FabricState& state) const;
     void reportLiquid(const FabricState& state) const;
 
     const Fabric& fabric_;
     FabricSettings settings_;
+    bool isSecondOrder_;  ///< fabric.integrator
     VertexSystem system_;
     std::optional<Cohesion> cohesion_;
     std::optional<FabricContact> contact_;
@@ -151,6 +189,11 @@ class VertexSolver final : public FabricIntegrator {
     std::vector<Vec3> free_, move_;                  ///< of each vertex [cm]
     std::vector<Vec3> expected_;                     ///< of each vertex: its move if forces act on as they did [cm]
     std::vector<double> freeAngle_;                  ///< of each yarn edge [rad]
+    std::vector<Vec3> abrupt_;                       ///< of each vertex, integrator second_order: F of contact and the limiter (bossak.h) [dyn]
+    std::vector<Vec3> pinForce_;                     ///< the fabric's own on each pinned vertex, once it is known at the end [dyn]
+    std::vector<ActingContact> acting_;              ///< at the end of Newton's last move, integrator second_order
+    Vec3 gravity_ = Vec3::Zero();                    ///< of the step under way [cm/s^2]
+    double made_ = 0.0;                              ///< energy that the attempt has beyond what it may have; negative: what it lost [erg]
     double totalMass_ = 0.0;                         ///< [g]
     double meanRadius_ = 0.0;                        ///< weighted by mass [cm]
 };

@@ -123,7 +123,7 @@ void VertexSystem::addInertia(const NewtonPoint& at)
                 }
                 if (j == group.edges()) continue;
                 const int e = layout.edge[group.firstEdge + j][l];
-                const double inertia = (e >= 0 ? twistInertia(fabric_, at.state.absorbed, e) : 1.0) * perStep2;
+                const double inertia = (e >= 0 ? at.twistInertia * twistInertia(fabric_, at.state.absorbed, e) : 1.0) * perStep2;
                 strands_.at(row + 3, 0, l) += inertia;
                 if (e >= 0) gradient_[slot + 3 * kLanes] += inertia * (at.state.theta[e] - at.freeAngles[e]);
             }

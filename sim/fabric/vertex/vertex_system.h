@@ -21,6 +21,7 @@ struct NewtonPoint {
     std::span<const double> freeAngles;   ///< of each yarn edge [rad]
     std::span<const Vec3> inertia;        ///< of each vertex by components: mass, and drag of liquid times the step [g]
     double h;                             ///< length of the step [s]
+    double twistInertia = 1.0;            ///< that of twist angles in the step, relative to their own [-]
 };
 
 /// When a component is solved for well enough: √(rᵀz / its mass), the rms error of its speeds, below `share` of what it was at first, 0.3 of
