@@ -27,6 +27,7 @@ int stressRandomScenes(const Options& options)
                               .count = options.randomScenes,
                               .width = options.threads,
                               .limitSeconds = options.limitSeconds,
+                              .set = options.sets,
                               .folder = folder,
                               .stopWanted = stopWanted};
     const auto results = runRandomStress(stress);

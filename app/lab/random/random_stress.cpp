@@ -78,7 +78,9 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
         const std::string name = nameOf(n);
         places.remove(name);
         writeWhole(places.file(name), sceneOf(n).text);
-        return std::vector<std::string>{"run", places.file(name).string(), "--out", places.folder(name).string(), "--threads", "1", "--no-video"};
+        std::vector<std::string> run = {"run", places.file(name).string(), "--out", places.folder(name).string(), "--threads", "1", "--no-video"};
+        for (const std::string& key : stress.set) run.insert(run.end(), {"--set", key});
+        return run;
     };
     pool.ended = [&](std::size_t n, const ProcessEnd& end) {
         if (stress.stopWanted()) return;
@@ -107,9 +109,10 @@ std::string randomStressReport(const RandomStress& stress, const std::vector<Ran
                                    results.size(), stress.seed, formatDuration(seconds));
     for (int e = 0; e < static_cast<int>(StressEnding::Count); ++e)
         text += fmt::format("| {} | {} |\n", kStressEndings[e], counts[static_cast<StressEnding>(e)]);
-    text +=
-        "\n## What did not finish\n\nEach scene is a file that runs again by `drench run FILE --threads 1`.\n\n"
-        "| file | ending | message |\n|---|---|---|\n";
+    std::string again = "drench run FILE --threads 1";
+    for (const std::string& key : stress.set) again += fmt::format(" --set {}", key);
+    text += fmt::format("\n## What did not finish\n\nEach scene is a file that runs again by `{}`.\n\n| file | ending | message |\n|---|---|---|\n",
+                        again);
     for (const RandomStressResult& result : results)
         if (const StressOutcome& outcome = result.outcome; outcome.ending != StressEnding::Finished)
             text += fmt::format("| scenes/{}.yaml | {} | {} |\n", result.scene, kStressEndings[static_cast<int>(outcome.ending)], outcome.message);
