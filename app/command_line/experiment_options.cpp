@@ -42,20 +42,25 @@ void addValidate(CLI::App& program, Options& options)
 void addStress(CLI::App& program, Options& options)
 {
     auto* stress = program.add_subcommand("stress", "look for runs that explode: a map of stable time steps, or random scenes");
-    auto* scenes = stress->add_option("scene", options.scenes, "scene files, or names in scenes/ (default: the paper's four)");
-    stress->add_option("--method", options.methods, "only these: apic, polypic_8, polypic_11, polypic_15, polypic_27")->delimiter(',');
-    stress->add_option("--steps", options.stepFactors, "time steps in units of the published 2e-4 s (default: 0.5,1,2,5,10,20)")
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber);
-    stress->add_flag("--largest-only", options.largestOnly, "of each method only the steps from the longest to the first stable one");
-    stress->add_option("--knob", options.knob, "also turn stiffness, density, viscosity or cell");
-    stress->add_option("--factors", options.knobFactors, "by these factors (default: 0.01,0.1,1,10,100)")->delimiter(',')->check(CLI::PositiveNumber);
-    stress->add_option("--duration", options.duration, "simulated seconds of each run")->check(CLI::PositiveNumber);
+    const std::vector<CLI::Option*> ofMaps = {
+        stress->add_option("scene", options.scenes, "scene files, or names in scenes/ (default: the paper's four)"),
+        stress->add_option("--method", options.methods, "only these: apic, polypic_8, polypic_11, polypic_15, polypic_27")->delimiter(','),
+        stress->add_option("--steps", options.stepFactors, "time steps in units of the published 2e-4 s (default: 0.5,1,2,5,10,20)")
+            ->delimiter(',')
+            ->check(CLI::PositiveNumber),
+        stress->add_flag("--largest-only", options.largestOnly, "of each method only the steps from the longest to the first stable one"),
+        stress->add_option("--knob", options.knob, "also turn stiffness, density, viscosity or cell"),
+        stress->add_option("--factors", options.knobFactors, "by these factors (default: 0.01,0.1,1,10,100)")
+            ->delimiter(',')
+            ->check(CLI::PositiveNumber),
+        stress->add_option("--duration", options.duration, "simulated seconds of each run")->check(CLI::PositiveNumber),
+        stress->add_flag("--quick", options.quick, "shorter runs, fewer time steps"),
+    };
     stress->add_option("--set", options.sets, "override a key of the scenes: dotted.key=value")->take_all()->allow_extra_args(false);
-    stress->add_flag("--quick", options.quick, "shorter runs, fewer time steps");
-    stress->add_option("--random", options.randomScenes, "run so many random scenes instead")->check(CLI::Range(1, 1'000'000))->excludes(scenes);
-    stress->add_option("--seed", options.seed, "of the random scenes");
-    stress->add_option("--first", options.firstScene, "number of the first random scene")->check(CLI::Range(0, 1'000'000'000));
+    auto* random = stress->add_option("--random", options.randomScenes, "run so many random scenes instead")->check(CLI::Range(1, 1'000'000));
+    for (CLI::Option* option : ofMaps) random->excludes(option);
+    stress->add_option("--seed", options.seed, "of the random scenes")->needs(random);
+    stress->add_option("--first", options.firstScene, "number of the first random scene")->check(CLI::Range(0, 1'000'000'000))->needs(random);
     stress->add_option("--limit", options.limitSeconds, "seconds after which a run is ended")->check(CLI::Range(1.0, 1.0e6));
     stress->add_option("--out", options.out, "folder of the report");
     stress->add_option("--threads", options.threads, "runs side by side (default: one per thread)")->check(CLI::Range(1, kMaxThreads));

@@ -155,7 +155,7 @@ double VertexSolver::workOutside(double h, const FabricState& state)
 }
 
 /// Work of all that acted from start_ to the state.
-EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const FabricState& state)
+EnergyChanges VertexSolver::energyChanges(double h, const FabricState& state)
 {
     const auto along = [&](const InternalGradient& gradient) {
         double sum = 0.0;
@@ -170,10 +170,10 @@ EnergyChanges VertexSolver::energyChanges(double h, const Vec3& gravity, const F
     if (isSecondOrder_) {
         bookOutside(h, state, gradient, changes);
         const double all = std::accumulate(changes.of.begin(), changes.of.end(), 0.0);
-        changes[EnergyChange::Implicit] += energies(state, gravity).total() - startEnergies_.total() - all;
+        changes[EnergyChange::Implicit] += energies(state, gravity_).total() - startEnergies_.total() - all;
         return changes;
     }
-    changes[EnergyChange::Implicit] = energies(state, gravity).elastic() - startEnergies_.elastic() - elastic;
+    changes[EnergyChange::Implicit] = energies(state, gravity_).elastic() - startEnergies_.elastic() - elastic;
     for (std::size_t v = 0; v < state.v.size(); ++v) changes[EnergyChange::Implicit] -= 0.5 * mass_[v] * (state.v[v] - start_.v[v]).squaredNorm();
     for (std::size_t e = 0; e < state.omega.size(); ++e) {
         const double faster = state.omega[e] - start_.omega[e];

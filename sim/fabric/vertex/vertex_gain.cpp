@@ -47,14 +47,14 @@ double VertexSolver::referenceEnergy(double kinetic, double h) const
 
 /// Energy that a step gained from nothing, relative to that of its motion but for the drift of what nothing holds, beyond that of contact which
 /// was not seen at its start; less than what is not felt counts as none.
-double VertexSolver::gain(double h, const Vec3& gravity, const FabricState& state)
+double VertexSolver::gain(double h, const FabricState& state)
 {
-    made_ = energies(state, gravity).total() - allowedEnergy(h, state) - undetectedAtStart_;
+    made_ = energies(state, gravity_).total() - allowedEnergy(h, state) - undetectedAtStart_;
     if (made_ <= 0.0) return 0.0;
     attemptGroups_.begin();
     findGroups(attemptGroups_);
     const double scale = referenceEnergy(ownKinetic(fabric_, attemptGroups_, mass_, state), h);
-    const double spurious = made_ - recovered(state, gravity, attemptGroups_);
+    const double spurious = made_ - recovered(state, attemptGroups_);
     return spurious <= kNegligibleGain * scale ? 0.0 : spurious / scale;
 }
 
@@ -67,21 +67,23 @@ void VertexSolver::keepRecoverable(FabricState& state) const
 }
 
 /// What the scheme of second order may give back of what it took in the steps before [erg].
-double VertexSolver::recovered(const FabricState& state, const Vec3& gravity, const FabricGroups& groups) const
+double VertexSolver::recovered(const FabricState& state, const FabricGroups& groups) const
 {
     if (!(start_.vertexSolver.recoverable > 0.0)) return 0.0;
-    const double own = ownKinetic(fabric_, groups, mass_, state) + energies(state, gravity).elastic();
+    const double own = ownKinetic(fabric_, groups, mass_, state) + energies(state, gravity_).elastic();
     return std::min(start_.vertexSolver.recoverable, kMostRecovered * own);
 }
 
 /// What fabric has at the end of a step beyond what pins, solids and liquid gave it, and what it owes from before, is taken from its motion; what
-/// that cannot pay it goes on to owe. Returns the changes of the step.
-EnergyChanges VertexSolver::dissipateGain(double h, const Vec3& gravity, FabricState& state)
+/// that cannot pay it goes on to owe. Returns the changes of the step, where they are booked.
+std::optional<EnergyChanges> VertexSolver::dissipateGain(double h, FabricState& state)
 {
-    EnergyChanges changes = energyChanges(h, gravity, state);
-    const double due = start_.vertexSolver.owed + energies(state, gravity).total() - startEnergies_.total() - externalWork(changes) -
-                       recovered(state, gravity, groups_);
-    changes[EnergyChange::Implicit] -= payOwed(due, fabric_, groups_, mass_, state);
+    std::optional<EnergyChanges> changes;
+    if (booksEnergy_) changes = energyChanges(h, state);
+    const double given = changes ? externalWork(*changes) : workOutside(h, state);
+    const double due = start_.vertexSolver.owed + energies(state, gravity_).total() - startEnergies_.total() - given - recovered(state, groups_);
+    const double paid = payOwed(due, fabric_, groups_, mass_, state);
+    if (changes) (*changes)[EnergyChange::Implicit] -= paid;
     return changes;
 }
 
@@ -90,10 +92,9 @@ EnergyChanges VertexSolver::dissipateGain(double h, const Vec3& gravity, FabricS
 void VertexSolver::removeSpuriousGain(const Part& part)
 {
     const double h = part.h;
-    const Vec3& gravity = part.gravity;
     FabricState& state = part.state;
-    const double allowed = allowedEnergy(h, state) + recovered(state, gravity, groups_);
-    const auto due = [&] { return energies(state, gravity).total() - allowed; };
+    const double allowed = allowedEnergy(h, state) + recovered(state, groups_);
+    const auto due = [&] { return energies(state, gravity_).total() - allowed; };
     const auto canPay = [&] { return due() <= ownKinetic(fabric_, groups_, mass_, state); };
     if (canPay()) {
         slowDown(due(), fabric_, groups_, mass_, state);

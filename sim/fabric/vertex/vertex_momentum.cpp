@@ -25,7 +25,7 @@ void VertexSolver::findMomenta(const FabricState& state)
 
 /// Weight and the liquid alone change the momentum of a group that nothing holds: what else did in the step of length h [s] is taken from all
 /// of its velocities alike.
-void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& state)
+void VertexSolver::keepMomentum(double h, FabricState& state)
 {
     if (!groups_.anyFree()) return;
     missing_.assign(groups_.pieces(), Vec3::Zero());
@@ -36,7 +36,7 @@ void VertexSolver::keepMomentum(double h, const Vec3& gravity, FabricState& stat
     for (std::size_t v = 0; v < state.v.size(); ++v) {
         const int group = groupOf(v);
         if (group < 0) continue;
-        missing_[group] += mass_[v] * (h * gravity - state.v[v]);
+        missing_[group] += mass_[v] * (h * gravity_ - state.v[v]);
         groupInertia_[group] += Vec3::Constant(mass_[v]);
         if (!loads_) continue;
         missing_[group] += loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]);

@@ -138,9 +138,9 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         storeContacts(h, state);
         if (!settled) settled = newton;
         newton.hasConverged = settled->hasConverged, newton.wanted = settled->wanted, newton.taken = settled->taken;
-        if (gain(h, part.gravity, state) <= kNegligibleGain) return;
+        if (gain(h, state) <= kNegligibleGain) return;
         updateContacts(h, state, part.clock);
-        newton.gain = gain(h, part.gravity, state);
+        newton.gain = gain(h, state);
         if (newton.gain <= kNegligibleGain || newton.count >= most) return;
     }
 }

@@ -69,8 +69,10 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
     if (cohesion_) cohesion_->setAbsorbed(state.absorbed);
     groups_.begin();
     findMomenta(state);
-    advanceInParts({t, h, 0, gravity, state, report, clock});
-    keepMomentum(h, gravity, state);
+    advanceInParts({t, h, 0, state, report, clock});
+    const double kinetic = booksEnergy_ ? energies(state, gravity).kinetic : 0.0;
+    keepMomentum(h, state);
+    if (booksEnergy_) (*report.energyChanges)[EnergyChange::Implicit] += energies(state, gravity).kinetic - kinetic;
     if (forces_ && loads_) reportLiquid(state);
     report.candidates = contact_ ? contact_->candidates() : 0;
     return report;
@@ -93,7 +95,7 @@ void VertexSolver::predict(const Part& step)
 {
     const FabricState& state = step.state;
     const double h = step.h;
-    const Vec3 fall = h * h * step.gravity;
+    const Vec3 fall = h * h * gravity_;
     const double part = h / wholeStep_;
     const double expectedMove = contact_ ? kExpectedMove : std::numeric_limits<double>::infinity();  // radii
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
@@ -141,7 +143,7 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     FabricState& state = part.state;
     start_ = state;
     startTime_ = t;
-    startEnergies_ = energies(start_, part.gravity);
+    startEnergies_ = energies(start_, gravity_);
     start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
     startIsChecked_ = false;
     pinForce_.clear();
@@ -188,7 +190,6 @@ bool VertexSolver::attempt(const Part& part)
     if (!beginAttempt(part, isLast)) return false;
     Newton newton;
     iterate(part, newton);
-    if (isSecondOrder_) keepRecoverable(state);
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
@@ -205,9 +206,10 @@ bool VertexSolver::attempt(const Part& part)
     const bool mayHaveGained = startIsChecked_ || isShort;
     if (mayHaveGained && !isDriven_) removeSpuriousGain(part);
     std::optional<EnergyChanges> changes;
-    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = dissipateGain(h, part.gravity, state);
-    if (state.vertexSolver.owed > 0.0) throwJammed(fabric_, state, referenceEnergy(energies(state, part.gravity).kinetic, h));
-    if (booksEnergy_ && !changes) changes = energyChanges(h, part.gravity, state);
+    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = dissipateGain(h, state);
+    if (isSecondOrder_) keepRecoverable(state);
+    if (state.vertexSolver.owed > 0.0) throwJammed(fabric_, state, referenceEnergy(energies(state, gravity_).kinetic, h));
+    if (booksEnergy_ && !changes) changes = energyChanges(h, state);
     for (std::size_t i = 0; i < pinForce_.size(); ++i) state.vertexSolver.force[fabric_.pins.vertex[i]] = pinForce_[i];
     if (booksEnergy_) *report.energyChanges += *changes;
     if (forces_) reportForces(h, state);

@@ -55,12 +55,11 @@ class VertexSolver final : public FabricIntegrator {
     struct Part {
         double t, h;  ///< it leads from t to t + h [s]
         int level;    ///< how often the step was halved for it
-        const Vec3& gravity;
         FabricState& state;
         FabricReport& report;
         StageClock& clock;
         /// Its half that begins at a time.
-        Part half(double from) const { return {from, 0.5 * h, level + 1, gravity, state, report, clock}; }
+        Part half(double from) const { return {from, 0.5 * h, level + 1, state, report, clock}; }
     };
     /// One attempt at a part; false if it should be redone in halves.
     bool attempt(const Part& part);
@@ -111,12 +110,12 @@ class VertexSolver final : public FabricIntegrator {
     }
     ContactEnergy contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const;
     double referenceEnergy(double kinetic, double h) const;
-    double gain(double h, const Vec3& gravity, const FabricState& state);
+    double gain(double h, const FabricState& state);
     void keepRecoverable(FabricState& state) const;
-    double recovered(const FabricState& state, const Vec3& gravity, const FabricGroups& groups) const;
+    double recovered(const FabricState& state, const FabricGroups& groups) const;
     void iterate(const Part& part, Newton& newton);
     double allowedEnergy(double h, const FabricState& state);
-    EnergyChanges dissipateGain(double h, const Vec3& gravity, FabricState& state);
+    std::optional<EnergyChanges> dissipateGain(double h, FabricState& state);
     void removeSpuriousGain(const Part& part);
     /// What an attempt did.
     struct Way {
@@ -127,7 +126,7 @@ class VertexSolver final : public FabricIntegrator {
     void goPart(const Part& part, const Way& way, double share);
     void findGroups(FabricGroups& groups) const;
     void findMomenta(const FabricState& state);
-    void keepMomentum(double h, const Vec3& gravity, FabricState& state);
+    void keepMomentum(double h, FabricState& state);
     void keepForces(FabricState& state);
     std::vector<char> heldBySolids() const;
     InternalGradient gradientAt(const FabricState& state, double length) const;
@@ -137,7 +136,7 @@ class VertexSolver final : public FabricIntegrator {
     double workOfPin(std::size_t v, double h, const FabricState& state, const Vec3& byLiquid, const Vec3& gradient, const Vec3& before) const;
     void bookPins(double h, const FabricState& state, std::span<const Vec3> gradient, EnergyChanges& changes);
     double workOutside(double h, const FabricState& state);
-    EnergyChanges energyChanges(double h, const Vec3& gravity, const FabricState& state);
+    EnergyChanges energyChanges(double h, const FabricState& state);
     FabricObstacles::Start obstacleStart(double h) const { return {start_.x, mass_, start_.onObstacles, stepOfInertia(h), springStep_}; }
     void bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const;
     Vec3 solvedMove(int vertex) const;
