@@ -1,9 +1,8 @@
 #pragma once
 
+#include "sim/core/pack_math.h"
 #include "sim/fabric/rods/rod_kernel.h"
 #include "sim/fabric/rods/rods.h"
-
-#include <cmath>
 
 // Strands of yarn, eight at a time, from one end to the other.
 
@@ -42,11 +41,7 @@ inline void setMaterialFrame(const FabricState& state, const StrandLayout::Lanes
 {
     e.reference = gathered(state.reference, edges);
     const Pack theta = gathered(state.theta, edges);
-    Pack c, s;
-    for (int l = 0; l < kLanes; ++l) {
-        c[l] = std::cos(theta[l]);
-        s[l] = std::sin(theta[l]);
-    }
+    const auto [c, s] = directionOf(theta);
     const PackTriple second = cross(e.tangent, e.reference);
     e.m1 = c * e.reference + s * second;
     e.m2 = c * second - s * e.reference;

@@ -93,7 +93,7 @@ void Rods::transportFrames(FabricState& state) const
             const PackTriple tangent = edgeBetween(from, to, edges).tangent;
             const PackTriple reference = unitAcross(transported(gathered(state.reference, edges), gathered(state.tangent, edges), tangent), tangent);
             const PackTriple carried = j > 0 ? transported(referenceBefore, tangentBefore, tangent) : reference;
-            const Pack sine = dot(cross(carried, reference), tangent), cosine = dot(carried, reference);
+            const Pack turned = angleOf(dot(cross(carried, reference), tangent), dot(carried, reference));
             for (int l = 0; l < kLanes; ++l) {
                 const int e = edges[l];
                 if (e < 0) continue;
@@ -102,7 +102,7 @@ void Rods::transportFrames(FabricState& state) const
                 if (j == 0) continue;
                 // The nearest of the angles that differ by full turns, so that many turns add up.
                 double& twist = state.referenceTwist[e];
-                twist += std::remainder(std::atan2(sine[l], cosine[l]) - twist, 2.0 * kPi);
+                twist += std::remainder(turned[l] - twist, 2.0 * kPi);
             }
             from = to;
             tangentBefore = tangent;

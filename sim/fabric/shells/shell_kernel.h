@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/core/pack_math.h"
 #include "sim/fabric/triple.h"
 #include "sim/settings.h"
 
@@ -131,12 +132,6 @@ Dihedral<T> dihedral(const Triple<T>& x0, const Triple<T>& x1, const Triple<T>& 
 }
 
 inline double angleOf(double sine, double cosine) { return std::atan2(sine, cosine); }
-inline Pack angleOf(Pack sine, Pack cosine)
-{
-    Pack v;
-    for (int l = 0; l < kLanes; ++l) v[l] = std::atan2(sine[l], cosine[l]);
-    return v;
-}
 
 /// How the three edges of a triangle are bent.
 template <class T>
