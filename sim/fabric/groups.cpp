@@ -30,8 +30,6 @@ void FabricGroups::joinVertices(std::span<const int> vertices)
     for (int v : vertices) join(pieceOf(vertices[0]), pieceOf(v));
 }
 
-void FabricGroups::holdAll() { std::ranges::fill(isHeld_, 1); }
-
 bool FabricGroups::anyFree() const
 {
     for (int piece = 0; piece < pieces(); ++piece)

@@ -18,9 +18,8 @@ class FabricGroups {
     /// Two pieces, or those of these vertices, act on each other.
     void join(int first, int second);
     void joinVertices(std::span<const int> vertices);
-    /// Something outside the fabric acts on the vertex, or on all of it.
+    /// Something outside the fabric acts on the vertex.
     void hold(int vertex) { isHeld_[components_.rootOf(pieceOf(vertex))] = 1; }
-    void holdAll();
 
     int pieces() const { return components_.pieces(); }
     int pieceOf(int vertex) const { return components_.pieceOf(vertex); }

@@ -125,7 +125,8 @@ SolidLimiter::Limited SolidLimiter::limit(Points x, std::span<const double> mass
         if (blocked_.empty()) return changed ? Limited::Changed : Limited::Unchanged;
         if (round == kPushes + kDraws) carriers_.assign(x.size(), {});
         if (round == kPushes + kDraws + kCarries || (round >= kPushes + kDraws && anyMoves() && !mayCarry())) break;
-        if (round == 0) report.blocked += static_cast<int>(blocked_.size());
+        if (round == 0)
+            for (const Blocked& b : blocked_) report.stopped.insert(report.stopped.end(), b.vertices.begin(), b.vertices.begin() + b.corners);
         changed = true;
         if (round < kPushes) {
             applyImpulses(x, mass, u);

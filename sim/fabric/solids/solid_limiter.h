@@ -10,10 +10,12 @@
 
 namespace sim {
 
-/// Counts of moves that were limited at solids.
+/// What was limited at solids.
 struct SolidLimitReport {
-    int blocked = 0;  ///< edges and faces whose moves had to be changed
-    int left = 0;     ///< edges and faces that passed a solid or came too near all the same: fabric then rests, or moves in halves of the time
+    std::vector<int> stopped;  ///< vertices of edges and faces whose moves had to be changed, each as often as that was done
+    int left = 0;  ///< edges and faces that passed a solid or came too near all the same: fabric then rests, or moves in halves of the time
+
+    void clear() { stopped.clear(), left = 0; }
 };
 
 /// Where an edge or a face touches a solid with none of its vertices.

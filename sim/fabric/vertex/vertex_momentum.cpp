@@ -13,7 +13,7 @@ void VertexSolver::findGroups(FabricGroups& groups) const
     for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) groups.joinVertices(contacts_->vertices[i]);
     for (const ObstacleContact& contact : touching_)
         for (int v : contact.vertices()) groups.hold(v);
-    if (solidLimits_.blocked > 0) groups.holdAll();
+    for (int v : solidLimits_.stopped) groups.hold(v);
 }
 
 /// Momentum of each piece at the start of the step.

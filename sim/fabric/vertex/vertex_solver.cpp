@@ -162,7 +162,7 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     springStep_ = springStepFor(start_.springStep, h, start_.stored.springs(), bearable * referenceEnergy(kinetic, h));
     state.springStep = springStep_;
     limits_ = {};
-    solidLimits_ = {};
+    solidLimits_.clear();
     if (contact_) contact_->beginStep(state.x, mass_, stepOfInertia(h), springStep_, start_.vertexSolver.onFabric);
 
     if (!followSolids(part, isLast)) return false;
