@@ -5,19 +5,35 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <limits>
 
 namespace sim {
 
 namespace {
 
-bool isAtLiquid(const BlockGrid& liquid, const Vec3i& block)
+/// How far faces of a vertex' stencil are, in cells.
+constexpr double kStencilReach = 2.0;
+
+/// The first and the last block, by axis, that a vertex reaches.
+struct ReachedBlocks {
+    Vec3i first, last;
+
+    bool operator==(const ReachedBlocks&) const = default;
+    bool anyOf(const BlockGrid& liquid) const
+    {
+        for (int z = first.z(); z <= last.z(); ++z)
+            for (int y = first.y(); y <= last.y(); ++y)
+                for (int x = first.x(); x <= last.x(); ++x)
+                    if (liquid.find(Vec3i(x, y, z)) != BlockGrid::kNone) return true;
+        return false;
+    }
+};
+
+ReachedBlocks reachedBlocks(const BlockGrid& grid, const Vec3& x)
 {
-    for (int z = -1; z <= 1; ++z)
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                if (liquid.find(block + Vec3i(x, y, z)) != BlockGrid::kNone) return true;
-    return false;
+    const auto blockAt = [&](double cells) -> Vec3i {
+        return (((x - grid.origin) / grid.dx).array() + cells).cwiseQuotient(Eigen::Array3d::Constant(kBlockEdge)).floor().cast<int>();
+    };
+    return {blockAt(-kStencilReach), blockAt(kStencilReach)};
 }
 
 }  // namespace
@@ -29,14 +45,14 @@ void SortedVertices::sort(const BlockGrid& liquid, const FabricState& state)
     particles.modeCount = 1;
     const std::size_t n = state.x.size();
     isNear_.resize(n);
-    const double edge = kBlockEdge * liquid.dx;
     parallelFor((n + kGrain - 1) / kGrain, [&](std::size_t chunk) {
-        Vec3i last = Vec3i::Constant(std::numeric_limits<int>::max());  // the next vertex is mostly in the same block
+        ReachedBlocks before{Vec3i::Zero(), Vec3i::Constant(-1)};  // none; the next vertex mostly reaches the same ones
         bool isNear = false;
         for (std::size_t v = chunk * kGrain; v < std::min(n, (chunk + 1) * kGrain); ++v) {
-            const Vec3i block = ((state.x[v] - liquid.origin) / edge).array().floor().matrix().cast<int>();
-            if (block != last) isNear = isAtLiquid(liquid, last = block);
+            const ReachedBlocks blocks = reachedBlocks(liquid, state.x[v]);
+            if (!(blocks == before)) isNear = blocks.anyOf(liquid);
             isNear_[v] = isNear;
+            before = blocks;
         }
     });
     particles.resize(static_cast<std::size_t>(std::count(isNear_.begin(), isNear_.end(), 1)));
@@ -58,7 +74,7 @@ bool reachesLiquid(const BlockGrid& liquid, const FabricState& state)
         box.extend(liquid.lowerCorner(b));
         box.extend(liquid.lowerCorner(b) + Vec3::Constant(kBlockEdge * liquid.dx));
     }
-    const Vec3 reach = Vec3::Constant(2.0 * liquid.dx);  // of a vertex' stencil
+    const Vec3 reach = Vec3::Constant(kStencilReach * liquid.dx);
     box.min() -= reach;
     box.max() += reach;
     return std::ranges::any_of(state.x, [&](const Vec3& x) { return box.contains(x); });

@@ -12,7 +12,7 @@ struct SortedVertices {
     BlockGrid grid;
     ParticleOrder order;
 
-    /// Takes the vertices in blocks at those of the liquid; what is farther has nothing to do with it.
+    /// Takes the vertices whose stencils reach blocks of the liquid; what is farther has nothing to do with it.
     void sort(const BlockGrid& liquid, const FabricState& state);
     bool empty() const { return particles.count == 0; }
     std::size_t count() const { return particles.count; }

@@ -1,6 +1,6 @@
 #include "sim/core/pack_math.h"
 
-#include "tests/sim/fixtures.h"
+#include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>
 
