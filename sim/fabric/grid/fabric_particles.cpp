@@ -71,8 +71,8 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
     });
 }
 
-/// Model-fabric 3.6: the gradient's symmetric and antisymmetric part and the velocity by factors of their own. Modes
-/// beyond the linear ones are deformation: they fade with the symmetric part.
+/// Damps the velocity gradient's symmetric and antisymmetric parts and the velocity, each by a factor of its own (fabric/grid/README.md, Transfers of
+/// the fabric). Modes beyond the linear ones are deformation: they fade with the symmetric part.
 void FabricParticles::damp(double h, std::size_t v, FabricState& state) const
 {
     if (rows() > 1 && (modes_ <= 4 || dampModes_)) {

@@ -63,7 +63,7 @@ struct Bath {
     Vec3 toPins = Vec3::Zero();  ///< of the last capture [g cm/s]
 };
 
-/// Model-fluid E1, of short steps and of those that empty cells.
+/// Uptake keeps mass and momentum to rounding, in short steps and in those that empty cells (coupling/README.md, Uptake).
 TEST(Capture, KeepsMassAndMomentum)
 {
     for (const double dt : {1.0e-3, 0.02, 10.0}) {
@@ -183,13 +183,13 @@ struct Pool {
     FabricState state;
 };
 
-/// Model-fluid E2: by the published law a dry vertex in still liquid takes up 3 κ times the liquid around it per time, until it is full.
+/// By law `published` a dry vertex in still liquid takes up the share 3 κ dt of the liquid around it until it is full (coupling/README.md, Uptake).
 TEST(Capture, PublishedLawTakesAShareOfTheLiquid)
 {
     Pool pool(kCell, {3.9, 4.2, 3.4});
     pool.settings.coupling.capture.law = CaptureLaw::Published;
     Capture capture(pool.fabric, pool.around, pool.settings, pool.mass);
-    const double dt = 1.0e-4, rate = 3.0 * 13.655;  // K2
+    const double dt = 1.0e-4, rate = 3.0 * 13.655;  // 3 κ, PorousLaw.SuctionAndCaptureOfTheUsualFabric [1/s]
     const double gained = pool.capture(capture, dt, 1);
     EXPECT_NEAR(gained, rate * dt * std::pow(kCell, 3), 1.0e-4 * gained);
     EXPECT_EQ(pool.state.absorbed[1], 0.0);

@@ -57,7 +57,7 @@ struct Spread {
     std::optional<FabricOnFaces> faces;
 };
 
-/// Model-fluid 3: the faces hold the fabric's mass and its volumes, dry and wet, of one material and of several.
+/// The faces hold the fabric's mass and its volumes, dry and wet, of one material and of several (coupling/README.md, Fabric on the faces).
 TEST(FabricOnFaces, HoldsMassAndVolumes)
 {
     for (bool hasYarn : {false, true})

@@ -30,7 +30,7 @@ Speeds solved(const MixtureFace& f, Speeds predicted, double pressureImpulse)
     return {u[0], u[1]};
 }
 
-/// Model-fluid P5.
+/// The closed form of u_f and u_s (coupling/README.md, Mixture) solves the 2×2 system of both phases under drag and pressure.
 TEST(MixtureFace, SolvesTheTwoPhases)
 {
     testing::Noise noise(2);
@@ -71,7 +71,7 @@ TEST(MixtureFace, MobilityInItsLimits)
     EXPECT_EQ(splitMixture(MixtureFace()).ofFabric, 0.0);
 }
 
-/// Model-fluid K4: backward Euler of two phases that drag each other.
+/// Backward Euler of two phases that drag each other (coupling/README.md, Mixture).
 TEST(MixtureFace, RelativeVelocityDecaysAndMomentumStays)
 {
     testing::Noise noise(4);

@@ -215,7 +215,7 @@ void fillBelow(Bath& bath, double height)
     bath.scene.setRandomVelocities(0.0);
 }
 
-/// Model-fluid 6.1: liquid under dry fabric is drawn up, by as much as the fabric is drawn down where the reaction is asked for.
+/// Liquid under dry fabric is drawn up (coupling/README.md, Suction), by as much as the fabric is drawn down where the reaction is asked for.
 TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
 {
     for (const bool hasReaction : {false, true}) {

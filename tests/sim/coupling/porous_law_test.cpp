@@ -23,7 +23,7 @@ PorousLaw usualLaw(DragLaw law = DragLaw::Nonlinear, double exponent = 1.6)
     return PorousLaw(usualPores(), LiquidSettings(), coupling);
 }
 
-/// Model-fluid K1.
+/// Both series of Drummond and Tahir, evaluated apart from the code (coupling/README.md, Drag) [cm^2].
 TEST(Permeability, IsThatOfTheTable)
 {
     const double fraction[] = {0.05, 0.1, 0.2, 0.3, 0.4};
@@ -48,7 +48,7 @@ TEST(Permeability, FallsWithTheFractionAllTheWay)
     }
 }
 
-/// Model-fluid K2.
+/// Pore radius [cm], suction P_c [dyn/cm^2] and uptake rate κ [1/s] of the usual fabric in water, by hand (coupling/README.md, Suction; Uptake).
 TEST(PorousLaw, SuctionAndCaptureOfTheUsualFabric)
 {
     EXPECT_NEAR(usualPores().poreRadius(), 0.0061237, 5.0e-8);
@@ -57,7 +57,7 @@ TEST(PorousLaw, SuctionAndCaptureOfTheUsualFabric)
     EXPECT_EQ(usualLaw().suction(1.0), 0.0);
 }
 
-/// Model-fluid 8.2: 3.55e3 at rest along; 8.3e3 more at 10 cm/s, or 1.9e3 by Forchheimer's law.
+/// Drag along fibres [g/(cm^3 s)] (coupling/README.md, Drag): 3.55e3 at rest; 8.3e3 more at 10 cm/s, or 1.9e3 by Forchheimer's law.
 TEST(PorousLaw, DragOfTheUsualFabric)
 {
     const double k = permeability(0.4, 0.01).along, rest = usualLaw().drag(k, 0.4, 0.0);
@@ -69,7 +69,7 @@ TEST(PorousLaw, DragOfTheUsualFabric)
     EXPECT_EQ(usualLaw().drag(k, 0.0, 10.0), 0.0);
 }
 
-/// Model-fluid K3.
+/// The diagonal T_aa of drag (coupling/README.md, Drag): within both drags, with their trace, and alike under turns by 90 degrees.
 TEST(DragAlongAxis, LiesBetweenBothAndTurnsWithTheAxes)
 {
     testing::Noise noise(1);

@@ -79,8 +79,8 @@ struct Stack {
     Settings settings;
 };
 
-/// Model-fluid 14, K5: a pressure gradient drives liquid through cloth that stands still, at (1 − ψ)(k/μ) ∇p: its law with the published
-/// normalisation of drag; Darcy's superficial velocity would be that over (1 − ψ)².
+/// A pressure gradient drives liquid through cloth that stands still at (1 − ψ)(k/μ) ∇p, by the published law of drag on the volume of the cell
+/// (coupling/README.md, Drag); Darcy's superficial velocity would be that over (1 − ψ)².
 TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
 {
     Stack stack(9, 0.4, 1.32);  // a stencil in its middle reaches seven
@@ -143,7 +143,7 @@ double standInTank(Stack& stack)
     return stack.scene.largestError([](const Vec3&) { return Vec3::Zero().eval(); });
 }
 
-/// P6: fabric as dense as the liquid stays where it is, and so does the liquid.
+/// Fabric as dense as the liquid stays where it is, and so does the liquid.
 TEST(Buoyancy, NeutralFabricStays)
 {
     for (const DragLaw drag : {DragLaw::Off, DragLaw::Nonlinear}) {
@@ -166,7 +166,7 @@ TEST(Buoyancy, HeldFabricLeavesTheLiquidAtRest)
     }
 }
 
-/// P6: what is denser starts to sink under the weight of its fibres less that of as much liquid.
+/// What is denser starts to sink under the weight of its fibres less that of as much liquid.
 TEST(Buoyancy, DenserFabricSinksByTheDifference)
 {
     constexpr double kDensity = 1.32, kFraction = 0.02;  // thin: a dense layer would keep the liquid's pressure from being hydrostatic
@@ -182,7 +182,7 @@ TEST(Buoyancy, DenserFabricSinksByTheDifference)
     EXPECT_NEAR(momentum, expected, 0.01 * -expected);
 }
 
-/// P6: sheets from wall to wall sink through the liquid at the speed at which drag holds them. Fibres feel their weight less that of as
+/// Sheets from wall to wall sink through the liquid at the speed at which drag holds them. Fibres feel their weight less that of as
 /// much of the mixture: μ/k w = ψ (1 − ψ) (ρ_s − ρ_f) g by the published law. By that of the fabric it is Darcy's law on the volume of the
 /// fabric, ε of all: ε μ/k(φ) (1 − ψ) w = ψ (ρ_s − ρ_f) g.
 void sinkAtTheSpeedOfDrag(DragFraction by)

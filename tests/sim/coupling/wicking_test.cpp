@@ -14,10 +14,10 @@ std::vector<FabricPiece> clothAndYarn()
     return {testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.12}, Vec3::Zero()}), testing::wool(), {0.017, 0.02}), rod(20, Vec3(1.0, 0.7, 0.2))};
 }
 
-const double kSuction = 5933.6;           // K2 [dyn/cm^2]
-const double kDrag = 8.9e-3 / 2.5045e-6;  // along, K1 [g/(cm^3 s)]
+const double kSuction = 5933.6;           // P_c, PorousLaw.SuctionAndCaptureOfTheUsualFabric [dyn/cm^2]
+const double kDrag = 8.9e-3 / 2.5045e-6;  // μ over Permeability.IsThatOfTheTable at 0.4, along [g/(cm^3 s)]
 
-/// Model-fluid E3: what is filled alike stays.
+/// Without a gradient of saturation nothing flows (coupling/README.md, Wicking).
 TEST(Wicking, UniformSaturationStays)
 {
     Wick wick(clothAndYarn());
@@ -27,7 +27,7 @@ TEST(Wicking, UniformSaturationStays)
     for (std::size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(wick.state.absorbed[v], before[v], 1.0e-12 * before[v]);
 }
 
-/// Model-fluid E3: along a rod whose saturation falls evenly, the flow is A θ u with u = (1 − φ) 2 P_c ds/dx / c.
+/// Along a rod whose saturation falls evenly, the flow is A θ u with u = (1 − φ) 2 P_c ds/dx / c (coupling/README.md, Wicking).
 TEST(Wicking, FlowOfALinearSaturation)
 {
     constexpr int kSegments = 20;
@@ -45,7 +45,7 @@ TEST(Wicking, FlowOfALinearSaturation)
     }
 }
 
-/// Model-fluid E3: conservation on any mesh, in steps of many parts and with a vertex that would give more than it has.
+/// Conservation on any mesh, in steps of many parts and with a vertex that would give more than it has (coupling/README.md, Wicking).
 TEST(Wicking, KeepsMassAndMomentum)
 {
     for (const double dt : {1.0e-3, 0.05}) {
@@ -73,7 +73,7 @@ TEST(Wicking, KeepsMassAndMomentum)
     }
 }
 
-/// Model-fluid E3: a strip that dips its end into liquid follows ds/dt = d/dx(s D ds/dx), D = (1 − φ) 2 P_c / c: against a fine solution.
+/// A step of saturation follows ds/dt = d/dx(s D ds/dx), D = (1 − φ) 2 P_c / c (coupling/README.md, Wicking), against a fine solution.
 TEST(Wicking, SpreadsLikeTheOneDimensionalModel)
 {
     constexpr int kSegments = 120, kFine = 4;
@@ -170,7 +170,7 @@ TEST(Wicking, AtRateZeroLiquidStays)
     EXPECT_TRUE(Wicking(wick.fabric, wick.elements, wick.settings).isWet(wick.state)) << "and what is too much still drips off";
 }
 
-/// Model-fluid E3: in a yarn that hangs, saturation falls upwards until suction holds the weight: 2 P_c ds/dy = −ρ g.
+/// In a yarn that hangs, saturation falls upwards until suction holds the weight: 2 P_c ds/dy = −ρ g (coupling/README.md, Wicking).
 TEST(Wicking, ColumnAtRest)
 {
     constexpr int kSegments = 15;
