@@ -61,7 +61,6 @@ class MomentumBudget {
     bool isHeld(std::size_t piece) const { return !pinsOf_[piece].empty() || forces_.hardest[piece].obstacle != Forces::Touch::kNone; }
     void settleLoose();
     void settleHeld(std::size_t piece, const FabricState& state);
-    Vec3 middleOfPins(int group, const FabricState& state) const;
 
     const Fabric* fabric_ = nullptr;
     bool isLed_ = false;  ///< is all fabric held (fabric.solver: off)? What holds it beside its pins is nobody

@@ -21,7 +21,7 @@ class StateBackup {
     void restore(State& state);
 
  private:
-    /// Modes of all particles, as LiquidParticles has them.
+    /// Modes of all particles, as Particles has them.
     struct Modes {
         std::array<AlignedArray<double>, kAxes> values;  ///< [cm/s]
         std::size_t stride = 0;

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace app {
 
@@ -18,7 +17,19 @@ namespace fs = std::filesystem;
 namespace {
 
 enum class ResultKind { Picture, Pictures, Video, Run, Series, Report, State };
-constexpr std::array<const char*, 7> kKindNames = {"a picture", "a folder of pictures", "a video", "a run", "a series", "a report", "a state"};
+
+const char* nameOf(ResultKind kind)
+{
+    switch (kind) {
+        case ResultKind::Picture: return "a picture";
+        case ResultKind::Pictures: return "a folder of pictures";
+        case ResultKind::Video: return "a video";
+        case ResultKind::Run: return "a run";
+        case ResultKind::Series: return "a series";
+        case ResultKind::Report: return "a report";
+        default: return "a state";
+    }
+}
 
 ResultKind kindOf(const fs::path& path)
 {
@@ -45,7 +56,7 @@ ResultKind commonKind(const DiffOptions& of)
     if (a == b) return a;
     if (isPictures(a) && isPictures(b)) return ResultKind::Pictures;
     throw sim::InputError(fmt::format("{} is {} and {} is {}: two of a kind can be compared, and a folder of pictures with a run", of.a.string(),
-                                      kKindNames[static_cast<int>(a)], of.b.string(), kKindNames[static_cast<int>(b)]));
+                                      nameOf(a), of.b.string(), nameOf(b)));
 }
 
 /// The file asked for, else what A has: a run its scene, pictures tolerance.yaml beside them. Nothing else has any.

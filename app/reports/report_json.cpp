@@ -12,7 +12,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 4> kStatusNames = {"running", "done", "interrupted", "failed"};
+std::string_view nameOf(RunStatus status)
+{
+    switch (status) {
+        case RunStatus::Running: return "running";
+        case RunStatus::Done: return "done";
+        case RunStatus::Interrupted: return "interrupted";
+        default: return "failed";
+    }
+}
 
 Json secondsPerStepJson(const StageTimes& times)
 {
@@ -38,8 +46,7 @@ Json ledgerJson(const EnergyLedger::Summary& s)
 std::string reportText(const RunSummary& s)
 {
     const double steps = static_cast<double>(std::max<std::int64_t>(1, s.steps));
-    Json json = {
-        {"scene", s.scene}, {"title", s.title}, {"variant", s.variant}, {"label", s.label}, {"status", kStatusNames[static_cast<int>(s.status)]}};
+    Json json = {{"scene", s.scene}, {"title", s.title}, {"variant", s.variant}, {"label", s.label}, {"status", nameOf(s.status)}};
     if (!s.reason.empty()) json["reason"] = s.reason;
     json.update({{"steps", s.steps},
                  {"frames", s.frames},

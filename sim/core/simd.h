@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #ifdef __AVX512F__
@@ -38,6 +39,9 @@ template <int N, class F>
 }
 
 [[gnu::always_inline]] inline Pack broadcast(double v) { return Pack{v, v, v, v, v, v, v, v}; }
+
+/// Aligned numbers, a multiple of kLanes, as packs.
+inline std::span<Pack> packsOf(std::span<double> v) { return {reinterpret_cast<Pack*>(v.data()), v.size() / kLanes}; }
 
 [[gnu::always_inline]] inline Pack loadPack(const double* p)
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/core/spline.h"
 #include "sim/grid/block_grid.h"
 
 #include <algorithm>
@@ -9,23 +10,20 @@ namespace sim {
 
 /// The 27 cells around a point, with the weights of the quadratic B-spline at their middles.
 struct CellStencil {
-    int cell[kAxes];          ///< the point's own, in its block
-    double weight[kAxes][3];  ///< of the cells at −1, 0, 1
+    int cell[kAxes];          ///< the cell that the point lies in, in its block
+    double weight[kAxes][3];  ///< weights of the cells at −1, 0, 1
 
-    /// @param lowerCorner  of the block that the point was sorted into [cm]
+    /// @param lowerCorner  lower corner of the block that the point was sorted into [cm]
     CellStencil(const Vec3& x, const Vec3& lowerCorner, double dx)
     {
         for (int a = 0; a < kAxes; ++a) {
             const double at = (x[a] - lowerCorner[a]) / dx;
             cell[a] = std::clamp(static_cast<int>(std::floor(at)), 0, kBlockEdge - 1);
-            const double r = at - cell[a] - 0.5;
-            weight[a][0] = 0.5 * (0.5 - r) * (0.5 - r);
-            weight[a][1] = 0.75 - r * r;
-            weight[a][2] = 0.5 * (0.5 + r) * (0.5 + r);
+            splineWeights(at - cell[a] - 0.5, weight[a]);
         }
     }
 
-    /// The same in a cube of kTileEdge³ cells, the block's and those around it: body(place, weight).
+    /// Visits the cells as they lie in a cube of kTileEdge³ cells, the block's and those around it: body(place, weight).
     static constexpr int kTileEdge = kBlockEdge + 2;
     template <class Body>
     void forEachInTile(Body&& body) const

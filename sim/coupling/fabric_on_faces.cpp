@@ -130,7 +130,7 @@ void FabricOnFaces::takeVelocity(const FabricFaces& faces)
 void FabricOnFaces::spread(const FabricState& state)
 {
     const std::size_t n = vertices_.count();
-    LiquidParticles& particles = vertices_.particles;
+    Particles& particles = vertices_.particles;
     points_.find(particles, vertices_.order, vertices_.grid, 0, static_cast<std::uint32_t>(fabric_.vertexCount()));
     onPoints_.resize(n);
     parallelFor(n, kGrain, [&](std::size_t s) {

@@ -32,8 +32,6 @@ class LiquidAround {
     double distanceAt(std::size_t v) const { return distance_[v]; }
 
     const Pack& cell(int block, int c) const { return reinterpret_cast<const Pack*>(cells_.data())[block * kBlockCells + c]; }
-    bool isReached(int block, int c) const { return reached_.block(block)[c] != 0; }
-    bool isBlockReached(int block) const { return blockReached_[block] != 0; }
 
     /// Cells of a block, a bit each, by cellRank.
     using CellMask = std::array<std::uint64_t, kBlockCells / 64>;

@@ -63,7 +63,7 @@ void SortedVertices::sort(const BlockGrid& liquid, const FabricState& state)
         for (int a = 0; a < kAxes; ++a) particles.x[a][p] = state.x[v][a];
         ++p;
     }
-    sortParticles(particles, grid, nullptr, order, ledger_);
+    sortParticles(particles, grid, nullptr, order, nullptr);
 }
 
 bool reachesLiquid(const BlockGrid& liquid, const FabricState& state)

@@ -8,7 +8,7 @@ namespace sim {
 /// The vertices that may share faces with the liquid, sorted by cell, in blocks of their own: those that they reach. The cells are the
 /// liquid's.
 struct SortedVertices {
-    LiquidParticles particles;  ///< positions; id is the vertex
+    Particles particles;  ///< positions; id is the vertex
     BlockGrid grid;
     ParticleOrder order;
 
@@ -19,7 +19,6 @@ struct SortedVertices {
 
  private:
     std::vector<std::uint8_t> isNear_;  ///< of each vertex
-    Ledger ledger_;                     ///< of what is outside the domain; nothing is
 };
 
 /// Does a vertex reach the box around the liquid's blocks? Elsewhere the two have nothing to do with each other.

@@ -41,8 +41,8 @@ InternalGradient internalGradient(const Fabric& fabric, const FabricState& state
     AlignedArray<double> all;
     all.resize(unknowns.size);
     all.fill(0.0);
-    if (!rods.empty()) rods.forces(state, h, reinterpret_cast<Pack*>(all.data()), nullptr);
-    if (!shells.empty()) shells.forces(state.x, h, unknowns.slot, all.data(), nullptr);
+    if (!rods.empty()) rods.forces(state, h, packsOf(all), nullptr);
+    if (!shells.empty()) shells.forces(state.x, h, unknowns.slot, all, nullptr);
 
     InternalGradient gradient{std::vector<Vec3>(fabric.vertexCount(), Vec3::Zero()), std::vector<double>(fabric.edges.size())};
     const auto add = [&](int v, int slot) { gradient.byPosition[v] += Vec3(all[slot], all[slot + kLanes], all[slot + 2 * kLanes]); };

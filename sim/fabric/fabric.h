@@ -114,7 +114,7 @@ struct FabricState {
     /// Of solver grid only; empty until its first step.
     struct GridSolverPart {
         std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
-        std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in LiquidParticles [cm/s]
+        std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in Particles [cm/s]
         double sinceGather = 0.0;          ///< for how long the vertices have moved since their modes were gathered [s]
         BlockGrid faceBlocks;              ///< blocks of the grid in the last step
         BlockArray<double, 3> faceChange;  ///< change of the velocities of its faces by forces on the fabric [cm/s]

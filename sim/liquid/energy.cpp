@@ -6,7 +6,7 @@
 
 namespace sim {
 
-WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity)
+WeightSums weightSums(const Particles& particles, const Vec3& gravity)
 {
     const auto weight = [&](std::size_t p) {
         const double mass = particles.mass[p];
@@ -17,7 +17,7 @@ WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity)
     });
 }
 
-double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration)
+double weightWork(const Particles& particles, const Vec3& gravity, double duration)
 {
     double power = 0.0;
     for (int axis = 0; axis < kAxes; ++axis)
@@ -44,7 +44,7 @@ double squareNorm(const Basis1D& basis, int degree)
 }
 
 /// Orthogonal coefficients of one component of a particle whose modes are in a row.
-Modes orthogonalModes(const LiquidParticles& particles, int axis, std::size_t row, const Stencil& stencil)
+Modes orthogonalModes(const Particles& particles, int axis, std::size_t row, const Stencil& stencil)
 {
     Modes c{};
     for (int r = 0; r < particles.modeCount; ++r) c[r] = particles.mode(axis, r)[row];
@@ -53,7 +53,7 @@ Modes orthogonalModes(const LiquidParticles& particles, int axis, std::size_t ro
 
 }  // namespace
 
-LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order)
+LiquidEnergies liquidEnergies(const Particles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order)
 {
     const auto rowOf = [&](std::size_t p) { return order ? static_cast<std::size_t>(order->source[p]) : p; };
     LiquidEnergies total;
@@ -76,7 +76,7 @@ LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid&
     return total;
 }
 
-double strainEnergy(const LiquidParticles& particles, const BlockGrid& grid, const ParticleOrder* order)
+double strainEnergy(const Particles& particles, const BlockGrid& grid, const ParticleOrder* order)
 {
     if (particles.modeCount == 1) return 0.0;
     return parallelSum(particles.count, [&](std::size_t p) {

@@ -10,10 +10,10 @@ namespace sim {
 struct WeightSums {
     double potential, mass;
 };
-WeightSums weightSums(const LiquidParticles& particles, const Vec3& gravity);
+WeightSums weightSums(const Particles& particles, const Vec3& gravity);
 
 /// What weight does to particles that go on with their velocities for `duration` [s]: [erg].
-double weightWork(const LiquidParticles& particles, const Vec3& gravity, double duration);
+double weightWork(const Particles& particles, const Vec3& gravity, double duration);
 
 /// Energies of the liquid (liquid/README.md, Energy) [erg].
 struct LiquidEnergies {
@@ -33,10 +33,10 @@ struct LiquidEnergies {
 /// All energies of the liquid at the present positions, from the modes in the particles' own rows (liquid/README.md, Energy). The step itself
 /// takes kinetic and modal energy from G2P, where they cost nothing; this is for the initial state and for tests.
 /// @param order  of particles whose modes are not sorted yet; else null
-LiquidEnergies liquidEnergies(const LiquidParticles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);
+LiquidEnergies liquidEnergies(const Particles& particles, const BlockGrid& grid, const Vec3& gravity, const ParticleOrder* order = nullptr);
 
 /// The part of their modal energy that stretching has, Σ ½ m α² |e|² with the symmetric part e of each particle's velocity gradient and the variance
 /// α² = dx²/4 of the B-spline: what the strain correction takes for no inertia (liquid/README.md, Surface of second order) [erg].
-double strainEnergy(const LiquidParticles& particles, const BlockGrid& grid, const ParticleOrder* order = nullptr);
+double strainEnergy(const Particles& particles, const BlockGrid& grid, const ParticleOrder* order = nullptr);
 
 }  // namespace sim

@@ -51,7 +51,7 @@ bool insideDomain(const Shape& domain, const BlockGrid& grid, const Vec3i& block
 }
 
 /// Keys of all particles in the blocks that exist; blocks that do not go to `strays`.
-void computeKeys(const LiquidParticles& particles, const BlockGrid& grid, const Shape* domain, ParticleOrder& order)
+void computeKeys(const Particles& particles, const BlockGrid& grid, const Shape* domain, ParticleOrder& order)
 {
     const SortChunks chunks(particles.count);
     const double inverseDx = 1.0 / grid.dx;
@@ -163,7 +163,7 @@ void fitBlocks(BlockGrid& grid, ParticleOrder& order)
 }
 
 /// Counting sort, first by block (chunk by chunk, so in parallel and stable), then by cell within each block.
-void scatterByBlock(const LiquidParticles& particles, int blocks, ParticleOrder& order)
+void scatterByBlock(const Particles& particles, int blocks, ParticleOrder& order)
 {
     const std::vector<int>& renumbered = order.renumbered;
     const SortChunks chunks(particles.count);
@@ -200,7 +200,7 @@ void scatterByBlock(const LiquidParticles& particles, int blocks, ParticleOrder&
     });
 }
 
-void sortWithinBlock(const LiquidParticles& particles, int block, ParticleOrder& order)
+void sortWithinBlock(const Particles& particles, int block, ParticleOrder& order)
 {
     std::array<int, kBlockCells> next{};
     int* start = order.cellStart.data() + static_cast<std::size_t>(block) * kBlockCells;
@@ -223,7 +223,7 @@ void sortWithinBlock(const LiquidParticles& particles, int block, ParticleOrder&
     }
 }
 
-void recordDeaths(const LiquidParticles& particles, const ParticleOrder& order, Ledger& ledger)
+void recordDeaths(const Particles& particles, const ParticleOrder& order, Ledger& ledger)
 {
     for (const auto& chunk : order.dead)
         for (int p : chunk) {
@@ -250,8 +250,9 @@ void listBlocks(const BlockGrid& grid, ParticleOrder& order)
 
 }  // namespace
 
-void sortParticles(LiquidParticles& particles, BlockGrid& grid, const Shape* domain, ParticleOrder& order, Ledger& ledger)
+void sortParticles(Particles& particles, BlockGrid& grid, const Shape* domain, ParticleOrder& order, Ledger* ledger)
 {
+    SIM_CHECK(domain == nullptr || ledger != nullptr);
     const std::size_t n = particles.count, padded = particles.mass.size();
     if (n > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 2) throw RunError("more than 10^9 particles");
     order.strays.resize(kSortChunks);
@@ -263,7 +264,7 @@ void sortParticles(LiquidParticles& particles, BlockGrid& grid, const Shape* dom
         order.touched.resize(grid.count());
         computeKeys(particles, grid, domain, order);
     } while (addStrayBlocks(grid, order));
-    recordDeaths(particles, order, ledger);
+    if (ledger != nullptr) recordDeaths(particles, order, *ledger);
 
     fitBlocks(grid, order);
 

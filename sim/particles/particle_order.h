@@ -53,7 +53,7 @@ struct ParticleOrder {
 
 /// Particles in the order of the last sort, with the grid whose blocks it goes by.
 struct SortedParticles {
-    const LiquidParticles& particles;
+    const Particles& particles;
     const ParticleOrder& order;
     const BlockGrid& grid;
 };
@@ -62,9 +62,11 @@ struct SortedParticles {
 /// liquid because of it (its own and those around) and their faces reach.
 inline constexpr int kReachBelow = 1, kReachAbove = 2;
 
-/// Sort the particles by cell, drop those outside the domain (their mass and momentum go to the ledger), and make the grid's
-/// blocks those that the particles need. x, mass and id are moved; the modes stay where they are (see source).
+/// Sort the particles by cell, drop those outside the domain, and make the grid's blocks those that the particles need.
+/// x, mass and id are moved; the modes stay where they are (see source).
 /// Throws RunError if a position is not finite or out of the range of block numbers.
-void sortParticles(LiquidParticles& particles, BlockGrid& grid, const Shape* domain, ParticleOrder& order, Ledger& ledger);
+/// @param domain  null: all of space
+/// @param ledger  books mass and momentum of the particles that were dropped; null only without a domain
+void sortParticles(Particles& particles, BlockGrid& grid, const Shape* domain, ParticleOrder& order, Ledger* ledger);
 
 }  // namespace sim

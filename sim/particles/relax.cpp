@@ -53,7 +53,7 @@ struct Push {
 };
 
 /// Directions away from particles of the same cell that are at the same place, as far as floats can tell.
-Vec3 separateCoincident(const LiquidParticles& particles, const LocalPositions& local, int self, int first, int last)
+Vec3 separateCoincident(const Particles& particles, const LocalPositions& local, int self, int first, int last)
 {
     const auto samePlace = [&](int s) { return local.x[s] == local.x[self] && local.y[s] == local.y[self] && local.z[s] == local.z[self]; };
     Vec3 sum = Vec3::Zero();
@@ -148,7 +148,7 @@ class Repulsion {
 void relaxationDisplacements(const SortedParticles& sorted, double rate, double reach, double interval, RelaxScratch& scratch,
                              std::array<AlignedArray<double>, kAxes>& displacement)
 {
-    const LiquidParticles& particles = sorted.particles;
+    const Particles& particles = sorted.particles;
     const ParticleOrder& order = sorted.order;
     for (int a = 0; a < kAxes; ++a) {
         displacement[a].resize(particles.mass.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/core/spline.h"
 #include "sim/core/types.h"
 
 #include <array>
@@ -66,8 +67,7 @@ struct Basis1D {
     /// @param offset  particle − middle node, in cells, in [−1/2, 1/2]
     explicit Basis1D(double offset) : skew(offset * (1.0 - 4.0 * offset * offset))
     {
-        const double below = 0.5 - offset, above = 0.5 + offset;
-        weight = {0.5 * below * below, 0.75 - offset * offset, 0.5 * above * above};
+        splineWeights(offset, weight);
         for (int n = 0; n < 3; ++n) {
             z[n] = n - 1 - offset;
             project[n] = {weight[n], 4.0 * weight[n] * z[n], n == 1 ? -1.0 : 0.5};

@@ -51,12 +51,6 @@ void readNames(const Node& root, const std::string& file, Scene& scene)
     }
 }
 
-double pitchInCells(const FillSettings& fill)
-{
-    if (fill.spacing > 0.0) return fill.spacing;
-    return fill.pattern == FillSettings::Pattern::Reference ? 0.35355 : 0.4;
-}
-
 /// A source must hold some liquid, and not more than fits into memory.
 void checkSource(const Scene& scene, std::size_t mostBoxes, SourceSettings& source)
 {
@@ -70,7 +64,7 @@ void checkSource(const Scene& scene, std::size_t mostBoxes, SourceSettings& sour
                                        isBodiless ? "its shape has no volume; make its parts overlap"
                                                   : "its shape lies outside of the domain or inside obstacles; move it"));
     }
-    const double pitch = pitchInCells(source.fill) * scene.settings.cell;
+    const double pitch = source.fill.pitch() * scene.settings.cell;
     const double count = region.volume / (pitch * pitch * pitch);
     if (!(count <= kMaxParticles)) {
         fail(source.where, fmt::format("{}: would be about {:.2g} particles (at most {:.0e} are possible); use a "

@@ -19,7 +19,14 @@ struct FillSettings {
     enum class Pattern { Lattice, Reference, Jittered, Poisson };
     Pattern pattern = Pattern::Lattice;
     std::uint64_t seed = 1;
-    double spacing = 0.0;  ///< pitch in cells; 0 = the pattern's own: 0.4, reference 0.35355 [-]
+    double spacing = 0.0;  ///< pitch in cells; 0 = the pattern's own [-]
+
+    /// Pitch of the particles [cells].
+    double pitch() const
+    {
+        if (spacing > 0.0) return spacing;
+        return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4;  // 1/√8: eight in (1/√2)³ of a cell's volume
+    }
 };
 
 /// A span of time in which a source gives liquid.

@@ -30,11 +30,6 @@ struct FramedTile {
         forEachRow(~rows, [&](int r) { storeRow<T>(row(r), Row<T>{}); });
     }
     void clearSum() { std::fill(sum, sum + kBlockCells, T(0)); }
-    void clearNeighbours()
-    {
-        std::fill(left, left + kBlockRows, T(0));
-        std::fill(right, right + kBlockRows, T(0));
-    }
 };
 
 /// Couplings of one block to the lower neighbours along each axis, and along x beyond the right end of each row.

@@ -57,11 +57,11 @@ double PoissonSolver::measure(const Problem& problem)
             largestRhs = largerRow(largestRhs, absolute(isUnknown ? loadRow(rhs + c) : Row<double>{}));
             rightCoupling_[b * std::size_t{kBlockRows} + c / kBlockEdge] = beyondX[c];
         }
-        largest_[b] = maxOfRow<double>(largestGuess);
+        largestGuess_[b] = maxOfRow<double>(largestGuess);
         largestRhsOfBlock_[b] = maxOfRow<double>(largestRhs);
     });
     largestRhs_ = largestOf(largestRhsOfBlock_);
-    return largestOf(largest_);
+    return largestOf(largestGuess_);
 }
 
 /// residual = rhs − A p, and 0 in the rows of all vectors that hold no unknowns.
@@ -87,7 +87,7 @@ void PoissonSolver::startBlock(const Problem& problem, int b, bool isGuessZero, 
         storeRow(residual_.block(b) + c, residual);
         storeRow(multigrid_.rightHandSide().block(b) + c, toFloat(scale_ * residual));
     });
-    largest_[b] = maxOfRow<double>(largest);
+    largestResidual_[b] = maxOfRow<double>(largest);
     forEachRow(~rows, [&](int r) {
         for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_}) storeRow(v->block(b) + r * kBlockEdge, Row<double>{});
     });
@@ -100,7 +100,7 @@ void PoissonSolver::start(const Problem& problem)
     for (BlockArray<double>* v : {&residual_, &direction_, &nextDirection_, &applied_, &problem.p}) v->resize(n);
     if (isNew) forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
     rightCoupling_.resize(n * std::size_t{kBlockRows});
-    for (std::vector<double>* v : {&dot_, &largest_, &largestRhsOfBlock_}) v->resize(n);
+    for (std::vector<double>* v : {&dot_, &largestGuess_, &largestResidual_, &largestRhsOfBlock_}) v->resize(n);
 
     const bool isGuessZero = measure(problem) == 0.0;
     scale_ = largestRhs_ > 0.0 && std::isfinite(largestRhs_) ? std::exp2(-std::ilogb(largestRhs_)) : 1.0;
@@ -108,7 +108,7 @@ void PoissonSolver::start(const Problem& problem)
         forEachBlockInTile<FramedTile<double>>(n, [&](int b, FramedTile<double>& tile) { startBlock(problem, b, fromZero, tile); });
     };
     findResidual(isGuessZero);
-    if (!isGuessZero && !(largestOf(largest_) <= largestRhs_)) {
+    if (!isGuessZero && !(largestOf(largestResidual_) <= largestRhs_)) {
         // Worse than none: of a pressure far above the solution, rounding alone may be larger than what there is to solve.
         forEachBlock(n, [&](int b) { std::fill_n(problem.p.block(b), kBlockCells, 0.0); });
         findResidual(true);
@@ -123,7 +123,7 @@ void PoissonSolver::start(const Problem& problem)
             largest = largerRow(largest, absolute(r));
             storeRow(multigrid_.rightHandSide().block(b) + c, toFloat(scale_ * r));
         }
-        largest_[b] = maxOfRow<double>(largest);
+        largestResidual_[b] = maxOfRow<double>(largest);
     });
 }
 
@@ -178,14 +178,14 @@ double PoissonSolver::advance(const Problem& problem, double alpha)
             storeRow(out + c, toFloat(scale_ * r));
             largest = largerRow(largest, absolute(r));
         });
-        largest_[b] = maxOfRow<double>(largest);
+        largestResidual_[b] = maxOfRow<double>(largest);
     });
-    return largestOf(largest_);
+    return largestOf(largestResidual_);
 }
 
 void PoissonSolver::conjugateGradients(const Problem& problem, double target, int maxIterations, SolveReport& report)
 {
-    double residual = largestOf(largest_), rho = 0.0;
+    double residual = largestOf(largestResidual_), rho = 0.0;
     while (residual > target && report.iterations < maxIterations) {
         const double next = multigrid_.cycle() / scale_;
         components_.removeMeans(multigrid_.solution());

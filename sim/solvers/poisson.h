@@ -27,9 +27,9 @@ class PoissonSolver {
  public:
     /// Make ready to solve with this matrix: its hierarchy and its components.
     void prepare(const BlockGrid& grid, const PoissonMatrix& matrix);
-    /// The same in two steps, between which values of the matrix may change: its components …
+    /// First half of prepare(), after which values of the matrix may still change: its components.
     void findComponents(const BlockGrid& grid, const PoissonMatrix& matrix);
-    /// … and its hierarchy.
+    /// Second half of prepare(): its hierarchy.
     void buildHierarchy(const BlockGrid& grid, const PoissonMatrix& matrix);
 
     /// @param matrix, rhs   on the blocks of the grid; what rhs has in cells that are no unknowns is ignored
@@ -39,7 +39,7 @@ class PoissonSolver {
     SolveReport solve(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, SolveTolerance tolerance, int maxIterations,
                       BlockArray<double>& p);
 
-    /// The same for the matrix that was last prepared or solved.
+    /// Solves with the matrix that was last prepared or solved.
     SolveReport solveAgain(const BlockGrid& grid, const PoissonMatrix& matrix, const BlockArray<double>& rhs, SolveTolerance tolerance,
                            int maxIterations, BlockArray<double>& p);
 
@@ -65,14 +65,14 @@ class PoissonSolver {
     void conjugateGradients(const Problem& problem, double target, int maxIterations, SolveReport& report);
     double applyToDirection(const Problem& problem, bool isFirst, double beta);
     double advance(const Problem& problem, double alpha);
-    double largestResidual() const;
 
     Multigrid multigrid_;
     ConnectedComponents components_;
     BlockArray<double> residual_, direction_, nextDirection_, applied_;
-    AlignedArray<double> rightCoupling_;  ///< of each row, 64 per block: beyond its right end
-    std::vector<double> dot_;             ///< direction · A direction of each block
-    std::vector<double> largest_;         ///< largest residual of each block, and before that largest guess
+    AlignedArray<double> rightCoupling_;   ///< of each row, 64 per block: beyond its right end
+    std::vector<double> dot_;              ///< direction · A direction of each block
+    std::vector<double> largestGuess_;     ///< of each block
+    std::vector<double> largestResidual_;  ///< of each block
     std::vector<double> largestRhsOfBlock_;
     double largestRhs_ = 0.0;
     double scale_ = 1.0;  ///< power of two that brings residuals near 1 for the float cycle

@@ -1,6 +1,7 @@
 #include "sim/sources/even_volumes.h"
 
 #include "sim/core/parallel.h"
+#include "sim/core/spline.h"
 #include "sim/grid/room.h"
 
 #include <algorithm>
@@ -37,10 +38,8 @@ class FaceStencil {
             for (int middle = 0; middle < 2; ++middle) {
                 const double at = place[a] - 0.5 * middle;
                 const int first = static_cast<int>(std::floor(at - 0.5));
-                const double offset = at - first;  // .5 … 1.5
                 first_[middle][a] = first;
-                weight_[middle][a] = {0.5 * (1.5 - offset) * (1.5 - offset), 0.75 - (offset - 1.0) * (offset - 1.0),
-                                      0.5 * (offset - 0.5) * (offset - 0.5)};
+                splineWeights(at - first - 1.0, weight_[middle][a]);
             }
     }
 
@@ -126,8 +125,8 @@ void forEachTileFace(const BlockGrid& grid, int block, F&& f)
             }
 }
 
-/// Finds volumes by the multiplicative iteration of Richardson 1972 and Lucy 1974: each particle's grows by the mean ratio of what the faces around it
-/// should have and have.
+/// Finds volumes by the multiplicative iteration of Richardson 1972 and Lucy 1974: each particle's grows by the mean ratio of what the
+/// faces around it should have and have.
 class Evening {
  public:
     Evening(const Shape& region, std::span<const Vec3> positions, double dx, const Vec3& origin) : positions_(positions), bins_(positions, dx, origin)
@@ -135,6 +134,7 @@ class Evening {
         end_.assign(bins_.begin.begin() + 1, bins_.begin.end());
         target_.resize(bins_.grid.count());
         sums_.resize(bins_.grid.count());
+        ratio_.resize(bins_.grid.count());
         findTarget(region);
     }
 
@@ -147,9 +147,9 @@ class Evening {
         inColors([&](int b) { addParticles(b, bins_.begin[b], end_[b], volumes, sums_); });
         parallelFor(bins_.grid.count(), 8, [&](std::size_t n) {
             const int b = static_cast<int>(n);
-            double* ratio = sums_.block(b);
-            const double* target = target_.block(b);
-            for (std::size_t f = 0; f < sums_.kStride; ++f) ratio[f] = ratio[f] > kLeastSum ? target[f] / ratio[f] : 1.0;
+            double* ratio = ratio_.block(b);
+            const double *sum = sums_.block(b), *target = target_.block(b);
+            for (std::size_t f = 0; f < sums_.kStride; ++f) ratio[f] = sum[f] > kLeastSum ? target[f] / sum[f] : 1.0;
         });
         inColors([&](int b) { multiply(b, isFirst, volumes); });
         if (!isFirst) return;
@@ -211,7 +211,7 @@ class Evening {
     {
         if (bins_.begin[block] == end_[block]) return;
         Tile tile;
-        forEachTileFace(bins_.grid, block, [&](int a, int at, int b, int face) { tile[a][at] = sums_.block(b, a)[face]; });
+        forEachTileFace(bins_.grid, block, [&](int a, int at, int b, int face) { tile[a][at] = ratio_.block(b, a)[face]; });
         for (int n = bins_.begin[block]; n < end_[block];) {
             double sum = 0.0;
             stencil(block, bins_.order[n]).forEachFace([&](int a, int at, double weight) { sum += weight * tile[a][at]; });
@@ -226,7 +226,8 @@ class Evening {
     std::vector<int> end_;          ///< per block, in the bins: of the particles that are not left alone
     BlockArray<double, 3> target_;  ///< share of each lower face's B-spline that is in the region [-]
     BlockArray<double, 3> base_;    ///< what particles bring there that are left alone [cells]
-    BlockArray<double, 3> sums_;    ///< what all bring [cells], then the ratio of the share to it [-]
+    BlockArray<double, 3> sums_;    ///< what all bring [cells]
+    BlockArray<double, 3> ratio_;   ///< of the share to what all bring [-]
 };
 
 }  // namespace

@@ -14,9 +14,6 @@ namespace {
 
 using Pattern = FillSettings::Pattern;
 
-/// The pattern's own pitch [cells] (sources/README.md, Filling).
-double ownSpacing(Pattern pattern) { return pattern == Pattern::Reference ? 0.35355339059327379 : 0.4; }
-
 /// Some of the positions, chosen at random, in their old order.
 std::vector<Vec3> chooseSome(const std::vector<Vec3>& positions, std::size_t count, const CounterRandom& random)
 {
@@ -61,7 +58,7 @@ double packingOf(FillSettings::Pattern pattern)
     return pattern == Pattern::Reference ? kReference : 1.0;
 }
 
-double particleSpacing(const FillSettings& fill, double dx) { return dx * (fill.spacing > 0.0 ? fill.spacing : ownSpacing(fill.pattern)); }
+double particleSpacing(const FillSettings& fill, double dx) { return dx * fill.pitch(); }
 
 double nominalRadius(const FillSettings& fill, double dx)
 {

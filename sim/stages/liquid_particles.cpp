@@ -54,7 +54,7 @@ void sort(StepContext& c)
     c.plan.isWet = hasLiquid(state);
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Sort);
-    sortParticles(state.liquid, grid, c.scene.domain ? &*c.scene.domain : nullptr, work.order, state.ledger);
+    sortParticles(state.liquid, grid, c.scene.domain ? &*c.scene.domain : nullptr, work.order, &state.ledger);
     remapPressure(grid, work.order, work.oldPressure, state.pressure);
     if (state.pressureOfStrain.size() > 0) {
         remapPressure(grid, work.order, work.oldPressure, state.pressureOfStrain);

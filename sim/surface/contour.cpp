@@ -86,8 +86,8 @@ std::array<int, 2> Contour::findOffsets()
 {
     std::array<int, 2> sums = {0, 0};
     for (Block& b : blocks_) {
-        sums[0] += std::exchange(b.vertices, sums[0]);
-        sums[1] += std::exchange(b.triangles, sums[1]);
+        b.firstVertex = sums[0], b.firstTriangle = sums[1];
+        sums[0] += b.vertices, sums[1] += b.triangles;
     }
     return sums;
 }
@@ -98,7 +98,7 @@ int Contour::vertexOn(const BlockGrid& grid, int block, int axis, const Vec3i& n
     const Block& b = blocks_[grid.neighbours(block)[neighbourIndex(node.x() >> 3, node.y() >> 3, node.z() >> 3)]];
     const int row = kBlockEdge * (node.z() & 7) + (node.y() & 7), i = node.x() & 7;
     SIM_CHECK((b.cut[axis][row] >> i & 1) == 1);
-    int vertex = b.vertices + b.rowStart[row] + countBits(b.cut[axis][row] & ((1u << i) - 1));
+    int vertex = b.firstVertex + b.rowStart[row] + countBits(b.cut[axis][row] & ((1u << i) - 1));
     for (int before = 0; before < axis; ++before) vertex += countBits(b.cut[before][row]);
     return vertex;
 }
@@ -109,7 +109,7 @@ void Contour::placeVertices(const BlockGrid& grid, const BlockArray<float>& valu
     constexpr float kNearestToNode = 0.01f;
     const Block& b = blocks_[block];
     const Vec3 corner = grid.lowerCorner(block);
-    int vertex = b.vertices;
+    int vertex = b.firstVertex;
     for (int row = 0; row < kRows; ++row)
         for (int axis = 0; axis < kAxes; ++axis)
             forEachBit(b.cut[axis][row], [&](int i) {
@@ -124,7 +124,7 @@ void Contour::placeVertices(const BlockGrid& grid, const BlockArray<float>& valu
 
 void Contour::makeTriangles(const BlockGrid& grid, int block, SurfaceMesh& mesh) const
 {
-    int next = blocks_[block].triangles;
+    int next = blocks_[block].firstTriangle;
     forEachCutCell(grid, block, [&](const Vec3i& cell, unsigned inside) {
         const CubeCase& cube = cubeCases()[inside];
         const auto vertexAt = [&](int edge) {

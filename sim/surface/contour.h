@@ -43,7 +43,8 @@ class Contour {
         Rows inside;
         std::array<Rows, kAxes> cut;                ///< edges that begin at these nodes hold a vertex
         std::array<std::uint16_t, kRows> rowStart;  ///< vertices of the block before those of a row
-        int vertices, triangles;                    ///< before findOffsets how many, then which is the first
+        int vertices, triangles;                    ///< their numbers
+        int firstVertex, firstTriangle;             ///< among those of all blocks
     };
 
     void compare(const float* values, float level, Block& block) const;

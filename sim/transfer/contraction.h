@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/core/simd.h"
+#include "sim/core/spline.h"
 #include "sim/transfer/mode_set.h"
 #include "sim/transfer/tile.h"
 
@@ -33,22 +34,17 @@ template <int kFactors, bool kFold>
             }
         }
     };
-    const auto weights = [](Pack r, Pack(&w)[3]) {
-        w[0] = 0.5 * (0.5 - r) * (0.5 - r);
-        w[1] = 0.75 - r * r;
-        w[2] = 0.5 * (0.5 + r) * (0.5 + r);
-    };
     constexpr double kSecond[3] = {0.5, -1.0, 0.5};
     Pack w[3];
     const Pack r = xi - 0.5;
     op.centerOffset = r;
-    weights(r, w);
+    splineWeights(r, w);
     unroll<3>([&](auto n) { store(op.center[n], w[n], (n - 1.0) - r, broadcast(kSecond[n]), r * (1.0 - 4.0 * r * r)); });
 
     const PackMask upper = xi >= 0.5;
     const Pack rf = select(upper, xi - 1.0, xi), zero = broadcast(0.0);
     op.faceOffset = rf;
-    weights(rf, w);
+    splineWeights(rf, w);
     unroll<4>([&](auto n) {
         const Pack lowerWeight = n < 3 ? w[n % 3] : zero, upperWeight = n > 0 ? w[(n + 2) % 3] : zero;
         const Pack second = select(upper, broadcast(n > 0 ? kSecond[(n + 2) % 3] : 0.0), broadcast(n < 3 ? kSecond[n % 3] : 0.0));

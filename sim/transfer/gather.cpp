@@ -27,7 +27,7 @@ void loadTile(const BlockArray<double, 3>& velocity, const BlockGrid& grid, int 
 /// Everything the packs of one block share.
 struct Context {
     const GatherSettings& settings;
-    LiquidParticles& particles;
+    Particles& particles;
     GatherScratch& scratch;
     Vec3 origin;
     double dx;
@@ -130,7 +130,7 @@ template <class Set, int kModes, bool kFold, class Rows>
 [[gnu::flatten, gnu::noinline]] void gatherPack(const Context& ctx, const Batch& batch, Rows& rows, LaneSums& sums)
 {
     const int s = batch.first, n = batch.count, node = batch.node;
-    LiquidParticles& particles = ctx.particles;
+    Particles& particles = ctx.particles;
     if constexpr (std::is_same_v<Rows, DirectModes>)
         for (int a = 0; a < kAxes; ++a)
             for (int r = 0; r < kModes; ++r) __builtin_prefetch(rows.at(a, r, s + kRowsAhead), 1);
@@ -236,7 +236,7 @@ GatherSums gatherBlock(const ParticleOrder& order, int block, const OccupiedBox&
 }
 
 /// FLIP adds to the old velocity, which G2P overwrites in another particle's row: bring it into the sorted order first.
-void sortOldVelocities(const LiquidParticles& particles, const ParticleOrder& order, GatherScratch& scratch)
+void sortOldVelocities(const Particles& particles, const ParticleOrder& order, GatherScratch& scratch)
 {
     for (auto& v : scratch.oldVelocity) v.resize(particles.mass.size());
     parallelFor(particles.count, 4096, [&](std::size_t s) {
@@ -247,7 +247,7 @@ void sortOldVelocities(const LiquidParticles& particles, const ParticleOrder& or
 }  // namespace
 
 GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
-                            GatherScratch& scratch, LiquidParticles& particles)
+                            GatherScratch& scratch, Particles& particles)
 {
     if (settings.flipVelocity != nullptr) sortOldVelocities(particles, order, scratch);
     scratch.perBlock.resize(order.occupied.size());

@@ -55,6 +55,6 @@ struct GatherScratch {
 /// facesToParticlesReference to round-off. Lanes = particles of one cell (transfer/README.md, Kernels).
 /// @return the sums over all particles, in the order of the blocks
 GatherSums facesToParticles(const FaceFields& faces, const ParticleOrder& order, const BlockGrid& grid, const GatherSettings& settings,
-                            GatherScratch& scratch, LiquidParticles& particles);
+                            GatherScratch& scratch, Particles& particles);
 
 }  // namespace sim

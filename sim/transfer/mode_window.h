@@ -14,7 +14,7 @@ template <int kModes>
 class ModeWindow {
  public:
     /// @param begin  the block's first particle
-    ModeWindow(LiquidParticles& particles, int begin) : particles_(particles), written_(begin), first_(begin & ~(kLanes - 1)) {}
+    ModeWindow(Particles& particles, int begin) : particles_(particles), written_(begin), first_(begin & ~(kLanes - 1)) {}
 
     /// Make room for the 8 particles from s on. To be called in the order of s, without gaps.
     void advanceTo(int s)
@@ -61,7 +61,7 @@ class ModeWindow {
         written_ = end;
     }
 
-    LiquidParticles& particles_;
+    Particles& particles_;
     int written_;  ///< particles before this one are in memory
     int first_;    ///< the particle of the window's first column, where a cache line starts
     alignas(64) double row_[kAxes * kModes][kWidth + 2 * kLanes];
@@ -70,13 +70,13 @@ class ModeWindow {
 /// The same, straight to the rows: best for few of them.
 class DirectModes {
  public:
-    explicit DirectModes(LiquidParticles& particles, int = 0) : particles_(particles) {}
+    explicit DirectModes(Particles& particles, int = 0) : particles_(particles) {}
     void advanceTo(int) {}
     double* at(int axis, int r, int s) { return particles_.mode(axis, r) + s; }
     void finish(int) {}
 
  private:
-    LiquidParticles& particles_;
+    Particles& particles_;
 };
 
 }  // namespace sim

@@ -38,7 +38,7 @@ void forEachFace(const BlockGrid& grid, const Stencil& stencil, F&& f)
 
 void particlesToFacesReference(const SortedParticles& sorted, FaceFields& faces)
 {
-    const LiquidParticles& particles = sorted.particles;
+    const Particles& particles = sorted.particles;
     const BlockGrid& grid = sorted.grid;
     faces.sums.resize(grid.count());
     std::fill_n(faces.sums.block(0), faces.sums.size(), 0.0);
@@ -65,7 +65,7 @@ Modes gatherModes(const BlockArray<double, 3>& velocity, const BlockGrid& grid, 
     return c;
 }
 
-void facesToParticlesReference(const FaceFields& faces, const BlockGrid& grid, int modes, LiquidParticles& particles)
+void facesToParticlesReference(const FaceFields& faces, const BlockGrid& grid, int modes, Particles& particles)
 {
     for (std::size_t p = 0; p < particles.count; ++p)
         for (int axis = 0; axis < kAxes; ++axis) {

@@ -28,7 +28,7 @@ void particlesToFacesReference(const SortedParticles& sorted, FaceFields& faces)
 
 /// G2P: the modes of every particle, in its own row, from the face velocities. All faces are taken as valid.
 /// @param modes  N_r, at most the rows that the particles store
-void facesToParticlesReference(const FaceFields& faces, const BlockGrid& grid, int modes, LiquidParticles& particles);
+void facesToParticlesReference(const FaceFields& faces, const BlockGrid& grid, int modes, Particles& particles);
 
 /// Orthogonal coefficients of one component gathered at a stencil, N_r = modes.
 Modes gatherModes(const BlockArray<double, 3>& velocity, const BlockGrid& grid, int axis, const Stencil& stencil, int modes);

@@ -1,6 +1,7 @@
 #include "sim/transfer/scatter.h"
 
 #include "sim/core/simd.h"
+#include "sim/core/spline.h"
 #include "sim/transfer/mode_set.h"
 #include "sim/transfer/scatter_blocks.h"
 
@@ -67,7 +68,7 @@ template <int kFactors>
 }
 
 template <int kFactors>
-inline void prepare(const LiquidParticles& particles, const Vec3& origin, double inverseDx, int first, int last, Prepared<kFactors>* out)
+inline void prepare(const Particles& particles, const Vec3& origin, double inverseDx, int first, int last, Prepared<kFactors>* out)
 {
     const auto inCell = [&](int axis, int s) {
         const Pack p = (loadPack(particles.x[axis].data() + s) - origin[axis]) * inverseDx;
@@ -90,9 +91,8 @@ inline void prepare(const LiquidParticles& particles, const Vec3& origin, double
         }
         const Pack zero = broadcast(0.0);
         const auto weights = [&](Pack r, Pack(&w)[3]) {
-            w[0] = mass * (0.5 * (0.5 - r) * (0.5 - r));
-            w[1] = mass * (0.75 - r * r);
-            w[2] = mass * (0.5 * (0.5 + r) * (0.5 + r));
+            splineWeights(r, w);
+            for (Pack& share : w) share = mass * share;
         };
         Pack w[3];
         weights(z - 0.5, w);
@@ -235,7 +235,7 @@ inline void scatterAxis(const PlaneTables& tables, const SortedParticles& sorted
 
 void particlesToFaces(const SortedParticles& sorted, ScatterScratch& scratch, FaceFields& faces)
 {
-    const LiquidParticles& particles = sorted.particles;
+    const Particles& particles = sorted.particles;
     const ParticleOrder& order = sorted.order;
     const BlockGrid& grid = sorted.grid;
     withModeSet(particles.modeCount, [&]<int kModes>(ModeSet<kModes>) {

@@ -58,7 +58,7 @@ Pack evaluatePolynomial(const Modes& c, Pack x, Pack y, Pack z)
 
 /// All modes of one particle.
 struct ParticleModes {
-    ParticleModes(const LiquidParticles& particles, int row)
+    ParticleModes(const Particles& particles, int row)
     {
         for (int a = 0; a < kAxes; ++a)
             for (int r = 0; r < particles.modeCount; ++r) c[a][r] = particles.mode(a, r)[row];

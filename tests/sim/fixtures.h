@@ -21,7 +21,7 @@ struct SortedLiquid {
     ParticleOrder order;
     Ledger ledger;
 
-    void sort() { sortParticles(particles, grid, nullptr, order, ledger); }
+    void sort() { sortParticles(particles, grid, nullptr, order, &ledger); }
 
     /// Where the modes of particle s stand now that P2G has been done: put them into its own row, as G2P would.
     void moveModesHome()

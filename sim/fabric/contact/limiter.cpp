@@ -11,6 +11,8 @@ namespace {
 
 /// A pair already below its floor or core may still lose this share of its distance [-].
 constexpr double kKept = 0.97;
+/// Share of the gap above the core by which a pair may approach even below its floor [-].
+constexpr double kShareOfGap = 0.2;
 
 std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3> values)
 {
@@ -45,8 +47,7 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
         anyChanged = true;
         if (round + 1 < kBlendRounds) report.blends += averageFailingPairs(u);
     }
-    constexpr double kSpare = 0.95;
-    parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSpare * fraction; });
+    parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSafeShare * fraction; });
     ++report.scalings;
     return true;
 }
@@ -142,7 +143,7 @@ Limiter::ApproachingPair Limiter::closing(std::span<const Vec3> x, const Candida
         c.compliance += c.weights[k] * c.weights[k] * inverseMass_[c.vertices[k]];
     }
     c.normal = d > 0.0 ? Vec3(apart / d) : Vec3::Zero().eval();
-    c.allowed = std::max(d - floorOf(range.reach, range.core), 0.2 * std::max(d - range.core, 0.0));
+    c.allowed = std::max(d - floorOf(range.reach, range.core), kShareOfGap * std::max(d - range.core, 0.0));
     c.separation = std::min(range.core, kKept * d);
     c.radii = primitives_.radius[pairs.a[place]] + primitives_.radius[pairs.b[place]];
     return c;

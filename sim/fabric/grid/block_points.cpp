@@ -188,8 +188,7 @@ void BlockPoints::clear()
     id.clear();
 }
 
-void BlockPoints::find(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin,
-                       std::uint32_t idEnd)
+void BlockPoints::find(const Particles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin, std::uint32_t idEnd)
 {
     clear();
     row.clear();

@@ -33,7 +33,7 @@ struct BlockPoints {
     int begin(std::size_t n) const { return cells[blockBegin[n]].begin; }
     int end(std::size_t n) const { return cells[blockBegin[n + 1]].begin; }
     /// Makes these the places of the sorted particles whose ids are in [idBegin, idEnd); they are numbered from idBegin on.
-    void find(const LiquidParticles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin, std::uint32_t idEnd);
+    void find(const Particles& particles, const ParticleOrder& order, const BlockGrid& grid, std::uint32_t idBegin, std::uint32_t idEnd);
     /// Makes this the points of `all` whose id `isKept`.
     void select(const BlockPoints& all, auto&& isKept);
 };

@@ -51,7 +51,7 @@ void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> e
 void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
 {
     load(mass, elements, state);
-    sortParticles(particles_, grid_, nullptr, order_, ledger_);
+    sortParticles(particles_, grid_, nullptr, order_, nullptr);
     const auto vertices = static_cast<std::uint32_t>(state.x.size());
     vertices_.find(particles_, order_, grid_, 0, vertices);
     elements_.find(particles_, order_, grid_, vertices, vertices + static_cast<std::uint32_t>(elements.size()));

@@ -49,10 +49,9 @@ class FabricParticles {
     double keepDt_;  ///< [s]
     bool keepPerStep_, dampModes_;
 
-    LiquidParticles particles_;
+    Particles particles_;
     BlockGrid grid_;
     ParticleOrder order_;
-    Ledger ledger_;  ///< of particles outside the domain; there is none
     FaceFields faces_;
     ScatterScratch scatter_;
     BoundedScratch bounded_;

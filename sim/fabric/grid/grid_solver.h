@@ -30,8 +30,6 @@ class GridFabricSolver final : public FabricIntegrator {
     std::optional<FabricFaces> faces() const override { return FabricFaces{particles_.grid(), particles_.faces().velocity}; }
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override;
     double deepestInObstacles(const FabricState& state) const override { return obstacles_.deepest(fabric_, state.x); }
-    /// Energy that contact on the grid held at the start of the last step [erg].
-    double contactEnergy() const { return contact_.energy(); }
 
  private:
     void begin(FabricState& state);

@@ -91,10 +91,10 @@ void VertexStiffness::findPins(const FabricState& state, double end)
 void VertexStiffness::assembleInternal(const FabricState& at, double h)
 {
     gradient_.fill(0.0);
-    if (!rods_.empty()) rods_.forces(at, h, reinterpret_cast<Pack*>(gradient_.data()), &strands_);
+    if (!rods_.empty()) rods_.forces(at, h, packsOf(gradient_), &strands_);
     if (!shells_.empty()) {
         cloth_.clear();
-        shells_.forces(at.x, h, unknowns_.slot, gradient_.data(), &cloth_);
+        shells_.forces(at.x, h, unknowns_.slot, gradient_, &cloth_);
     }
     addToOwners(gradient_);
 }

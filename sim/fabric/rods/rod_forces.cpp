@@ -3,12 +3,13 @@
 
 namespace sim {
 
-void Rods::forces(const FabricState& state, double h, Pack* gradient, StrandMatrix* matrix) const
+void Rods::forces(const FabricState& state, double h, std::span<Pack> gradient, StrandMatrix* matrix) const
 {
     if (matrix) matrix->clear();
     parallelFor(layout_.groups.size(), [&](std::size_t g) {
-        const int group = static_cast<int>(g), firstRow = layout_.groups[g].firstRow;
-        Pack *rows = gradient + firstRow, *band = matrix ? matrix->rows(firstRow) : nullptr;
+        const StrandLayout::Group& rowsOf = layout_.groups[g];
+        const std::span<Pack> rows = gradient.subspan(rowsOf.firstRow, rowsOf.rows()), band = matrix ? matrix->rows(rowsOf) : std::span<Pack>();
+        const int group = static_cast<int>(g);
         addStretching(group, state, h, rows, band);
         addBendingAndTwisting(group, state, h, rows, band);
     });
@@ -17,7 +18,7 @@ void Rods::forces(const FabricState& state, double h, Pack* gradient, StrandMatr
 namespace {
 
 /// The torque's part of the Hessian: what turns a twisted rod out of its plane. Not definite by itself.
-void addTorque(const Pack& torque, const RodEdge<Pack>& e, const RodEdge<Pack>& f, Pack* band)
+void addTorque(const Pack& torque, const RodEdge<Pack>& e, const RodEdge<Pack>& f, std::span<Pack> band)
 {
     constexpr int kBand = StrandMatrix::kBand;
     const TwistCurvature<Pack> c = twistCurvature(e, f);
@@ -46,8 +47,7 @@ Pack torsionalCorrection(const Pack& b00, const Pack& b01, const Pack& b11, cons
 
 }  // namespace
 
-/// @param band  of the group's Hessian, or null
-void Rods::addStretching(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const
+void Rods::addStretching(int g, const FabricState& state, double h, std::span<Pack> gradient, std::span<Pack> band) const
 {
     constexpr int kBand = StrandMatrix::kBand;
     const StrandLayout::Group& group = layout_.groups[g];
@@ -66,7 +66,7 @@ void Rods::addStretching(int g, const FabricState& state, double h, Pack* gradie
             gradient[row + a] -= force * e.tangent[a];
             gradient[row + 4 + a] += force * e.tangent[a];
         }
-        if (!band) continue;
+        if (band.empty()) continue;
         const Pack across = select(perRestLength_[i] > 0.0, k.stretch * maxPack(perRestLength_[i] - one / e.length, broadcast(0.0)), broadcast(0.0));
         const Pack along = k.stretch * perRestLength_[i] * (one + stretchRate) - across;
         for (int a = 0; a < 3; ++a)
@@ -82,8 +82,7 @@ void Rods::addStretching(int g, const FabricState& state, double h, Pack* gradie
     }
 }
 
-/// @param band  of the group's Hessian, or null
-void Rods::addBendingAndTwisting(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const
+void Rods::addBendingAndTwisting(int g, const FabricState& state, double h, std::span<Pack> gradient, std::span<Pack> band) const
 {
     constexpr int kBand = StrandMatrix::kBand;
     const StrandLayout::Group& group = layout_.groups[g];
@@ -115,7 +114,7 @@ void Rods::addBendingAndTwisting(int g, const FabricState& state, double h, Pack
             for (int c = 0; c < 4; ++c) sum += moment[c] * s.curvatureGradient[c][r];
             gradient[row + r] += sum;
         }
-        if (!band) return;
+        if (band.empty()) return;
         const Pack bending = half * (one + bendRate), twisting = twistStiffness * (one + twistRate);
         const Pack b00 = bending * k.bend00, b01 = bending * k.bend01, b11 = bending * k.bend11;
         const auto& d = s.curvatureGradient;
@@ -129,7 +128,7 @@ void Rods::addBendingAndTwisting(int g, const FabricState& state, double h, Pack
         const std::array<Pack, 4>&now = s.curvature, &rest = bend.curvature;
         band[(row + 3) * kBand] += torsionalCorrection(b00, b01, b11, &now[0], &rest[0]);
         band[(row + 7) * kBand] += torsionalCorrection(b00, b01, b11, &now[2], &rest[2]);
-        if (hasTorque) addTorque(twistHessianShare_[g] * torque, at.before, at.after, band + row * kBand);
+        if (hasTorque) addTorque(twistHessianShare_[g] * torque, at.before, at.after, band.subspan(row * kBand));
     });
 }
 

@@ -24,6 +24,9 @@ using RodGradient = std::array<T, 11>;
 
 inline constexpr int kRodUnknowns = 11;
 
+/// Least 1 + t_e · t_f that is divided by: it is 0 where a yarn folds back onto itself [-].
+inline constexpr double kLeastFold = 1.0e-12;
+
 /// How a rod is bent and twisted at an interior vertex.
 template <class T>
 struct RodStrain {
@@ -37,7 +40,7 @@ struct RodStrain {
 template <class T>
 RodStrain<T> rodStrain(const RodEdge<T>& e, const RodEdge<T>& f)
 {
-    const T one = constant<T>(1.0), zero = constant<T>(0.0), least = constant<T>(1.0e-12);
+    const T one = constant<T>(1.0), zero = constant<T>(0.0), least = constant<T>(kLeastFold);
     const T inverse = one / largerOf(one + dot(e.tangent, f.tangent), least);
     const Triple<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
     const Triple<T> middle = inverse * (e.tangent + f.tangent);
@@ -89,7 +92,7 @@ struct TwistCurvature {
 template <class T>
 TwistCurvature<T> twistCurvature(const RodEdge<T>& e, const RodEdge<T>& f)
 {
-    const T one = constant<T>(1.0), least = constant<T>(1.0e-12), quarter = constant<T>(0.25);
+    const T one = constant<T>(1.0), least = constant<T>(kLeastFold), quarter = constant<T>(0.25);
     const T inverse = one / largerOf(one + dot(e.tangent, f.tangent), least);
     const Triple<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
     const Triple<T> middle = inverse * (e.tangent + f.tangent);

@@ -7,6 +7,7 @@
 #include "sim/settings.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace sim {
@@ -32,19 +33,21 @@ class Rods {
     /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian, with the tensile part of the stretching's
     /// geometric stiffness and with what opposes the turning of straightened yarns, replaces what the matrix held. h: length of the step
     /// [s], read by the damping only.
-    void forces(const FabricState& state, double h, Pack* gradient, StrandMatrix* matrix) const;
+    void forces(const FabricState& state, double h, std::span<Pack> gradient, StrandMatrix* matrix) const;
     /// From now on the matrix has the torque's part too, the second derivatives of the twist: without it Newton overshoots on rods
     /// that are twisted hard. It may be indefinite.
     void includeTwistHessian();
-    /// … but for the rods that have a 0 in `keep`, of each group, as StrandMatrix::definite tells them.
+    /// Rods that have a 0 in `keep`, of each group as in StrandMatrix::definite, lose that part again.
     void excludeTwistHessian(const std::vector<Pack>& keep);
     /// Elastic energy [erg]: stretching, bending, twisting.
     std::array<double, 3> energies(const FabricState& state) const;
 
  private:
     struct InnerVertex;
-    void addStretching(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
-    void addBendingAndTwisting(int g, const FabricState& state, double h, Pack* gradient, Pack* band) const;
+    /// @param gradient  rows of the group
+    /// @param band      rows of its Hessian; empty without
+    void addStretching(int g, const FabricState& state, double h, std::span<Pack> gradient, std::span<Pack> band) const;
+    void addBendingAndTwisting(int g, const FabricState& state, double h, std::span<Pack> gradient, std::span<Pack> band) const;
     template <class Visit>
     void forEachInnerVertex(int g, const FabricState& state, Visit&& visit) const;
 

@@ -5,6 +5,7 @@
 #include "sim/fabric/fabric.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace sim {
@@ -48,7 +49,10 @@ class StrandMatrix {
     /// That entry of all lanes.
     const double* lanes(int row, int k) const { return band_.data() + (static_cast<std::size_t>(row) * kBand + k) * kLanes; }
     /// The rows of a group, kBand packs each.
-    Pack* rows(int firstRow) { return packs(band_, firstRow * kBand); }
+    std::span<Pack> rows(const StrandLayout::Group& group)
+    {
+        return {packs(band_, static_cast<std::size_t>(group.firstRow) * kBand), static_cast<std::size_t>(group.rows()) * kBand};
+    }
 
     /// A = L D Lᵀ of every strand; false if some are not positive definite: `definite` tells which.
     bool factor(const StrandLayout& layout);

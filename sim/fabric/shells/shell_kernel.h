@@ -13,6 +13,11 @@ namespace sim {
 
 inline constexpr int kShellVertices = 6;
 
+/// Least squared ratio of areas det FᵀF, whose logarithm is taken: it is 0 in a triangle without an area [-].
+inline constexpr double kLeastStretch = 1.0e-12;
+/// Least divisor of what is 0 itself where the divisor is.
+inline constexpr double kLeastDivisor = 1.0e-300;
+
 template <class T>
 using ShellCorners = std::array<Triple<T>, kShellVertices>;
 
@@ -80,7 +85,7 @@ MembraneStress<T> neoHookean(const ShellRest<T>& rest, const MembraneStrain<T>& 
     const T one = constant<T>(1.0), two = constant<T>(2.0), half = constant<T>(0.5);
     const T mu = rest.young / (two * (one + rest.poisson)), lambda = rest.young * rest.poisson / (one - rest.poisson * rest.poisson);
     const T c00 = two * s.green[0] + one, c11 = two * s.green[1] + one, c01 = s.green[2];
-    const T det = largerOf(c00 * c11 - c01 * c01, constant<T>(1.0e-12));
+    const T det = largerOf(c00 * c11 - c01 * c01, constant<T>(kLeastStretch));
     const T logJ = half * logarithm(det), perDet = one / det;
     const T p = perDet * c11, q = perDet * c00, r = -(perDet * c01);
     const T pull = lambda * logJ - mu, g = two * largerOf(-pull, constant<T>(0.0));
@@ -101,7 +106,7 @@ std::array<T, 3> positivePart(const std::array<T, 3>& s)
     const T radius = squareRoot(d * d + s[2] * s[2]);
     const T high = largerOf(mean + radius, zero), low = largerOf(mean - radius, zero);
     // s = mean + radius · direction, so its positive part has the clamped eigenvalues along the same direction.
-    const T share = (high - low) / largerOf(constant<T>(2.0) * radius, constant<T>(1.0e-300)), level = half * (high + low);
+    const T share = (high - low) / largerOf(constant<T>(2.0) * radius, constant<T>(kLeastDivisor)), level = half * (high + low);
     return {level + share * d, level - share * d, share * s[2]};
 }
 

@@ -115,7 +115,8 @@ struct Shells::Forces {
     return forces;
 }
 
-[[gnu::always_inline]] inline void Shells::addGradient(const Batch& batch, const Forces& forces, std::span<const int> slot, double* gradient) const
+[[gnu::always_inline]] inline void Shells::addGradient(const Batch& batch, const Forces& forces, std::span<const int> slot,
+                                                       std::span<double> gradient) const
 {
     const Pack zero{};
     for (int i = 0; i < kShellVertices; ++i) {
@@ -125,8 +126,8 @@ struct Shells::Forces {
             for (int s = 0; s < 3; ++s) g += (batch.rest.area * forces.stress[s]) * forces.byStrain[i][s];
         for (int l = 0; l < kLanes; ++l) {
             if (batch.vertex[i][l] < 0) continue;
-            double* at = gradient + slot[batch.vertex[i][l]];
-            for (int a = 0; a < 3; ++a) at[a * kLanes] += g[a][l];
+            const int at = slot[batch.vertex[i][l]];
+            for (int a = 0; a < 3; ++a) gradient[at + a * kLanes] += g[a][l];
         }
     }
 }
@@ -174,7 +175,7 @@ struct Shells::Forces {
     }
 }
 
-void Shells::forces(std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const
+void Shells::forces(std::span<const Vec3> x, double h, std::span<const int> slot, std::span<double> gradient, BlockMatrix* matrix) const
 {
     for (const std::vector<int>& color : tasks_)
         parallelFor(color.size(), [&](std::size_t n) {

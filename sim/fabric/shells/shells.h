@@ -34,7 +34,7 @@ class Shells {
     /// Gradient of the elastic and viscous energy added to `gradient`, where vertex v has its x at slot[v], y and z kLanes further each
     /// [dyn]; if a matrix is given, its Gauss-Newton Hessian with the tensile part of the membrane's geometric stiffness is added to it.
     /// h: length of the step [s], read by the damping only.
-    void forces(std::span<const Vec3> x, double h, std::span<const int> slot, double* gradient, BlockMatrix* matrix) const;
+    void forces(std::span<const Vec3> x, double h, std::span<const int> slot, std::span<double> gradient, BlockMatrix* matrix) const;
     /// Elastic energy [erg]: membrane, bending.
     std::array<double, 2> energies(std::span<const Vec3> x) const;
 
@@ -62,7 +62,7 @@ class Shells {
     void colorTasks(std::size_t vertices);
     struct Forces;
     Forces forcesOf(const Batch& batch, std::span<const Vec3> x, double h) const;
-    void addGradient(const Batch& batch, const Forces& forces, std::span<const int> slot, double* gradient) const;
+    void addGradient(const Batch& batch, const Forces& forces, std::span<const int> slot, std::span<double> gradient) const;
     void addHessian(const Batch& batch, const Forces& forces, BlockMatrix& matrix) const;
     /// Whether the Hessian has a block of vertices i and j of a triangle: hinges tie none that lie across different edges.
     bool areTied(int i, int j) const { return i == j || std::min(i, j) < 3 || settings_.bending != BendingModel::Hinge; }

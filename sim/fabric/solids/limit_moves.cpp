@@ -41,7 +41,7 @@ bool SolidLimiter::slide(Points x, Moves u)
 
 bool SolidLimiter::slide(const Body& body, std::size_t v, bool isLast, const Vec3& x, Vec3& u) const
 {
-    const double kept = kCore * fabric_->radius[v], distance = body.distance[v];
+    const double kept = kCoreDistance * fabric_->radius[v], distance = body.distance[v];
     const Vec3 from = body.toBegin * x, to = body.toEnd * (x + u);
     if (distance <= 0.0 || distance - body.steepest * (to - from).norm() >= kept) return false;
     SweptElement point;

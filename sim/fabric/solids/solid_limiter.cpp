@@ -158,7 +158,7 @@ void SolidLimiter::checkElement(int number, const Part& whole, Points x, std::sp
     const int corners = whole.corners;
     if (corners == 1 && fabric_->pinned[*vertices]) return;
     const Body& body = bodies_[number];
-    const double kept = kCore * leastRadius(vertices, corners);
+    const double kept = kCoreDistance * leastRadius(vertices, corners);
     const auto checkParts = [&] {
         for (int c = 0; corners > 1 && c < corners; ++c) {
             const std::array<int, 2> part = {vertices[c], vertices[(c + 1) % corners]};
@@ -220,7 +220,7 @@ void SolidLimiter::findBlocked(Points x, std::span<const Vec3> u)
     collect(elements_, ofChunk_, blocked_, [&](int body, int element, std::vector<Blocked>& out) {
         const std::array<int, 3>& vertices = elements_[element];
         const int corners = vertices[2] < 0 ? 2 : 3;
-        if (mayTouch(bodies_[body], x, vertices.data(), corners, kCore * leastRadius(vertices.data(), corners)))
+        if (mayTouch(bodies_[body], x, vertices.data(), corners, kCoreDistance * leastRadius(vertices.data(), corners)))
             checkElement(body, {element, vertices.data(), corners}, x, u, out);
     });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/safe_moves.h"
 #include "sim/fabric/solids/sweep.h"
 #include "sim/obstacle_settings.h"
 
@@ -66,7 +67,6 @@ class SolidLimiter {
     double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
 
  private:
-    static constexpr double kCore = 0.57;     ///< distance that is kept, as between pairs of fabric [radii]
     static constexpr double kKept = 0.85;     ///< share of its distance that an element which begins nearer keeps: less than kNearestError leaves [-]
     static constexpr double kStays = 1.0e-6;  ///< share of its distance by which such an element may end nearer than it began [-]
 

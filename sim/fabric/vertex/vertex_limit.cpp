@@ -56,8 +56,7 @@ bool VertexSolver::limitAlternately(const FabricState& state, StageClock& clock)
         ++solidLimits_.left;
         return false;
     }
-    constexpr double kSpare = 0.95;
-    parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSpare * part; });
+    parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSafeShare * part; });
     ++limits_.scalings;
     return true;
 }

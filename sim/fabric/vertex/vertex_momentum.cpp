@@ -30,6 +30,7 @@ void VertexSolver::keepMomentum(double h, FabricState& state)
     if (!groups_.anyFree()) return;
     missing_.assign(groups_.pieces(), Vec3::Zero());
     groupInertia_.assign(groups_.pieces(), Vec3::Zero());
+    correction_.assign(groups_.pieces(), Vec3::Zero());
     for (int piece = 0; piece < groups_.pieces(); ++piece)
         if (const int group = groups_.freeGroupOf(piece); group >= 0) missing_[group] += momentum_[piece];
     const auto groupOf = [&](std::size_t v) { return groups_.freeGroupOf(groups_.pieceOf(static_cast<int>(v))); };
@@ -45,11 +46,11 @@ void VertexSolver::keepMomentum(double h, FabricState& state)
     // Velocities come from places: what these are rounded by is no motion, and fabric at rest stays so.
     const double rounding = placeRounding_ / h;
     for (std::size_t group = 0; group < missing_.size(); ++group) {
-        missing_[group] = missing_[group].cwiseQuotient(groupInertia_[group].cwiseMax(std::numeric_limits<double>::min()));
-        if (missing_[group].cwiseAbs().maxCoeff() < rounding) missing_[group].setZero();
+        const Vec3 change = missing_[group].cwiseQuotient(groupInertia_[group].cwiseMax(std::numeric_limits<double>::min()));
+        if (!(change.cwiseAbs().maxCoeff() < rounding)) correction_[group] = change;
     }
     for (std::size_t v = 0; v < state.v.size(); ++v)
-        if (const int group = groupOf(v); group >= 0) state.v[v] += missing_[group];
+        if (const int group = groupOf(v); group >= 0) state.v[v] += correction_[group];
     if (isSecondOrder_) keepForces(state);
 }
 

@@ -20,8 +20,8 @@
 
 namespace sim {
 
-/// `fabric.solver: vertex`: an implicit step in vertex space with a pairwise-limited Newton step (fabric/vertex/README.md, The step in vertices). Nothing ever
-/// crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
+/// `fabric.solver: vertex`: an implicit step in vertex space with a pairwise-limited Newton step (fabric/vertex/README.md, The step in
+/// vertices). Nothing ever crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
 class VertexSolver final : public FabricIntegrator {
  public:
     /// @param cohesion  of wet fabric; none without
@@ -156,11 +156,13 @@ class VertexSolver final : public FabricIntegrator {
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;
     SolidLimiter solidLimiter_;
-    FabricGroups groups_, attemptGroups_;       ///< groups of pieces in the step under way, and in its last attempt alone
-    std::vector<Vec3> momentum_;                ///< of each piece, at the start of the step [g cm/s]
-    std::vector<Vec3> missing_, groupInertia_;  ///< of each group, at its end: momentum [g cm/s], then its velocity [cm/s]; inertia [g]
-    std::vector<Vec3> restReference_;           ///< of each yarn edge
-    std::vector<int> nearestPin_;               ///< of each vertex (nearestPins)
+    FabricGroups groups_, attemptGroups_;  ///< groups of pieces in the step under way, and in its last attempt alone
+    std::vector<Vec3> momentum_;           ///< of each piece, at the start of the step [g cm/s]
+    std::vector<Vec3> missing_;            ///< of each group, at the end of the step: momentum [g cm/s]; integrator second_order, then: force [dyn]
+    std::vector<Vec3> correction_;         ///< velocity that makes up for missing_, of each group [cm/s]
+    std::vector<Vec3> groupInertia_;       ///< of each group [g]
+    std::vector<Vec3> restReference_;      ///< of each yarn edge
+    std::vector<int> nearestPin_;          ///< of each vertex (nearestPins)
 
     mutable ElasticEnergies elastic_;
     const ActiveContacts* contacts_ = nullptr;       ///< contacts of fabric with fabric in the last Newton iteration

@@ -172,7 +172,7 @@ TEST(ParticleOrder, BlocksOfDeletedParticlesGo)
     liquid.sort();
     liquid.moveModesHome();
     const Shape domain = Shape::ball(Vec3::Zero(), 20.0);
-    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
+    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, &liquid.ledger);
     EXPECT_TRUE(liquid.order.blocksChanged);
     EXPECT_GT(liquid.grid.count(), 0);
     for (const Vec3i& c : liquid.grid.coords()) EXPECT_LT(c.x(), 12);
@@ -234,7 +234,7 @@ TEST(ParticleOrder, DeletionIsInTheLedger)
         mass += liquid.particles.mass[p];
         momentum += liquid.particles.mass[p] * liquid.particles.velocity(p);
     }
-    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
+    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, &liquid.ledger);
     EXPECT_EQ(std::set<std::uint32_t>(liquid.particles.id.data(), liquid.particles.id.data() + liquid.particles.count), inside);
     EXPECT_GT(inside.size(), 100);
     EXPECT_NEAR(liquid.ledger.leftMass, mass, 1e-13 * mass);
@@ -242,7 +242,7 @@ TEST(ParticleOrder, DeletionIsInTheLedger)
     for (std::size_t s = 0; s < liquid.particles.count; ++s) EXPECT_EQ(liquid.particles.velocity(liquid.order.source[s]).x(), liquid.particles.id[s]);
     // Nobody is outside any more.
     liquid.moveModesHome();
-    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
+    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, &liquid.ledger);
     EXPECT_NEAR(liquid.ledger.leftMass, mass, 1e-13 * mass);
 }
 
@@ -250,7 +250,7 @@ TEST(ParticleOrder, MayBeEmpty)
 {
     SortedLiquid liquid = unsortedLiquid(10, kTwoCorners, 1.0);
     const Shape domain = Shape::ball({1000.0, 0.0, 0.0}, 1.0);
-    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
+    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, &liquid.ledger);
     EXPECT_EQ(liquid.particles.count, 0);
     EXPECT_EQ(liquid.grid.count(), 0);
     liquid.sort();
@@ -283,7 +283,7 @@ TEST(ParticleOrder, ADomainAlsoDeletesWhatHasLeftTheRangeOfBlocks)
     SortedLiquid liquid = unsortedLiquid(100, kTwoCorners, 1.0);
     liquid.particles.x[1][57] = 1.0e15;
     const Shape domain = Shape::ball(Vec3::Zero(), 100.0);
-    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, liquid.ledger);
+    sortParticles(liquid.particles, liquid.grid, &domain, liquid.order, &liquid.ledger);
     EXPECT_EQ(liquid.particles.count, 99);
     EXPECT_EQ(liquid.ledger.leftMass, 58.0);
 }

@@ -136,7 +136,7 @@ TEST_P(ParticleSet, DeletedParticlesAreInTheLedger)
     Transfers t = start();
     const Totals before = totals(t);
     const Shape domain = Shape::ball(t.grid().origin, 1.5);
-    sortParticles(t.liquid.particles, t.liquid.grid, &domain, t.liquid.order, t.liquid.ledger);
+    sortParticles(t.liquid.particles, t.liquid.grid, &domain, t.liquid.order, &t.liquid.ledger);
     t.toFaces();
     EXPECT_GT(t.liquid.ledger.leftMass, 0.1 * before.mass);
     EXPECT_GT(t.liquid.particles.count, 50);

@@ -21,7 +21,7 @@ TEST(GridVertexStiffness, ClothEqualsItsMatrix)
     AlignedArray<double> gradient(unknowns.size), in(unknowns.size), out(unknowns.size);
     BlockMatrix matrix = shells.matrix();
     matrix.clear();
-    shells.forces(parts.state.x, kStep, unknowns.slot, gradient.data(), &matrix);
+    shells.forces(parts.state.x, kStep, unknowns.slot, gradient, &matrix);
     const std::vector<int>& vertices = shells.vertices();
     for (int v : vertices) parts.stiffness.set(in, v, noise.vector());
     parts.stiffness.multiply(in, out);

@@ -11,7 +11,7 @@ inline std::vector<double> gradientOf(const Rods& rods, const FabricState& state
 {
     const StrandLayout& layout = rods.layout();
     std::vector<Pack> packed(layout.rows, Pack{});
-    rods.forces(state, h, packed.data(), matrix);
+    rods.forces(state, h, packed, matrix);
     std::vector<double> gradient(3 * state.x.size() + state.theta.size(), 0.0);
     for (const StrandLayout::Group& group : layout.groups)
         for (int j = 0; j < group.vertices; ++j)

@@ -32,7 +32,7 @@ struct CrumpledSheet {
     std::vector<double> gradient(const Shells& shells, std::span<const Vec3> at, BlockMatrix* matrix = nullptr) const
     {
         std::vector<double> packed((x.size() + kLanes) * 3, 0.0), g;
-        shells.forces(at, 1.0, slot, packed.data(), matrix);
+        shells.forces(at, 1.0, slot, packed, matrix);
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int a = 0; a < 3; ++a) g.push_back(packed[slot[v] + a * kLanes]);
         return g;

@@ -1,4 +1,4 @@
-#include "sim/particles/liquid_particles.h"
+#include "sim/particles/particles.h"
 
 #include "sim/particles/velocity_modes.h"
 
@@ -16,7 +16,7 @@ std::size_t strideFor(std::size_t count) { return (count + count / 8 + kPad + 51
 
 }  // namespace
 
-Vec3 LiquidParticles::velocity(std::size_t p) const
+Vec3 Particles::velocity(std::size_t p) const
 {
     Vec3 v;
     for (int axis = 0; axis < kAxes; ++axis) {
@@ -26,7 +26,7 @@ Vec3 LiquidParticles::velocity(std::size_t p) const
     return v;
 }
 
-void LiquidParticles::resize(std::size_t n)
+void Particles::resize(std::size_t n)
 {
     for (auto& a : x) a.resize(n + kPad);
     mass.resize(n + kPad);
@@ -51,7 +51,7 @@ void LiquidParticles::resize(std::size_t n)
     count = n;
 }
 
-void LiquidParticles::changeModes(int n)
+void Particles::changeModes(int n)
 {
     if (n == modeCount) return;
     for (auto& m : modes) {
@@ -65,7 +65,7 @@ void LiquidParticles::changeModes(int n)
     modeCount = n;
 }
 
-void LiquidParticles::copy(std::size_t from, std::size_t to)
+void Particles::copy(std::size_t from, std::size_t to)
 {
     mass[to] = mass[from];
     id[to] = id[from];
@@ -75,7 +75,7 @@ void LiquidParticles::copy(std::size_t from, std::size_t to)
     }
 }
 
-void LiquidParticles::add(const Vec3& position, double particleMass, std::uint32_t particleId, const Vec3& v)
+void Particles::add(const Vec3& position, double particleMass, std::uint32_t particleId, const Vec3& v)
 {
     const std::size_t p = count;
     resize(count + 1);
