@@ -53,7 +53,7 @@ struct Panel {
 struct Backends {
     std::function<SceneSetup(const SceneRequest&)> loadScene;                             ///< throws InputError
     std::function<std::unique_ptr<SimulationHandle>(const SceneSetup&)> startSimulation;  ///< throws InputError
-    /// The same from a state of that scene: what follows is what would have followed.
+    /// Starts a simulation from a state of that scene: what follows is what would have followed.
     std::function<std::unique_ptr<SimulationHandle>(const SceneSetup&, const sim::State&)> resumeSimulation;
     std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
     /// Called on the thread that will draw. Panels of a comparison have no label, time and colour bar of their own.

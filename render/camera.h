@@ -22,7 +22,7 @@ Camera orbitCamera(const Eigen::Vector3d& target, double distance, double azimut
 /// An empty box leaves the camera as it is; a single point is seen from 1 cm.
 Camera frameBall(const Eigen::AlignedBox3d& box, double aspect, const Camera& camera = {});
 
-/// The same, but as near as the eight corners allow, `margin` (a share of the picture) free on each side.
+/// The direction of `camera`, as near to the box as its eight corners allow, `margin` (a share of the picture) free on each side.
 /// For still cameras: flat things fill the picture better.
 Camera frameBox(const Eigen::AlignedBox3d& box, double aspect, const Camera& camera = {}, double margin = 0.06);
 

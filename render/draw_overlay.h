@@ -22,8 +22,8 @@ class DrawOverlay {
     Program program_;
     VertexArray noVertices_;
     Texture texture_;
-    std::optional<Annotations> written_;  ///< what the texture holds …
-    int width_ = 0, height_ = 0;          ///< … and its size
+    std::optional<Annotations> written_;  ///< what the texture holds
+    int width_ = 0, height_ = 0;          ///< size of the texture [pixels]
 };
 
 }  // namespace render

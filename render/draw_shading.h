@@ -11,8 +11,8 @@ namespace render {
 class DrawShading {
  public:
     struct Solids {
-        bool any = false;        ///< pixels of alpha 0 …
-        bool all = false;        ///< … and no liquid
+        bool any = false;        ///< whether the picture has solids, pixels of alpha 0
+        bool all = false;        ///< whether it has solids only
         GLuint openness = 0;     ///< the texture that DrawOcclusion filled
         float occlusion = 0.0f;  ///< how much it darkens them: 0 … 1
     };

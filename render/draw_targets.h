@@ -20,11 +20,11 @@ class DrawTargets {
     bool fits(int width, int height, int samples) const;
     void beginScene(const Eigen::Vector3f& background) const;  ///< clear `scene`, draw into it from here on
     void resolve() const;                                      ///< scene → colour and depth textures; draw into `picture` next
-    void beginOcclusion();                                     ///< draw into the openness texture from here on …
-    void endOcclusion() const;                                 ///< … and into `picture` again
+    void beginOcclusion();                                     ///< draw into the openness texture from here on
+    void endOcclusion() const;                                 ///< draw into `picture` again
     Image read() const { return readFramebuffer(gl_, picture_.id(), width_, height_); }  ///< what `picture` holds, rows from the top
-    void show(int x, int y) const;  ///< the same with its lower left at (x, y) of the context's own framebuffer, which is bound then
-    Image readResolved() const { return readFramebuffer(gl_, resolved_.id(), width_, height_); }  ///< the same of the scene before shading
+    void show(int x, int y) const;  ///< show the picture with its lower left at (x, y) of the context's own framebuffer, which is bound then
+    Image readResolved() const { return readFramebuffer(gl_, resolved_.id(), width_, height_); }  ///< read the scene before shading
 
     GLuint colorTexture() const { return color_.id(); }
     GLuint depthTexture() const { return depth_.id(); }

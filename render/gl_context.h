@@ -21,7 +21,7 @@ class GlContext {
     const Gl& gl() const { return gl_; }
     /// What draws, say "llvmpipe (LLVM 15.0.6, 256 bits)". The context must be current.
     std::string rendererName() const { return reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER)); }
-    /// Of OpenGL and what brings it, say "3.3 (Core Profile) Mesa 22.3.6". The context must be current.
+    /// Version of OpenGL and of what brings it, say "3.3 (Core Profile) Mesa 22.3.6". The context must be current.
     std::string versionName() const { return reinterpret_cast<const char*>(gl_.GetString(GL_VERSION)); }
     /// Is it drawn by the processor? The context must be current.
     bool isSoftware() const;

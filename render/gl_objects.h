@@ -31,7 +31,7 @@ using Framebuffer = GlName<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;
 
 /// Describe attribute `index` as `count` floats of the struct in the bound buffer, `offset` bytes in.
 void describeAttribute(const Gl& gl, GLuint index, int count, std::size_t stride, std::size_t offset);
-/// The same of four bytes that the shader sees as 0 … 1.
+/// Describe attribute `index` as four bytes that the shader sees as 0 … 1.
 void describeColorAttribute(const Gl& gl, GLuint index, std::size_t stride, std::size_t offset);
 
 /// Fill the buffer, for one picture.

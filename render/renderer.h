@@ -32,7 +32,7 @@ class Renderer {
     /// OpenGL fails (its reason is in the message).
     Image draw(const FrameView& view, const Camera& camera, const Look& look);
 
-    /// The same into a part of the context's own framebuffer, whose size stands in for the look's. The rest stays as it
+    /// Draws into a part of the context's own framebuffer, whose size stands in for the look's. The rest stays as it
     /// is. Parts of one size may alternate; each change of size makes framebuffers anew. Throws like draw().
     void show(const FrameView& view, const Camera& camera, const Look& look, const Viewport& part);
 

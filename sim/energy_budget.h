@@ -20,14 +20,15 @@ class EnergyBudget {
     void toGrid();
     /// Gravity, or viscosity, has acted on the faces.
     void onFaces(EnergyChange change);
-    /// Viscosity has, through which solids that move did this work [erg].
+    /// Viscosity has acted on the faces; through it solids that move did this work [erg].
     void viscosity(double bySolids);
-    /// Before weight is levelled, or surface tension acts: faces that fabric is on have the mixture's velocities by then, which are not looked at.
+    /// Keeps the velocities on faces, before weight is levelled or surface tension acts. Faces that fabric is on have the mixture's velocities by
+    /// then, which are not looked at.
     void remember();
     /// Weight has been moved between faces that only liquid is on.
     void levelled();
-    /// Surface tension has acted there, too, but not yet the pressure that holds against it.
-    /// On faces that liquid and fabric share its work is part of the pressure's.
+    /// Surface tension has acted on faces that only liquid is on, but not yet the pressure that holds against it. Its work on faces that liquid and
+    /// fabric share is part of the pressure's.
     void surfaceTension(const std::optional<Mixture::SharedFaces>& shared);
     /// The strain correction has acted on faces that only liquid is on, since remember().
     void strainCorrected();
@@ -37,7 +38,7 @@ class EnergyBudget {
     void reflected(double dt);
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt, const PushedOut& pushed);
-    /// All that has changed since the last look.
+    /// Books the energy difference since the previous call under this change.
     void after(EnergyChange change);
     /// Fabric has taken liquid up, or moved some within itself: where pores lift it that is suction's work; velocities mix.
     void taken(EnergyChange change);
@@ -65,12 +66,12 @@ class EnergyBudget {
     Vec3 fabricMoment() const;
     double particlesKinetic() const;
     double facesKinetic() const;
-    /// Of its impulse on each face, along the velocity at the end: that has no divergence, so that a drop's uniform pressure does
-    /// no work on it [erg].
+    /// Work of surface tension [erg]: its impulse on each face times the velocity after the projection. That velocity is divergence-free, so that a
+    /// uniform pressure does none.
     double workOfSurfaceTension() const;
-    /// Of moving solids against the liquid's pressure on them over dt: what flows out of cells through what is closed of their faces [erg].
+    /// Work of moving solids against the liquid's pressure over dt [erg]: the pressure times what flows out of cells through closed parts of faces.
     double workAgainst(const BlockArray<double>& pressure, double dt) const;
-    /// Of moving solids on the faces behind them, which get their velocity: impulse times velocity [erg].
+    /// Work of moving solids on the faces behind them, which get their velocity [erg]: impulse times velocity.
     double workOnFollowers(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio) const;
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
 
@@ -80,15 +81,15 @@ class EnergyBudget {
     const StepReport& report_;
     std::optional<EnergyChanges>& changes_;
     bool isSorted_ = false, isOnFaces_ = false;
-    BlockArray<double, 3> mass_, fallen_;  ///< of the liquid on the faces [g]; its velocity when nothing but gravity and viscosity has acted [cm/s]
+    BlockArray<double, 3> mass_, fallen_;  ///< mass of the liquid on the faces [g]; velocity after gravity and viscosity [cm/s]
     BlockArray<double, 3> remembered_;     ///< velocities before they were levelled or pulled [cm/s]
-    BlockArray<double, 3> pulled_;         ///< by how much surface tension changed velocities [cm/s], if it acts: of faces that only liquid is on,
-    BlockArray<double, 3> pulledMixture_;  ///< … and of all, where others are shared
+    BlockArray<double, 3> pulled_;         ///< change of velocity by surface tension on faces that only liquid is on; empty without it [cm/s]
+    BlockArray<double, 3> pulledMixture_;  ///< change of velocity by surface tension on all faces, if some are shared; else empty [cm/s]
     Energy last_;
     double strained_ = 0.0;   ///< what the strain correction gave on faces [erg]
-    double strain_ = 0.0;     ///< of stretching, at the beginning of the step [erg]
+    double strain_ = 0.0;     ///< energy of stretching at the beginning of the step [erg]
     double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
-    double lag_ = 0.0;        ///< of potential energy behind the present places [erg]
+    double lag_ = 0.0;        ///< potentialLag at the beginning of the step [erg]
 };
 
 }  // namespace sim

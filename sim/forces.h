@@ -14,7 +14,7 @@ struct Impulse {
     Vec3 linear = Vec3::Zero();   ///< [g cm/s]
     Vec3 angular = Vec3::Zero();  ///< [g cm^2/s]
 
-    /// That of a momentum that something gets at a place.
+    /// Impulse of a momentum that something gets at a place.
     static Impulse at(const Vec3& place, const Vec3& momentum) { return {momentum, place.cross(momentum)}; }
     Impulse& operator+=(const Impulse& other)
     {
@@ -43,16 +43,16 @@ struct MomentumBalance {
     Vec3 weight = Vec3::Zero();
     Vec3 entered = Vec3::Zero();     ///< with liquid from sources
     Vec3 left = Vec3::Zero();        ///< with liquid that left the domain
-    Vec3 borne = Vec3::Zero();       ///< of what solids and pins got: what no force explains (MomentumBudget), taken from liquid and fabric
-    Vec3 unresolved = Vec3::Zero();  ///< the same where nothing bears it, given to liquid and fabric
+    Vec3 borne = Vec3::Zero();       ///< part of what solids and pins got that no force explains (MomentumBudget), taken from liquid and fabric
+    Vec3 unresolved = Vec3::Zero();  ///< momentum that no force explains and nothing bears, given to liquid and fabric
 };
 
 /// What acted on everything in a step of dt [s], whose mean forces are these impulses over dt. Empty before the first step, and where there is
 /// neither a solid nor fabric.
 struct Forces {
     double dt = 0.0;              ///< [s]
-    std::vector<Load> obstacles;  ///< of each of the scene
-    std::vector<Load> fabrics;    ///< likewise; without weight and pins
+    std::vector<Load> obstacles;  ///< loads of each of the scene's obstacles
+    std::vector<Load> fabrics;    ///< loads of each fabric, without weight and pins
     std::vector<Impulse> pins;    ///< by their fabric on each group of Fabric::Pins
     MomentumBalance balance;
 

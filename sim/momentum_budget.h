@@ -26,7 +26,7 @@ class MomentumBudget {
     void begin(double dt, const State& state);
     /// Sources gave particles from this number on.
     void entered(const State& state, std::size_t first);
-    /// What was outside of the domain is gone.
+    /// Particles outside of the domain are gone.
     void left(const State& state);
     /// Fabric took up liquid, let go of some, or moved some within itself.
     /// @param toPins  of each vertex: what pins held back of it [g cm/s]; empty if nothing
@@ -39,7 +39,7 @@ class MomentumBudget {
     /// @param now     momentum that they had before they were kept out [g cm/s]
     /// @param weight  what weight gave to the faces [g cm/s]
     void liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed);
-    /// What a solid had to bear of it beyond forces, and where.
+    /// Unexplained momentum assigned to a solid, and its point of application.
     struct Borne {
         Vec3 bySolid = Vec3::Zero(), place = Vec3::Zero();  ///< [g cm/s], [cm]
     };
@@ -50,8 +50,8 @@ class MomentumBudget {
     /// What a fabric has.
     struct Piece {
         Impulse momentum;
-        double mass = 0.0;                                    ///< with what it has absorbed [g]
-        Vec3 moment = Vec3::Zero();                           ///< of it [g cm]
+        double mass = 0.0;                                    ///< mass with what it has absorbed [g]
+        Vec3 moment = Vec3::Zero();                           ///< Σ m x [g cm]
         Vec3 byLiquid = Vec3::Zero(), onPins = Vec3::Zero();  ///< what it got and gave in this step before its solver ran [g cm/s]
         Vec3 missing = Vec3::Zero();                          ///< change of its momentum that no force explains [g cm/s]
         Vec3 middle() const { return moment / mass; }
@@ -67,12 +67,12 @@ class MomentumBudget {
     Forces forces_;
     Vec3 liquid_ = Vec3::Zero();            ///< momentum that the liquid should have by what has been booked; until it is on the faces the
                                             ///< change of it since the start of the step [g cm/s]
-    Borne borneOfLiquid_;                   ///< in the last step
+    Borne borneOfLiquid_;                   ///< what no force explains of the liquid's in the last step
     Vec3 leftSoFar_ = Vec3::Zero();         ///< Ledger::leftMomentum at the start of the step [g cm/s]
-    std::vector<Piece> pieces_;             ///< as they were when they were last looked at …
-    std::vector<Impulse> before_;           ///< … and their momenta before that
-    std::vector<std::vector<int>> pinsOf_;  ///< groups of each fabric
-    std::vector<int> pinned_;               ///< vertices of each group
+    std::vector<Piece> pieces_;             ///< fabrics as they were when they were last looked at
+    std::vector<Impulse> before_;           ///< momenta of the fabrics before that
+    std::vector<std::vector<int>> pinsOf_;  ///< groups of pins of each fabric
+    std::vector<int> pinned_;               ///< number of vertices of each group
 };
 
 }  // namespace sim

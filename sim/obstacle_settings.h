@@ -17,11 +17,11 @@ struct ObstacleSettings {
     bool inside = false;                  ///< the scene said `inside: true`
     bool collide = true;                  ///< fabric feels it
     bool cohesive = true;                 ///< and sticks to it where it is wet, if there is cohesion
-    std::optional<double> frictionAngle;  ///< of fabric on it; without: the fabric's own [rad]
+    std::optional<double> frictionAngle;  ///< friction angle of fabric on it; without: the fabric's own [rad]
     std::string where;                    ///< "drop.yaml:14", for messages
     std::string shapeText;                ///< the shape (before inverting) as a scene says it, in cgs, on one line
     std::vector<std::string> notes;       ///< about its meshes
-    std::string motionText;               ///< the motion likewise; empty if static
+    std::string motionText;               ///< the motion as a scene says it, in cgs, on one line; empty if static
 };
 
 }  // namespace sim

@@ -21,7 +21,7 @@ struct TimeSettings {
     double start = 0.0;                                     ///< Time of the initial state [s]
     TimeMode mode = TimeMode::Fixed;                        ///< Adaptive: as cfl, and a step that turns out bad is made again in halves
     double cfl = 1.0;                                       ///< Cells a particle may cross per step, modes cfl and adaptive [-]
-    double maxCflLiquid = 3.0;                              ///< Hard bound on the same number in every mode [-]
+    double maxCflLiquid = 3.0;                              ///< Upper bound of the liquid's CFL number in all modes [-]
     double maxCflFabric = 1.0 / 3.0;                        ///< The fabric's bound, read by fabric.solver grid only [-]
     double dtMin = 1.0e-8;                                  ///< A run that would need smaller steps stops with a message [s]
     TimeIntegrator integrator = TimeIntegrator::Reflected;  ///< Reflected: of two steps the first reflects (liquid/README.md, Reflection)
@@ -82,7 +82,7 @@ struct LiquidSettings {
     int curvatureSmoothing = 7;                ///< Smoothing passes over the fill before its curvature is taken [-]
     double contactAngle = 40.8 * kPi / 180.0;  ///< [rad]
     bool full = false;                         ///< The liquid fills a closed box: there is no air
-    int surfaceOrder = 2;                      ///< of the error of a free surface's motion [1..2] (liquid/README.md, Surface of second order)
+    int surfaceOrder = 2;                      ///< order of the error of a free surface's motion [1..2] (liquid/README.md, Surface of second order)
     double particleSpacing = 0.0;              ///< Pitch of the particles in cells; 0 = the fill pattern's own [-]
     double wallFriction = 0.0;                 ///< 0 = free slip … 1 = the liquid sticks to walls [-]
     VolumeSettings volume;
@@ -128,7 +128,7 @@ enum class CaptureLaw { Fabric, Published };
 
 /// How fabric takes up liquid.
 struct CaptureSettings {
-    /// Fabric: each vertex fills the pores of its own share of the fabric. Published: it takes a share of the liquid in the cells around.
+    /// Fabric: each vertex fills the pores of its own share of the fabric. Published: each takes a share of the liquid in the cells around.
     CaptureLaw law = CaptureLaw::Fabric;
     /// Part of its pores that fabric in liquid fills per time; 0 = it stays dry [1/s]. Law fabric. As measured: water wicks 0.3 cm into
     /// knits in the first second, by the root of time 0.06 cm, the thickness of a cloth, in 0.04 s (NCSU, vertical wicking of knits).
@@ -144,19 +144,19 @@ struct WickingSettings {
 
 /// How wet fabric sticks, with solver vertex.
 struct CohesionSettings {
-    double strength = 0.0;  ///< of liquid bridges, relative to the capillary force along threads (bridgeForce); published: 2e-3; 0 = none [-]
-    bool fabric = true;     ///< They hold fabric on fabric …
-    bool obstacle = true;   ///< … and on solids
+    double strength = 0.0;  ///< relative to the capillary force along threads (bridgeForce); published: 2e-3; 0 = none [-]
+    bool fabric = true;     ///< Bridges act between fabrics
+    bool obstacle = true;   ///< Bridges act between fabric and solids
 };
 
 /// How liquid and fabric act on each other (coupling/README.md, Mixture).
 struct CouplingSettings {
     DragLaw drag = DragLaw::Nonlinear;  ///< Linear: Darcy's law; Nonlinear: more where liquid is fast
     DragFraction dragFraction = DragFraction::Fabric;
-    double dragExponent = 1.6;      ///< of the speed, nonlinear only; 1 = Forchheimer [-]
+    double dragExponent = 1.6;      ///< exponent of the speed, nonlinear only; 1 = Forchheimer [-]
     bool pressureOnFabric = true;   ///< the liquid's pressure pushes fabric: buoyancy
     bool capillary = true;          ///< suction of empty pores draws the liquid around
-    bool capillaryReaction = true;  ///< and the liquid the fabric; not in the published model
+    bool capillaryReaction = true;  ///< Suction's reaction acts on the fabric too; not in the published model
     CaptureSettings capture;
     WickingSettings wicking;
     bool drip = true;  ///< fabric lets go of what its pores cannot hold
@@ -174,7 +174,7 @@ struct Settings {
     TimeSettings time;
     double cell = 0.0;                              ///< Grid cell size [cm]; required
     Vec3 gravity = Vec3(0.0, -kEarthGravity, 0.0);  ///< [cm/s^2]
-    TransferSettings transfer;                      ///< of the liquid
+    TransferSettings transfer;                      ///< transfer of the liquid
     FabricTransferSettings fabricTransfer;
     LiquidSettings liquid;
     FabricSettings fabric;

@@ -51,8 +51,8 @@ inline constexpr std::array<std::string_view, kStages> kStageNames = {
 
 /// How long each stage of a step took.
 struct StageTimes {
-    std::array<double, kStages> stageSeconds{};  ///< 0 for a stage that did not run …
-    std::array<bool, kStages> stageRan{};        ///< … which is told here
+    std::array<double, kStages> stageSeconds{};  ///< time of each stage; 0 if it did not run [s]
+    std::array<bool, kStages> stageRan{};        ///< whether each stage ran
 
     void charge(Stage stage, double seconds)
     {
@@ -89,7 +89,7 @@ class StageClock {
         times_.stageSeconds[static_cast<int>(last_)] += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
         isRunning_ = false;
     }
-    /// The stage that was started last: the one that failed, if the step did.
+    /// Stage that was started last: the one that failed, if the step did.
     Stage last() const { return last_; }
 
  private:

@@ -29,7 +29,7 @@ class StateBackup {
 
     StateBesideLiquid rest_;
     LiquidParticles liquid_;      ///< all of it but the modes
-    std::optional<Modes> modes_;  ///< that were put aside in this step
+    std::optional<Modes> modes_;  ///< modes that were put aside in this step
     Modes room_;                  ///< where there are none: memory for them
 };
 

@@ -23,9 +23,9 @@ class StepCheck {
     /// @param fabric  must stay where it is
     StepCheck(const Scene& scene, const Fabric& fabric);
 
-    /// The first step starts from a state of these energies …
+    /// Initialises the memory before the first step from the energies of the initial state.
     static void start(const Energies& energies, StepMemory& memory);
-    /// … the next one from where a good step came to.
+    /// Updates the memory after a step that was accepted.
     static void accept(const StepReport& report, StepMemory& memory);
 
     /// What makes the step useless whatever follows: numbers that are not finite, liquid that is not accounted for.
@@ -48,7 +48,7 @@ class StepCheck {
     const Scene& scene_;
     const Fabric& fabric_;
     double fabricMass_ = 0.0;  ///< dry [g]
-    double radius_ = 0.0;      ///< of the thickest vertex [cm]
+    double radius_ = 0.0;      ///< radius of the thickest vertex [cm]
 };
 
 }  // namespace sim

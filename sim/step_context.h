@@ -11,7 +11,7 @@ namespace sim {
 /// What the stages of a step find out about it, for those that follow.
 struct StepPlan {
     bool isWet = false;        ///< there is liquid
-    bool reflects = false;     ///< it is the first of two steps, whose velocities are reflected about the projected ones
+    bool reflects = false;     ///< whether this is the first of two steps, whose velocities are reflected about the projected ones
     bool meetsFabric = false;  ///< liquid is within reach of fabric
     bool relaxes = false;      ///< particles are pushed apart
     bool corrects = false;     ///< the liquid's volume is corrected

@@ -14,26 +14,26 @@ namespace sim {
 struct StepReport : StageTimes {
     double dt = 0.0;        ///< [s]
     double cfl = 0.0;       ///< cflNumber (time_step.h), at the beginning of the step [-]
-    double maxSpeed = 0.0;  ///< of the particles at the end of the step; where it reflects, along their paths [cm/s]
-    SolveReport viscosity;  ///< if it was solved for
-    SolveReport withheld;   ///< of the pressure that viscosity does not feel, if it was
+    double maxSpeed = 0.0;  ///< largest speed of the particles at the end of the step; where it reflects, along their paths [cm/s]
+    SolveReport viscosity;  ///< empty if it was not solved for
+    SolveReport withheld;   ///< solve of the pressure that viscosity does not feel; empty without
     SolveReport pressure;
     SolveReport reflection;
-    SolveReport volume;  ///< of the correction of the volume, if it ran
+    SolveReport volume;  ///< solve of the correction of the volume; empty if it did not run
     FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     int takenBack = 0;                             ///< attempts that turned out bad before this one, each longer than the next
     bool isReflected = false;                      ///< the first of two steps: particles hold velocities that the flow never has
-    Energies energies;                             ///< at the end of the step, of what the particles hold; see potentialLag
-    std::optional<EnergyChanges> energyChanges;    ///< where they are booked
-    double liquidMass = 0.0;                       ///< of all particles, at the end of the step [g]
-    double absorbedMass = 0.0;                     ///< of liquid in the fabric, likewise [g]
-    double emittedKinetic = 0.0;                   ///< of liquid that came from sources in this step [erg]
-    double inflowWork = 0.0;                       ///< of the pressure on liquid that sources pressed into liquid in this step [erg]
-    double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
+    Energies energies;                             ///< energies at the end of the step, of what the particles hold; see potentialLag
+    std::optional<EnergyChanges> energyChanges;    ///< empty unless energies are booked
+    double liquidMass = 0.0;                       ///< mass of all particles at the end of the step [g]
+    double absorbedMass = 0.0;                     ///< mass of liquid in the fabric at the end of the step [g]
+    double emittedKinetic = 0.0;                   ///< kinetic energy of liquid that came from sources in this step [erg]
+    double inflowWork = 0.0;                       ///< work of the pressure on liquid that sources pressed into liquid in this step [erg]
+    double capturedMass = 0.0, drippedMass = 0.0;  ///< mass that the fabric took up and let go in this step [g]
     Vec3 toPins = Vec3::Zero();                    ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
-    std::string_view failure;                      ///< empty, or why the state can't be trusted …
-    Stage failedStage = Stage::GridToParticles;    ///< … and since when
+    std::string_view failure;                      ///< reason the state is invalid; empty if valid
+    Stage failedStage = Stage::GridToParticles;    ///< stage in which `failure` was found
 };
 
 }  // namespace sim

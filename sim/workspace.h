@@ -31,30 +31,30 @@ struct Workspace {
     ObstacleField obstacleField;
     LiquidGrid grid;
     ScatterScratch scatter;
-    BoundedScratch bounded;  ///< of affine maps
+    BoundedScratch bounded;  ///< buffers of affine maps
     GatherScratch gather;
     ViscosityWorkspace viscosity;
     PressureWorkspace pressure;
     StrainWorkspace strain;
     EmissionWorkspace emission;
-    std::vector<InflowCell> inflow;  ///< of the sources of this step
+    std::vector<InflowCell> inflow;  ///< cells that the sources of this step press liquid into
     WallFaces wallFaces;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;
     FreeLiquid free;
     SurfaceTensionWorkspace surfaceTension;
-    std::array<AlignedArray<double>, kAxes> displacement;  ///< of each particle by relaxation [cm]
-    std::array<AlignedArray<double>, kAxes> places;        ///< of the particles before they move, where there are obstacles [cm]
+    std::array<AlignedArray<double>, kAxes> displacement;  ///< displacement of each particle by relaxation [cm]
+    std::array<AlignedArray<double>, kAxes> places;        ///< particle positions before advection, if there are obstacles [cm]
     BlockArray<double> oldPressure;
     RelaxScratch relax;
     double packing = 1.0;                 ///< mass of a full cell relative to the density of the liquid times its volume [-]
     double relaxReach = 0.0;              ///< [cm]; 0 = relaxation is off
     std::unique_ptr<StateBackup> backup;  ///< mode adaptive: the state before the step
     GainAtWalls gainAtWalls;
-    LiquidOnSolids onSolids;          ///< by the faces of the liquid …
-    ChunkSums<Impulse> pushedSolids;  ///< … and by particles kept out of solids [g cm/s]
+    LiquidOnSolids onSolids;          ///< impulses of the liquid on solids, by faces
+    ChunkSums<Impulse> pushedSolids;  ///< impulses of particles pushed out of solids, by solid [g cm/s]
     MomentumBudget momentum;
-    Stage failedStage = Stage::Emit;           ///< of the last step that threw
+    Stage failedStage = Stage::Emit;           ///< stage of the last step that threw
     bool correctsStrain = false;               ///< the scene's free surfaces are of second order
     bool booksEnergy = false;                  ///< tell where energy goes: takes as long as a step
     std::unique_ptr<Coupling> coupling;        ///< where there are liquid and fabric

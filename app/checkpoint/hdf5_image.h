@@ -22,7 +22,7 @@ constexpr NumberType numberType()
     else return std::is_signed_v<T> ? NumberType::Int64 : NumberType::Uint64;
 }
 
-/// Of the library that is loaded: "1.10.8".
+/// Version of the library that is loaded: "1.10.8".
 std::string hdf5Version();
 
 /// Makes an HDF5 file in memory: tables of numbers, each with its unit as an attribute, and texts. Names are paths;
@@ -36,7 +36,7 @@ class Hdf5Writer {
 
     /// `rows` rows of `columns` numbers, one behind the other in memory.
     void table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns, const void* numbers);
-    /// The same where row r begins at row(r).
+    /// `rows` rows of `columns` numbers, of which row r begins at row(r).
     void table(const std::string& name, std::string_view unit, NumberType type, std::size_t rows, std::size_t columns,
                const std::function<const void*(std::size_t)>& row);
     void text(const std::string& name, const std::string& content);

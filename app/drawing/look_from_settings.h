@@ -13,7 +13,7 @@
 
 namespace app {
 
-/// Of colour bars: what the colours show, with its unit.
+/// Title of a colour bar: what the colours show, with its unit.
 const char* titleOf(ColorBy colorBy);
 const char* titleOf(FabricColorBy colorBy);
 

@@ -22,7 +22,7 @@ struct BandPanel {
     double scale = 1.0;                ///< values are told in so many units
 };
 
-/// Of the log that the curves are of: kinetic, potential and total energy; of probes one panel for each.
+/// Panels of the log that the curves are of: kinetic, potential and total energy, or one for each probe.
 std::vector<BandPanel> panelsOf(const std::vector<BandCurve>& curves);
 
 /// Energy per particle as the paper draws it, and beside it what the published program takes for it.

@@ -34,7 +34,7 @@ struct EnsembleDifference {
 /// 1 − confidence at most. Where all runs of the smaller ensemble have the draws of runs of the other, pairs are compared.
 EnsembleDifference differenceOf(const Ensemble& a, const Ensemble& b, double confidence);
 
-/// The same of numbers that are there.
+/// How b differs from a, of numbers that are there.
 /// @param isPaired  values of one number belong together
 EnsembleDifference differenceOf(const std::vector<EnsembleColumn>& a, const std::vector<EnsembleColumn>& b, double confidence, bool isPaired = false);
 
@@ -44,7 +44,7 @@ std::string sentenceOf(const EnsembleDifference& difference);
 /// Both means with their deviations, and the difference with its interval (Markdown).
 std::string differenceTable(const EnsembleDifference& difference);
 
-/// The same numbers as CSV, without a head; and that head.
+/// The table's numbers as CSV, without a head; and that head.
 std::string differenceRows(const EnsembleDifference& difference);
 std::string differenceHeader();
 

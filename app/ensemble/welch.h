@@ -7,7 +7,7 @@
 
 namespace app {
 
-/// Of some numbers; those that are not finite are left out.
+/// Mean and spread of some numbers; those that are not finite are left out.
 struct Spread {
     std::size_t count = 0;
     double mean = 0.0;
@@ -36,13 +36,14 @@ struct MeanDifference {
     bool isSeen() const { return difference > margin || -difference > margin; }
 };
 
-/// Of numbers that come in pairs, of which one may have none: from the spread of each pair's own difference, however much the pairs differ.
+/// Difference of numbers that come in pairs, of which one may have none: from the spread of each pair's own difference, however much the pairs
+/// differ.
 /// @param confidence  in (0, 1)
 MeanDifference pairedDifference(std::span<const double> a, std::span<const double> b, double confidence);
 
-/// Of b against a, with spreads of their own (Welch 1947). Degrees of freedom are one less than the smaller number of runs, the fewest that Welch
-/// allows: the more of Satterthwaite 1946 are right for normal numbers, but not for those drawn evenly from a range. Where neither has a spread the
-/// difference is certain if chance alone would hardly sort as many runs so, and else open.
+/// Difference of b from a, with spreads of their own (Welch 1947). Degrees of freedom are one less than the smaller number of runs, the fewest that
+/// Welch allows: the more of Satterthwaite 1946 are right for normal numbers, but not for those drawn evenly from a range. Where neither has a spread
+/// the difference is certain if chance alone would hardly sort as many runs so, and else open.
 /// @param confidence  in (0, 1)
 MeanDifference welchDifference(const Spread& a, const Spread& b, double confidence);
 

@@ -13,7 +13,7 @@
 
 namespace app {
 
-/// Of which files the layers are.
+/// Names of the layers' files.
 inline constexpr const char* kUsdaAnimation = "animation.usda";
 inline constexpr const char* kUsdaTopology = "topology.usda";
 

@@ -37,7 +37,7 @@ class FramePipeline {
 
     /// Wait until every submitted frame is a file, or throw why not. More may be submitted afterwards.
     void drain();
-    /// The same, and no more will come.
+    /// Wait until every submitted frame is a file, or throw why not; no more will come.
     void finish();
 
  private:

@@ -74,7 +74,7 @@ struct FrameSnapshot {
     std::vector<Mesh> obstacles;
     std::vector<Lines> lines;
     SnapshotExtras extras;                                   ///< what it shows of all this
-    std::vector<render::FrameView::Mesh> borrowedObstacles;  ///< the same, as view() lends them
+    std::vector<render::FrameView::Mesh> borrowedObstacles;  ///< obstacles as view() lends them
     std::vector<render::FrameView::Lines> borrowedLines;
 
     /// Valid until the snapshot changes.

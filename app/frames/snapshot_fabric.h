@@ -15,10 +15,10 @@ void takeCloth(const sim::Fabric& fabric, const sim::FabricState& state, double 
 /// How full the pores of each vertex are, 0 … 1; empty where all are dry.
 std::vector<float> wetnessOf(const sim::Fabric& fabric, const sim::FabricState& state, double liquidDensity);
 
-/// Of each vertex: the largest relative lengthening of the yarn edges that meet there; 0 where there are none [-].
+/// Largest relative lengthening of the yarn edges that meet at each vertex; 0 where there are none [-].
 std::vector<double> yarnStrain(const sim::Fabric& fabric, const sim::FabricState& state);
 
-/// Of each vertex: the largest principal stretch of the faces that meet there, less 1; 0 where there are none [-].
+/// Largest principal stretch of the faces that meet at each vertex, less 1; 0 where there are none [-].
 std::vector<double> clothStrain(const sim::Fabric& fabric, const sim::FabricState& state);
 
 }  // namespace app

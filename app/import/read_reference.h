@@ -10,7 +10,7 @@ namespace app {
 /// Throws InputError at the line of what is missing, no number, or out of range.
 reference::Scene readReferenceScene(const XmlFile& file, const ImportOptions& options, NamesRead& names);
 
-/// Its parts.
+/// Parts of readReferenceScene.
 reference::LiquidInfo readLiquidInfo(const XmlElement& scene, bool countsThreads);
 std::vector<reference::Material> readReferenceMaterials(const XmlElement& scene, const ImportOptions& options);
 void readReferenceFabric(const XmlElement& scene, reference::Scene& out);

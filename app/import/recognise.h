@@ -19,7 +19,7 @@ struct ListedFabric {
     std::vector<sim::Vec3i> faces;
 };
 
-/// The same by a generator of scene files.
+/// Cloth or yarns by a generator of scene files.
 struct GeneratedFabric {
     std::string kind;                                         ///< "cloth_grid"
     std::vector<std::pair<std::string, std::string>> fields;  ///< its keys and values as YAML, but material and radius

@@ -27,7 +27,7 @@ struct ImportedScene {
 /// The scene as YAML. @param fileOf  the name to write for the file of a piece
 SceneLines writeScene(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf);
 
-/// Its parts.
+/// Parts of writeScene.
 void writeLiquid(const ImportedScene& scene, SceneLines& out);
 void writeFabrics(const ImportedScene& scene, const std::function<std::string(const ImportedPiece&)>& fileOf, SceneLines& out);
 

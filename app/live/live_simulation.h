@@ -24,21 +24,21 @@ enum class LiveMode { Paused, Playing, Ended, Failed };
 /// Where a live simulation is.
 struct LiveStatus {
     LiveMode mode = LiveMode::Paused;
-    bool isBusy = false;  ///< with what it was asked for: all else may change at once
+    bool isBusy = false;  ///< whether commands are under way: all else may change at once
     std::int64_t step = 0;
     double time = 0.0;            ///< [s]
-    std::string failure;          ///< why it went no further: one line
-    std::string refused;          ///< why the last change of settings was not taken: the reader's line; empty if it was
-    std::vector<double> moments;  ///< it can go back to, in order [s]
+    std::string failure;          ///< reason why it went no further, in one line
+    std::string refused;          ///< reason why the last change of settings was not taken, the reader's line; empty if it was
+    std::vector<double> moments;  ///< times of the rewind points, ascending [s]
 };
 
 /// What the plots of a window show of a step.
 struct LiveStep {
     std::int64_t step = 0;  ///< its number; going back makes numbers come again
-    double time = 0.0;      ///< at its end [s]
-    double seconds = 0.0;   ///< it took, wall
+    double time = 0.0;      ///< time at its end [s]
+    double seconds = 0.0;   ///< wall time that it took [s]
     sim::StepReport report;
-    sim::Ledger ledger;  ///< at its end
+    sim::Ledger ledger;  ///< ledger at its end
 };
 
 /// A scene that is simulated on a thread of its own while somebody looks at it. It takes the steps that a run without a

@@ -17,11 +17,11 @@ class FrameSink {
     ///                   frames everything
     FrameSink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& folder, bool asPanel, bool fromStart);
 
-    /// @param stateHash  of the whole state, of which `state` may hold what pictures need only
+    /// @param stateHash  hash of the whole state, of which `state` may hold what pictures need only
     void take(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, std::int64_t frame, std::uint64_t stateHash);
     /// Wait until all pictures are files, or throw why not.
     void drain() { pipeline_->drain(); }
-    /// The same; no more will come.
+    /// Wait until all pictures are files, or throw why not; no more will come.
     void finish() { pipeline_->finish(); }
 
  private:

@@ -15,7 +15,7 @@ namespace app {
 /// Is there an ffmpeg to make videos with?
 bool canMakeVideos();
 
-/// Of that ffmpeg, in its own words. Needs canMakeVideos().
+/// Version of that ffmpeg, in its own words. Needs canMakeVideos().
 std::string videoProgramVersion();
 
 /// Players give up on wider videos: wider pictures are scaled down to it [pixels].
@@ -47,7 +47,7 @@ class VideoWriter {
 /// An MP4 of the pictures frame_00000.png, frame_00001.png, … in a folder, from the first one there is.
 void videoOfFrames(const std::filesystem::path& folder, const std::filesystem::path& target, double fps, const std::string& codec);
 
-/// The same into video.mp4 in the folder; without ffmpeg a warning says where the pictures are.
+/// Makes video.mp4 of a folder's pictures, in the folder; without ffmpeg a warning says where the pictures are.
 void makeVideo(const std::filesystem::path& folder, const OutputSettings& output);
 
 }  // namespace app

@@ -28,9 +28,9 @@ class ProbeReader {
     /// Goes on in a run that has come to this time [s].
     ProbeReader(const Probes& probes, double start, double time, const ForceTotals& sinceReading);
 
-    /// Of the state before the first step.
+    /// Reads the state before the first step.
     ProbeReading initial(const SimulationHandle& simulation);
-    /// Of the state after a step, if a reading is due.
+    /// Reads the state after a step, if a reading is due.
     /// @param isReflected  the state is one of particles that hold no flow: readings wait for the next one
     std::optional<ProbeReading> step(const SimulationHandle& simulation, bool isReflected);
 

@@ -25,7 +25,7 @@ struct Probes {
     std::vector<Probe> all;
     std::shared_ptr<Measures> measures;  ///< what the formulas look at
 
-    /// Of the table of readings: the time, then each reading with its unit, "head [cm]", "wetness at 2.5 cm [-]".
+    /// Columns of the table of readings: the time, then each reading with its unit, "head [cm]", "wetness at 2.5 cm [-]".
     std::vector<std::string> columns() const;
 };
 

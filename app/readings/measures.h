@@ -55,7 +55,7 @@ class Measures {
         simulation_ = &simulation;
         startInterval();
     }
-    /// The same, in the middle of an interval.
+    /// Looks at a simulation in the middle of an interval.
     void setSimulation(const SimulationHandle& simulation) { simulation_ = &simulation; }
     void addHoop(const std::string& name, const Hoop& hoop) { hoops_[name] = hoop; }
     sim::FormulaNames::OfName flux();

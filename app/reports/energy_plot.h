@@ -30,7 +30,7 @@ std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std:
 /// gnuplot's own words.
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder);
 
-/// The same of energies per particle, as folder/name.png and folder/name.gp.
+/// Draw energies per particle as folder/name.png, and leave folder/name.gp beside it.
 void plotPerParticle(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace app

@@ -86,7 +86,7 @@ class Reports {
     /// Writes a report.json that says "running".
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance);
 
-    /// The same of a run that is gone on with in its folder: what its logs say of steps later than `time` [s] is forgotten.
+    /// Goes on with the logs of a run that is resumed in its folder: what its logs say of steps later than `time` [s] is forgotten.
     Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance, const LogsSoFar& before,
             double time);
 
@@ -107,7 +107,7 @@ class Reports {
     void writeReport();
     const std::filesystem::path folder_;
     std::optional<LineFile> steps_, energy_;    ///< those the scene's output.data asks for
-    std::optional<EnergyLedger> energyLedger_;  ///< likewise
+    std::optional<EnergyLedger> energyLedger_;  ///< empty unless the scene asks for it
     std::optional<ProbeLog> probes_;            ///< where the scene has some
     RunSummary summary_;
     double begin_ = 0.0;   ///< [s]

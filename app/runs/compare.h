@@ -48,7 +48,7 @@ double costOf(std::span<const ComparedRun> runs, const Options& options, bool wi
 /// What was seen of runs that are done, in one sentence; "" where they have written no energies.
 std::string summarizeRuns(const std::vector<ComparedRun>& runs);
 
-/// Its pictures, as they are there.
+/// Pictures of a run, as they are there.
 FrameSequence sequenceOf(const ComparedRun& run);
 
 /// What is to be made of runs that are done.

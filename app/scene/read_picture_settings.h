@@ -14,7 +14,7 @@ PictureSettings readPictureSettings(const sim::SceneFile& file);
 /// What there is to draw in a scene.
 SceneContents contentsOf(const sim::Scene& scene);
 
-/// The same sections as commented YAML in cgs: goes behind sim::printScene and loads again to the same settings.
+/// The sections render, output and compare as commented YAML in cgs: goes behind sim::printScene and loads again to the same settings.
 std::string printPictureSettings(const PictureSettings& settings);
 
 }  // namespace app

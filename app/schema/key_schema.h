@@ -29,7 +29,7 @@ SchemaJson namedSchema(const SchemaJson& value);
 
 /// Any word, as a name may be: to YAML some are numbers.
 SchemaJson textSchema();
-/// The same, marked as a formula.
+/// A text that is marked as a formula.
 SchemaJson formulaSchema();
 
 SchemaJson listSchema(const SchemaJson& items, std::size_t atLeast = 0);

@@ -8,7 +8,7 @@ namespace app {
 /// what each means, from the declarations that the reader goes by.
 std::string sceneSchema();
 
-/// The same of study files.
+/// JSON schema of study files.
 std::string studySchema();
 
 }  // namespace app

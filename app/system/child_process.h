@@ -34,7 +34,7 @@ struct ChildOptions {
 };
 
 /// Another program, started with arguments as they are: no shell looks at them. It is ended when this process ends.
-/// It runs in a process group of its own, so that Ctrl-C reaches it through us alone.
+/// A program that runs in a process group of its own, so that Ctrl-C reaches it through us alone.
 class ChildProcess {
  public:
     /// @param program  a file, as findProgram() gives

@@ -19,7 +19,7 @@ auto withThreads(int threads, Body&& body)
     return arena.execute(std::forward<Body>(body));
 }
 
-/// Of the library that is loaded.
+/// Version of the library that is loaded.
 inline std::string tbbVersion() { return TBB_runtime_version(); }
 
 }  // namespace app

@@ -8,7 +8,7 @@
 
 namespace app {
 
-/// Of what a restart waits for.
+/// Colour of what a restart waits for.
 inline const ImVec4 kWaits(1.0f, 0.8f, 0.3f, 1.0f);
 
 /// " [cm]", or nothing for plain numbers.

@@ -19,7 +19,7 @@ class ProbePanel {
     void draw(const LivePair& pair) const;
 
  private:
-    /// Of one probe.
+    /// Readings of one probe over time.
     struct Course {
         std::vector<double> times;     ///< with a value [s]
         std::vector<float> values;     ///< at these times; or along the line, where there is one
@@ -29,14 +29,14 @@ class ProbePanel {
         void dropAfter(double time);
         void plot(bool isLine, float width) const;  ///< with the latest value in it, or the range along the line; so wide [pixels]
     };
-    /// Of one simulation.
+    /// Readings of one simulation.
     struct Side {
         std::shared_ptr<const std::vector<ProbeTitle>> titles;  ///< null where it has no probes
         std::vector<Course> courses;                            ///< one for each of them
         void add(const LiveReadings& taken);
         bool hasSameProbes(const Side& other) const;
     };
-    /// Of sides with the same probes: each probe once, with what it reads in all of them.
+    /// Draws the probes of sides that have the same ones: each probe once, with what it reads in all of them.
     void drawProbes(std::span<const Side> sides) const;
     void drawProbe(std::size_t probe, std::span<const Side> sides) const;
     std::array<Side, 2> sides_;

@@ -17,7 +17,7 @@
 
 namespace app {
 
-/// Of a window that shows a scene.
+/// Title of a window that shows a scene.
 std::string windowTitle(const sim::Scene& scene);
 
 /// What stands behind a Viewer. Its functions are in viewer.cpp (scenes and their pictures), viewer_panels.cpp and viewer_commands.cpp (what the user

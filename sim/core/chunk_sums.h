@@ -17,7 +17,7 @@ class ChunkSums {
         things_ = things;
         sums_.assign(chunks * things, T{});
     }
-    /// Those that a chunk adds to.
+    /// The sums that a chunk adds to.
     std::span<T> of(std::size_t chunk) { return {sums_.data() + chunk * things_, things_}; }
     T sum(std::size_t thing) const
     {

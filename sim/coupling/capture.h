@@ -20,13 +20,13 @@ class Capture {
     /// @param nominalMass  of a particle [g]
     Capture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, double nominalMass);
 
-    /// Over dt [s], of the liquid around, which has been found. Velocities of pinned vertices stay.
+    /// Absorbs liquid over dt [s] from the cells that `around` has collected. Velocities of pinned vertices stay.
     /// @return mass taken up [g]
     double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                    FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
     Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
-    /// The same of each vertex.
+    /// What each pinned vertex got of the liquid's momentum in the last call [g cm/s].
     std::span<const Vec3> toPinsByVertex() const { return toPins_; }
     /// Removes the particles that have given all they had; their numbers change.
     void removeEmptyParticles(LiquidParticles& liquid);
@@ -49,19 +49,19 @@ class Capture {
     void forEachUnsaturated(const SortedVertices& vertices, int block, Body&& body) const;
 
     const Fabric& fabric_;
-    std::vector<double> capacity_;       ///< of each vertex [g]
+    std::vector<double> capacity_;       ///< mass that the pores of each vertex hold [g]
     std::vector<double> ratePerVertex_;  ///< law fabric: part of its pores that it fills per time; published: of the liquid around [1/s]
     CaptureLaw law_;
     const LiquidAround& around_;
-    double leastMass_;  ///< of a particle that stays [g]
+    double leastMass_;  ///< mass below which a particle gives all [g]
 
     // Of the step.
-    std::vector<double> wanted_, got_;          ///< of each vertex [g]
-    std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
-    BlockArray<double> asked_;                  ///< of each cell of the vertices' blocks, by all vertices [g]
-    BlockArray<double> share_;                  ///< the same relative to the liquid of the cell [-]
-    std::vector<std::uint8_t> hasUnsaturated_;  ///< of each block of the vertices: has vertices with room
-    std::vector<std::uint8_t> isAsked_;         ///< of each of them, and of an empty one: vertices want liquid of its cells
+    std::vector<double> wanted_, got_;          ///< mass that each vertex asks for, and what it gets [g]
+    std::vector<Vec3> toPins_;                  ///< momentum that pins held back of each vertex [g cm/s]
+    BlockArray<double> asked_;                  ///< mass that all vertices ask of each cell of their blocks [g]
+    BlockArray<double> share_;                  ///< share of the cell's liquid that vertices ask for [-]
+    std::vector<std::uint8_t> hasUnsaturated_;  ///< whether each block of the vertices has vertices with room
+    std::vector<std::uint8_t> isAsked_;         ///< whether vertices want liquid of each of these blocks' cells, and of an empty one's
     std::vector<std::size_t> emptied_;          ///< particles, ascending
 };
 

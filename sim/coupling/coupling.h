@@ -19,7 +19,7 @@ struct Coupling {
     Drip drip;
     Wicking wicking;
     TwistMomentum twist;
-    std::vector<Vec3> velocityBefore;  ///< of each vertex, as the fabric's part of the step began [cm/s]
+    std::vector<Vec3> velocityBefore;  ///< velocity of each vertex as the fabric's part of the step began [cm/s]
 
     /// @param nominalMass  of a particle of liquid [g]
     Coupling(const Fabric& theFabric, const Settings& settings, double nominalMass)

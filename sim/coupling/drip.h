@@ -15,7 +15,7 @@ namespace sim {
 /// centre of mass are kept to round-off.
 class Drip {
  public:
-    static constexpr double kMostOver = 0.03;  ///< of what pores hold, that stays beside it [-]
+    static constexpr double kMostOver = 0.03;  ///< share of what pores hold that stays beyond it [-]
 
     /// @param nominalMass  of a particle [g]
     Drip(const Fabric& fabric, const WetElements& elements, const Settings& settings, double nominalMass);
@@ -35,8 +35,8 @@ class Drip {
     Vec3 jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const;
 
     const WetElements& elements_;
-    std::vector<double> capacity_;  ///< of each vertex [g]
-    std::vector<double> excess_;    ///< of each vertex, as the step began to drip [g]
+    std::vector<double> capacity_;  ///< mass that the pores of each vertex hold [g]
+    std::vector<double> excess_;    ///< mass of each vertex beyond its pores as the step began to drip [g]
     std::vector<Wet> wet_;          ///< vertices with too much, by cells
     double nominalMass_;            ///< [g]
     double cell_;                   ///< edge of a cell [cm]

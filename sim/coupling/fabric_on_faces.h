@@ -19,9 +19,9 @@ class FabricOnFaces {
 
     /// P2G of all fields, of vertices that have been sorted.
     void spread(const FabricState& state);
-    /// The velocity again: that of the vertices as they are now …
+    /// P2G of the velocity alone, of the vertices as they are now.
     void spreadVelocity(const FabricState& state);
-    /// … or as a solver has it on faces.
+    /// Takes the velocity as a solver has it on faces.
     void takeVelocity(const FabricFaces& faces);
 
     const BlockGrid& grid() const { return vertices_.grid; }

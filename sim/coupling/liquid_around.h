@@ -21,7 +21,7 @@ class LiquidAround {
 
     explicit LiquidAround(std::size_t vertices) : mass_(vertices), distance_(vertices) {}
 
-    /// Of liquid and vertices that have been sorted. False where no particle is in reach.
+    /// Collects sorted liquid in the cells that sorted vertices reach, and samples it at these. False where no particle is in reach.
     bool find(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid, const ObstacleField& obstacles,
               const SortedVertices& vertices);
 
@@ -59,14 +59,14 @@ class LiquidAround {
 
     // Of the vertices' blocks.
     AlignedArray<double> cells_;        ///< a pack (Lane) for each cell, and for those of an empty block behind the last
-    BlockArray<std::uint8_t> reached_;  ///< by a vertex
+    BlockArray<std::uint8_t> reached_;  ///< whether a vertex reaches each cell
     std::vector<std::uint8_t> blockReached_;
     std::vector<int> solidBlock_;                  ///< block of the liquid's grid where there are solids near, or BlockGrid::kNone
-    std::vector<double> mass_, distance_;          ///< of each vertex of the fabric, known of sorted ones [g, cells]
-    std::vector<std::array<int, 27>> nearBlocks_;  ///< of each block of the liquid
+    std::vector<double> mass_, distance_;          ///< massAt and distanceAt of each vertex, known of sorted ones [g, cells]
+    std::vector<std::array<int, 27>> nearBlocks_;  ///< blocks of vertices around each block of the liquid
     std::vector<Part> near_;                       ///< in the order of the blocks
-    std::vector<int> nearBegin_;                   ///< of each block of the liquid: its first part; it has none if the next block's is the same
-    AlignedArray<double> tiles_;                   ///< of each part: what its particles bring to the cells of a tile
+    std::vector<int> nearBegin_;                   ///< first part of each block of the liquid; it has none if the next block's is the same
+    AlignedArray<double> tiles_;                   ///< what each part's particles bring to the cells of a tile
 };
 
 template <class Body>

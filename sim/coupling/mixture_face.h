@@ -5,7 +5,7 @@ namespace sim {
 /// Liquid and fabric on one face of the grid.
 struct MixtureFace {
     double liquidMass = 0.0, fabricMass = 0.0;      ///< fabric with what it has absorbed [g]
-    double liquidVolume = 0.0, fabricVolume = 0.0;  ///< that pressure acts on; of fabric fibres and absorbed liquid [cm^3]
+    double liquidVolume = 0.0, fabricVolume = 0.0;  ///< volumes that pressure acts on; the fabric's: fibres and absorbed liquid [cm^3]
     double drag = 0.0;                              ///< D [g]
     double fraction = 0.0;                          ///< ψ of the cell's volume that fibres fill [-]
 };

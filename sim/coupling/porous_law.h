@@ -9,8 +9,8 @@ struct Permeability {
     double along, across;
 };
 
-/// Of parallel fibres in a square array.
-/// @param fraction  of the volume that fibres fill, (0..1]
+/// Permeability of parallel fibres in a square array.
+/// @param fraction  share of the volume that fibres fill, (0..1]
 /// Source: Drummond and Tahir 1984. Their series for flow across turns up again beyond 0.4; from there on it falls as that along does
 /// (coupling/README.md, Drag).
 Permeability permeability(double fraction, double fibreDiameter);
@@ -40,7 +40,7 @@ class PorousLaw {
 
  private:
     double fibreDiameter_, suctionScale_;  ///< [cm], σ cos θ / r_p, at least 0 [dyn/cm^2]
-    double density_, viscosity_;           ///< of the liquid [g/cm^3, P]
+    double density_, viscosity_;           ///< density and viscosity of the liquid [g/cm^3, P]
     DragLaw law_;
     double exponent_;    ///< b, of the speed where drag is not linear [-]
     double speedOfOne_;  ///< μ/(ρ d): at which the Reynolds number of a fibre is 1 [cm/s]

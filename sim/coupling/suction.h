@@ -19,10 +19,10 @@ class Suction {
               const LiquidGrid& liquid);
     /// dP/da at the lower face of a cell along an axis [dyn/cm^3].
     double slope(const BlockGrid& grid, int block, int axis, int cell) const;
-    /// What draws is drawn: each vertex gets, by its own part of P in the cells that it reaches, the opposite of what it makes of slopes. All
-    /// vertices together get what liquid gets, and none more than goes with its volume, however little of it a face with much liquid has.
-    /// @param perSlope  of each face: impulse on its liquid for a slope of 1 [g cm/s per dyn/cm^3]
-    /// @param impulse   of each vertex [g cm/s]
+    /// Reaction of suction on the vertices: minus the derivative of P with respect to their position, capped by volume. All vertices together get the
+    /// opposite of what the liquid gets.
+    /// @param perSlope  impulse of each face on its liquid for a slope of 1 [g cm/s per dyn/cm^3]
+    /// @param impulse   impulse on each vertex [g cm/s]
     void applyReaction(const SortedVertices& vertices, const BlockArray<double, 3>& perSlope, std::span<Vec3> impulse);
 
  private:
@@ -31,11 +31,11 @@ class Suction {
     enum Kind { kFibres, kPull, kPores, kHeld, kKinds };  ///< fibres [cm^3], they times P_c (1 - φ)/φ [dyn cm], pores, what they hold [cm^3]
 
     const Fabric& fabric_;
-    std::vector<double> strength_;  ///< of each material: P_c (1 - φ)/φ of its pores [dyn/cm^2]
-    double density_;                ///< of the liquid [g/cm^3]
+    std::vector<double> strength_;  ///< P_c (1 - φ)/φ of each material's pores [dyn/cm^2]
+    double density_;                ///< density of the liquid [g/cm^3]
     BlockArray<double, kKinds> volumes_;
-    BlockArray<double> suction_;  ///< of each cell [dyn/cm^2]
-    BlockArray<double, 3> back_;  ///< of each cell: impulse for a pull of 1 [g cm/s per dyn cm]
+    BlockArray<double> suction_;  ///< P of each cell [dyn/cm^2]
+    BlockArray<double, 3> back_;  ///< impulse for a pull of 1 in each cell [g cm/s per dyn cm]
 };
 
 }  // namespace sim

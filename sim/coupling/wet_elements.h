@@ -10,8 +10,8 @@ namespace sim {
 /// What liquid in fabric moves through and drips from: yarn edges, then faces, alike but for the number of their corners.
 struct WetElements {
     std::vector<std::array<int, 3>> vertices;  ///< the third of an edge is −1
-    std::vector<double> crossSection;          ///< of an edge: area [cm^2]; of a face: thickness [cm]
-    std::vector<int> begin, at;                ///< of each vertex: its elements are at[begin[v]] … at[begin[v + 1] − 1]
+    std::vector<double> crossSection;          ///< area of an edge [cm^2], thickness of a face [cm]
+    std::vector<int> begin, at;                ///< elements of vertex v: at[begin[v]] … at[begin[v + 1] − 1]
 
     explicit WetElements(const Fabric& fabric);
     std::size_t size() const { return vertices.size(); }

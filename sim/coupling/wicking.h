@@ -23,7 +23,7 @@ class Wicking {
               FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
     Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
-    /// The same of each vertex.
+    /// What each pinned vertex got of the liquid's momentum in the last call [g cm/s].
     std::span<const Vec3> toPinsByVertex() const { return toPins_; }
     /// Is there liquid in the fabric?
     bool isWet(const FabricState& state) const;
@@ -43,23 +43,23 @@ class Wicking {
     WickingSettings settings_;
     double density_;                       ///< [g/cm^3]
     double longest_ = 0.0;                 ///< stable substep [s]
-    std::vector<PorousLaw> laws_;          ///< of each material
-    std::vector<double> suction_, along_;  ///< of each material: suction when dry [dyn/cm^2], permeability along fibres [cm^2]
-    std::vector<double> capacity_;         ///< of each vertex [g]
-    int leastSubsteps_;                    ///< of a step [-]
+    std::vector<PorousLaw> laws_;          ///< porous law of each material
+    std::vector<double> suction_, along_;  ///< each material's suction when dry [dyn/cm^2], permeability along fibres [cm^2]
+    std::vector<double> capacity_;         ///< mass that the pores of each vertex hold [g]
+    int leastSubsteps_;                    ///< least number of substeps of a step [-]
 
     // Of the step.
-    std::vector<Vec3> acceleration_;                     ///< of each vertex [cm/s^2]
-    std::vector<std::uint8_t> isWetElement_, isActive_;  ///< of each element: holds liquid; of each vertex: ends one that does
-    std::vector<double> head_;                           ///< of each vertex: suction less the pressure of the liquid around it [dyn/cm^2]
+    std::vector<Vec3> acceleration_;                     ///< acceleration of each vertex [cm/s^2]
+    std::vector<std::uint8_t> isWetElement_, isActive_;  ///< whether each element holds liquid; whether each vertex ends one that does
+    std::vector<double> head_;                           ///< suction of each vertex less the pressure of the liquid around it [dyn/cm^2]
     std::vector<std::array<double, 3>> rate_;  ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
-    std::vector<double> filling_;              ///< of each element: mean of its corners [g/cm^3]
-    std::vector<double> part_;                 ///< of what would flow out of each vertex, that it has [-]
+    std::vector<double> filling_;              ///< filling of each element: mean of its corners [g/cm^3]
+    std::vector<double> part_;                 ///< limiter of the outflow of each vertex [0..1]
     std::vector<double> flow_;                 ///< through an element, over its inflow's rate [g s/cm^3]
-    std::vector<Vec3> carried_;                ///< momentum of that [g/cm^2]
-    std::vector<double> absorbed_;             ///< of each vertex after the substep [g]
-    std::vector<Vec3> velocity_;               ///< likewise [cm/s]
-    std::vector<Vec3> toPins_;                 ///< of each vertex [g cm/s]
+    std::vector<Vec3> carried_;                ///< momentum of flow_ [g/cm^2]
+    std::vector<double> absorbed_;             ///< mass of liquid at each vertex after the substep [g]
+    std::vector<Vec3> velocity_;               ///< velocity of each vertex after the substep [cm/s]
+    std::vector<Vec3> toPins_;                 ///< momentum that pins held back of each vertex [g cm/s]
 };
 
 }  // namespace sim

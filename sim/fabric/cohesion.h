@@ -48,9 +48,9 @@ class Cohesion {
     const Fabric& fabric_;
     LiquidSettings liquid_;
     CohesionSettings settings_;
-    std::vector<double> capacity_;   ///< of each vertex [g]
-    std::vector<double> length_;     ///< of threads that each vertex stands for [cm]
-    std::vector<char> isOnCloth_;    ///< of each vertex
+    std::vector<double> capacity_;   ///< mass that the pores of each vertex hold [g]
+    std::vector<double> length_;     ///< length of threads that each vertex stands for [cm]
+    std::vector<char> isOnCloth_;    ///< whether each vertex is on cloth
     std::vector<double> perLength_;  ///< force at each vertex [dyn/cm]
     bool isWet_ = false;
 };

@@ -29,8 +29,8 @@ class FabricComponents {
     int of(int vertex) const { return component_[piece_[vertex]]; }
 
  private:
-    std::vector<int> piece_;           ///< of each vertex
-    mutable std::vector<int> parent_;  ///< of each piece, nearer to the lowest of its component
+    std::vector<int> piece_;           ///< piece of each vertex
+    mutable std::vector<int> parent_;  ///< piece next to each, nearer to the lowest of its component
     std::vector<int> component_;
     int pieces_ = 0, count_ = 0;
 };

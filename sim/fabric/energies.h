@@ -12,7 +12,7 @@ namespace sim {
 /// Elastic energies (fabric/rods/README.md, Energies; fabric/shells/README.md, Membrane); the others are 0.
 FabricEnergies elasticEnergies(const FabricState& state, const Rods& rods, const Shells& shells);
 
-/// The same, which remembers where it was asked last: a step asks for where the one before has ended.
+/// Elastic energies of the last state that was asked for, kept: a step asks for where the one before has ended.
 class ElasticEnergies {
  public:
     const FabricEnergies& at(const FabricState& state, const Rods& rods, const Shells& shells);

@@ -17,9 +17,9 @@ namespace sim {
 struct Fabric {
     /// Yarn edges of strand s are edgeBegin(s) … edgeBegin(s + 1) − 1, in order; each strand has one vertex more than edges.
     struct Strands {
-        std::vector<int> begin = {0};               ///< of each strand in `vertices`, and the end of the last
-        std::vector<int> vertices;                  ///< of all strands, in order
-        std::vector<int> material;                  ///< of each strand
+        std::vector<int> begin = {0};               ///< begin of each strand in `vertices`, and the end of the last
+        std::vector<int> vertices;                  ///< vertices of all strands, in order
+        std::vector<int> material;                  ///< material of each strand
         std::vector<std::array<double, 2>> radius;  ///< half axes a, b of the section of each strand [cm]
 
         int count() const { return static_cast<int>(begin.size()) - 1; }
@@ -32,9 +32,9 @@ struct Fabric {
         std::vector<Vec2i> vertices;
         std::vector<int> strand;
         std::vector<double> restLength;               ///< [cm]
-        std::vector<double> twistInertia;             ///< of dry yarn, J = ¼ ρφ π a b l (a² + b²) [g cm^2]
+        std::vector<double> twistInertia;             ///< inertia of dry yarn against twist, J = ¼ ρφ π a b l (a² + b²) [g cm^2]
         std::vector<std::array<double, 2>> wetTwist;  ///< what J grows by per mass of water that either end has absorbed [cm^2]
-        std::vector<char> twistHeld;                  ///< its angle follows a pin
+        std::vector<char> twistHeld;                  ///< whether the angle follows a pin
         std::size_t size() const { return vertices.size(); }
     };
     struct Faces {
@@ -46,17 +46,17 @@ struct Fabric {
     /// Vertices with prescribed positions (Dirichlet).
     struct Pins {
         std::vector<int> vertex;  ///< ascending
-        std::vector<int> motion;  ///< of each, in `motions`
+        std::vector<int> motion;  ///< motion of each pinned vertex, in `motions`
         std::vector<Motion> motions;
     };
 
-    std::vector<FabricMaterial> materials;  ///< of each piece of the scene, in its order
-    std::vector<Vec3> rest;                 ///< of each vertex: position at the start, free of stress [cm]
-    std::vector<double> mass;               ///< of each vertex, dry [g]
-    std::vector<double> volume;             ///< of each vertex, envelope with pores [cm^3]
-    std::vector<double> radius;             ///< of each vertex in contact: √(ab) of a yarn, half the thickness of cloth, the larger of both [cm]
-    std::vector<int> vertexMaterial;        ///< of each vertex: the number of its piece
-    std::vector<char> pinned;               ///< of each vertex
+    std::vector<FabricMaterial> materials;  ///< material of each piece of the scene, in its order
+    std::vector<Vec3> rest;                 ///< position of each vertex at the start, free of stress [cm]
+    std::vector<double> mass;               ///< dry mass of each vertex [g]
+    std::vector<double> volume;             ///< envelope of each vertex with pores [cm^3]
+    std::vector<double> radius;       ///< radius of each vertex in contact: √(ab) of a yarn, half the thickness of cloth, the larger of both [cm]
+    std::vector<int> vertexMaterial;  ///< number of each vertex' piece
+    std::vector<char> pinned;         ///< whether each vertex is pinned
     Strands strands;
     YarnEdges edges;
     Faces faces;
@@ -64,7 +64,7 @@ struct Fabric {
 
     bool empty() const { return rest.empty(); }
     std::size_t vertexCount() const { return rest.size(); }
-    int pieces() const { return static_cast<int>(materials.size()); }  ///< of the scene
+    int pieces() const { return static_cast<int>(materials.size()); }  ///< number of the scene's pieces
     int pieceOf(int vertex) const { return vertexMaterial[vertex]; }
 };
 
@@ -73,7 +73,7 @@ struct ContactEnergy {
     double pressed = 0.0;  ///< where fabric presses on itself
     double gripped = 0.0;  ///< by friction of fabric on fabric that has not slid; solver vertex only
     double solids = 0.0;   ///< where fabric presses on solids and holds on to them
-    double bridges = 0.0;  ///< of `pressed` and `solids`: in liquid bridges, below 0 by what breaking them takes
+    double bridges = 0.0;  ///< part of `pressed` and `solids` in liquid bridges, below 0 by what breaking them takes
 
     double sum() const { return pressed + gripped + solids; }
     double springs() const { return pressed + solids - bridges; }  ///< what presses or, on solids, holds
@@ -81,37 +81,37 @@ struct ContactEnergy {
 
 /// What evolves of the fabric.
 struct FabricState {
-    std::vector<Vec3> x;                 ///< of each vertex [cm]
+    std::vector<Vec3> x;                 ///< position of each vertex [cm]
     std::vector<Vec3> v;                 ///< [cm/s]
-    std::vector<double> absorbed;        ///< of each vertex: liquid in its pores [g]
-    std::vector<double> theta;           ///< of each yarn edge: angle of the material frame against the reference frame [rad]
-    std::vector<double> omega;           ///< its rate [1/s]
-    std::vector<Vec3> tangent;           ///< of each yarn edge, when its reference frame was last transported [-]
+    std::vector<double> absorbed;        ///< mass of liquid in each vertex' pores [g]
+    std::vector<double> theta;           ///< angle of each yarn edge's material frame against its reference frame [rad]
+    std::vector<double> omega;           ///< rate of theta [1/s]
+    std::vector<Vec3> tangent;           ///< tangent of each yarn edge when its reference frame was last transported [-]
     std::vector<Vec3> reference;         ///< first axis u of the reference frame, across the tangent [-]
-    std::vector<double> referenceTwist;  ///< of each yarn edge against the one before it on its strand (0 for the first) [rad]
+    std::vector<double> referenceTwist;  ///< twist of each yarn edge's reference frame against the one before on its strand; 0 for the first [rad]
 
-    std::vector<Vec3> acceleration;  ///< of each vertex by the fabric's own forces over the last step [cm/s^2]
-    std::vector<Vec3> held;          ///< of each vertex and axis: fraction of it that pins and the fabric's own forces (heldShare) held
+    std::vector<Vec3> acceleration;  ///< acceleration of each vertex by the fabric's own forces over the last step [cm/s^2]
+    std::vector<Vec3> held;          ///< fraction of each vertex, by axes, that pins and the fabric's own forces held (heldShare) [0..1]
                                      ///< in the last step; solver grid: 0 [0..1]
     FrictionForces onObstacles;      ///< friction between points of the fabric and obstacles, as FabricObstacles counts them
     ContactEnergy stored;            ///< energy of contact at the end of the last step, with its stiffnesses
     double springStep = 0.0;         ///< step that those stiffnesses go by, as mass over its square (springStepFor); 0 before the first [s]
     double mostKinetic = 0.0;        ///< largest kinetic energy of all steps' starts [erg]
 
-    /// Of solver vertex only.
+    /// Part of the state that solver vertex has.
     struct VertexSolverPart {
         double owed = 0.0;          ///< energy that it gained from nothing and that its motion could not pay for yet (owed_energy.h) [erg]
-        double lastFraction = 1.0;  ///< of the moves that Newton asked for, taken in the last attempt at a step [-]
+        double lastFraction = 1.0;  ///< fraction of the moves that Newton asked for, taken in the last attempt at a step [-]
         FrictionForces onFabric;    ///< friction between primitives, as contact/primitives.h counts them
-        /// Of integrator second_order only; empty before its first step.
+        // Of integrator second_order only; empty before its first step.
         std::vector<Vec3> force;                 ///< the fabric's own on each vertex at the end of the last step, but for impulses [dyn]
         std::vector<Vec3> meanForce;             ///< recursive mean of those of the steps so far (bossak.h) [dyn]
         std::vector<Vec3> meanContactForce;      ///< the part of it by all that touches the vertex [dyn]
-        std::vector<double> torque, meanTorque;  ///< the same on the twist of each yarn edge [dyn cm]
+        std::vector<double> torque, meanTorque;  ///< torque on each yarn edge's twist at the last step's end, and its recursive mean [dyn cm]
         double lastStep = 0.0;                   ///< length of the last step or part of one [s]
         double recoverable = 0.0;                ///< energy that its last steps took, half forgotten in each, and may yet give back [erg]
     };
-    /// Of solver grid only; empty until its first step.
+    /// Part of the state that solver grid has; empty until its first step.
     struct GridSolverPart {
         std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
         std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in Particles [cm/s]
@@ -137,10 +137,10 @@ Fabric assembleFabric(std::span<const FabricPiece> pieces);
 /// The fabric at rest where it starts, standing still, its frames parallel along each strand, without twist.
 FabricState restState(const Fabric& fabric);
 
-/// The same at the pieces' velocities and wetness; what is pinned stands still.
+/// The fabric where it starts, with the pieces' velocities and wetness; what is pinned stands still.
 FabricState initialState(const Fabric& fabric, std::span<const FabricPiece> pieces, double liquidDensity = 1.0);
 
-/// Of all vertices, by their dry masses [cm/s].
+/// Mean velocity of all vertices, weighted by their dry masses [cm/s].
 inline Vec3 meanVelocity(const Fabric& fabric, const FabricState& state)
 {
     Vec3 momentum = Vec3::Zero();

@@ -11,7 +11,7 @@ namespace sim {
 /// What solving for the fabric took in one step.
 struct FabricReport {
     int newton = 0;                    ///< iterations, of all parts of the step
-    int iterations = 0;                ///< of the linear solves
+    int iterations = 0;                ///< iterations of the linear solves
     double speedError = 0.0;           ///< rms, left by the linear solves, the largest [cm/s]
     double takenFraction = 1.0;        ///< of the moves that Newton asked for, mass-weighted, the smallest that was accepted [-]
     int halvings = 0;                  ///< parts that were cut in two

@@ -12,7 +12,7 @@ namespace sim {
 /// Forces of friction that were held at the end of a step, by the numbers of the two that touch there: ascending, no two alike.
 struct FrictionForces {
     std::vector<Vec2i> between;
-    std::vector<Vec3> force;  ///< its gradient: by the position of the first against the second [dyn]
+    std::vector<Vec3> force;  ///< energy gradient by the position of the first against the second [dyn]
 
     void clear() { between.clear(), force.clear(); }
     void add(const Vec2i& pair, const Vec3& f) { between.push_back(pair), force.push_back(f); }

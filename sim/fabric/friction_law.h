@@ -19,7 +19,7 @@ struct Friction {
     double stiffness = 0.0;         ///< against slip across `direction` [dyn/cm]
     double along = 0.0;             ///< against slip along `direction` [dyn/cm]
     Vec3 direction = Vec3::Zero();  ///< unit; 0 where both are the same
-    bool slides = false;            ///< it is at its bound
+    bool slides = false;            ///< whether it is at its bound
 
     Mat3 matrix(const Vec3& normal) const
     {
@@ -36,7 +36,7 @@ inline Vec3 atMost(double bound, const Vec3& force)
 
 /// A spring that friction holds, and by what it can be held.
 struct FrictionSpring {
-    Vec3 held;         ///< its force at the start of the step [dyn]
+    Vec3 held;         ///< force at the start of the step [dyn]
     double stiffness;  ///< [dyn/cm]
     double bound;      ///< Coulomb's coefficient times the normal force [dyn]
 

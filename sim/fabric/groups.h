@@ -37,8 +37,8 @@ class FabricGroups {
 
  private:
     FabricComponents components_;
-    std::vector<char> isPinned_;  ///< of each piece
-    std::vector<char> isHeld_;    ///< of each group, at its root
+    std::vector<char> isPinned_;  ///< whether each piece is pinned
+    std::vector<char> isHeld_;    ///< whether each group is held, at its root
 };
 
 }  // namespace sim

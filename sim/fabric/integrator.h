@@ -30,9 +30,9 @@ class FabricIntegrator {
 
     /// Before the liquid's mixture with the fabric is found: what the integrator solves for, as the vertices have it now.
     virtual void prepare(FabricState&, StageClock&) {}
-    /// From t to t + h [s].
+    /// Advances the fabric from t to t + h [s].
     virtual FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) = 0;
-    /// The same on its own, without liquid.
+    /// A step of the fabric alone, from t to t + h [s], without liquid.
     FabricReport step(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock)
     {
         prepare(state, clock);

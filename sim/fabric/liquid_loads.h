@@ -14,11 +14,11 @@ struct LiquidLoads {
     std::vector<Vec3> impulse;  ///< Σ D' ũ of the liquid and of its pressure [g cm/s]
 };
 
-/// The same on the faces of a grid with the fabric's cells (coupling/README.md, Mixture).
+/// Loads of the liquid on the faces of a grid with the fabric's cells (coupling/README.md, Mixture).
 struct FaceLoads {
     const BlockGrid& grid;
     const BlockArray<double, 3>& drag;     ///< D' [g]
-    const BlockArray<double, 3>& impulse;  ///< D' ũ and of pressure [g cm/s]
+    const BlockArray<double, 3>& impulse;  ///< D' ũ of the liquid and of its pressure [g cm/s]
 };
 
 /// Velocities of the fabric on the faces of a grid of its own [cm/s].

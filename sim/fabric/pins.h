@@ -20,7 +20,7 @@ double heldAngle(const Fabric& fabric, std::span<const Vec3> restReference, doub
 /// tilts, where the pin gives nothing.
 double pinTurn(const Fabric& fabric, std::span<const Vec3> restReference, double t0, double t1, const FabricState& state, int edge);
 
-/// Of each vertex, the pinned one that the fewest edges lead to; −1 where no edges do.
+/// Pinned vertex nearest to each vertex, by the number of edges between; −1 where no edges lead to one.
 std::vector<int> nearestPins(const Fabric& fabric);
 
 /// The pin that a held edge's frame follows, by its number among Fabric::Pins: that of the first of its vertices with one.

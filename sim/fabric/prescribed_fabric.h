@@ -13,7 +13,7 @@ class PrescribedFabric final : public FabricIntegrator {
 
     /// @param loads  on vertices
     FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) override;
-    /// Of motion and weight: what its form holds is not known.
+    /// Energies of motion and weight: what its form holds is not known.
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override { return fabricEnergies(fabric_, state, {}, gravity); }
 
  private:
@@ -21,13 +21,13 @@ class PrescribedFabric final : public FabricIntegrator {
     void reportForces(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads) const;
     /// Impulse that a vertex gets [g cm/s].
     static Vec3 byLiquid(const LiquidLoads* loads, const FabricState& state, std::size_t v);
-    /// That what holds the vertex has to give it for its motion [g cm/s].
+    /// Impulse that what holds the vertex has to give it for its motion [g cm/s].
     Vec3 reaction(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const;
 
     const Fabric& fabric_;
     Rods rods_;                        ///< for the frames of yarns that are moved
-    std::vector<Vec3> restReference_;  ///< of each yarn edge
-    std::vector<Vec3> before_;         ///< of each vertex: velocity when the step began [cm/s]
+    std::vector<Vec3> restReference_;  ///< reference direction of each yarn edge at rest
+    std::vector<Vec3> before_;         ///< velocity of each vertex when the step began [cm/s]
 };
 
 }  // namespace sim

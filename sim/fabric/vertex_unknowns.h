@@ -15,13 +15,13 @@ struct VertexUnknowns {
     VertexUnknowns(const Fabric& fabric, const StrandLayout& layout, const Shells& shells);
 
     bool isOnStrand(int vertex) const { return slot[vertex] < strandSize; }
-    int row(int vertex) const { return slot[vertex] / kLanes; }  ///< of a vertex on a strand, in its StrandMatrix
+    int row(int vertex) const { return slot[vertex] / kLanes; }  ///< row of a vertex on a strand, in its StrandMatrix
     int lane(int vertex) const { return slot[vertex] % kLanes; }
 
-    std::vector<int> slot;       ///< of each vertex: its x; y and z stand kLanes and 2 kLanes further
-    std::vector<int> twistSlot;  ///< of each yarn edge
+    std::vector<int> slot;       ///< slot of each vertex' x; y and z stand kLanes and 2 kLanes further
+    std::vector<int> twistSlot;  ///< slot of each yarn edge's twist
     int strandSize = 0;          ///< numbers that belong to strands
-    int size = 0;                ///< of a vector
+    int size = 0;                ///< size of a vector of unknowns
 };
 
 }  // namespace sim

@@ -19,7 +19,7 @@ constexpr int cellInBlock(int i, int j, int k) { return (k * kBlockEdge + j) * k
 /// Index into BlockGrid::neighbours for the block at (dx, dy, dz), each −1..1.
 constexpr int neighbourIndex(int dx, int dy, int dz) { return (dz + 1) * 9 + (dy + 1) * 3 + (dx + 1); }
 inline constexpr int kBlockItself = neighbourIndex(0, 0, 0);
-/// Of the neighbours below and above along each axis.
+/// Indices of the neighbours below and above along each axis.
 inline constexpr std::array<int, kAxes> kBlockBelow = {neighbourIndex(-1, 0, 0), neighbourIndex(0, -1, 0), neighbourIndex(0, 0, -1)};
 inline constexpr std::array<int, kAxes> kBlockAbove = {neighbourIndex(1, 0, 0), neighbourIndex(0, 1, 0), neighbourIndex(0, 0, 1)};
 
@@ -42,7 +42,7 @@ class BlockGrid {
     /// an empty block of zeros at number count() for that purpose (see BlockArray).
     const std::array<int, 27>& neighbours(int block) const { return neighbours_[block]; }
 
-    /// Those of them that share a side with it: below and above along x, then y, then z.
+    /// The neighbours that share a side with the block: below and above along x, then y, then z.
     std::array<int, 2 * kAxes> neighboursAtSides(int block) const
     {
         std::array<int, 2 * kAxes> sides;

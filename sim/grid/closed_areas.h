@@ -21,7 +21,7 @@ class ClosedAreas {
     ClosedAreas(const BlockGrid& grid, int block, const Obstacles& obstacles);
 
     bool areShared() const { return count_ > 1; }
-    /// Of the face normal to `axis` at the lower side of a cell.
+    /// Who closes the face normal to `axis` at the lower side of a cell.
     /// @param closed  area that all solids together close
     /// @param owner   the solid that has what none is found to close
     Closing closing(int axis, const Vec3i& cell, double closed, int owner) const;

@@ -49,7 +49,7 @@ class ObstacleField {
     const double* swept(int block, int axis) const { return swept_.block(anyMoved_ ? slot_[block] : kOpenSlot, axis); }
     /// Are two solids or more so near that they may close a face together?
     bool isShared(int block) const { return shared_[slot_[block]] != 0; }
-    /// Of such a block: who closes the face.
+    /// Who closes a face of a shared block.
     Closing closing(int block, int axis, int face) const;
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
@@ -75,7 +75,7 @@ class ObstacleField {
     std::vector<int> freeSlots_;
     std::vector<std::uint8_t> touchedByMoving_;  ///< per slot
     std::vector<int> toCompute_;                 ///< blocks
-    std::vector<RoomScratch> roomScratch_;       ///< of each worker
+    std::vector<RoomScratch> roomScratch_;       ///< scratch of each worker
     int slotCount_ = 0;
     bool isFolded_ = false, mirrors_ = false, areSeveral_ = false;
     BlockArray<double, 3> open_, room_, folded_, wallVelocity_, swept_;
@@ -84,8 +84,8 @@ class ObstacleField {
     BlockArray<double> centerDistance_;
     BlockArray<std::uint16_t> owner_;
     std::vector<std::uint8_t> shared_;     ///< per slot
-    BlockArray<std::uint16_t, 6> closer_;  ///< of shared slots: first and second solid that close each face, where there is a second
-    BlockArray<double, 3> ofSecond_;       ///< of shared slots: area that the second solid closes of each face [-]
+    BlockArray<std::uint16_t, 6> closer_;  ///< first and second solid that close each face of shared slots, where there is a second
+    BlockArray<double, 3> ofSecond_;       ///< area that the second solid closes of each face of shared slots [-]
 };
 
 }  // namespace sim

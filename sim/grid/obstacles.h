@@ -34,11 +34,11 @@ class Obstacles {
     bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
     int nearest(const Vec3& x) const;    ///< number of the nearest solid, in the order of add; there must be one
     Vec3 normal(const Vec3& x) const;    ///< out of the nearest solid
-    Vec3 velocity(const Vec3& x) const;  ///< of the nearest solid's material point at x [cm/s]
+    Vec3 velocity(const Vec3& x) const;  ///< velocity of the nearest solid's material point at x [cm/s]
 
     // The same of one solid.
     static constexpr int kAll = -1;
-    double distance(const Vec3& x, int solid) const;  ///< of all for kAll
+    double distance(const Vec3& x, int solid) const;  ///< distance from one solid, from all for kAll [cm]
     Vec3 normal(const Vec3& x, int solid) const;
     Vec3 velocity(const Vec3& x, int solid) const;
 
@@ -46,7 +46,7 @@ class Obstacles {
     struct Contact {
         Vec3 x;        ///< on the solid's surface, or up to `resolution` in front of it, where it is at the end of the step [cm]
         Vec3 normal;   ///< out of the solid
-        double share;  ///< of the way that the point has gone until then
+        double share;  ///< share of the way that the point has gone until then
     };
     /// The way of a point through a step, straight as seen from each solid from where it is to where it wants to be at the step's end.
     class Path {
@@ -73,7 +73,7 @@ class Obstacles {
     {
         return firstContact(Path(from), to, resolution);
     }
-    /// The same where all solids rest in their places at the end of the step.
+    /// First contact on a straight path where all solids rest in their places at the end of the step.
     std::optional<Contact> firstContactAtEnd(const Vec3& from, const Vec3& to, double resolution) const;
 
     /// The farthest that a solid's point goes in the step that is somewhere in the cube around x before it, or would be if the solid were

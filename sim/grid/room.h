@@ -9,7 +9,7 @@ namespace sim {
 /// What is open of the parts of a block's cells, and of those around that the B-splines of its faces reach.
 struct OpenParts {
     static constexpr int kRim = 2;    ///< cells around the block
-    static constexpr int kParts = 2;  ///< of a cell along an axis, which a surface cuts as a plane would
+    static constexpr int kParts = 2;  ///< number of parts of a cell along an axis, which a surface cuts as a plane would
     static constexpr int kEdge = kParts * (kBlockEdge + 2 * kRim);
 
     /// A value for each part.
@@ -17,7 +17,7 @@ struct OpenParts {
     static int indexOf(const Vec3i& c) { return (c.z() * kEdge + c.y()) * kEdge + c.x(); }
 
     OfParts share;                      ///< [-]
-    std::array<OfParts, kAxes> moment;  ///< its first moments about the middle of the part [edges of a part]
+    std::array<OfParts, kAxes> moment;  ///< first moments about the middle of the part [edges of a part]
 };
 
 /// Memory in which rooms are found, one for each thread.

@@ -47,7 +47,7 @@ struct RowAccess {
     const int* neighbours;
 };
 
-/// The same for bits: word k of a block shifted by one cell along an axis, so that each bit tells of the cell below (or above).
+/// Access to bits beside a block: word k shifted by one cell along an axis, so that each bit tells of the cell below (or above).
 struct BitAccess {
     BitAccess(const BlockGrid& grid, int block) : neighbours(grid.neighbours(block).data()) {}
 

@@ -13,7 +13,7 @@ std::optional<Vec3> nearestSurface(const Obstacles& obstacles, const Vec3& x, do
 /// surface, or −reach if none is so near [cm].
 double distanceAcrossSeams(const Obstacles& obstacles, const Vec3& x, double reach);
 
-/// That distance, and the unit normal where it ends, away from the solids.
+/// Distance across seams, and the unit normal where it ends, away from the solids.
 struct NearSurface {
     double distance;
     Vec3 normal;

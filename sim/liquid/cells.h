@@ -11,7 +11,7 @@ inline constexpr double kLiquidFill = 0.2;
 // The order of a step is in the types: what a function needs of those before it, it takes as an argument that only they return. So it is here and
 // in pressure.h. All of them hold until the next findLiquidCells for the same liquid.
 
-/// It is known how full the cells are, and which have a pressure.
+/// Token that it is known how full the cells are, and which have a pressure.
 class LiquidCells {
  public:
     const LiquidGrid& liquid() const { return *liquid_; }
@@ -23,7 +23,7 @@ class LiquidCells {
     const LiquidGrid* liquid_;
 };
 
-/// It is known, too, which of them are at the surface, and which are deep.
+/// Token that it is known, too, which of the cells are at the surface, and which are deep.
 class SurfaceCells : public LiquidCells {
     friend SurfaceCells findSurface(const CutGrid& cut, const LiquidCells& cells, LiquidGrid& liquid);
     explicit SurfaceCells(const LiquidCells& cells) : LiquidCells(cells) {}

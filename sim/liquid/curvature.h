@@ -42,14 +42,14 @@ class Curvature {
 
     BlockGrid band_;  ///< the liquid's blocks and all around them
     std::vector<Vec3i> liquidCoords_, coords_;
-    std::vector<int> liquidBlock_, bandBlock_;  ///< of each block of the one grid its number in the other
+    std::vector<int> liquidBlock_, bandBlock_;  ///< number in the other grid of each block of the one
     std::vector<int> active_;                   ///< blocks at most one away from the surface; the others are not smoothed
     std::vector<std::uint8_t> isActive_;
     bool hasWalls_ = false;
     BlockBits<> wall_;                            ///< cells amid obstacles
     BlockBits<> known_, fresh_;                   ///< scratch
     BlockBits<> surface_;                         ///< liquid cells beside air
-    BlockBits<> beside_;                          ///< those and their neighbours: cells whose curvature is asked for
+    BlockBits<> beside_;                          ///< cells whose curvature is asked for, and their neighbours
     BlockBits<> around_;                          ///< and their neighbours: cells whose normal is
     BlockArray<double> colour_, other_, smooth_;  ///< [-]
     BlockArray<double, 3> normal_;                ///< out of the liquid [-]

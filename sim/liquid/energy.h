@@ -17,10 +17,10 @@ double weightWork(const Particles& particles, const Vec3& gravity, double durati
 
 /// Energies of the liquid (liquid/README.md, Energy) [erg].
 struct LiquidEnergies {
-    double kinetic = 0.0;    ///< of the particles' velocities, ½ m v²
-    double modal = 0.0;      ///< of the higher modes around them
+    double kinetic = 0.0;    ///< energy of the particles' velocities, ½ m v²
+    double modal = 0.0;      ///< energy of the higher modes around them
     double potential = 0.0;  ///< −m g·x
-    double strain = 0.0;     ///< of stretching, where the pressure takes it for no inertia (storeStrain); not in the total
+    double strain = 0.0;     ///< energy of stretching, where the pressure takes it for no inertia (storeStrain); not in the total
     double total() const { return kinetic + modal + potential; }
     /// With a surface of second order stretching is a store beside the total: the pressure neither counts nor keeps it (strainEnergy).
     void storeStrain(double energy)

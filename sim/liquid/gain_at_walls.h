@@ -17,7 +17,7 @@ class GainAtWalls {
     void bound(const ObstacleField& field, BlockArray<double, 3>& velocity) const;
 
  private:
-    BlockArray<double, 3> before_;  ///< of blocks near solids, in their order [cm/s]
+    BlockArray<double, 3> before_;  ///< velocities of blocks near solids, in their order [cm/s]
 };
 
 }  // namespace sim

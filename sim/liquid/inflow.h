@@ -8,7 +8,7 @@ namespace sim {
 /// Where a source has pressed liquid into liquid, which the projection is to move aside.
 struct Inflow {
     std::size_t source = 0;
-    Shape mouth;          ///< its part outside of obstacles
+    Shape mouth;          ///< part of the source outside of obstacles
     double volume = 0.0;  ///< for which this step is to make room, spread evenly [cm^3]
 };
 

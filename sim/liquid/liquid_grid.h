@@ -9,17 +9,17 @@ namespace sim {
 struct LiquidGrid {
     FaceFields faces;
     BlockBits<3> wet;                ///< faces that carry liquid mass
-    BlockArray<double, 3> advected;  ///< velocities straight after P2G, of FLIP, of steps that reflect and of those that correct the strain [cm/s] …
-    BlockBits<3> advectedValid;      ///< … and where they mean something
+    BlockArray<double, 3> advected;  ///< velocities straight after P2G, of FLIP, of steps that reflect and of those that correct the strain [cm/s]
+    BlockBits<3> advectedValid;      ///< faces on which these velocities mean something
     BlockArray<double, 3>
         unpressed;  ///< velocities when weight, not levelled, and viscosity have acted, but not yet pressure and surface tension [cm/s]
     BlockArray<double, 3> weightless;  ///< mass of each face near plane walls that images behind them hold against weight [g]
-    double fullMass = 1.0;             ///< of a face with all its room, amid liquid [g]
-    double pitch = 0.5;                ///< of the particles' lattice [cells]
+    double fullMass = 1.0;             ///< mass of a face with all its room, amid liquid [g]
+    double pitch = 0.5;                ///< pitch of the particles' lattice [cells]
     BlockArray<double> fill;           ///< liquid in and around each cell relative to a cell amid liquid [-]
     BlockBits<> inside;                ///< cells with a pressure
-    BlockBits<> surface;               ///< those of them beside air
-    BlockBits<> deep;                  ///< those that are neither at the surface nor beside it
+    BlockBits<> surface;               ///< liquid cells beside air
+    BlockBits<> deep;                  ///< liquid cells neither at the surface nor beside it
     BlockBits<> dry;                   ///< cells that are neither inside nor blocked by walls, also in blocks that do not exist
 
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.

@@ -19,18 +19,18 @@ class LiquidOnSolids {
  public:
     /// After P2G: what particles have brought to faces near solids, before weight, walls and forces act there.
     void begin(const CutGrid& cut, const FaceFields& faces);
-    /// Velocities are kept that something is going to change. Holds until the next call of keepVelocities.
+    /// Token that velocities are kept which something is going to change. Holds until the next call of keepVelocities.
     class KeptVelocities {
         friend LiquidOnSolids;
         KeptVelocities() = default;
     };
     KeptVelocities keepVelocities(const BlockArray<double, 3>& velocity);
-    /// The solve for viscosity has changed them: of its stresses solids get those on closed faces and on walls that stick.
+    /// After the solve for viscosity: of its stresses solids get those on closed faces and on walls that stick.
     /// @return  work that those of them which move did on the liquid by it [erg]
     double afterViscosity(const KeptVelocities&, const CutGrid& cut, const ViscousSystem& system, const LiquidGrid& liquid);
-    /// The strain correction has: solids get what it would give to closed faces.
+    /// After the strain correction: solids receive the impulse of the closed faces.
     void afterStrain(const KeptVelocities&, const CutGrid& cut, const StrainWorkspace& strain, const LiquidGrid& liquid);
-    /// Weight is moved between faces: is told by how much that of each grew [g cm/s].
+    /// Told, while weight is moved between faces, by how much that of each grew [g cm/s].
     class Levelling {
      public:
         void weightGrew(int block, int axis, int cell, double impulse) const
@@ -44,7 +44,7 @@ class LiquidOnSolids {
         LiquidOnSolids* of_;
     };
     Levelling meetLevelling();
-    /// There is fabric on faces: is told what fabric and suction took from the liquid of each [g cm/s].
+    /// Told, where there is fabric on faces, what fabric and suction took from the liquid of each [g cm/s].
     class Exchange {
      public:
         void fabricTook(int block, int axis, int cell, double impulse) const
@@ -64,13 +64,13 @@ class LiquidOnSolids {
 
     /// What acted on the faces of which particles then read their momentum.
     struct Outcome {
-        const BlockArray<double, 3>& velocity;  ///< that they read [cm/s]
+        const BlockArray<double, 3>& velocity;  ///< velocities that particles read [cm/s]
         const LiquidGrid& liquid;
         const PressureFaces& system;
         const BlockArray<double>& pressure;         ///< [dyn/cm^2]
-        const BlockArray<double>* again;            ///< that of a reflection [dyn/cm^2], or null
-        const BlockArray<double, 3>* flipVelocity;  ///< straight after P2G [cm/s]; null but for FLIP …
-        double flipRatio;                           ///< … whose particles keep so much of what they had [-]
+        const BlockArray<double>* again;            ///< pressure of a reflection, or null [dyn/cm^2]
+        const BlockArray<double, 3>* flipVelocity;  ///< velocities after P2G, FLIP only; else null [cm/s]
+        double flipRatio;                           ///< FLIP ratio [-]
         double perPressure;                         ///< K: of a face amid liquid by the step of the pressure [cm^2 s]
         Vec3 fall;                                  ///< what weight made of velocities [cm/s]
     };
@@ -80,8 +80,8 @@ class LiquidOnSolids {
     struct OnSolid {
         Impulse impulse;
         double pressed = 0.0;        ///< [g cm/s]
-        Vec3 moment = Vec3::Zero();  ///< of it [g cm^2/s]
-        double work = 0.0;           ///< of the solid, if it moves, on the liquid [erg]
+        Vec3 moment = Vec3::Zero();  ///< moment of `pressed` [g cm^2/s]
+        double work = 0.0;           ///< work of the solid, if it moves, on the liquid [erg]
         OnSolid& operator+=(const OnSolid& other)
         {
             impulse += other.impulse;
@@ -97,8 +97,8 @@ class LiquidOnSolids {
     static constexpr int kMass = 0, kMomentum = 3;  ///< kinds of brought_
     /// Eight faces in a row along x, of a block near solids.
     struct FaceRow {
-        std::size_t place;  ///< of the block
-        int axis, first;    ///< to which they are normal; the first of them in the block
+        std::size_t place;  ///< place of the block
+        int axis, first;    ///< axis to which they are normal; the first of them in the block
     };
     /// What the faces of a row got of solids, how hard these press on what they close, and what the pressure would give to a closed face.
     struct GotByRow {
@@ -114,14 +114,14 @@ class LiquidOnSolids {
     void finishBlock(const CutGrid& cut, const Outcome& outcome, std::size_t place, std::span<OnSolid> sums) const;
 
     int solids_ = 0;
-    std::vector<int> blocks_, place_;  ///< those near solids; of each block its place among them, or BlockGrid::kNone
+    std::vector<int> blocks_, place_;  ///< blocks near solids; each block's place among them, or BlockGrid::kNone
     BlockBits<> near_;                 ///< cells whose middles are near a solid
     // By place, of rows with faces near one:
-    BlockArray<double, 6> brought_;  ///< by particles: mass [g] and momentum [g cm/s] of each face
+    BlockArray<double, 6> brought_;  ///< mass [g] and momentum [g cm/s] that particles brought to each face
     BlockArray<double, 3>
-        others_;  ///< momentum that a face got of viscous stresses, of the strain correction and of levelled weight, less what it gave to fabric [g cm/s] …
-    BlockBits<3> shared_;           ///< … if fabric is on it …
-    bool hasOthers_ = false;        ///< … where there are any of both
+        others_;  ///< momentum that a face got of viscous stresses, of the strain correction and of levelled weight, less what fabric took [g cm/s]
+    BlockBits<3> shared_;           ///< faces that fabric is on
+    bool hasOthers_ = false;        ///< whether others_ and shared_ hold anything in this step
     BlockArray<double, 3> before_;  ///< KeptVelocities [cm/s]
     ChunkSums<OnSolid> sums_;
 };

@@ -16,17 +16,16 @@ struct InflowCell {
     double rate;  ///< volume per that of the cell [1/s]
 };
 
-/// What the projection keeps from step to step beside the pressure itself. In a step it is reached by how far the system has come: PressureFaces …
-/// PressureSystem.
+/// Buffers of the projection kept between steps; accessed through PressureFaces, PressureComponents and PressureSystem.
 struct PressureWorkspace {
     PoissonMatrix matrix;
-    BlockArray<double> rhs;             ///< of one solve at a time: of a pressure [1/s], of displacements [-]
+    BlockArray<double> rhs;             ///< right-hand side of one solve at a time: for a pressure [1/s], for displacements [-]
     BlockArray<double, 3> coefficient;  ///< ω dt / (ρ dx² fill) of each lower face beside a liquid cell [cm s/g]
     double ofFull = 0.0;                ///< coefficient of a face that is full and open, dt / (ρ dx²) [cm s/g]
     PoissonSolver solver;
 };
 
-/// The faces of the system are known, and their coefficients, until the next findPressureFaces in the same workspace.
+/// Token that the faces of the system are known, and their coefficients, until the next findPressureFaces in the same workspace.
 class PressureFaces : public SurfaceCells {
  public:
     const BlockArray<double, 3>& coefficient() const { return work_->coefficient; }
@@ -45,7 +44,7 @@ class PressureFaces : public SurfaceCells {
     PressureWorkspace* work_;
 };
 
-/// Its matrix is assembled.
+/// Token that the system's matrix is assembled.
 class PressureMatrix : public PressureFaces {
     friend PressureMatrix assembleMatrix(const PressureFaces& faces, const BlockGrid& grid);
     PressureMatrix(const PressureFaces& faces, const BlockGrid& grid);
@@ -84,7 +83,7 @@ PressureFaces findPressureFaces(const CutGrid& cut, const LiquidSettings& settin
 /// The matrix of these faces, with the coefficients that they have now.
 PressureMatrix assembleMatrix(const PressureFaces& faces, const BlockGrid& grid);
 
-/// Its components, which other coefficients of the same faces do not change.
+/// Finds the matrix's components, which other coefficients of the same faces do not change.
 PressureComponents findComponents(const PressureMatrix& matrix, const BlockGrid& grid);
 
 /// All that a solve needs.

@@ -15,7 +15,7 @@ inline constexpr double kPushedInFront = 0.01;
 /// What keeping particles outside of solids did to them.
 struct PushedOut {
     double lost = 0.0;            ///< kinetic energy to the contacts [erg], negative where moving solids gave some
-    double work = 0.0;            ///< of the impulses of moving solids [erg]
+    double work = 0.0;            ///< work of the impulses of moving solids [erg]
     Vec3 carried = Vec3::Zero();  ///< mass times displacement by moving solids [g cm]
 
     PushedOut operator+(const PushedOut& other) const { return {lost + other.lost, work + other.work, carried + other.carried}; }

@@ -5,8 +5,8 @@
 namespace sim {
 
 struct ReflectionWorkspace {
-    BlockArray<double, 3> velocity;  ///< r [cm/s] …
-    BlockBits<3> valid;              ///< … and where it means something
+    BlockArray<double, 3> velocity;  ///< r [cm/s]
+    BlockBits<3> valid;              ///< faces on which r means something
     BlockArray<double> potential;
 };
 

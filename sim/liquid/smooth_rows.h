@@ -18,14 +18,14 @@ template <int kKinds>
 struct RowsAround {
     const BlockArray<double, kKinds>& field;
     int kind;
-    const int* neighbours;  ///< of the block
+    const int* neighbours;  ///< neighbours of the block
 
     /// Row (j, k), j and k in −1..8; with a side that of the block to the left (−1) or right (+1).
     Pack at(int j, int k, int side = 0) const
     {
         return loadPack(field.block(neighbours[neighbourIndex(side, j >> 3, k >> 3)], kind) + cellInBlock(0, j & 7, k & 7));
     }
-    /// The same one cell to the left or right, from the row itself.
+    /// Row (j, k) one cell to the left or right, from the row itself.
     Pack leftOf(int j, int k, Pack row) const { return shiftRight(at(j, k, -1), row); }
     Pack rightOf(int j, int k, Pack row) const { return shiftLeft(row, at(j, k, 1)); }
 };

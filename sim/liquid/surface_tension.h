@@ -8,10 +8,10 @@ namespace sim {
 /// What surface tension keeps from step to step.
 struct SurfaceTensionWorkspace {
     Curvature curvature;
-    BlockArray<double, 3> step;  ///< of the pressure across each lower face, upwards: ±σ κ between liquid and air, else 0 [dyn/cm²]
+    BlockArray<double, 3> step;  ///< step of the pressure across each lower face, upwards: ±σ κ between liquid and air, else 0 [dyn/cm²]
 };
 
-/// The steps are known, until the next findSurfaceSteps in the same workspace.
+/// Token that the steps are known, until the next findSurfaceSteps in the same workspace.
 class SurfaceSteps {
  public:
     const BlockArray<double, 3>& step() const { return work_->step; }

@@ -14,7 +14,7 @@ namespace sim {
 /// liquid; the two below it bear that, so that the centre stays. A column weighs what it did, so that the pressure below it, and all momentum,
 /// are the same; inertia stays where it is, so that the projection stays orthogonal in the kinetic energy.
 ///
-/// It acts only in bodies that solids hold: in others nothing presses. Columns with fabric in them, thicker
+/// Weight is moved only in bodies that solids hold: in others nothing presses. Columns with fabric in them, thicker
 /// than kSurfaceColumn, or on nothing deep or solid stay as they are.
 /// @param gravityStep  velocity that weight has given to all faces in this step [cm/s]
 /// @param liquid       velocity is changed; `unpressed` is not, for what weight and pressure together do is what moves liquid

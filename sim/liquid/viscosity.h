@@ -11,9 +11,9 @@ namespace sim {
 struct ViscosityWorkspace {
     ViscousSystem system;
     ViscousMultigrid multigrid;
-    BlockArray<double, 3> residual, direction, applied;  ///< of the conjugate gradients [g cm/s], [cm/s], [g cm/s]
-    std::vector<double> sums, largest, largestRhs;       ///< of each block
-    BlockArray<double, 3> withheld;                      ///< of the velocities, by weight and pressure: does not feel viscosity [cm/s]
+    BlockArray<double, 3> residual, direction, applied;  ///< vectors of the conjugate gradients [g cm/s], [cm/s], [g cm/s]
+    std::vector<double> sums, largest, largestRhs;       ///< dot product, largest residual and largest right-hand side of each block
+    BlockArray<double, 3> withheld;                      ///< part of the velocities by weight and pressure that does not feel viscosity [cm/s]
 };
 
 /// Implicit steps of viscosity, settings.viscositySubsteps of them, over dt [s] on the velocities of the liquid's faces, before the

@@ -39,7 +39,7 @@ class ViscousMultigrid {
     void smooth(Level& level, const BlockArray<double, 3>& rhs, double lowest, int steps, bool fromZero);
 
     std::vector<Level> levels_;  ///< down to a single block; those in use are the first count_
-    std::vector<Vec3i> coords_;  ///< of the finest level's blocks: tells whether the shape still fits
+    std::vector<Vec3i> coords_;  ///< coordinates of the finest level's blocks: tell whether the shape still fits
     int count_ = 0;
     double stiffness_ = 0.0;
 };

@@ -23,8 +23,8 @@ namespace sim {
 struct ViscousSystem {
     BlockBits<3> unknown;             ///< faces with liquid that are not closed
     BlockBits<3> behind;              ///< closed faces, and those with their middles inside a wall that sticks
-    std::vector<std::uint64_t> rows;  ///< of unknowns along x, a bit for each row of 8; by block and axis
-    BlockArray<double, 3> diagonal;   ///< of the matrix [g]; 0 where a face is not unknown
+    std::vector<std::uint64_t> rows;  ///< rows of 8 along x that hold unknowns, a bit each; by block and axis
+    BlockArray<double, 3> diagonal;   ///< diagonal of the matrix; 0 where a face is not unknown [g]
     BlockArray<double, 3> normal;     ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]
     BlockArray<double, 3> shear;      ///< dt μ V / dx² of the shear on each cell's lower edge along each axis [g]
     BlockArray<double, 3> wall;       ///< by which walls that stick hold each face [g]; empty if they slip

@@ -6,15 +6,16 @@ namespace sim {
 
 struct VolumeWorkspace {
     BlockArray<double> potential;
-    BlockArray<double, 3> displacement;  ///< of the lower faces [cm]
+    BlockArray<double, 3> displacement;  ///< displacement of the lower faces [cm]
 };
 
 /// Error of a cell's volume that is not corrected, relative to its own: that is the noise of particles at rest on their lattice, and to mend it
 /// would lift them for nothing, again and again [-].
 inline constexpr double kVolumeNoise = 0.005;
 
-/// Where solids leave the open faces of a cell the share r of their room, noise is more by kCutOffNoise pitch^3 (1 / r - 1), with the particles' pitch in cells: twice the
-/// standard deviation over lattices that walls of any direction cut, at pitches from .3 to .5; kMostCutOffNoise at most [-].
+/// Where solids leave the open faces of a cell the share r of their room, noise is more by kCutOffNoise pitch^3 (1 / r - 1), with the particles'
+/// pitch in cells: twice the standard deviation over lattices that walls of any direction cut, at pitches from .3 to .5; kMostCutOffNoise at most
+/// [-].
 inline constexpr double kCutOffNoise = 0.6, kMostCutOffNoise = 0.25;
 
 /// Farthest that one correction moves anything [cells].

@@ -55,10 +55,10 @@ class WallFaces {
     template <class F>
     void inColors(F&& f) const;
 
-    std::size_t count_ = 0;                         ///< of followers
+    std::size_t count_ = 0;                         ///< number of followers
     std::array<BlockBits<3>, kLayers + 1> known_;   ///< faces with a velocity after so many sweeps; 0: open faces with mass
-    std::vector<std::vector<Follower>> followers_;  ///< of each block near a solid
-    std::vector<int> place_;                        ///< of each block among those near a solid
+    std::vector<std::vector<Follower>> followers_;  ///< followers of each block near a solid
+    std::vector<int> place_;                        ///< place of each block among those near a solid
     std::array<std::vector<int>, 8> colors_;        ///< places of blocks of which no two touch
     std::vector<int> blocks_;                       ///< near a solid
     BlockArray<double, 9> folded_;                  ///< by place

@@ -27,12 +27,13 @@ inline bool usesMirrorBoundary(double friction) { return friction < 1.0; }
 /// @param weightless  mass of each face whose weight nothing feels: images are pulled the other way along the wall's normal [g]
 void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless);
 
-/// The same at all walls along which liquid slips: behind others than plane ones goes to the faces that it will follow (WallFaces), with its room.
+/// After P2G: mirrors at all walls along which liquid slips. What is behind plane ones goes to images (foldAtPlaneWalls), behind others to the faces
+/// that it will follow (WallFaces), with its room.
 void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid);
 
 /// After dt of weight on all that faces carry: take back what it did to the weightless part. Then weight does on the faces the work that it does
-/// on the particles, which read the velocities of applyWalls: sum (m_f - weightless) g u_f = sum m_p g v_p, where no wall has friction. Along walls that
-/// do it acts evenly all the same, for only so can a pressure hold it: friction takes from the particles' motion after it.
+/// on the particles, which read the velocities of applyWalls: sum (m_f - weightless) g u_f = sum m_p g v_p, where no wall has friction. Along walls
+/// that do it acts evenly all the same, for only so can a pressure hold it: friction takes from the particles' motion after it.
 void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& gravity, double dt, LiquidGrid& liquid);
 
 }  // namespace sim

@@ -26,7 +26,7 @@ struct ParticleOrder {
     AlignedArray<int> source;
 
     std::vector<int> occupied;                      ///< blocks with particles, ascending
-    std::array<std::vector<int>, kColors> byColor;  ///< the same by parity of their coordinates, fullest first
+    std::array<std::vector<int>, kColors> byColor;  ///< blocks with particles by parity of their coordinates, fullest first
     std::vector<int> previous;                      ///< number a block had before this sort, or BlockGrid::kNone
     bool blocksChanged = true;                      ///< previous is not simply 0, 1, 2 …
     std::size_t maxParticlesPerBlock = 0;

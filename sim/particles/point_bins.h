@@ -52,7 +52,7 @@ class PointBins {
     Vec3 lower_ = Vec3::Zero();
     double width_ = 1.0;
     Vec3i size_ = Vec3i::Zero();
-    std::vector<std::size_t> begin_;  ///< of each bin in order_
+    std::vector<std::size_t> begin_;  ///< first point of each bin in order_
     std::vector<std::uint32_t> order_;
 };
 

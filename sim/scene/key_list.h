@@ -43,8 +43,8 @@ struct DeclaredKey {
     std::size_t count = 1;
     std::vector<std::string> words;
     std::vector<DeclaredKey> below;
-    std::array<double, 3> values{};  ///< of numbers where the map does not say them; NaN: none
-    std::string word = {};           ///< likewise of words and texts
+    std::array<double, 3> values{};  ///< values of numbers where the map does not say them; NaN: none
+    std::string word = {};           ///< value of words and texts where the map does not say it
     bool isNeeded = false;
 };
 

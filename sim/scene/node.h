@@ -15,9 +15,9 @@ struct Node {
 
     Kind kind = Kind::Null;
     SourceLocation location;        ///< in a map: the line of the key
-    std::string text;               ///< of a scalar
-    std::vector<std::string> keys;  ///< of a map, in the order of the file; as many as items
-    std::vector<Node> items;        ///< of a list or a map
+    std::string text;               ///< text of a scalar
+    std::vector<std::string> keys;  ///< keys of a map, in the order of the file; as many as items
+    std::vector<Node> items;        ///< items of a list or a map
 
     bool isNull() const { return kind == Kind::Null; }
     bool isScalar() const { return kind == Kind::Scalar; }

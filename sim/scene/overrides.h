@@ -9,7 +9,7 @@ namespace sim {
 /// One dotted override: `transfer.method=apic`, in a variant or behind --set.
 struct Override {
     std::string path;  ///< keys with dots between; an element of a list by its name or its number from 0
-    Node value;        ///< its location is where messages about the value point
+    Node value;        ///< value, with the location where messages about it point
 
     /// As it would stand behind --set.
     std::string text() const { return path + "=" + value.flow(); }

@@ -15,9 +15,9 @@ struct Parameter {
     std::string path;  ///< "time.dt"
     Kind kind = Kind::Number;
     std::string value;               ///< as a scene in cgs says it; empty where it is left out
-    std::string unit;                ///< of bare numbers; "" for plain ones
-    Range range;                     ///< of numbers, in that unit
-    std::vector<std::string> words;  ///< it may be, Word only
+    std::string unit;                ///< unit of bare numbers; "" for plain ones
+    Range range;                     ///< range of numbers, in that unit
+    std::vector<std::string> words;  ///< words that it may be, Word only
     std::string help;                ///< one line
     bool isFixed = false;            ///< holds for a whole run: a change needs a new one
 };

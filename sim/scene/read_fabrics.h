@@ -16,7 +16,7 @@ std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene);
 struct ReadFabricShape {
     FabricGeometry geometry;
     std::array<double, 2> radius{};       ///< [cm]
-    std::string text;                     ///< its fields as a scene says them, in cgs, without material: "nodes: [9, 9], radius: 0.02"
+    std::string text;                     ///< fields as a scene says them, in cgs, without material: "nodes: [9, 9], radius: 0.02"
     std::vector<std::string> notes = {};  ///< "drop.yaml:14: …": what was mended in its file
 };
 

@@ -45,7 +45,7 @@ struct SourceSettings {
     std::string where;                           ///< "drop.yaml:14", for messages
     std::string shapeText;                       ///< the shape as a scene says it, in cgs, on one line
     std::vector<std::string> notes;              ///< about its meshes
-    std::optional<VelocityField> velocityField;  ///< of the initial body, beside the emission's velocity
+    std::optional<VelocityField> velocityField;  ///< velocity field of the initial body, beside the emission's velocity
 };
 
 struct NamedMaterial {
@@ -71,7 +71,7 @@ struct Scene {
     std::vector<FabricPiece> fabrics;
     std::vector<ObstacleSettings> obstacles;
     std::optional<Shape> domain;          ///< liquid outside of it is deleted
-    std::string domainText;               ///< the same as a scene says it, in cgs, on one line
+    std::string domainText;               ///< the domain as a scene says it, in cgs, on one line
     std::vector<SettingsChange> changes;  ///< during the run, in order
     std::vector<std::string> notes;       ///< "drop.yaml:14: …": what was mended in its files, for the user to know
 };

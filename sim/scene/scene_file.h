@@ -12,7 +12,7 @@ namespace sim {
 struct LoadOptions {
     std::string variant = {};           ///< name of the variant; empty: the scene as written
     std::vector<std::string> set = {};  ///< overrides "key.key=value", applied last
-    ReadingBounds bounds = {};          ///< of the file and all that it includes
+    ReadingBounds bounds = {};          ///< bounds of the file and all that it includes
 };
 
 /// One file as it stands.
@@ -27,13 +27,13 @@ struct SceneFile {
     Node root;                           ///< a map
     std::vector<SceneVariant> variants;  ///< all of them, as written in the file
     std::string variant;                 ///< the one applied; empty if none
-    std::vector<SceneText> texts;        ///< of the file, then of all that it includes
+    std::vector<SceneText> texts;        ///< texts of the file, then of all that it includes
 };
 
 /// Reads a scene file: includes first, then the variant, then the overrides. Throws InputError.
 SceneFile loadSceneFile(const std::filesystem::path& path, const LoadOptions& options = {});
 
-/// The same from text in memory; `name` stands in messages, and includes are relative to its folder.
+/// Reads a scene from text in memory; `name` stands in messages, and includes are relative to its folder.
 SceneFile sceneFileFromText(const std::string& text, const std::filesystem::path& name, const LoadOptions& options = {});
 
 /// Names of the file's variants, in order.

@@ -27,7 +27,7 @@ class SectionWriter : public IgnoresReading {
 
     /// The lines written so far, comments aligned.
     std::string take() const;
-    /// The same on one line, without comments: "{center: [0, 0, 0], radius: 1}".
+    /// All written so far on one line, without comments: "{center: [0, 0, 0], radius: 1}".
     std::string flow() const;
     /// One line: a key and its value as YAML flow text, and the comment.
     void line(const std::string& key, const std::string& value, const std::string& comment);

@@ -16,7 +16,7 @@ namespace sim {
 struct ReadingBounds {
     std::filesystem::path folder = {};  ///< the files it names must lie below; empty: anywhere
     std::size_t values = 500'000;       ///< words, lists and maps, aliases copied out
-    int vertices = 5'000'000;           ///< of all fabrics
+    int vertices = 5'000'000;           ///< bound of the vertices of all fabrics
     std::size_t regionBoxes = 100'000;  ///< into which a source is cut to measure its volume
 };
 
@@ -50,7 +50,7 @@ void requireAllowed(const std::filesystem::path& file, const SourceLocation& loc
 
 /// The text in quotation marks for a message: control characters shown as '?', long ones cut.
 std::string inQuotes(std::string_view text, std::size_t shown = 48);
-/// The same for a path, which is told in full.
+/// A path in quotation marks for a message, in full.
 std::string fileInQuotes(const std::string& path);
 
 /// " (did you mean "viscosity"?)", or " (there is density, viscosity)" where nothing is near; a handful at most.

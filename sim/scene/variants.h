@@ -18,7 +18,7 @@ struct SceneVariant {
 /// lists of values, whose product they are. Empty if the scene has none. Throws InputError.
 std::vector<SceneVariant> readVariants(const Node& root);
 
-/// The same of such a list or map itself; `path` names it in messages.
+/// The variants of such a list or map itself; `path` names it in messages.
 std::vector<SceneVariant> listedVariants(const Node& variants, const std::string& path);
 
 /// The variant of that name; throws InputError naming those there are.

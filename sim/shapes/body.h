@@ -16,7 +16,7 @@ struct Shape::Body {
 
     /// Shape::over, for a body whose distance is a convex function: never below its tangent plane.
     virtual Look over(std::span<const Vec3> corners, double enough) const;
-    /// It is nowhere larger on the hull of these points; a convex function is largest at one of them.
+    /// Upper bound of the distance on the hull of these points; a convex function is largest at one of them.
     virtual double mostOver(std::span<const Vec3> corners) const;
     virtual double steepest() const { return 1.0; }
 

@@ -59,10 +59,10 @@ class Motion {
         double begin = 0.0, end = 0.0;       ///< [s]
         Vec3 axis = Vec3::UnitX();           ///< unit
         Vec3 origin = Vec3::Zero();          ///< [cm]
-        double amount = 0.0;                 ///< of an eased course its end, of a sine its amplitude [cm or rad]
+        double amount = 0.0;                 ///< end of an eased course, amplitude of a sine [cm or rad]
         double easeIn = 0.0, easeOut = 0.0;  ///< [s]
         double frequency = 0.0;              ///< [1/s]
-        std::vector<double> times;           ///< of a path [s]
+        std::vector<double> times;           ///< times of a path [s]
         std::vector<Vec3> offsets, slopes;   ///< at these times [cm], [cm/s]
         bool cubic = false;
         std::function<Eigen::Isometry3d(double t)> given;

@@ -54,7 +54,7 @@ class Shape {
     Vec3 normal(const Vec3& x) const;
     /// One look at the distance all over the convex hull of some points.
     struct Look {
-        double least;   ///< it is nowhere smaller [cm]
+        double least;   ///< lower bound [cm]
         double middle;  ///< what it is at the points' mean [cm]
     };
     /// At up to kMostCorners points. The bound is exact for a flat surface and for a point; its error falls with the square of the hull's

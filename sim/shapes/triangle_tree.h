@@ -19,7 +19,7 @@ class TriangleTree {
     /// The nearest triangle.
     struct Nearest {
         double distance;  ///< [cm]
-        int triangle;     ///< its number in the tree
+        int triangle;     ///< number in the tree
     };
     /// `guess` is a triangle of the tree: the nearer it is, the quicker the search.
     Nearest nearest(const Vec3& x, int guess = 0) const;
@@ -35,10 +35,10 @@ class TriangleTree {
     using Corners = std::array<Vec3, 3>;
     struct Node {
         Eigen::AlignedBox3d box;
-        Vec3 areaNormal = Vec3::Zero();  ///< sum of the triangles' area vectors …
-        Vec3 middle = Vec3::Zero();      ///< … their mean place, weighted by area
-        double radius = 0.0;             ///< of the ball around the middle that holds them all
-        int first = 0, last = 0;         ///< its triangles
+        Vec3 areaNormal = Vec3::Zero();  ///< sum of the triangles' area vectors
+        Vec3 middle = Vec3::Zero();      ///< mean place of the triangles, weighted by area
+        double radius = 0.0;             ///< radius of the ball around the middle that holds them all
+        int first = 0, last = 0;         ///< range of triangles
         int right = 0;                   ///< second child; the first is the next node; 0 for a leaf
     };
 

@@ -44,12 +44,12 @@ class ConnectedComponents {
 
     // A piece is what hangs together inside one block; pieces of block b are first_[b] … first_[b + 1] − 1.
     BlockArray<std::uint16_t> label_;       ///< piece of each cell, counted within its block
-    BlockArray<std::uint8_t> isOpenLocal_;  ///< of each piece, at its label
+    BlockArray<std::uint8_t> isOpenLocal_;  ///< whether each piece is open, at its label
     std::vector<int> first_, parent_;
-    std::vector<std::uint8_t> isOpen_;  ///< of each piece that is the root of its component
-    std::vector<int> component_;        ///< of each piece: number of its closed component or −1
-    std::vector<int> number_;           ///< of each piece: number of its component among all
-    std::vector<int> blocks_;           ///< those that hold closed pieces
+    std::vector<std::uint8_t> isOpen_;  ///< whether the component of each root piece is open
+    std::vector<int> component_;        ///< number of each piece's closed component, or −1
+    std::vector<int> number_;           ///< number of each piece's component among all
+    std::vector<int> blocks_;           ///< blocks that hold closed pieces
     std::vector<double> pieceSum_, pieceCells_, sum_, cells_;
     int closed_ = 0, all_ = 0;
 };

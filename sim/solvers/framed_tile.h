@@ -14,8 +14,8 @@ struct FramedTile {
 
     alignas(64) T x[kFrameRows * kBlockEdge];
     alignas(64) T sum[kBlockCells];   ///< right-hand side plus couplings times neighbours along y and z
-    alignas(64) T left[kBlockRows];   ///< x beyond the left end of each row …
-    alignas(64) T right[kBlockRows];  ///< … and beyond the right end
+    alignas(64) T left[kBlockRows];   ///< x beyond the left end of each row
+    alignas(64) T right[kBlockRows];  ///< x beyond the right end of each row
 
     FramedTile() { std::fill(x, x + kFrameRows * kBlockEdge, T(0)); }
 

@@ -14,17 +14,17 @@ struct MultigridLevel {
     /// Couplings are those inside a block; what crosses to the lower neighbour block is in `faces`, and 0 here.
     enum Kind { kInverse, kDiagonal, kCouplingX, kCouplingY, kCouplingZ, kKinds };
 
-    BlockGrid grid;                              ///< of this level; on the finest only coordinates, from the lowest corner
-    std::vector<std::array<int, 6>> neighbours;  ///< of each block, at −x +x −y +y −z +z, and of the empty one
+    BlockGrid grid;                              ///< grid of this level; on the finest only coordinates, from the lowest corner
+    std::vector<std::array<int, 6>> neighbours;  ///< neighbours of each block at −x +x −y +y −z +z, and of the empty one
     std::array<std::vector<int>, 2> colour;      ///< blocks whose coordinates have an even and an odd sum
-    std::vector<int> parent;                     ///< block of the next coarser level …
-    std::vector<std::array<int, 8>> children;    ///< … and of the next finer one; BlockGrid::kNone where there is none
+    std::vector<int> parent;                     ///< block of the next coarser level that each block is in
+    std::vector<std::array<int, 8>> children;    ///< blocks of the next finer level in each block, or BlockGrid::kNone
 
     BlockArray<float, kKinds> matrix;  ///< 0 in cells that are no unknowns, the inverse of the diagonal too
     AlignedArray<float> faces;         ///< couplings across the three lower faces of each block, 64 each
     BlockArray<float> dirichlet;       ///< diagonal minus couplings
     BlockArray<float> x, r;            ///< unknown and right-hand side
-    std::vector<std::uint64_t> rows;   ///< of each block, those that hold unknowns
+    std::vector<std::uint64_t> rows;   ///< rows of each block that hold unknowns
     std::vector<double> dot;           ///< r·x of each block, of the finest level
 
     int blocks() const { return grid.count(); }
@@ -44,7 +44,7 @@ class Multigrid {
  public:
     struct Options {
         int sweeps = 2;        ///< in each block before, and as many after the coarse correction
-        int coarseSweeps = 2;  ///< the same on levels of one block
+        int coarseSweeps = 2;  ///< number of sweeps on levels of one block
         int firstTwice = 2;    ///< levels from this one visit the next twice, while they have several blocks
     };
     Options options;
@@ -65,8 +65,8 @@ class Multigrid {
     void buildShape(const BlockGrid& grid);
     void cycle(int level, bool fromZero);
 
-    std::vector<MultigridLevel> levels_;  ///< those in use are the first count_
-    std::vector<Vec3i> coords_;           ///< of the finest level, as given: tells whether the shape still fits
+    std::vector<MultigridLevel> levels_;  ///< levels, of which the first count_ are in use
+    std::vector<Vec3i> coords_;           ///< coordinates of the finest level's blocks, as given: tell whether the shape still fits
     std::vector<Vec3i> scratch_;
     int count_ = 0;
 };

@@ -15,11 +15,11 @@ void takeFinest(const BlockGrid& grid, const PoissonMatrix& matrix, MultigridLev
 void gatherCoarse(const MultigridLevel& fine, MultigridLevel& coarse);
 
 struct Smoothing {
-    int colour = 0;  ///< of the blocks; those of the other colour stay as they are
-    int sweeps = 1;  ///< in each block
+    int colour = 0;  ///< colour of the blocks that are smoothed; the others stay as they are
+    int sweeps = 1;  ///< number of sweeps in each block
     Order order = Order::Forward;
-    bool fromZero = false;                   ///< x of these blocks is taken as 0, whatever it holds …
-    bool alone = false;                      ///< … and that of their neighbours too
+    bool fromZero = false;                   ///< x of these blocks is taken as 0, whatever it holds
+    bool alone = false;                      ///< with fromZero, x of the neighbours is taken as 0 too
     const MultigridLevel* coarse = nullptr;  ///< if given, its x is added to this one's first
     bool dots = false;                       ///< level.dot = r·x of each of these blocks, afterwards
 };

@@ -69,10 +69,10 @@ class PoissonSolver {
     Multigrid multigrid_;
     ConnectedComponents components_;
     BlockArray<double> residual_, direction_, nextDirection_, applied_;
-    AlignedArray<double> rightCoupling_;   ///< of each row, 64 per block: beyond its right end
+    AlignedArray<double> rightCoupling_;   ///< coupling of each row beyond its right end, 64 per block
     std::vector<double> dot_;              ///< direction · A direction of each block
-    std::vector<double> largestGuess_;     ///< of each block
-    std::vector<double> largestResidual_;  ///< of each block
+    std::vector<double> largestGuess_;     ///< largest guess of each block
+    std::vector<double> largestResidual_;  ///< largest residual of each block
     std::vector<double> largestRhsOfBlock_;
     double largestRhs_ = 0.0;
     double scale_ = 1.0;  ///< power of two that brings residuals near 1 for the float cycle

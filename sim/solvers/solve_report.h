@@ -7,7 +7,7 @@ struct SolveReport {
     int iterations = 0;
     double residual = 0.0;  ///< largest, relative to the largest right-hand side [-]
     bool converged = true;
-    double scale = 0.0;  ///< that right-hand side [the caller's unit]
+    double scale = 0.0;  ///< largest right-hand side [the caller's unit]
 };
 
 }  // namespace sim

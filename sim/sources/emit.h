@@ -9,14 +9,14 @@
 
 namespace sim {
 
-/// Of a source outside of obstacles.
+/// Size of a source's part outside of obstacles.
 struct MouthSize {
     double area = 0.0;    ///< across an emission's velocity [cm^2]
     double volume = 0.0;  ///< [cm^3]
 };
 
 struct EmissionWorkspace {
-    std::vector<Inflow> inflows;                  ///< of this step; without a volume where a source is shut
+    std::vector<Inflow> inflows;                  ///< inflows of this step; without a volume where a source is shut
     std::vector<std::optional<MouthSize>> sizes;  ///< for each emission of each source, while no obstacle moves
 };
 

@@ -27,8 +27,8 @@ Seeds seedsFor(const Scene& scene, std::size_t source, const SeedPlan& plan, con
 /// Particles to be laid.
 struct NewParticles {
     std::span<const Vec3> positions;
-    double volume;                      ///< of each, or their mean [cm³]
-    std::span<const double> volumes{};  ///< of each, where they are not alike [cm³]
+    double volume;                      ///< volume of each particle, or their mean [cm³]
+    std::span<const double> volumes{};  ///< volume of each particle, where they are not alike [cm³]
 
     double volumeOf(std::size_t n) const { return volumes.empty() ? volume : volumes[n]; }
     double sum() const

@@ -26,14 +26,14 @@ struct SeedPlan {
 
 /// Liquid that is there already: no particle is laid where the pattern has one.
 struct LiquidNearby {
-    std::vector<Vec3> positions;  ///< of particles in the source and up to particleSpacing around it
-    double volumeInside = 0.0;    ///< of those in the source [cm^3]
+    std::vector<Vec3> positions;  ///< positions of particles in the source and up to particleSpacing around it
+    double volumeInside = 0.0;    ///< volume of particles in the source [cm^3]
 };
 
 struct Seeds {
     std::vector<Vec3> positions;  ///< in the order of the pattern's places
-    double volume = 0.0;          ///< of each particle, or their mean [cm^3]
-    std::vector<double> volumes;  ///< of each, where they are not alike [cm^3]
+    double volume = 0.0;          ///< volume of each particle, or their mean [cm^3]
+    std::vector<double> volumes;  ///< volume of each particle, where they are not alike [cm^3]
 };
 
 /// Where particles may be laid: the source outside of the solids.
@@ -57,7 +57,7 @@ class Inlet {
     const Shape& region_;
     Shape solids_;
     Vec3 moved_;     ///< [cm]
-    double length_;  ///< of the move [cm]
+    double length_;  ///< length of the move [cm]
     double pitch_;   ///< [cm]
 };
 

@@ -9,7 +9,7 @@ namespace sim {
 /// What a pattern found, for seed.cpp only.
 struct PatternPlaces {
     std::vector<Vec3> free;  ///< places without a particle
-    std::size_t count = 0;   ///< of all places of the pattern in the region, those with a particle included
+    std::size_t count = 0;   ///< number of all places of the pattern in the region, those with a particle included
     double tiled = 0.0;      ///< volume of the cubes around a lattice's places; 0 if one sticks out of the region [cm³]
 };
 
@@ -31,7 +31,7 @@ struct PlaceLattice {
     Vec3 first, pitch = Vec3::Zero();  ///< pitches along the axes [cm]
     Vec3i low = Vec3i::Zero(), size = Vec3i::Zero();
 
-    /// Those with index ≥ the one whose place lies `margin` pitches below the box, up to `margin` above. `origin` is
+    /// Places from the one that lies `margin` pitches below the box on, up to `margin` above. `origin` is
     /// place (0, 0, 0). Throws InputError when there are more than 4e8, or when the box is unbounded.
     static PlaceLattice inBox(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& pitch, double margin);
 

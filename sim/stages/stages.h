@@ -27,9 +27,9 @@ void particlesToGrid(StepContext& c);
 /// Velocities of the faces, on which gravity acts.
 void applyGravity(StepContext& c);
 /// What weight and the pressure against it do to velocities together is no shear. Viscosity in front of the pressure would take the weight for
-/// one wherever walls hold the liquid, and set a pool at rest in motion (liquid/README.md, Viscosity). So take both off (pressure.cpp) …
+/// one wherever walls hold the liquid, and set a pool at rest in motion (liquid/README.md, Viscosity). So both are taken off first (pressure.cpp).
 void withholdPressure(StepContext& c);
-/// … and give them back after it.
+/// Viscosity of the liquid; afterwards what withholdPressure took off is given back.
 void applyViscosity(StepContext& c);
 /// The fabric on its own grid, where its integrator solves there (fabric.cpp).
 void fabricToGrid(StepContext& c);

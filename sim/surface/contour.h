@@ -13,7 +13,7 @@ namespace sim {
 struct Crossing {
     int block;
     std::uint16_t node;  ///< lower end of the edge, in the block
-    std::uint16_t axis;  ///< that the edge runs along
+    std::uint16_t axis;  ///< axis that the edge runs along
     float along;         ///< from the lower end, 0 < along < 1 [cells]
 
     Vec3i cell() const { return {node & 7, node >> 3 & 7, node >> 6}; }

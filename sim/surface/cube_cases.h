@@ -7,8 +7,8 @@ namespace sim {
 
 /// Corner c of a cube lies at (c & 1, c >> 1 & 1, c >> 2).
 struct CubeEdge {
-    int axis;    ///< that it runs along
-    int corner;  ///< its lower end
+    int axis;    ///< axis that it runs along
+    int corner;  ///< lower end
 };
 
 /// The four edges along x, then y, then z.

@@ -11,7 +11,7 @@ namespace sim {
 struct SurfaceMesh {
     std::vector<Vec3> positions;   ///< [cm]
     std::vector<Vec3> normals;     ///< out of the liquid, of length 1; one per position
-    std::vector<Vec3> velocities;  ///< of the liquid there [cm/s]; one per position, or none
+    std::vector<Vec3> velocities;  ///< velocity of the liquid at each position, or none [cm/s]
     std::vector<Vec3i> triangles;
 };
 

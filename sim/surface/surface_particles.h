@@ -18,9 +18,9 @@ struct SurfaceParticles {
 
     std::array<AlignedArray<float>, kAxes> x;         ///< [cells]
     std::array<AlignedArray<float>, kAxes> velocity;  ///< [cm/s]
-    AlignedArray<float> radius;                       ///< of a ball of the particle's volume [cells]
+    AlignedArray<float> radius;                       ///< radius of a ball of the particle's volume [cells]
     std::vector<int> binStart;                        ///< first particle of bin i of block b at kBins b + i, and the end of all
-    double volume = 0.0;                              ///< of all of them [cm^3]
+    double volume = 0.0;                              ///< volume of all particles [cm^3]
 
     int begin(int block) const { return binStart[kBins * block]; }
     int end(int block) const { return binStart[kBins * (block + 1)]; }
@@ -28,7 +28,7 @@ struct SurfaceParticles {
 
     // Scratch of the sort, per particle of the liquid.
     std::vector<Vec3i> blockOf;
-    std::vector<Eigen::Vector3f> inside;  ///< its place in it [cells]
+    std::vector<Eigen::Vector3f> inside;  ///< place in the block [cells]
     std::vector<int> binOf, slot;
     std::vector<Vec3i> coords, missing;
     std::vector<std::uint32_t> reached;

@@ -43,7 +43,7 @@ inline constexpr int kModesAtSurface = 8;
 struct GatherSums {
     Vec3 momentum = Vec3::Zero();
     double kinetic = 0.0, modal = 0.0, strain = 0.0, maxSpeedSquared = 0.0;
-    double maxPathSquared = 0.0;  ///< the same along their paths, where any move by the midpoint rule; else 0
+    double maxPathSquared = 0.0;  ///< largest squared speed along the particles' paths, where any move by the midpoint rule; else 0
 };
 
 struct GatherScratch {

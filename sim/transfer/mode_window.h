@@ -67,7 +67,7 @@ class ModeWindow {
     alignas(64) double row_[kAxes * kModes][kWidth + 2 * kLanes];
 };
 
-/// The same, straight to the rows: best for few of them.
+/// Writes modes straight to their rows: best for few of them.
 class DirectModes {
  public:
     explicit DirectModes(Particles& particles, int = 0) : particles_(particles) {}

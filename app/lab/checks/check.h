@@ -25,7 +25,7 @@ struct Check {
     std::optional<sim::Formula> expect = {};        ///< of the time
     std::vector<std::array<double, 2>> table = {};  ///< measured (against, value), in its place
     std::optional<double> tolerance = {};           ///< relative to what is expected
-    std::optional<double> within = {};              ///< the same, absolute
+    std::optional<double> within = {};              ///< absolute bound of the difference
     std::optional<double> atMost = {}, atLeast = {};
 
     /// Is what its readings are compared with known at each of them?

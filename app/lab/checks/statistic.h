@@ -23,7 +23,7 @@ enum class Statistic {
     Slope,         ///< of the straight line through them (least squares)
     Exponent,      ///< slope of ln value over ln at
     Rate,          ///< at which they decay: −slope of ln |value|
-    EnvelopeRate,  ///< the same of the peaks between passings of the mean
+    EnvelopeRate,  ///< rate of the peaks between passings of the mean
     Period,        ///< twice the mean distance of passings of the mean
     MeanError,     ///< mean of |value / expected − 1|
     LargestError,  ///< largest of it

@@ -19,10 +19,10 @@ struct RunCourse {
 };
 
 /// A run is sound if its energy is never above that of the start plus the work of sources, suction, surface tension, obstacles, moving solids
-/// and pins by more than this share of its largest kinetic energy (what obstacles took counts as far as the energy fell with it) …
+/// and pins by more than this share of its largest kinetic energy (what obstacles took counts as far as the energy fell with it).
 inline constexpr double kAllowedGain = 0.01;
-/// … and no particle faster than so many times the speed of all liquid, had it all that kinetic energy, nor than so many times the fastest solid,
-/// nor than suction could make it.
+/// A run is sound if no particle is faster than so many times the speed of all liquid, had it all that kinetic energy, nor than so many times the
+/// fastest solid, nor than suction could make it.
 inline constexpr double kAllowedSpeed = 10.0;
 
 /// From steps.jsonl, energy_ledger.csv and resolved.yaml in the run's folder.

@@ -13,7 +13,7 @@ struct Cost {
     bool operator==(const Cost&) const = default;
 };
 
-/// Those of which no other is both faster and nearer: seconds ascend, errors descend. Only finite, positive ones.
+/// The costs to which no other is both faster and nearer: seconds ascend, errors descend. Only finite, positive ones.
 std::vector<Cost> paretoFront(std::vector<Cost> all);
 
 /// Time that a front needs for an error, between its points by powers; the fastest for errors above all of them,

@@ -24,13 +24,13 @@ struct PrecisionCase {
 /// A run of the published scheme beside the front.
 struct Gain {
     const PrecisionRow* published = nullptr;
-    double seconds = 0.0;                ///< of the front at its error
+    double seconds = 0.0;                ///< time of the front at its error
     const PrecisionRow* ours = nullptr;  ///< the fastest run that is no further off
 
     double factor() const { return published->wallSeconds / seconds; }
 };
 
-/// Of every resolution that the published scheme was run with, in the order of the rows.
+/// Gain at every resolution that the published scheme was run with, in the order of the rows.
 std::vector<Gain> gainsOf(const PrecisionCase& of);
 
 }  // namespace app

@@ -45,7 +45,7 @@ struct StabilityMap {
 /// scene has fabric. Throws InputError for a name that there is not.
 std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std::vector<std::string>& names);
 
-/// The same with one number of the scene made larger or smaller by factors: stiffness, density, viscosity or cell. Throws
+/// Methods with one number of the scene made larger or smaller by factors: stiffness, density, viscosity or cell. Throws
 /// InputError for another one.
 std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
                                            const std::vector<double>& factors);

@@ -30,9 +30,9 @@ class Frames {
     Frames& operator=(Frames&&) noexcept;
     ~Frames();
 
-    /// A simulation of the same scene as it is.
+    /// Picture of a simulation of the same scene as it is.
     Picture draw(const Simulation& simulation);
-    /// The same as a PNG, whole or not at all; its folder is made. Throws Error where that fails.
+    /// Writes that picture as a PNG, whole or not at all; its folder is made. Throws Error where that fails.
     void write(const Simulation& simulation, const std::string& file);
 
  private:

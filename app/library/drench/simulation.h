@@ -42,7 +42,7 @@ class Simulation {
     /// place for x, y and z [cm]; of `force_y("ball")` as above. NaN where it has no value. Throws InputError where it is no such formula.
     double read(const std::string& formula, const Vec3& at = {}) const;
 
-    /// Of all that evolves: equal hashes, equal states.
+    /// Hash of all that evolves: equal hashes, equal states.
     std::uint64_t stateHash() const;
 
     struct Parts;  // what stands behind it

@@ -61,15 +61,15 @@ class CandidateList {
     bool bridges_;
     PairSearch search_;
     RestPairs restPairs_;
-    std::vector<double> drift_, driftAtRest_;  ///< of each vertex (VerletMargin) [cm]
+    std::vector<double> drift_, driftAtRest_;  ///< VerletMargin of each vertex [cm]
 
     bool built_ = false;
     Sweep sweep_;  ///< from where each vertex's pairs are known, and the move to search along
     bool isStepStart_ = false;
     int stepsAhead_ = 0;                       ///< whose first moves the list is good for
     Points ahead_;                             ///< the first expected move of each of the steps ahead [cm]
-    std::vector<char> drifted_;                ///< of each vertex: its pairs were searched at one place since, without the steps ahead
-    std::vector<char> dirtyVertices_, dirty_;  ///< of vertices, of primitives
+    std::vector<char> drifted_;                ///< whether each vertex' pairs were searched at one place since, without the steps ahead
+    std::vector<char> dirtyVertices_, dirty_;  ///< whether vertices and primitives are dirty
     CandidatePool edgePairs_{PairKind::EdgeEdge}, facePairs_{PairKind::VertexFace};
 
     bool measured_ = false;  ///< all pairs but the fresh ones, at measuredAt_

@@ -14,7 +14,7 @@ struct CandidatePool {
     AlignedArray<int> a, b;
     AlignedArray<std::array<int, 4>> vertices;
     AlignedArray<double> reach, core;  ///< as in PairRange [cm]
-    AlignedArray<double> distance;     ///< of the two where they were last measured [cm]
+    AlignedArray<double> distance;     ///< distance of the two where they were last measured [cm]
     AlignedArray<double> p, q;         ///< and their nearest points (Closest)
     std::vector<int> unmeasured;       ///< places of pairs that have not been measured yet
 

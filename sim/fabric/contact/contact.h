@@ -33,7 +33,7 @@ struct ActiveContacts {
 
     std::vector<std::array<int, 4>> vertices;
     std::vector<std::uint8_t> firstSide;         ///< vertices of the first side: 2 or 1
-    std::vector<std::array<double, 4>> weights;  ///< of both sides, those of the second negative: they sum to zero [-]
+    std::vector<std::array<double, 4>> weights;  ///< weights of both sides, those of the second negative: they sum to zero [-]
     std::vector<Vec3> normal;                    ///< unit, from the second side to the first
     std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient B_aᵀ force (slipJacobian) [dyn]
     std::vector<double> stiffness;               ///< along the normal, k_n [dyn/cm]
@@ -117,7 +117,7 @@ class FabricContact {
     ContactEnergy storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const;
 
     std::size_t candidates() const;  ///< pairs in the list
-    double leastDistance() const;    ///< of the candidates, relative to the distance at which they may touch; infinite without any [-]
+    double leastDistance() const;    ///< least distance of the candidates, relative to that at which they may touch; infinite without any [-]
 
  private:
     struct Parts;

@@ -18,7 +18,7 @@ struct FabricContact::Parts {
         contact::PairRange range;
         Vec3 apart;                      ///< separation where it was looked at last [cm]
         std::array<Vec3, 2> directions;  ///< ends less begins of the pair's directions there [cm]
-        double stiffness;                ///< of the pair [dyn/cm]
+        double stiffness;                ///< stiffness of the pair [dyn/cm]
         double perStep;                  ///< mean mass of its vertices over springStep² [dyn/cm]
         double coefficient;              ///< Coulomb's [-]
         bool slides;                     ///< friction is at its bound
@@ -27,9 +27,9 @@ struct FabricContact::Parts {
     };
     /// What acted on an active pair where it went from where it was looked at, by its force and stiffness.
     struct Acted {
-        Vec3 apart;     ///< its separation [cm]
+        Vec3 apart;     ///< separation [cm]
         Vec3 friction;  ///< [dyn]
-        double bound;   ///< of friction [dyn]
+        double bound;   ///< bound of friction [dyn]
     };
 
     bool bridges() const { return cohesion && cohesion->isOnFabric(); }
@@ -52,19 +52,19 @@ struct FabricContact::Parts {
     const Cohesion* cohesion;  ///< or null
     contact::CandidateList list;
     contact::Limiter limiter;
-    std::vector<Vec3> start;                               ///< of the step [cm]
+    std::vector<Vec3> start;                               ///< positions at the start of the step [cm]
     std::vector<double> mass, inverseMass;                 ///< [g, 1/g]
     double h = 0.0, springStep = 0.0;                      ///< [s]
     std::vector<contact::PairPlace> acting;                ///< by chunks
-    std::vector<contact::PairPlace> edgePairs, facePairs;  ///< that act, sorted
+    std::vector<contact::PairPlace> edgePairs, facePairs;  ///< pairs that act, sorted
     contact::PairSorter sorter;
     ActiveContacts active;
-    std::vector<FrictionPair> frictionPairs;  ///< of the active pairs
+    std::vector<FrictionPair> frictionPairs;  ///< friction of the active pairs
     FrictionForces held;                      ///< at the start of the step
-    std::vector<Vec3> heldForce;              ///< of it on the active pairs [dyn]
-    std::vector<char> isTouching;             ///< of each vertex
-    std::vector<int> nearest, opposite;       ///< of each yarn edge and vertex: the active pair of its bridge, and of one on its other side; or −1
-    std::vector<Vec3> keptForce;              ///< of friction on the active pairs, at the end of the step [dyn]
+    std::vector<Vec3> heldForce;              ///< force of friction that is held on the active pairs [dyn]
+    std::vector<char> isTouching;             ///< whether each vertex touches
+    std::vector<int> nearest, opposite;       ///< active pair of each yarn edge's and vertex' bridge, and of one on its other side; or −1
+    std::vector<Vec3> keptForce;              ///< force of friction on the active pairs at the end of the step [dyn]
 };
 
 }  // namespace sim

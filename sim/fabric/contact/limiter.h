@@ -42,12 +42,12 @@ class Limiter {
 
     const Primitives& primitives_;
     std::span<const double> inverseMass_;
-    Points motion_;                ///< of each primitive: mean of its vertices, and as the fourth their largest distance from it [cm]
+    Points motion_;                ///< mean move of each primitive's vertices, and as the fourth their largest distance from it [cm]
     std::vector<PairPlace> near_;  ///< by chunks: what the quick look left
     std::vector<PairPlace> places_;
     PairSorter sorter_;
     std::vector<ApproachingPair> approaching_;  ///< sorted: edges with edges first
-    std::vector<double> fraction_;              ///< of each: safe part of the move [0..1]
+    std::vector<double> fraction_;              ///< safe part of each pair's move [0..1]
 };
 
 /// Safe part of the move u of four vertices: on the way to it they never come nearer than `separation` [cm].

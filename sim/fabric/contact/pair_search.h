@@ -16,18 +16,13 @@ struct FoundPair {
 };
 
 /// Margins of the Verlet list of pairs: how far two primitives may be apart and still make a candidate, and how far vertices may drift before
-/// a pair could be missed. With R and
-/// the floor of a pair at most kMostReach and kMostFloor of the radii's sum:
-/// A pair outside the list had d(from) − rel(move) > Σ reach, or boxes further apart. With vertices astray by s in position and in
-/// displacement, on each side, d falls by s and rel(u) grows by 5/3 s at most (3/2 s for edges), the gap of the boxes falls by 2 s. So
-/// d(x) − rel(u) > Σ (reach − 8/3 s) ≥ floor, or the gap is: such a move is harmless at first glance (mayApproach). And at x alone
-/// d > Σ (reach − s') ≥ R for s' ≤ margin: it does not act.
+/// a pair could be missed (fabric/contact/README.md, Margins).
 struct VerletMargin {
-    static constexpr double kMargin = 0.7;  ///< of the radius [-]
+    static constexpr double kMargin = 0.7;  ///< distance beyond the largest reach of a pair, of each side's radius [-]
     static double reach(double radius) { return (kMostReach + kMargin) * radius; }
     static double drift(double radius) { return (kMostReach + kMargin - kMostFloor) / (1.0 + 5.0 / 3.0) * radius; }
     static double driftAtRest(double radius) { return kMargin * radius; }
-    /// A bridge is as long as kBridgeLength of the thinner one's radius: on each side half of that at most.
+    /// Half of the length of a bridge at most: that is kBridgeLength of the thinner one's radius.
     static double bridge(double radius) { return 0.5 * kBridgeLength * radius; }
     static_assert(kMostReach + kMargin > kMostFloor, "vertices may stray before a pair is missed");
 };
@@ -54,7 +49,7 @@ class PairSearch {
     void searchFrom(const DirtyLeaf& dirty, Filter& filter) const;
 
     const Primitives& primitives_;
-    std::vector<double> reach_;  ///< of each primitive [cm]
+    std::vector<double> reach_;  ///< VerletMargin::reach of each primitive [cm]
     BoxTree edges_, vertices_, faces_;
     std::vector<DirtyLeaf> dirtyLeaves_;
     std::size_t tasks_ = 0;

@@ -13,7 +13,7 @@ namespace sim::contact {
 /// Distances of one pair at which something happens [cm] (fabric/contact/README.md, Pairs).
 struct PairRange {
     double reach = 0.0;  ///< R: it acts below
-    double core = 0.0;   ///< it never comes nearer; 0: the two are one body at rest and make no pair
+    double core = 0.0;   ///< distance below which it never comes; 0: the two are one body at rest and make no pair
 
     /// Below it the spring becomes a wall.
     double wall() const { return core + kWall * (reach - core); }
@@ -27,13 +27,13 @@ struct Primitives {
     int edgeCount = 0, vertexCount = 0, faceCount = 0;
     std::vector<std::array<int, 2>> edges;
     std::vector<std::array<int, 3>> faces;
-    std::vector<char> pinned;      ///< of each vertex
-    std::vector<int> piece;        ///< of each vertex: its mesh or strand (FabricGroups)
-    std::vector<double> radius;    ///< of each primitive: of a yarn, half the thickness of cloth [cm]
+    std::vector<char> pinned;      ///< whether each vertex is pinned
+    std::vector<int> piece;        ///< each vertex's mesh or strand (FabricGroups)
+    std::vector<double> radius;    ///< radius of each primitive: that of a yarn, half the thickness of cloth [cm]
     std::vector<double> young;     ///< E χ [dyn/cm^2]
     std::vector<double> friction;  ///< tan of the friction angle [-]
-    std::vector<int> strand;       ///< of each edge; −1 for edges of cloth
-    std::vector<int> strandReach;  ///< of each strand: edges no further along it than this don't touch
+    std::vector<int> strand;       ///< strand of each edge; −1 for edges of cloth
+    std::vector<int> strandReach;  ///< number of edges along each strand within which two don't touch
 
     int firstVertex() const { return edgeCount; }
     int firstFace() const { return edgeCount + vertexCount; }

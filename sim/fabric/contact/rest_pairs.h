@@ -10,7 +10,7 @@ namespace sim::contact {
 
 /// Pairs that are nearer at rest than they act: each has an offset of its own, so that the fabric at rest is free of forces.
 struct RestPairs {
-    std::vector<int> begin;        ///< of each first primitive in the arrays below, and the end; empty as long as there are none
+    std::vector<int> begin;        ///< first pair of each first primitive in the arrays below, and the end; empty as long as there are none
     std::vector<int> partner;      ///< ascending
     std::vector<double> distance;  ///< [cm]
 

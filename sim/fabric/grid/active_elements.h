@@ -50,7 +50,7 @@ class ActiveElements {
     using Corners = typename Contact::Corners;
     /// An element whose stencil reaches faces without mass.
     struct PartialStencil {
-        std::array<double, kCorners> share;     ///< of each corner in the quadrature point [-]
+        std::array<double, kCorners> share;     ///< share of each corner in the quadrature point [-]
         std::array<Vec3, kDirections> missing;  ///< rate of the directions for a 1 on faces with mass [1/cm]
     };
     Across ratesAt(std::size_t pack, const Corners& u) const;
@@ -60,10 +60,10 @@ class ActiveElements {
     int firstForce_ = 0;
     BlockPoints points_;
     Directions across_, rateOrStress_;
-    std::vector<Contact> contact_;                       ///< of each pack
-    std::vector<std::array<int, kCorners>> cornerSlot_;  ///< of each element: in a vector of VertexUnknowns
-    std::vector<int> partial_;                           ///< of each element: in partialElements_, or −1
-    std::vector<char> anyPartial_;                       ///< of each pack
+    std::vector<Contact> contact_;                       ///< contact of each pack
+    std::vector<std::array<int, kCorners>> cornerSlot_;  ///< slots of each element's corners in a vector of VertexUnknowns
+    std::vector<int> partial_;                           ///< place of each element in partialElements_, or −1
+    std::vector<char> anyPartial_;                       ///< whether each pack has any in partialElements_
     std::vector<PartialStencil> partialElements_;
 };
 

@@ -19,13 +19,13 @@ namespace sim {
 struct BlockPoints {
     struct Cell {
         int corner;  ///< in a tile: the lowest node that the cell's points reach
-        int begin;   ///< its first point
+        int begin;   ///< first point
     };
     std::vector<int> blockBegin;                     ///< cells of block order.occupied[n] are [blockBegin[n], blockBegin[n + 1])
     std::vector<Cell> cells;                         ///< and one behind the last, where the points end
-    std::vector<int> id;                             ///< of each point: number of the vertex or element
-    std::array<AlignedArray<double>, kAxes> inCell;  ///< of each point: position in its cell, in cells, 0..1
-    std::vector<int> row;                            ///< of each point after find(): among the sorted particles
+    std::vector<int> id;                             ///< number of each point's vertex or element
+    std::array<AlignedArray<double>, kAxes> inCell;  ///< position of each point in its cell [0..1 cells]
+    std::vector<int> row;                            ///< row of each point among the sorted particles, after find()
 
     void clear();
     std::size_t size() const { return id.size(); }
@@ -113,8 +113,8 @@ void forEachBlock(const ParticleOrder& order, const BlockGrid& grid, const Block
 
 /// The packs of faces that have mass, in the arrays of the faces.
 struct FaceRows {
-    std::vector<int> first;     ///< of each: its first face
-    std::vector<char> hasMass;  ///< of each pack of faces
+    std::vector<int> first;     ///< first face of each pack with mass
+    std::vector<char> hasMass;  ///< whether each pack of faces has mass
 
     void find(const BlockArray<double, 3>& mass);
 };

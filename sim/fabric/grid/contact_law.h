@@ -11,7 +11,7 @@ namespace sim {
 // 2017): what its material directions d2, d3 (yarns) or d3 (cloth) do across a yarn or a sheet. They are looked at in a
 // right-handed frame Q that goes with the mesh: q1 along a yarn, q3 normal to a face. Only compression acts.
 
-/// Of contact: Lamé parameters [dyn/cm^2], and friction.
+/// Parameters of contact: Lamé parameters [dyn/cm^2], and friction.
 struct ContactModuli {
     ContactModuli() = default;
     explicit ContactModuli(const FabricMaterial& material);
@@ -68,7 +68,7 @@ struct Section {
     explicit Section(const Eigen::Matrix2d& b);
     Eigen::Matrix2d u, vt;
     Eigen::Vector2d sigma;
-    Eigen::Vector2d log;  ///< of σ, which counts as kLeastThickness if it is less
+    Eigen::Vector2d log;  ///< logarithm of σ, which counts as kLeastThickness if it is less
 };
 inline Section sectionOf(const Strain& r) { return Section(r.bottomRows<2>()); }
 
@@ -84,7 +84,7 @@ struct StickFractions {
     double along = 1.0, across = 1.0;
 };
 StickFractions stickFraction(const ContactModuli& m, const Strain& r, const Section& section);
-/// Of an uncompressed section: the section at the onset of contact on the way to `last`, or one without contact if there is none.
+/// Section at the onset of contact on the way from an uncompressed one to `last`, or one without contact if there is none.
 Section onsetOfContact(const Section& section, const Section& last);
 /// The section with the deviatoric part of its log σ scaled by `across`.
 Section withDeviatoric(const Section& section, double across);

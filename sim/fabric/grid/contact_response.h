@@ -45,7 +45,7 @@ Triple<T> angularVelocityOfEdge(const Triple<T>& reciprocal, const Triple<T>& al
 {
     return cross(reciprocal, along);
 }
-/// That of a face's normal, where the edges from its first corner change at u1 and u2.
+/// Angular velocity of a face's normal, where the edges from its first corner change at u1 and u2.
 template <class T>
 Triple<T> angularVelocityOfNormal(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1, const Triple<T>& u2)
 {
@@ -74,7 +74,7 @@ struct EdgeContact {
         const Triple<T> first = rates[0] - cross(turn, d[0]), second = rates[1] - cross(turn, d[1]);
         return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
     }
-    /// What a stress does to the corners: transpose of how they turn d [dyn …].
+    /// What a stress does to the corners: transpose of how they turn d.
     Corners nodalResponse(const Across& stress) const
     {
         const Triple<T> lever = cross(cross(stress[0], d[0]) + cross(stress[1], d[1]), reciprocal);

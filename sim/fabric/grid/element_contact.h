@@ -14,14 +14,14 @@ inline constexpr std::size_t kElementsPerTask = 256;
 /// What a velocity field does to the fabric.
 struct FabricMotion {
     std::vector<Mat3> gradient;  ///< ∇u of each element [1/s]
-    std::vector<Vec3> velocity;  ///< of each vertex [cm/s]
+    std::vector<Vec3> velocity;  ///< velocity of each vertex [cm/s]
 };
 
 /// How a step would go without the fabric's own forces.
 struct PredictedMotion {
     const FabricMotion& motion;
     double h;           ///< [s]
-    double cell;        ///< of the grid [cm]
+    double cell;        ///< size of the grid's cells [cm]
     double negligible;  ///< acceleration that does not count [cm/s^2]
 };
 
@@ -60,7 +60,7 @@ class ElementContact {
         Mat3 frame;                      ///< Q
         std::array<Vec3, 2> d;           ///< the second of yarns only
         std::array<Vec3, 2> reciprocal;  ///< yarns: q1/length; faces: in-plane reciprocals of t0 and t1 [1/cm]
-        Vec3 normal;                     ///< of faces
+        Vec3 normal;                     ///< normal, faces only
         std::array<Mat3, 3> stiffness;   ///< ∂²E/∂d², by (d0, d0), (d0, d1), (d1, d1) [erg]
     };
     struct Stress {
@@ -114,8 +114,8 @@ class ElementContact {
     std::vector<std::array<int, 3>> corners_;
     std::vector<std::array<double, 3>> shares_;
     std::vector<int> incidenceBegin_, incidence_;
-    std::vector<ContactModuli> moduli_;  ///< of each material
-    std::vector<int> material_;          ///< of each element
+    std::vector<ContactModuli> moduli_;  ///< moduli of each material
+    std::vector<int> material_;          ///< material of each element
     std::vector<double> volume_;         ///< packing factor times rest envelope volume [cm^3]
     std::vector<double> mass_;           ///< when dry [g]
     std::vector<Local> local_;

@@ -16,7 +16,7 @@ namespace sim {
 /// Unknowns of the implicit step: velocities of the faces that have mass [cm/s], rates of the twist angles [1/s].
 struct FaceVector {
     BlockArray<double, 3> faces;
-    AlignedArray<double> twist;  ///< of each yarn edge, up to a whole pack
+    AlignedArray<double> twist;  ///< value of each yarn edge, up to a whole pack
 
     void resize(int blocks, std::size_t edges)
     {
@@ -41,7 +41,7 @@ struct FaceTolerance {
 struct FaceSolveReport {
     int iterations = 0;
     double speedError = 0.0;  ///< rms in the norm of the system's matrix, weighted by mass; not below what it is [cm/s]
-    double errorWork = 0.0;   ///< of the impulses that are missing to the balance of forces, on the velocities found [erg]
+    double errorWork = 0.0;   ///< work of the impulses missing to the balance of forces on the velocities found [erg]
 };
 
 /// The linear system of one implicit step on the grid (fabric/grid/README.md, Linear system): A = M + h² (Wᵀ K W + Gᵀ H G), with K
@@ -133,25 +133,25 @@ class FaceSystem {
     const BlockGrid* grid_ = nullptr;
     double h_ = 0.0;  ///< [s]
 
-    BlockArray<double, 3> mass_;    ///< of each face, with the liquid's drag [g]
-    AlignedArray<double> inertia_;  ///< of each twist angle; 1 in unused lanes [g cm^2]
+    BlockArray<double, 3> mass_;    ///< mass of each face with the liquid's drag [g]
+    AlignedArray<double> inertia_;  ///< inertia of each twist angle; 1 in unused lanes [g cm^2]
     double totalMass_;              ///< [g]
     FaceRows rows_;
 
-    BlockArray<double, 3> isFelt_;      ///< of each face: 1 if it has enough mass to act on elements, else 0 [-]
-    std::vector<char> hasSmallMasses_;  ///< of each occupied block: has it faces with less mass than that, but some?
-    std::vector<Mat3> missing_;         ///< of each element: gradient of a 1 on faces that act on it; 0 if all do [-]
+    BlockArray<double, 3> isFelt_;      ///< 1 at each face with enough mass to act on elements, else 0 [-]
+    std::vector<char> hasSmallMasses_;  ///< whether each occupied block has faces with less mass than that, but some
+    std::vector<Mat3> missing_;         ///< gradient at each element of a 1 on faces that act on it; 0 if all do [-]
     ActiveElements<EdgeContact<Pack>> activeEdges_;
     ActiveElements<FaceContact<Pack>> activeFaces_;
     std::vector<Vec3> nodalForces_;          ///< forces of the active elements on their corners
-    std::vector<int> forceBegin_, forceOf_;  ///< of each vertex in the order of the blocks: the nodal forces on it, as indices in nodalForces_
-    PointArray<3> onVertices_;               ///< of each vertex, in the order of the blocks
+    std::vector<int> forceBegin_, forceOf_;  ///< nodal forces on each vertex, in the order of the blocks, as indices in nodalForces_
+    PointArray<3> onVertices_;               ///< values on each vertex, in the order of the blocks
     PointArray<9> onElements_;
-    std::vector<int> first_;         ///< of each element: index of its first nodal force
+    std::vector<int> first_;         ///< index of each element's first nodal force
     AlignedArray<double> in_, out_;  ///< by vertex unknowns
     BlockArray<double, 3> work_;
-    FaceVector residual_, p_, q_;      ///< of the solve
-    std::vector<Vec3> left_, moving_;  ///< of each group: its sum of residuals [g cm/s] and of masses [g]
+    FaceVector residual_, p_, q_;      ///< vectors of the solve
+    std::vector<Vec3> left_, moving_;  ///< sum of each group's residuals [g cm/s] and of its masses [g]
 };
 
 /// Sum over body(isFace, i, sum) for the packs at i of faces with mass, and of twist.

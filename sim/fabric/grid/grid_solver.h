@@ -35,7 +35,7 @@ class GridFabricSolver final : public FabricIntegrator {
     void begin(FabricState& state);
     std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     FabricObstacles::Start obstacleStart(double h, const FabricState& state) const { return {from_, mass_, state.onObstacles, h, state.springStep}; }
-    /// Of the fabric [erg].
+    /// Mechanical energy of the fabric [erg].
     struct Mechanical {
         double free, elastic;  ///< free: kinetic and potential
         double sum() const { return free + elastic; }
@@ -51,7 +51,7 @@ class GridFabricSolver final : public FabricIntegrator {
         const FabricState& state;  ///< at the start
         const FaceLoads* loads;
         FaceTolerance tolerance;
-        double kinetic;  ///< of the fabric's motion, or of one that is not felt [erg]
+        double kinetic;  ///< energy of the fabric's motion, or of one that is not felt [erg]
     };
     void solve(const Solve& of, FabricReport& report);
     double gainOfMotion(const Solve& of, double before);
@@ -93,21 +93,21 @@ class GridFabricSolver final : public FabricIntegrator {
     FabricObstacles obstacles_;
     SolidLimiter solidLimiter_;
     FabricGroups groups_;                        ///< groups of pieces in the step under way
-    std::vector<int> groupOfBlock_, nearBlock_;  ///< of each block: its group, and a block that it belongs to (findGroups)
-    FaceVector velocity_, leastGain_;            ///< of the solve under way: the last, and that which gave the fabric least energy [cm/s, 1/s]
+    std::vector<int> groupOfBlock_, nearBlock_;  ///< each block's group, and a block that it belongs to (findGroups)
+    FaceVector velocity_, leastGain_;            ///< last velocities of the solve under way, and those that gave the fabric least energy [cm/s, 1/s]
     bool isSolved_ = false;                      ///< the error of the last linear solve is acceptable
     double errorWork_ = 0.0;                     ///< energy that the error of the last linear solve gave [erg]
     bool meetsLiquid_;
-    std::vector<double> mass_;  ///< of each vertex, with what it has absorbed [g]
+    std::vector<double> mass_;  ///< mass of each vertex with what it has absorbed [g]
     // On the faces: velocities before the solve, the change to start it with [cm/s], what the fabric's own forces did
     // [cm/s^2].
     BlockArray<double, 3> start_, expected_, acceleration_;
     std::vector<Vec3> points_;               ///< quadrature points of the elements [cm]
-    std::vector<Vec3> from_, expectedMove_;  ///< of each vertex: position at the start of the step, its move if forces act on as they did [cm]
+    std::vector<Vec3> from_, expectedMove_;  ///< each vertex' position at the start of the step, and its move if forces act on as they did [cm]
     std::vector<Vec3> predicted_,
-        reached_;                      ///< of each vertex without forces: velocity [cm/s], position at the end of the step [cm]
-    std::vector<Vec3> move_, wanted_;  ///< of each vertex in the step, and but for solids [cm]
-    std::vector<Vec3> byLiquid_;       ///< of each vertex: impulse per mass [cm/s]
+        reached_;                      ///< each vertex' velocity [cm/s] and position [cm] at the end of the step without forces
+    std::vector<Vec3> move_, wanted_;  ///< move of each vertex in the step, and what it would be but for solids [cm]
+    std::vector<Vec3> byLiquid_;       ///< impulse of the liquid on each vertex per mass [cm/s]
     FabricState trial_;                ///< places and frames where a move would take the fabric
     FabricMotion motion_;
     mutable ElasticEnergies elastic_;

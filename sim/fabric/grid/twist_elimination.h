@@ -25,7 +25,7 @@ class TwistElimination {
     const StrandLayout* layout_ = nullptr;
     const StrandMatrix* stiffness_ = nullptr;
     double h2_ = 0.0;                    ///< h² [s^2]
-    std::vector<Pack> lower_, inverse_;  ///< of each packed edge: L D Lᵀ of the matrix
+    std::vector<Pack> lower_, inverse_;  ///< factors L D Lᵀ of the matrix at each packed edge
 };
 
 }  // namespace sim

@@ -27,8 +27,8 @@ class VertexStiffness {
     /// t + h [s]. The contacts with obstacles must be those of positions x + h v of the `predicted` velocities [cm/s].
     void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles, std::span<const Vec3> predicted);
 
-    /// The same with the material's own forces as they are at `there`, which velocities u lead to in that step; these forces are told from the
-    /// start on all the same. `there` must stay until the next assemble.
+    /// Assembles anew with the material's own forces as they are at `there`, which velocities u lead to in that step; relative to the start they
+    /// are told nevertheless. `there` must stay until the next assemble.
     void assembleAt(const FabricState& there, double h, AlignedArray<double>& u);
 
     /// Energy gradient [dyn, dyn cm].
@@ -89,7 +89,7 @@ class VertexStiffness {
     /// What acts on a point: a vertex, or one of an edge or a face.
     struct Spring {
         std::array<int, 3> vertices;
-        std::array<double, 3> shares;  ///< of them in the point [-]
+        std::array<double, 3> shares;  ///< shares of the vertices in the point [-]
         Mat3 stiffness;                ///< [dyn/cm]
         Vec3 gradient;                 ///< at the state [dyn]
     };
@@ -105,7 +105,7 @@ class VertexStiffness {
     double workOfProduct(double h, const AlignedArray<double>& u) const;
     void multiplyInternal(AlignedArray<double>& in, AlignedArray<double>& out) const;
     void findPins(const FabricState& state, double end);
-    /// Of what the vertices have, at a spring's point.
+    /// Value at a spring's point of what the vertices have.
     Vec3 atPoint(const AlignedArray<double>& u, const Spring& s) const
     {
         return s.shares[0] * at(u, s.vertices[0]) + s.shares[1] * at(u, s.vertices[1]) + s.shares[2] * at(u, s.vertices[2]);
@@ -125,12 +125,12 @@ class VertexStiffness {
     BlockMatrix cloth_;
     mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
     std::vector<Shared> shared_;
-    std::vector<Spring> springs_;       ///< those of pins first
-    std::vector<Vec3> restReference_;   ///< of each yarn edge
-    std::vector<double> pinStiffness_;  ///< of each pin [dyn/cm]
+    std::vector<Spring> springs_;       ///< springs, those of pins first
+    std::vector<Vec3> restReference_;   ///< reference direction of each yarn edge at rest
+    std::vector<double> pinStiffness_;  ///< stiffness of each pin [dyn/cm]
     std::vector<int> heldEdges_;
-    std::vector<double> heldStiffness_;  ///< of each held edge: stiffness of its pin against twist [dyn cm]
-    std::vector<double> heldTorque_;     ///< of each held edge: energy gradient of its pin at the state [dyn cm]
+    std::vector<double> heldStiffness_;  ///< stiffness of each held edge's pin against twist [dyn cm]
+    std::vector<double> heldTorque_;     ///< energy gradient of each held edge's pin at the state [dyn cm]
     AlignedArray<double> gradient_;
     const FabricState* at_ = nullptr;  ///< state at which the internal forces are assembled
     AlignedArray<double> reached_;     ///< velocities that lead there in the step, by VertexUnknowns [cm/s, 1/s]

@@ -15,12 +15,12 @@ struct FabricGeometry {
     std::vector<Vec3> points;               ///< [cm]
     std::vector<std::vector<int>> strands;  ///< points in order
     std::vector<Vec3i> faces;
-    std::vector<Vec2i> lattice;         ///< of each point: its column and row; empty where there are none
+    std::vector<Vec2i> lattice;         ///< column and row of each point; empty where there are none
     Vec2i latticeSize = Vec2i::Zero();  ///< number of columns and rows; a strand has one row
-    std::vector<int> ofFile{};          ///< of each vertex of a file: the number of its point, or −1; empty where they are the same
+    std::vector<int> ofFile{};          ///< point of each vertex of a file, or −1; empty where vertices and points are the same
 };
 
-/// Of each point the first vertex of the file that is there; empty where they are the same.
+/// First vertex of the file at each point; empty where vertices and points are the same.
 std::vector<int> firstInFile(const FabricGeometry& geometry);
 
 /// A sheet of nodes[0] × nodes[1] vertices; vertex (i, j) has the number j nodes[0] + i.

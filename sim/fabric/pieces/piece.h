@@ -12,18 +12,18 @@ namespace sim {
 
 /// What a piece of fabric is made of. Elastic energies of porous fabric carry the packing factor χ = φ² (fabric/README.md, Materials).
 struct FabricMaterial {
-    double young = 0.0;                         ///< of the fibres; required [dyn/cm^2]
+    double young = 0.0;                         ///< Young's modulus of the fibres; required [dyn/cm^2]
     double poisson = 0.35;                      ///< [-]
-    double density = 1.3;                       ///< of the fibres [g/cm^3]
+    double density = 1.3;                       ///< density of the fibres [g/cm^3]
     double dampingViscosity = 0.0;              ///< η of a Kelvin-Voigt damping with viscous Young's modulus 3η; 0 = none [P]
     bool dampBending = true;                    ///< η damps bending and twisting
     bool dampStretching = true;                 ///< η damps stretching
     double stretchFactor = 1.0;                 ///< on the stretching stiffness of yarns [-]
-    double contactStiffness = 1.0e-2;           ///< of contact on the grid relative to young; solver grid only [-]
-    double pinStiffness = 2.0e-2;               ///< of the springs at pins relative to young; solver grid only [-]
+    double contactStiffness = 1.0e-2;           ///< stiffness of contact on the grid relative to young; solver grid only [-]
+    double pinStiffness = 2.0e-2;               ///< stiffness of the springs at pins relative to young; solver grid only [-]
     double frictionAngle = 30.0 * kPi / 180.0;  ///< tan of it is Coulomb's coefficient [rad]
     double volumeFraction = 1.0;                ///< φ: fibres per envelope volume [0..1]
-    double sectionRotation = 0.0;               ///< of the axes of an elliptic section against the initial frames [rad]
+    double sectionRotation = 0.0;               ///< angle of an elliptic section's axes against the initial frames [rad]
 
     double packing() const { return volumeFraction * volumeFraction; }   ///< χ [-]
     double envelopeDensity() const { return density * volumeFraction; }  ///< mass of dry fabric per envelope volume [g/cm^3]
@@ -33,7 +33,7 @@ struct FabricMaterial {
 /// Vertices that are held: they follow `motion` from where the scene puts them.
 struct PinGroup {
     std::string name;           ///< by which motions call it; may be empty
-    std::vector<int> vertices;  ///< of the piece, ascending
+    std::vector<int> vertices;  ///< vertices of the piece, ascending
     bool twist = false;         ///< the twist of yarn edges that begin or end at these vertices is held too
     Motion motion;
     std::string text;        ///< which vertices, as a scene says it, in cgs: "corners: all, patch: 2"
@@ -52,7 +52,7 @@ struct FabricPiece {
     std::vector<Vec3> points;               ///< [cm]
     std::vector<std::vector<int>> strands;  ///< points in order, at least 2 each
     std::vector<Vec3i> faces;               ///< consistently oriented
-    std::vector<int> inFile;                ///< of each point the first vertex of its file that is there, from 0; empty where they are the same
+    std::vector<int> inFile;                ///< first vertex of its file at each point, from 0; empty where vertices and points are the same
     Vec3 velocity = Vec3::Zero();           ///< [cm/s]
     double wetness = 0.0;                   ///< share of the pores that liquid fills at the start [-]
     std::vector<PinGroup> pins;
@@ -60,7 +60,7 @@ struct FabricPiece {
     std::string kind;                ///< the generator that made it: "cloth_grid"
     std::string text;                ///< what it was asked for, as a scene says it, in cgs, on one line
     std::vector<std::string> notes;  ///< about its file
-    std::string transformText;       ///< where it was moved then, likewise; empty if it was not
+    std::string transformText;       ///< where it was moved then, as a scene says it; empty if it was not
 
     /// What a scene calls a point: its number, or that in the file from which it comes.
     int called(int point) const { return inFile.empty() ? point : inFile[static_cast<std::size_t>(point)]; }

@@ -32,7 +32,7 @@ template <class T>
 struct RodStrain {
     std::array<T, 4> curvature;  ///< κ0 = κb·m2_e, κ1 = −κb·m1_e, and the same with the edge after [-]
     std::array<RodGradient<T>, 4> curvatureGradient;
-    RodGradient<T> twistGradient;  ///< of m = reference twist + θ_f − θ_e
+    RodGradient<T> twistGradient;  ///< gradient of m = reference twist + θ_f − θ_e
 };
 
 /// Equations: fabric/rods/README.md, Kinematics; fabric/rods/README.md, Gradients. The gradients are those of frames that follow by parallel

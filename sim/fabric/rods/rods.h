@@ -66,11 +66,11 @@ class Rods {
 
     StrandLayout layout_;
     std::vector<Stiffness> stiffness_;
-    std::vector<Pack> perRestLength_;  ///< of each packed edge; 0 in unused lanes [1/cm]
+    std::vector<Pack> perRestLength_;  ///< inverse rest length of each packed edge; 0 in unused lanes [1/cm]
     std::vector<Bend> bends_;
     bool damped_ = false;
     std::vector<Pack> startStretch_;              ///< l / l̄ of each packed edge
-    std::vector<Pack> twistHessianShare_;         ///< of each group: 1 in lanes of rods whose torque has its part in the matrix, else 0
+    std::vector<Pack> twistHessianShare_;         ///< for each group 1 in lanes of rods whose torque has its part in the matrix, else 0
     std::vector<std::array<Pack, 5>> startBend_;  ///< curvatures and twist of each packed vertex
 };
 

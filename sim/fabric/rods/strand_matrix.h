@@ -15,18 +15,18 @@ namespace sim {
 struct StrandLayout {
     using Lanes = std::array<int, kLanes>;
     struct Group {
-        int vertices = 0;     ///< of its longest strand
+        int vertices = 0;     ///< number of vertices of its longest strand
         int firstVertex = 0;  ///< in `vertex`
         int firstEdge = 0;    ///< in `edge`
-        int firstRow = 0;     ///< of all groups' rows
+        int firstRow = 0;     ///< first row among all groups'
         int edges() const { return vertices - 1; }
         int rows() const { return 4 * vertices - 1; }
     };
     std::vector<Group> groups;
-    std::vector<Lanes> strand;  ///< of each group
-    std::vector<Lanes> vertex;  ///< of each packed vertex: the fabric's vertex
-    std::vector<Lanes> edge;    ///< of each packed edge: the fabric's yarn edge
-    int rows = 0;               ///< of all groups
+    std::vector<Lanes> strand;  ///< strands of each group
+    std::vector<Lanes> vertex;  ///< vertices of the fabric in each packed vertex
+    std::vector<Lanes> edge;    ///< yarn edges of the fabric in each packed edge
+    int rows = 0;               ///< number of rows of all groups
 
     StrandLayout() = default;
     explicit StrandLayout(const Fabric::Strands& strands);
@@ -46,7 +46,7 @@ class StrandMatrix {
     /// Entry (row, row − k) of one lane; `row` counts through all groups.
     double& at(int row, int k, int lane) { return band_[(static_cast<std::size_t>(row) * kBand + k) * kLanes + lane]; }
     double at(int row, int k, int lane) const { return band_[(static_cast<std::size_t>(row) * kBand + k) * kLanes + lane]; }
-    /// That entry of all lanes.
+    /// Entry (row, row − k) of all lanes.
     const double* lanes(int row, int k) const { return band_.data() + (static_cast<std::size_t>(row) * kBand + k) * kLanes; }
     /// The rows of a group, kBand packs each.
     std::span<Pack> rows(const StrandLayout::Group& group)
@@ -56,7 +56,7 @@ class StrandMatrix {
 
     /// A = L D Lᵀ of every strand; false if some are not positive definite: `definite` tells which.
     bool factor(const StrandLayout& layout);
-    /// Of each group, after factor(): 1 in lanes of strands that are positive definite, else 0.
+    /// For each group, after factor(): 1 in lanes of strands that are positive definite, else 0.
     const std::vector<Pack>& definite() const { return definite_; }
     /// z = (L D Lᵀ)⁻¹ b for one group, of which b and z are the rows.
     void solve(const StrandLayout::Group& group, const Pack* b, Pack* z) const;

@@ -142,7 +142,7 @@ inline double angleOf(double sine, double cosine) { return std::atan2(sine, cosi
 template <class T>
 struct ShellBend {
     std::array<T, 3> angle;                                         ///< 0 on the boundary [rad]
-    std::array<std::array<Triple<T>, kShellVertices>, 3> gradient;  ///< of each angle by each vertex [1/cm]
+    std::array<std::array<Triple<T>, kShellVertices>, 3> gradient;  ///< derivative of each angle by each vertex [1/cm]
 };
 
 template <class T>

@@ -76,10 +76,10 @@ class Shells {
 
     FabricSettings settings_;
     std::vector<int> vertices_, row_;         ///< row of each vertex of the fabric; −1 for those without cloth
-    std::vector<std::array<int, 3>> across_;  ///< of each face: vertices across its edges; −1 on the boundary
+    std::vector<std::array<int, 3>> across_;  ///< vertices across each face's edges; −1 on the boundary
     std::vector<std::vector<int>> pattern_, neighbors_;
     std::vector<Batch> batches_;
-    std::vector<std::vector<int>> tasks_;  ///< of each colour: kBatchesPerTask batches from number · kBatchesPerTask on
+    std::vector<std::vector<int>> tasks_;  ///< tasks of each colour: kBatchesPerTask batches from number · kBatchesPerTask on
     bool damped_ = false;
 };
 

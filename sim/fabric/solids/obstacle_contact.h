@@ -19,12 +19,12 @@ namespace sim {
 struct ObstacleContact {
     int vertex = 0, other = kNone;  ///< ends of the edge, or kNone
     Vec2i between = {0, 0};         ///< number of the point (vertices, middles, nearest points), and of the obstacle among those felt
-    Vec3 gradient = Vec3::Zero();   ///< of the penalty and of friction by the position of the point [dyn]
+    Vec3 gradient = Vec3::Zero();   ///< gradient of the penalty and of friction by the position of the point [dyn]
     Mat3 stiffness = Mat3::Zero();  ///< [dyn/cm]
-    Vec3 place = Vec3::Zero();      ///< of the point, where these are [cm]
+    Vec3 place = Vec3::Zero();      ///< place of the point where these are [cm]
     int third = kNone;              ///< corner of a face, or kNone
-    Vec3 weights = Vec3::Zero();    ///< of the corners at a nearest point; zero for a vertex or a middle [-]
-    double pull = 0.0;              ///< of a liquid bridge on a vertex, in the gradient [dyn]
+    Vec3 weights = Vec3::Zero();    ///< weights of the corners at a nearest point; zero for a vertex or a middle [-]
+    double pull = 0.0;              ///< force of a liquid bridge on a vertex, part of the gradient [dyn]
 
     static constexpr int kNone = -1;
     bool isEdge() const { return other != kNone; }
@@ -44,16 +44,16 @@ struct ObstacleContact {
 class FabricObstacles {
  public:
     FabricObstacles() = default;
-    /// Those of the scene that fabric feels.
-    /// @param cohesion  of wet fabric, taken up before each step; null without
+    /// Obstacles of the scene that fabric feels.
+    /// @param cohesion  liquid bridges of wet fabric, taken up before each step; null without
     FabricObstacles(const Fabric& fabric, std::span<const ObstacleSettings> obstacles, const Cohesion* cohesion = nullptr);
 
     bool empty() const { return bodies_.empty(); }
     /// Number in the scene of an obstacle among those felt (ObstacleContact::between).
     int inScene(int obstacle) const { return bodies_[obstacle].inScene; }
-    /// Of those felt, the one that is nearest to a place.
+    /// Nearest of the obstacles felt to a place.
     int nearest(const Vec3& x) const;
-    /// By how much one of those felt moves a place on it in the step [cm].
+    /// Displacement in the step of a place on one of the obstacles felt [cm].
     Vec3 moved(int obstacle, const Vec3& place) const { return bodies_[obstacle].carry * place - place; }
     /// Poses and motion of a step from t0 to t1 [s].
     void moveTo(double t0, double t1);
@@ -83,7 +83,7 @@ class FabricObstacles {
 
  private:
     struct Body {
-        int inScene;     ///< its number there
+        int inScene;     ///< number in the scene
         Obstacles pose;  ///< the obstacle alone
         Motion motion;
         Eigen::Isometry3d carry;       ///< from where the obstacle is at the start of the step to where it is at the end
@@ -98,7 +98,7 @@ class FabricObstacles {
         double mass;    ///< [g]
         int material;
         Vec3 move;                        ///< Start::moves, where they are given [cm]
-        double pull = 0.0, bridge = 0.0;  ///< of a liquid bridge [dyn], and its length beyond the reach [cm]
+        double pull = 0.0, bridge = 0.0;  ///< force of a liquid bridge [dyn], and its length beyond the reach [cm]
     };
     /// What a body does to a point.
     struct Touch {
@@ -120,13 +120,13 @@ class FabricObstacles {
 
     const Cohesion* cohesion_ = nullptr;
     std::vector<Body> bodies_;
-    std::vector<Vec2i> edges_;     ///< of yarns and of cloth
-    std::vector<double> share_;    ///< of each vertex: part of its mass that each of its edges stands for [-]
-    std::vector<double> nearest_;  ///< of each vertex: distance of the nearest obstacle [cm]
-    std::vector<Vec3> pushedOut_;  ///< of each vertex: how far it is pushed out of obstacles [cm]
+    std::vector<Vec2i> edges_;     ///< edges of yarns and of cloth
+    std::vector<double> share_;    ///< part of each vertex' mass that each of its edges stands for [-]
+    std::vector<double> nearest_;  ///< distance of each vertex from the nearest obstacle [cm]
+    std::vector<Vec3> pushedOut_;  ///< displacement by which each vertex is pushed out of obstacles [cm]
     std::vector<std::vector<ObstacleContact>> ofChunk_;
     std::vector<ObstacleContact> contacts_;
-    std::vector<std::optional<Vec3>> keptForce_;  ///< of friction at them, at the end of the step [dyn]
+    std::vector<std::optional<Vec3>> keptForce_;  ///< force of friction at them at the end of the step [dyn]
 };
 
 }  // namespace sim

@@ -25,7 +25,7 @@ struct NearestPoint {
     int corners = 0;            ///< 2 or 3
     std::array<int, 3> vertices{};
     Vec3 weights = Vec3::Zero();  ///< [-]
-    double radius = 0.0;          ///< of the fabric [cm]
+    double radius = 0.0;          ///< radius of the fabric [cm]
 };
 
 /// Limits moves so that fabric never passes a solid's surface. Moves are checked in the frame of each solid, in which it rests while corners of the
@@ -40,11 +40,11 @@ class SolidLimiter {
     SolidLimiter(const Fabric& fabric, std::span<const ObstacleSettings> obstacles);
 
     bool empty() const { return bodies_.empty(); }
-    /// The next moves are made while solids go from where they are at t0 to where they are at t1 [s] …
+    /// During the next moves solids go from where they are at t0 to where they are at t1 [s].
     void moveTo(double t0, double t1);
-    /// … and those after them while they rest there.
+    /// During the next moves solids rest where the last moveTo led.
     void rest();
-    bool anyMoves() const;  ///< of those near the fabric in the last limit()
+    bool anyMoves() const;  ///< whether one of those near the fabric in the last limit() moves
     /// Does a solid that moves come near the box around these moves, so that it may push?
     bool movesNear(std::span<const Vec3> x, std::span<const Vec3> u);
 
@@ -52,13 +52,14 @@ class SolidLimiter {
     /// Makes the moves u from x safe [cm], but for those of pinned vertices; Unsafe, which they are only while solids move, if it cannot.
     /// @param mass  of each vertex [g]
     Limited limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
-    /// The same while solids go on for h from t [s], by bisection of the time where that is needed: u becomes the displacement, not the path.
+    /// Makes the moves u safe while solids go on for h from t [s], by bisection of the time where that is needed: u becomes the displacement, not
+    /// the path.
     /// @return whether it changed any
     bool limitBisected(double t, double h, std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
-    static constexpr int kMostHalvings = 8;  ///< one within the other
+    static constexpr int kMostHalvings = 8;  ///< largest number of halvings of the time, one within the other
     /// Throws RunError: the last limit() has found no safe moves, in however short a time.
     [[noreturn]] void throwNoSafeMove() const;
-    /// Was any fabric near a solid, in the last limit()?
+    /// Was any fabric near a solid in the last limit()?
     bool isNear() const { return isNear_; }
     /// Points at which edges and faces are nearer to solids than their radius, and than their vertices, by elements, then by solids, which
     /// must rest.
@@ -77,15 +78,15 @@ class SolidLimiter {
         double steepest;                        ///< slope of its distance [-]
         Eigen::Isometry3d end, toBegin, toEnd;  ///< from its frame at the end, and into it at both ends of the moves
         bool moves = false, isNear = false;
-        std::vector<double> distance, clear;  ///< of each vertex: at the start, and less its way past the solid [cm]
+        std::vector<double> distance, clear;  ///< distance of each vertex at the start, and less its way past the solid [cm]
     };
     /// One that comes too near on its way.
     struct Blocked {
         int body, element, corners;
         std::array<int, 3> vertices;
-        double part;   ///< of the way that is safe [0..1]
-        double lack;   ///< of its distance at the start: this much it should get away [cm]
-        Vec3 weights;  ///< of the corners where it is nearest [-]
+        double part;   ///< part of the way that is safe [0..1]
+        double lack;   ///< length by which it should get away, lacking in its distance at the start [cm]
+        Vec3 weights;  ///< weights of the corners where it is nearest [-]
     };
     using Moves = std::span<Vec3>;
     using Points = std::span<const Vec3>;
@@ -118,17 +119,17 @@ class SolidLimiter {
     const Fabric* fabric_ = nullptr;
     std::vector<Body> bodies_;
     Elements elements_;    ///< edges of yarns, whose third vertex is −1, and faces
-    Elements clothEdges_;  ///< each once, likewise
+    Elements clothEdges_;  ///< edges of cloth, each once
     bool isNear_ = false;
     std::vector<char> slid_;
-    std::vector<char> isLeft_;  ///< of each element: pins draw it through a solid in this step
+    std::vector<char> isLeft_;  ///< whether pins draw each element through a solid in this step
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
     struct Carrier {
         int body = -1, changes = 0;  ///< with which solid it goes in this limit(), and how often that was another one before
     };
-    std::vector<Carrier> carriers_;  ///< of each vertex
-    std::vector<Vec3> at_, part_;    ///< of each vertex, on its way in halves: its place and the next move [cm]
+    std::vector<Carrier> carriers_;  ///< carrier of each vertex
+    std::vector<Vec3> at_, part_;    ///< place and next move of each vertex on its way in halves [cm]
     std::vector<std::vector<NearestPoint>> nearestOfChunk_;
     std::vector<NearestPoint> nearest_;
 };

@@ -19,7 +19,7 @@ struct SweptElement {
 struct Nearest {
     double least;    ///< lower bound: no point of the element is nearer [cm]
     double reached;  ///< distance of the nearest point found: least ≥ (1 − kNearestError) reached, unless the search was cut short [cm]
-    Vec3 weights;    ///< of the corners at that point [-]
+    Vec3 weights;    ///< weights of the corners at that point [-]
 };
 inline constexpr double kNearestError = 0.1;
 
@@ -28,8 +28,8 @@ Nearest nearestTo(const Shape& solid, std::span<const Vec3> corners, double enou
 
 /// How far an element may go without coming nearer to the solid than `separation` [cm].
 struct SafePart {
-    double part;   ///< of its way [0..1]
-    Vec3 weights;  ///< of the corners at the point that would come too near, if part < 1 [-]
+    double part;   ///< part of its way that is safe [0..1]
+    Vec3 weights;  ///< weights of the corners at the point that would come too near, if part < 1 [-]
 };
 /// Whatever the solid's shape and the length of the way: bounds of the distance over all that the element sweeps in a part of the
 /// way, which is halved where they do not suffice.

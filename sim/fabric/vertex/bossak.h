@@ -51,7 +51,7 @@ inline Rates ratesOf(const Vertex& at, const Vec3& move, const Vec3& abrupt)
     return {velocity, 0.5 * (at.force + lasting), (0.25 * (at.force + 3.0 * lasting) + abrupt) / at.mass};
 }
 
-/// The same of a twist angle, on which nothing acts but elasticity: its rate at the end, and the mean torque.
+/// Rate of a twist angle at the end of the step, and mean torque on it: nothing acts on it but elasticity.
 struct TwistRates {
     double rate, torque;  ///< [1/s, dyn cm]
 };

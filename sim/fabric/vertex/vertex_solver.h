@@ -24,15 +24,15 @@ namespace sim {
 /// vertices). Nothing ever crosses: every move that is made was checked pair by pair along its straight path, and against the solids as they move.
 class VertexSolver final : public FabricIntegrator {
  public:
-    /// @param cohesion  of wet fabric; none without
+    /// @param cohesion  liquid bridges of wet fabric; null: none
     VertexSolver(const Fabric& fabric, const FabricSettings& settings, std::span<const ObstacleSettings> obstacles,
                  std::optional<Cohesion> cohesion = std::nullopt);
 
-    /// A step that could not be taken is redone as two halves, and so on; each then takes its part of the loads, which are on vertices.
+    /// A rejected step is split recursively; each substep gets its share of the loads, which are on vertices.
     FabricReport advance(double t, double h, const Vec3& gravity, FabricState& state, StageClock& clock, const FabricLoads& loads) override;
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override;
     double deepestInObstacles(const FabricState& state) const override { return obstacles_.deepest(fabric_, state.x); }
-    /// Those of the last Newton iteration.
+    /// Active contacts of the last Newton iteration.
     const ActiveContacts* contacts() const override { return contacts_; }
     double leastDistance() const;
 
@@ -46,19 +46,19 @@ class VertexSolver final : public FabricIntegrator {
     struct Newton {
         int count = 0;
         double lastMove = 0.0;             ///< rms [radii]
-        double wanted = 0.0, taken = 0.0;  ///< moves squared, and what the limiter left of them, by mass [g cm^2]
-        double gain = 0.0;                 ///< where it ended [-]
+        double wanted = 0.0, taken = 0.0;  ///< mass-weighted squared norms of the Newton step and of its accepted part [g cm^2]
+        double gain = 0.0;                 ///< spurious energy gain relative to the kinetic energy, after the last iteration [-]
         bool hasConverged = false, isNear = false, isQuiet = false;
     };
 
     /// A step or a part of one, and what it works on.
     struct Part {
-        double t, h;  ///< it leads from t to t + h [s]
+        double t, h;  ///< start and length [s]
         int level;    ///< how often the step was halved for it
         FabricState& state;
         FabricReport& report;
         StageClock& clock;
-        /// Its half that begins at a time.
+        /// Half of this part, from a time on.
         Part half(double from) const { return {from, 0.5 * h, level + 1, state, report, clock}; }
     };
     /// One attempt at a part; false if it should be redone in halves.
@@ -93,7 +93,7 @@ class VertexSolver final : public FabricIntegrator {
     struct ActingContact {
         std::array<int, 4> vertices;
         std::array<Vec3, 4> force;  ///< [dyn]
-        Vec3 velocity;              ///< of a solid's surface there; 0 between fabric [cm/s]
+        Vec3 velocity;              ///< velocity of a solid's surface there; 0 between fabric [cm/s]
         double abrupt = 0.0;        ///< abruptShare [-]
     };
     void findContactForces(double h, std::vector<Vec3>& sum);
@@ -103,7 +103,7 @@ class VertexSolver final : public FabricIntegrator {
     void findMeanRates(double h, FabricState& state) const;
     void findSecondOrderRates(double h, FabricState& state);
     void storeContacts(double h, FabricState& state);
-    /// That by which an impulse from outside works [cm/s].
+    /// Velocity by which an impulse from outside works [cm/s].
     Vec3 workingVelocity(std::size_t v, const FabricState& state) const
     {
         return isSecondOrder_ ? Vec3(0.5 * (start_.v[v] + state.v[v])) : state.v[v];
@@ -117,11 +117,11 @@ class VertexSolver final : public FabricIntegrator {
     double allowedEnergy(double h, const FabricState& state);
     std::optional<EnergyChanges> dissipateGain(double h, FabricState& state);
     void removeSpuriousGain(const Part& part);
-    /// What an attempt did.
+    /// Displacement of a substep: vertices, rigid drift of groups, twist.
     struct Way {
-        std::vector<Vec3> moves;    ///< of each vertex [cm]
-        std::vector<Vec3> drift;    ///< of each piece: that of its group, where nothing holds it, else 0 [cm]
-        std::vector<double> turns;  ///< of each yarn edge [rad]
+        std::vector<Vec3> moves;    ///< displacement of each vertex [cm]
+        std::vector<Vec3> drift;    ///< displacement of each piece's group, where nothing holds it, else 0 [cm]
+        std::vector<double> turns;  ///< twist of each yarn edge [rad]
     };
     void goPart(const Part& part, const Way& way, double share);
     void findGroups(FabricGroups& groups) const;
@@ -157,12 +157,12 @@ class VertexSolver final : public FabricIntegrator {
     FabricObstacles obstacles_;
     SolidLimiter solidLimiter_;
     FabricGroups groups_, attemptGroups_;  ///< groups of pieces in the step under way, and in its last attempt alone
-    std::vector<Vec3> momentum_;           ///< of each piece, at the start of the step [g cm/s]
-    std::vector<Vec3> missing_;            ///< of each group, at the end of the step: momentum [g cm/s]; integrator second_order, then: force [dyn]
+    std::vector<Vec3> momentum_;           ///< momentum of each piece at the start of the step [g cm/s]
+    std::vector<Vec3> missing_;            ///< momentum that each group lacks at the end of the step [g cm/s]; in keepForces: force [dyn]
     std::vector<Vec3> correction_;         ///< velocity that makes up for missing_, of each group [cm/s]
-    std::vector<Vec3> groupInertia_;       ///< of each group [g]
-    std::vector<Vec3> restReference_;      ///< of each yarn edge
-    std::vector<int> nearestPin_;          ///< of each vertex (nearestPins)
+    std::vector<Vec3> groupInertia_;       ///< mass of each group, with drag [g]
+    std::vector<Vec3> restReference_;      ///< reference direction of each yarn edge at rest
+    std::vector<int> nearestPin_;          ///< nearestPins of each vertex
 
     mutable ElasticEnergies elastic_;
     const ActiveContacts* contacts_ = nullptr;       ///< contacts of fabric with fabric in the last Newton iteration
@@ -170,30 +170,30 @@ class VertexSolver final : public FabricIntegrator {
     LimitReport limits_;                             ///< limits of contact between fabric in the attempt under way
     SolidLimitReport solidLimits_;                   ///< limits of contact with solids in the attempt under way
     bool solidLimiterActed_ = false;                 ///< solids have changed the last move
-    std::vector<Vec3> limitedMove_, unlimitedMove_;  ///< of each vertex, where forces are wanted: the move after solids changed it, and before [cm]
+    std::vector<Vec3> limitedMove_, unlimitedMove_;  ///< move of each vertex after solids changed it, and before, where forces are wanted [cm]
     std::vector<Vec3> wholeMove_;                    ///< move_ of the whole step, while it is made in halves [cm]
-    const LiquidLoads* loads_ = nullptr;             ///< of the step under way
-    double wholeStep_ = 0.0;                         ///< its length [s]
-    double placeRounding_ = 0.0;                     ///< by which places of the step under way are rounded [cm]
+    const LiquidLoads* loads_ = nullptr;             ///< loads of the step under way
+    double wholeStep_ = 0.0;                         ///< length of the step under way [s]
+    double placeRounding_ = 0.0;                     ///< rounding of positions in the step under way [cm]
     double referenceAcceleration_ = 0.0;             ///< referenceAcceleration of the step under way [cm/s^2]
-    FabricState start_;                              ///< of the attempt under way, to go back to
+    FabricState start_;                              ///< state at the start of the attempt, to go back to
     double startTime_ = 0.0;                         ///< time at the start of the attempt [s]
     FabricEnergies startEnergies_;                   ///< energies at the start of the attempt
     double undetectedAtStart_ = 0.0;                 ///< energy of contacts at the start that the step before has not detected [erg]
-    bool startIsChecked_ = false;                    ///< that energy is known
-    bool solidsMove_ = false;                        ///< those near the fabric, in the attempt
-    bool isDriven_ = false;                          ///< by solids, or pins that move in the attempt under way
-    bool hasMovedSinceDetection_ = false;            ///< along system_'s last move
-    double springStep_ = 0.0;                        ///< of the attempt (springStepFor) [s]
-    std::vector<double> mass_;                       ///< of each vertex, with what it has absorbed [g]
-    std::vector<Vec3> inertia_;                      ///< of each vertex (NewtonPoint) [g]
-    std::vector<Vec3> free_, move_;                  ///< of each vertex [cm]
-    std::vector<Vec3> expected_;                     ///< of each vertex: its move if forces act on as they did [cm]
-    std::vector<double> freeAngle_;                  ///< of each yarn edge [rad]
-    std::vector<Vec3> abrupt_;                       ///< of each vertex, integrator second_order: F of contact and the limiter (bossak.h) [dyn]
+    bool startIsChecked_ = false;                    ///< whether undetectedAtStart_ is known
+    bool solidsMove_ = false;                        ///< whether solids near the fabric move in the attempt
+    bool isDriven_ = false;                          ///< whether solids or pins that move drive the fabric in the attempt under way
+    bool hasMovedSinceDetection_ = false;            ///< whether the fabric has moved along system_'s last move
+    double springStep_ = 0.0;                        ///< springStepFor of the attempt [s]
+    std::vector<double> mass_;                       ///< mass of each vertex with what it has absorbed [g]
+    std::vector<Vec3> inertia_;                      ///< inertia of each vertex (NewtonPoint) [g]
+    std::vector<Vec3> free_, move_;                  ///< move of each vertex without forces, and the present one [cm]
+    std::vector<Vec3> expected_;                     ///< move of each vertex if forces act on as they did [cm]
+    std::vector<double> freeAngle_;                  ///< twist of each yarn edge without forces [rad]
+    std::vector<Vec3> abrupt_;                       ///< F of contact and the limiter on each vertex (bossak.h), integrator second_order [dyn]
     std::vector<Vec3> pinForce_;                     ///< the fabric's own on each pinned vertex, once it is known at the end [dyn]
-    std::vector<ActingContact> acting_;              ///< at the end of Newton's last move, integrator second_order
-    Vec3 gravity_ = Vec3::Zero();                    ///< of the step under way [cm/s^2]
+    std::vector<ActingContact> acting_;              ///< contacts at the end of Newton's last move, integrator second_order
+    Vec3 gravity_ = Vec3::Zero();                    ///< gravity of the step under way [cm/s^2]
     double made_ = 0.0;                              ///< energy that the attempt has beyond what it may have; negative: what it lost [erg]
     double totalMass_ = 0.0;                         ///< [g]
     double meanRadius_ = 0.0;                        ///< weighted by mass [cm]

@@ -17,11 +17,11 @@ namespace sim {
 /// What a Newton iteration looks at: the fabric's state and where it would go without forces.
 struct NewtonPoint {
     const FabricState& state;
-    std::span<const Vec3> freePositions;  ///< of each vertex [cm]
-    std::span<const double> freeAngles;   ///< of each yarn edge [rad]
-    std::span<const Vec3> inertia;        ///< of each vertex by components: mass, and drag of liquid times the step [g]
+    std::span<const Vec3> freePositions;  ///< position of each vertex without forces [cm]
+    std::span<const double> freeAngles;   ///< twist of each yarn edge without forces [rad]
+    std::span<const Vec3> inertia;        ///< mass of each vertex, and drag of liquid times the step, by components [g]
     double h;                             ///< length of the step [s]
-    double twistInertia = 1.0;            ///< that of twist angles in the step, relative to their own [-]
+    double twistInertia = 1.0;            ///< inertia of twist angles in the step, relative to their own [-]
 };
 
 /// When a component is solved for well enough: √(rᵀz / its mass), the rms error of its speeds, below `share` of what it was at first, 0.3 of
@@ -56,13 +56,13 @@ class VertexSystem {
 
     /// Gradient and matrix at a point, with its factors.
     void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
-    /// The same after a solve that met an indefinite component, there without the part of the twist that can be: strands are factored one by
+    /// Assembles anew after a solve that met an indefinite component, there without the part of the twist that can be: strands are factored one by
     /// one, without what they share, and together may be indefinite where each is not.
     void assembleDefinite(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     /// Newton's move. `isFirst`: in the step's first iteration.
     LinearReport solve(const LinearTolerance& tolerance, bool isFirst, int maxIterations);
 
-    Vec3 move(int vertex) const;                                                  ///< of the last solve [cm]
+    Vec3 move(int vertex) const;                                                  ///< move of the last solve [cm]
     double turn(int edge) const { return solution_[unknowns_.twistSlot[edge]]; }  ///< [rad]
     const AlignedArray<double>& gradient() const { return gradient_; }
     /// What would be the gradient of the held unknowns at the last assembly, if they were not: 3 numbers of each pin [dyn], then one of each
@@ -75,7 +75,7 @@ class VertexSystem {
     /// A vertex's rows in a strand that does not own it: they are emptied, and what they held acts through this.
     struct Link {
         int vertex, strandRow, lane;
-        std::array<int, 16> slot;  ///< of the unknowns that its rows were coupled to; −1 for none
+        std::array<int, 16> slot;  ///< slots of the unknowns that its rows were coupled to; −1 for none
         std::array<std::array<double, 16>, 3> coupling;
     };
 
@@ -83,21 +83,21 @@ class VertexSystem {
 
     /// Conjugate gradients of one component.
     struct Component {
-        double mass = 0.0;          ///< of what is not pinned, with drag [g]
+        double mass = 0.0;          ///< mass of what is not pinned, with drag [g]
         double energy = 0.0;        ///< rᵀz [erg]
         double next = 0.0;          ///< rᵀz after the step that is being made [erg]
         double curvature = 0.0;     ///< pᵀA p [erg]
         double step = 0.0;          ///< along p [-]
-        double ratio = 0.0;         ///< of p in the next p [-]
+        double ratio = 0.0;         ///< share of p in the next p [-]
         double target = 0.0;        ///< rᵀz that is small enough, after an iteration [erg]
         double roundOff = 0.0;      ///< rᵀz that is small enough for none [erg]
-        bool isActive = true;       ///< it is still solved for
+        bool isActive = true;       ///< whether it is still solved for
         bool isIndefinite = false;  ///< a direction of negative curvature was met
     };
     /// Pieces that the lanes of a pack belong to; −1 for none.
     struct PieceLanes {
         std::array<int, kLanes> piece;
-        int common;  ///< that of all lanes that belong to one; −1 if there are several
+        int common;  ///< component of all lanes that belong to one; −1 if there are several
         void findCommon();
     };
 
@@ -149,8 +149,8 @@ class VertexSystem {
     StrandMatrix strands_;
     BlockMatrix cloth_;
     ClothPreconditioner clothFactor_;
-    std::vector<char> ownsDiagonal_;                   ///< of each row of cloth: it is on a strand; S has its diagonal block instead of K
-    std::vector<int> clothRow_;                        ///< of each vertex; −1 without cloth
+    std::vector<char> ownsDiagonal_;                   ///< whether each row of cloth is on a strand: S has its diagonal block instead of K
+    std::vector<int> clothRow_;                        ///< row of each vertex; −1 without cloth
     std::vector<Mat3> clothExtra_;                     ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
     mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
     std::vector<Link> links_;
@@ -172,7 +172,7 @@ class VertexSystem {
         /// The side that a direction lies in.
         int sideOfDirection(int direction) const { return firstSide == 2 && direction == 0 ? 0 : 1; }
         Mat3Columns turnJacobian(int k) const;
-        /// Of its matrix, Bᵀ H B, what a vertex has with itself, and with the other end of its edge, by columns. Levers are across the normal.
+        /// Blocks of its matrix, Bᵀ H B, of a vertex with itself and with the other end of its edge, by columns. Levers are across the normal.
         struct Blocks {
             Mat3Columns own, withOther;
         };
@@ -189,24 +189,24 @@ class VertexSystem {
 
     std::vector<PairBlock> pairs_;
     std::vector<int> incidenceBegin_, cursor_;
-    std::vector<Incidence> incidence_;  ///< of each vertex, in the order of the pairs
+    std::vector<Incidence> incidence_;  ///< incidences of each vertex, in the order of the pairs
     std::vector<UncoupledVertex> uncoupled_;
     AlignedArray<double> pairForce_;    ///< C p on each vertex of each pair, 4 numbers each
     AlignedArray<double> pOfVertex_;    ///< p of each vertex, 4 numbers each
     std::vector<int> heldSlots_;        ///< slots of the unknowns that are pinned
     std::vector<double> heldGradient_;  ///< gradient of the pinned unknowns before it is removed [dyn, dyn cm]
-    std::vector<int> freePieceOf_;      ///< of each vertex: its piece of cloth, if that hangs on no pin and no yarn; else −1
-    std::vector<Mat3> pieceStiffness_;  ///< of each of these pieces, moved as a whole [dyn/cm]
+    std::vector<int> freePieceOf_;      ///< each vertex's piece of cloth, if that hangs on no pin and no yarn; else −1
+    std::vector<Mat3> pieceStiffness_;  ///< stiffness of each of these pieces, moved as a whole [dyn/cm]
     std::vector<Vec3> pieceForce_;      ///< what is left of the forces on it [dyn]
 
     FabricComponents components_;
-    std::vector<Component> conjugate_;              ///< of each component
-    std::vector<double> pieceMass_, pieceAtFirst_;  ///< of each piece: not pinned, with drag [g]; rᵀz per mass in the step's first iteration [erg/g]
-    std::vector<PieceLanes> strandPieces_;          ///< of each group of strands
-    std::vector<PieceLanes> clothPieces_;           ///< of kLanes vertices each that are on cloth only
+    std::vector<Component> conjugate_;              ///< conjugate gradients of each component
+    std::vector<double> pieceMass_, pieceAtFirst_;  ///< mass of each piece, with drag, less pins [g]; rᵀz per mass in the first iteration [erg/g]
+    std::vector<PieceLanes> strandPieces_;          ///< pieces of each group of strands
+    std::vector<PieceLanes> clothPieces_;           ///< pieces of kLanes vertices each that are on cloth only
     std::vector<int> runOfRow_, runPiece_;          ///< runs of rows of cloth, of one piece and in one range that is worked on together
     std::vector<Pack> laneDot_;                     ///< dot products of each group of strands
-    std::vector<double> runDot_;                    ///< of each run
+    std::vector<double> runDot_;                    ///< dot product of each run
     AlignedArray<double> gradient_, solution_, residual_, z_, p_, sp_, q_;
 };
 
