@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/frames/frame_pipeline.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 #include "sim/fabric/contact/contact.h"
 #include "sim/forces.h"
 #include "sim/liquid/liquid_grid.h"
@@ -51,13 +51,13 @@ struct Panel {
 
 /// What the program is put together from.
 struct Backends {
-    std::function<SceneSetup(const SceneRequest&)> loadScene;                             ///< throws InputError
-    std::function<std::unique_ptr<SimulationHandle>(const SceneSetup&)> startSimulation;  ///< throws InputError
+    std::function<LoadedScene(const SceneRequest&)> loadScene;                             ///< throws InputError
+    std::function<std::unique_ptr<SimulationHandle>(const LoadedScene&)> startSimulation;  ///< throws InputError
     /// Starts a simulation from a state of that scene: what follows is what would have followed.
-    std::function<std::unique_ptr<SimulationHandle>(const SceneSetup&, const sim::State&)> resumeSimulation;
-    std::function<PlaceObstacles(const SceneSetup&)> meshObstacles;
+    std::function<std::unique_ptr<SimulationHandle>(const LoadedScene&, const sim::State&)> resumeSimulation;
+    std::function<PlaceObstacles(const LoadedScene&)> meshObstacles;
     /// Called on the thread that will draw. Panels of a comparison have no label, time and colour bar of their own.
-    std::function<DrawFrame(const SceneSetup&, bool asPanel)> startRenderer;
+    std::function<DrawFrame(const LoadedScene&, bool asPanel)> startRenderer;
     /// What draws, with its version, as a run tells it. Loads it.
     std::function<std::string()> drawnBy;
     /// Pictures of one time [s], one per variant, put together into one; always of the same size for the same panels.

@@ -17,17 +17,17 @@ namespace app {
 namespace {
 
 /// Sections that are read where they are needed: mistakes in them are told with all others.
-void requireReadable(const SceneSetup& setup)
+void requireReadable(const LoadedScene& setup)
 {
     readValidation(setup);
     readPrecision(setup);
     readProbes(setup);
 }
 
-SceneSetup loadScene(const SceneRequest& request)
+LoadedScene loadScene(const SceneRequest& request)
 {
     const sim::LoadOptions options = {.variant = request.variant, .set = request.sets};
-    SceneSetup setup;
+    LoadedScene setup;
     setup.request = request;
     setup.file = request.text ? sim::sceneFileFromText(*request.text, request.file, options) : sim::loadSceneFile(request.file, options);
     const sim::SceneFile& file = setup.file;
@@ -55,18 +55,19 @@ SceneSetup loadScene(const SceneRequest& request)
 
 Backends drenchBackends()
 {
-    return {.loadScene = loadScene,
-            .startSimulation = [](const SceneSetup& setup) { return std::make_unique<RealSimulation>(setup.scene); },
-            .resumeSimulation = [](const SceneSetup& setup, const sim::State& state) { return std::make_unique<RealSimulation>(setup.scene, state); },
-            .meshObstacles = [](const SceneSetup& setup) { return meshObstacles(setup.scene); },
-            .startRenderer = startOffscreenRenderer,
-            .drawnBy = offscreenRendererName,
-            .putSideBySide = putSideBySide,
-            .writePng = writeRgbPng,
+    return {
+        .loadScene = loadScene,
+        .startSimulation = [](const LoadedScene& setup) { return std::make_unique<RealSimulation>(setup.scene); },
+        .resumeSimulation = [](const LoadedScene& setup, const sim::State& state) { return std::make_unique<RealSimulation>(setup.scene, state); },
+        .meshObstacles = [](const LoadedScene& setup) { return meshObstacles(setup.scene); },
+        .startRenderer = startOffscreenRenderer,
+        .drawnBy = offscreenRendererName,
+        .putSideBySide = putSideBySide,
+        .writePng = writeRgbPng,
 #ifdef DRENCH_WINDOWS
-            .view = view};
+        .view = view};
 #else
-            .view = nullptr};
+        .view = nullptr};
 #endif
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -12,9 +12,9 @@ EnergyBudget::EnergyBudget(const State& state, const Settings& settings, const W
 {
     if (!work.booksEnergy) return;
     changes_.emplace();
-    last_ = look();
+    last_ = currentEnergy();
     if (work.correctsStrain) strain_ = strainEnergy(state.liquid, state.grid);
-    lag_ = potentialLag(state_, settings_);
+    lag_ = staggeredPotentialOffset(state_, settings_);
 }
 
 double EnergyBudget::particlesKinetic() const
@@ -28,7 +28,7 @@ double EnergyBudget::facesKinetic() const
     return parallelSum(mass_.size(), [&](std::size_t i) { return 0.5 * mass_.block(0)[i] * std::pow(work_.grid.faces.velocity.block(0)[i], 2); });
 }
 
-EnergyBudget::Energy EnergyBudget::look() const
+EnergyBudget::Energy EnergyBudget::currentEnergy() const
 {
     Energy e;
     e.liquidKinetic = isOnFaces_ ? facesKinetic() : particlesKinetic();
@@ -100,7 +100,7 @@ double EnergyBudget::workOfSurfaceTension() const
 void EnergyBudget::after(EnergyChange change)
 {
     if (!changes_) return;
-    const Energy now = look();
+    const Energy now = currentEnergy();
     book(change, now.sum() - last_.sum());
     last_ = now;
 }
@@ -108,7 +108,7 @@ void EnergyBudget::after(EnergyChange change)
 void EnergyBudget::taken(EnergyChange change)
 {
     if (!changes_) return;
-    const Energy now = look();
+    const Energy now = currentEnergy();
     const double lifted = std::max(0.0, now.potential - last_.potential - settings_.gravity.dot(now.fabricMoment - last_.fabricMoment));
     book(EnergyChange::Suction, lifted);
     book(change, -lifted);
@@ -210,18 +210,18 @@ double EnergyBudget::workOnFollowers(const BlockArray<double, 3>& read, const Ve
 void EnergyBudget::walls(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio)
 {
     if (!changes_) return;
-    const WallFaces::Led& led = work_.wallFaces.led;
-    const double work = workOnFollowers(read, fall, flipRatio) + (1.0 - flipRatio) * led.work, lifted = -fall.dot(led.heavy);
+    const WallFaces::WallDriven& driven = work_.wallFaces.driven;
+    const double work = workOnFollowers(read, fall, flipRatio) + (1.0 - flipRatio) * driven.work, lifted = -fall.dot(driven.heavy);
     book(EnergyChange::Solids, work + lifted);
     book(EnergyChange::Walls, -work);
     book(EnergyChange::Gravity, -lifted);  // what the walls hold of the liquid's weight does not act on the faces
     after(EnergyChange::Walls);
 }
 
-void EnergyBudget::solidsGave()
+void EnergyBudget::bookSolidsWork()
 {
     if (!changes_ || !work_.obstacles.anyMoving()) return;
-    const MomentumBudget::Borne& borne = work_.momentum.borneOfLiquid();
+    const MomentumBudget::ImposedMomentum& borne = work_.momentum.imposedMomentum();
     double work = -borne.bySolid.dot(work_.obstacles.velocity(borne.place));
     for (int n = 0; n < work_.obstacles.count(); ++n) work += work_.onSolids.on(n).work;
     const double more = work - (*changes_)[EnergyChange::Solids];
@@ -232,7 +232,7 @@ void EnergyBudget::solidsGave()
 void EnergyBudget::solved(const std::optional<Mixture::SeparatedPhases>& separated, double dt, const Vec3& gravity, const FabricReport& fabric)
 {
     if (!changes_) return;
-    const Energy now = look();
+    const Energy now = currentEnergy();
     book(EnergyChange::Gravity, (gravity - settings_.gravity).dot(now.fabricMoment - last_.fabricMoment));
     double alone = now.liquidKinetic - last_.liquidKinetic;  // of faces that only liquid is on
     if (fabric.energyChanges) *changes_ += *fabric.energyChanges;
@@ -264,11 +264,11 @@ void EnergyBudget::reflected(double dt)
     book(EnergyChange::ToParticles, -(solids + sources));
 }
 
-void EnergyBudget::toParticles(double dt, const PushedOut& pushed)
+void EnergyBudget::toParticles(double dt, const PushOutTotals& pushed)
 {
     if (!changes_) return;
     isOnFaces_ = isSorted_ = false;
-    const Energy now = look();
+    const Energy now = currentEnergy();
     const LiquidParticles& liquid = state_.liquid;
     const double fallen = -dt * parallelSum(liquid.count, [&](std::size_t p) { return liquid.mass[p] * settings_.gravity.dot(liquid.velocity(p)); });
     const double lifted = -settings_.gravity.dot(pushed.carried);
@@ -282,7 +282,7 @@ void EnergyBudget::toParticles(double dt, const PushedOut& pushed)
 void EnergyBudget::finished()
 {
     if (!changes_) return;
-    book(EnergyChange::Gravity, potentialLag(state_, settings_) - lag_);
+    book(EnergyChange::Gravity, staggeredPotentialOffset(state_, settings_) - lag_);
     book(EnergyChange::Strain, strain_ - report_.energies.strain);
 }
 

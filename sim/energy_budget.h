@@ -37,7 +37,7 @@ class EnergyBudget {
     /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids and sources.
     void reflected(double dt);
     /// Back on the particles, which moved for dt [s].
-    void toParticles(double dt, const PushedOut& pushed);
+    void toParticles(double dt, const PushOutTotals& pushed);
     /// Books the energy difference since the previous call under this change.
     void after(EnergyChange change);
     /// Fabric has taken liquid up, or moved some within itself: where pores lift it that is suction's work; velocities mix.
@@ -52,7 +52,7 @@ class EnergyBudget {
     void walls(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio);
     /// What solids got of the liquid on its faces is known, and so what those that move did to it: impulse times velocity on each face. That is exact
     /// where the parts booked before, by pressure, viscosity and walls, are not; the pressure's row has what they lack.
-    void solidsGave();
+    void bookSolidsWork();
     /// The step is over.
     void finished();
 
@@ -62,7 +62,7 @@ class EnergyBudget {
         Vec3 fabricMoment = Vec3::Zero();                           ///< Σ m x of the fabric [g cm]
         double sum() const { return liquidKinetic + potential + fabric; }
     };
-    Energy look() const;
+    Energy currentEnergy() const;
     Vec3 fabricMoment() const;
     double particlesKinetic() const;
     double facesKinetic() const;
@@ -89,7 +89,7 @@ class EnergyBudget {
     double strained_ = 0.0;   ///< what the strain correction gave on faces [erg]
     double strain_ = 0.0;     ///< energy of stretching at the beginning of the step [erg]
     double pressedIn_ = 0.0;  ///< work that the projection did for sources [erg]
-    double lag_ = 0.0;        ///< potentialLag at the beginning of the step [erg]
+    double lag_ = 0.0;        ///< staggeredPotentialOffset at the beginning of the step [erg]
 };
 
 }  // namespace sim

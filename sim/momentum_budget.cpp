@@ -197,10 +197,10 @@ void MomentumBudget::liquidMoved(const Vec3& now, const Vec3& weight, const Liqu
         if (solid.pressed > most.pressed) most = solid, bearer = static_cast<int>(n);
     }
     const Vec3 missing = now - liquid_;
-    borneOfLiquid_ = {};
+    imposedMomentum_ = {};
     if (bearer >= 0) {
-        borneOfLiquid_ = {-missing, most.moment / most.pressed};
-        forces_.obstacles[bearer].liquid += Impulse::at(borneOfLiquid_.place, -missing);
+        imposedMomentum_ = {-missing, most.moment / most.pressed};
+        forces_.obstacles[bearer].liquid += Impulse::at(imposedMomentum_.place, -missing);
         forces_.balance.borne -= missing;
     } else forces_.balance.unresolved += missing;
     liquid_ = now;

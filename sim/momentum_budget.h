@@ -40,10 +40,10 @@ class MomentumBudget {
     /// @param weight  what weight gave to the faces [g cm/s]
     void liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed);
     /// Unexplained momentum assigned to a solid, and its point of application.
-    struct Borne {
+    struct ImposedMomentum {
         Vec3 bySolid = Vec3::Zero(), place = Vec3::Zero();  ///< [g cm/s], [cm]
     };
-    const Borne& borneOfLiquid() const { return borneOfLiquid_; }
+    const ImposedMomentum& imposedMomentum() const { return imposedMomentum_; }
     void finish();
 
  private:
@@ -67,7 +67,7 @@ class MomentumBudget {
     Forces forces_;
     Vec3 liquid_ = Vec3::Zero();            ///< momentum that the liquid should have by what has been booked; until it is on the faces the
                                             ///< change of it since the start of the step [g cm/s]
-    Borne borneOfLiquid_;                   ///< what no force explains of the liquid's in the last step
+    ImposedMomentum imposedMomentum_;       ///< what no force explains of the liquid's in the last step
     Vec3 leftSoFar_ = Vec3::Zero();         ///< Ledger::leftMomentum at the start of the step [g cm/s]
     std::vector<Piece> pieces_;             ///< fabrics as they were when they were last looked at
     std::vector<Impulse> before_;           ///< momenta of the fabrics before that

@@ -85,7 +85,7 @@ Simulation::Simulation(Scene scene, State state) : scene_(std::move(scene)), fab
 {
     SIM_CHECK(state_.grid.dx == scene_.settings.cell && state_.emittedVolume.size() == scene_.sources.size());
     SIM_CHECK(state_.fabric.x.size() == fabric_.vertexCount());
-    if (const SettingsChange* last = lastChange(0, state_.step)) takeOver(*last);
+    if (const SettingsChange* last = lastChange(0, state_.step)) applySettings(*last);
     SIM_CHECK(state_.liquid.modeCount == storedModes(scene_.settings.transfer.modeCount()));
     changedUpTo_ = state_.step;
     prepareWorkspace();
@@ -100,7 +100,7 @@ const SettingsChange* Simulation::lastChange(std::int64_t after, std::int64_t up
     return last;
 }
 
-void Simulation::takeOver(const SettingsChange& change)
+void Simulation::applySettings(const SettingsChange& change)
 {
     scene_.settings = change.settings;
     scene_.materials = change.materials;
@@ -118,7 +118,7 @@ void Simulation::applyChanges()
     if (!change) return;
     const bool booksEnergy = work_.booksEnergy;
     work_ = Workspace();
-    takeOver(*change);
+    applySettings(*change);
     state_.liquid.changeModes(storedModes(scene_.settings.transfer.modeCount()));
     prepareWorkspace();
     if (booksEnergy) bookEnergy();
@@ -189,7 +189,7 @@ void Simulation::bookEnergy()
 Energies Simulation::energies() const
 {
     Energies energies{liquidEnergies(state_.liquid, state_.grid, scene_.settings.gravity), {}};
-    energies.potential += potentialLag(state_, scene_.settings);
+    energies.potential += staggeredPotentialOffset(state_, scene_.settings);
     if (work_.correctsStrain) energies.storeStrain(strainEnergy(state_.liquid, state_.grid));
     if (work_.fabric) energies.fabric = work_.fabric->energies(state_.fabric, scene_.settings.gravity);
     return energies;
@@ -214,7 +214,7 @@ RunError Simulation::failure(std::string_view stage, const std::string& why) con
     return RunError(fmt::format("scene {}, step {}, t = {:.6g} s, stage {}: {}", scene_.name, state_.step + 1, state_.time, stage, why));
 }
 
-RunError Simulation::failure(const Fault& fault, int halvings, double dt) const
+RunError Simulation::failure(const StepFailure& fault, int halvings, double dt) const
 {
     std::string why = fault.what;
     if (halvings > 0) why += fmt::format("; {} halvings of the step to {:.3g} s did not help", halvings, dt);
@@ -235,12 +235,12 @@ double Simulation::chooseLength(double until) const
 }
 
 /// One step of dt [s], and what is wrong with it.
-std::optional<Fault> Simulation::attempt(double dt, StepReport& report)
+std::optional<StepFailure> Simulation::tryStep(double dt, StepReport& report)
 {
     try {
         report = sim::step(state_, scene_, work_, dt);
     } catch (const RunError& error) {
-        return Fault{work_.failedStage, error.what(), ""};
+        return StepFailure{work_.failedStage, error.what(), ""};
     }
     if (auto fault = check_->violatedInvariant(state_, report)) return fault;
     return work_.backup ? check_->rejectionReason(state_, report) : std::nullopt;
@@ -270,7 +270,7 @@ StepReport Simulation::step(double until)
         keeping += seconds(kept - begin);
 
         StepReport report;
-        const std::optional<Fault> fault = attempt(dt, report);
+        const std::optional<StepFailure> fault = tryStep(dt, report);
         if (!fault) {
             if (dt == left) state_.time = until;
             report.cfl = cfl;

@@ -49,7 +49,7 @@ class Simulation {
 
  private:
     const SettingsChange* lastChange(std::int64_t after, std::int64_t upTo) const;
-    void takeOver(const SettingsChange& change);
+    void applySettings(const SettingsChange& change);
     void applyChanges();
     void prepareWorkspace();
     std::unique_ptr<FabricIntegrator> makeIntegrator() const;
@@ -57,10 +57,10 @@ class Simulation {
     void begin();
     double chooseLength(double until) const;
     double lengthOfStep(double left, double largest) const;
-    std::optional<Fault> attempt(double dt, StepReport& report);
+    std::optional<StepFailure> tryStep(double dt, StepReport& report);
     void accept(const StepReport& report);
     RunError failure(std::string_view stage, const std::string& why) const;
-    RunError failure(const Fault& fault, int halvings, double dt) const;
+    RunError failure(const StepFailure& fault, int halvings, double dt) const;
 
     Scene scene_;
     Fabric fabric_;

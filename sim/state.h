@@ -23,7 +23,7 @@ struct SourceMemory {
 };
 
 /// What steps that were taken tell those to come: how long they may be, and what is to be expected of them.
-struct StepMemory {
+struct StepHistory {
     double maxSpeed = 0.0;                                     ///< largest speed of the liquid, as the last step found it [cm/s]
     double longest = std::numeric_limits<double>::infinity();  ///< largest step allowed after a rejected one [s]
     /// Energies of motion and elasticity at the ends of the last steps [erg]: what contact took in them it may give back.
@@ -36,7 +36,7 @@ struct StepMemory {
 };
 
 /// All that evolves but the liquid's particles, which are most of it.
-struct StateBesideLiquid {
+struct NonParticleState {
     double time = 0.0;                    ///< [s]
     std::int64_t step = 0;                ///< steps taken
     double lastDt = 0.0;                  ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
@@ -50,11 +50,11 @@ struct StateBesideLiquid {
     double unrelaxed = 0.0;             ///< time since the particles were last relaxed [s]
     double uncorrected = 0.0;           ///< time since the liquid's volume was last corrected [s]
     Ledger ledger;
-    StepMemory memory;
+    StepHistory memory;
 };
 
 /// Everything that evolves: a checkpoint is exactly this. What can be computed from it anew lives in Workspace (workspace.h).
-struct State : StateBesideLiquid {
+struct State : NonParticleState {
     LiquidParticles liquid;
 };
 

@@ -54,7 +54,7 @@ void StateBackup::keepModes(LiquidParticles& particles, bool areRead)
 
 void StateBackup::restore(State& state)
 {
-    static_cast<StateBesideLiquid&>(state) = rest_;
+    static_cast<NonParticleState&>(state) = rest_;
     if (modes_) {
         std::swap(state.liquid.modes, modes_->values);
         std::swap(state.liquid.modeStride, modes_->stride);

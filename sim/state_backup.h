@@ -27,7 +27,7 @@ class StateBackup {
         std::size_t stride = 0;
     };
 
-    StateBesideLiquid rest_;
+    NonParticleState rest_;
     LiquidParticles liquid_;      ///< all of it but the modes
     std::optional<Modes> modes_;  ///< modes that were put aside in this step
     Modes room_;                  ///< where there are none: memory for them

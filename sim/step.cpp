@@ -50,7 +50,7 @@ void finish(StepContext& c)
     ++state.step;
     state.lastDt = c.dt;
     state.reflected = report.isReflected = c.plan.reflects;
-    report.energies.potential += potentialLag(state, c.settings());
+    report.energies.potential += staggeredPotentialOffset(state, c.settings());
     c.energy.finished();
 }
 
@@ -79,9 +79,9 @@ void runStages(StepContext& c)
     applySurfaceTension(c);
     project(c);
     correctStrain(c);
-    pressIn(c);
+    bookInflowWork(c);
     correctVolume(c);
-    keepMomentum(c);
+    conserveMomentum(c);
 
     advanceFabric(c);
     separateMixture(c);

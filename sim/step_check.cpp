@@ -69,14 +69,14 @@ StepCheck::StepCheck(const Scene& scene, const Fabric& fabric)
     if (!fabric.radius.empty()) radius_ = std::ranges::max(fabric.radius);
 }
 
-void StepCheck::start(const Energies& energies, StepMemory& memory)
+void StepCheck::start(const Energies& energies, StepHistory& memory)
 {
     memory.energies.fill(activeEnergy(energies));
     memory.internal = energies.fabric.internal();
-    memory.deepest = StepMemory().deepest;
+    memory.deepest = StepHistory().deepest;
 }
 
-void StepCheck::accept(const StepReport& report, StepMemory& memory)
+void StepCheck::accept(const StepReport& report, StepHistory& memory)
 {
     memory.energies[memory.next] = activeEnergy(report.energies);
     memory.next = (memory.next + 1) % static_cast<int>(memory.energies.size());
@@ -120,46 +120,46 @@ std::string StepCheck::remedyFor(bool isFabrics) const
     return settings.transfer.xi != XiMap::Translation ? "transfer.xi: translation" : "fewer transfer.modes, or a smaller time.cfl";
 }
 
-std::optional<Fault> StepCheck::violatedInvariant(const State& state, const StepReport& report) const
+std::optional<StepFailure> StepCheck::violatedInvariant(const State& state, const StepReport& report) const
 {
     if (!report.failure.empty()) {
         const bool isFabrics = report.failedStage == Stage::FabricSolve;
-        return Fault{report.failedStage, fmt::format("{}: {}", report.failure, isFabrics ? fastestVertex(state) : fastestParticle(state)),
-                     remedyFor(isFabrics)};
+        return StepFailure{report.failedStage, fmt::format("{}: {}", report.failure, isFabrics ? fastestVertex(state) : fastestParticle(state)),
+                           remedyFor(isFabrics)};
     }
     const Ledger& ledger = state.ledger;
     const double missing = ledger.emittedMass - ledger.leftMass - report.liquidMass - report.absorbedMass;
     if (std::abs(missing) > kLostLiquid * ledger.emittedMass)
-        return Fault{Stage::Capture, fmt::format("{:.3g} g of {:.6g} g of liquid are not accounted for", missing, ledger.emittedMass),
-                     "nothing in the scene: this is a mistake of the program"};
+        return StepFailure{Stage::Capture, fmt::format("{:.3g} g of {:.6g} g of liquid are not accounted for", missing, ledger.emittedMass),
+                           "nothing in the scene: this is a mistake of the program"};
     return std::nullopt;
 }
 
-std::optional<Fault> StepCheck::rejectionReason(const State& state, const StepReport& report) const
+std::optional<StepFailure> StepCheck::rejectionReason(const State& state, const StepReport& report) const
 {
     if (auto fault = cflExceeded(state, report)) return fault;
     if (auto fault = penetrationTooDeep(state, report)) return fault;
     return energyGrowth(state, report);
 }
 
-std::optional<Fault> StepCheck::cflExceeded(const State& state, const StepReport& report) const
+std::optional<StepFailure> StepCheck::cflExceeded(const State& state, const StepReport& report) const
 {
     const TimeSettings& time = scene_.settings.time;
     const double cells = hasLiquid(state) ? report.dt * report.maxSpeed / scene_.settings.cell : 0.0;
     const double bound = kSurprise * std::min(time.cfl, time.maxCflLiquid);
     if (cells <= bound) return std::nullopt;
-    return Fault{Stage::GridToParticles,
-                 fmt::format("liquid crossed {:.3g} cells in the step, more than {:.3g}: {}", cells, bound, fastestParticle(state)),
-                 "slower sources and obstacles, or a larger time.cfl"};
+    return StepFailure{Stage::GridToParticles,
+                       fmt::format("liquid crossed {:.3g} cells in the step, more than {:.3g}: {}", cells, bound, fastestParticle(state)),
+                       "slower sources and obstacles, or a larger time.cfl"};
 }
 
 /// Fabric that is squeezed into an obstacle little by little gets there in short steps too; one that jumps there does not.
-std::optional<Fault> StepCheck::penetrationTooDeep(const State& state, const StepReport& report) const
+std::optional<StepFailure> StepCheck::penetrationTooDeep(const State& state, const StepReport& report) const
 {
     const double depth = report.fabric.deepest - radius_, bound = std::max(radius_, kDepth * scene_.settings.cell);
     if (!(depth > bound && report.fabric.deepest > std::max(state.memory.deepest, 0.0) + bound)) return std::nullopt;
-    return Fault{Stage::FabricContact, fmt::format("fabric got {:.3g} cm into an obstacle in one step, more than {:.3g}", depth, bound),
-                 "slower motions, or a smaller time.dt"};
+    return StepFailure{Stage::FabricContact, fmt::format("fabric got {:.3g} cm into an obstacle in one step, more than {:.3g}", depth, bound),
+                       "slower motions, or a smaller time.dt"};
 }
 
 /// Largest speed of pins, and of moving obstacles where there is anything for them to push [cm/s].
@@ -196,16 +196,16 @@ double StepCheck::energyAllowed(const State& state, const StepReport& report) co
            0.5 * mass * quiet * quiet;
 }
 
-std::optional<Fault> StepCheck::energyGrowth(const State& state, const StepReport& report) const
+std::optional<StepFailure> StepCheck::energyGrowth(const State& state, const StepReport& report) const
 {
     const double energy = activeEnergy(report.energies), allowed = energyAllowed(state, report);
     if (energy <= allowed) return std::nullopt;
     const Energies& e = report.energies;
     const bool isFabrics = e.fabric.kinetic + e.fabric.internal() > e.kinetic + e.modal;
-    return Fault{isFabrics ? Stage::FabricSolve : Stage::GridToParticles,
-                 fmt::format("energy of motion and elasticity came to {:.4g} erg, {:.3g} erg more than there was and was given: {}", energy,
-                             energy - allowed, isFabrics ? fastestVertex(state) : fastestParticle(state)),
-                 remedyFor(isFabrics)};
+    return StepFailure{isFabrics ? Stage::FabricSolve : Stage::GridToParticles,
+                       fmt::format("energy of motion and elasticity came to {:.4g} erg, {:.3g} erg more than there was and was given: {}", energy,
+                                   energy - allowed, isFabrics ? fastestVertex(state) : fastestParticle(state)),
+                       remedyFor(isFabrics)};
 }
 
 }  // namespace sim

@@ -10,7 +10,7 @@
 namespace sim {
 
 /// What is wrong with a step.
-struct Fault {
+struct StepFailure {
     Stage stage = Stage::GridToParticles;
     std::string what;    ///< the law that is broken, by how much, and by which particle or vertex
     std::string remedy;  ///< what would do
@@ -24,20 +24,20 @@ class StepCheck {
     StepCheck(const Scene& scene, const Fabric& fabric);
 
     /// Initialises the memory before the first step from the energies of the initial state.
-    static void start(const Energies& energies, StepMemory& memory);
+    static void start(const Energies& energies, StepHistory& memory);
     /// Updates the memory after a step that was accepted.
-    static void accept(const StepReport& report, StepMemory& memory);
+    static void accept(const StepReport& report, StepHistory& memory);
 
     /// What makes the step useless whatever follows: numbers that are not finite, liquid that is not accounted for.
-    std::optional<Fault> violatedInvariant(const State& state, const StepReport& report) const;
+    std::optional<StepFailure> violatedInvariant(const State& state, const StepReport& report) const;
 
     /// What a shorter step would have done better. `state` is that after the step.
-    std::optional<Fault> rejectionReason(const State& state, const StepReport& report) const;
+    std::optional<StepFailure> rejectionReason(const State& state, const StepReport& report) const;
 
  private:
-    std::optional<Fault> cflExceeded(const State& state, const StepReport& report) const;
-    std::optional<Fault> penetrationTooDeep(const State& state, const StepReport& report) const;
-    std::optional<Fault> energyGrowth(const State& state, const StepReport& report) const;
+    std::optional<StepFailure> cflExceeded(const State& state, const StepReport& report) const;
+    std::optional<StepFailure> penetrationTooDeep(const State& state, const StepReport& report) const;
+    std::optional<StepFailure> energyGrowth(const State& state, const StepReport& report) const;
     double drivingSpeed(const State& state, const StepReport& report) const;
     double energyAllowed(const State& state, const StepReport& report) const;
     std::string fastestParticle(const State& state) const;

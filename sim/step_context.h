@@ -10,12 +10,12 @@ namespace sim {
 
 /// What the stages of a step find out about it, for those that follow.
 struct StepPlan {
-    bool isWet = false;        ///< there is liquid
-    bool reflects = false;     ///< whether this is the first of two steps, whose velocities are reflected about the projected ones
-    bool meetsFabric = false;  ///< liquid is within reach of fabric
-    bool relaxes = false;      ///< particles are pushed apart
-    bool corrects = false;     ///< the liquid's volume is corrected
-    bool fabricIsWet = false;  ///< fabric holds liquid
+    bool isWet = false;           ///< there is liquid
+    bool reflects = false;        ///< whether this is the first of two steps, whose velocities are reflected about the projected ones
+    bool overlapsFabric = false;  ///< liquid is within reach of fabric
+    bool relaxes = false;         ///< particles are pushed apart
+    bool correctsVolume = false;  ///< the liquid's volume is corrected
+    bool fabricIsWet = false;     ///< fabric holds liquid
     // How far the liquid's cells and the system of its pressure have come, where there is liquid (liquid/cells.h, liquid/pressure.h).
     std::optional<SurfaceCells> surfaceCells;
     std::optional<SurfaceSteps> surfaceSteps;  ///< where surface tension acts
@@ -58,10 +58,10 @@ struct StepContext {
     double fallTime() const
     {
         const bool isFirst = state.lastDt == 0.0;
-        return settings().time.reflects() && (isFirst || !plan.meetsFabric) ? 0.5 * (state.lastDt + dt) : dt;
+        return settings().time.reflects() && (isFirst || !plan.overlapsFabric) ? 0.5 * (state.lastDt + dt) : dt;
     }
     /// Gravity on the fabric over dt: what near liquid does to it what gravity does to the liquid over fallTime [cm/s^2].
-    Vec3 gravityOnFabric() const { return plan.meetsFabric ? Vec3(settings().gravity * (fallTime() / dt)) : settings().gravity; }
+    Vec3 gravityOnFabric() const { return plan.overlapsFabric ? Vec3(settings().gravity * (fallTime() / dt)) : settings().gravity; }
 };
 
 }  // namespace sim

@@ -24,7 +24,7 @@ struct StepReport : StageTimes {
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
     int takenBack = 0;                             ///< attempts that turned out bad before this one, each longer than the next
     bool isReflected = false;                      ///< the first of two steps: particles hold velocities that the flow never has
-    Energies energies;                             ///< energies at the end of the step, of what the particles hold; see potentialLag
+    Energies energies;                             ///< energies at the end of the step, of what the particles hold; see staggeredPotentialOffset
     std::optional<EnergyChanges> energyChanges;    ///< empty unless energies are booked
     double liquidMass = 0.0;                       ///< mass of all particles at the end of the step [g]
     double absorbedMass = 0.0;                     ///< mass of liquid in the fabric at the end of the step [g]

@@ -35,7 +35,7 @@ bool mayReflect(const State& state, const TimeSettings& time, const Workspace& w
     return time.reflects() && hasLiquid(state) && !(work.coupling && reachesLiquid(state.grid, state.fabric));
 }
 
-double potentialLag(const State& state, const Settings& settings)
+double staggeredPotentialOffset(const State& state, const Settings& settings)
 {
     if (!settings.time.reflects() || state.reflected) return 0.0;
     return weightWork(state.liquid, settings.gravity, 0.5 * state.lastDt);

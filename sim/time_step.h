@@ -19,6 +19,6 @@ bool mayReflect(const State& state, const TimeSettings& time, const Workspace& w
 /// With the integrator reflected, particles hold the velocities that they had halfway through their last step. Energies are those of
 /// then: by this much the potential energy was above that of the present places [erg], 0 after a step that reflects. Taken at different
 /// times their sum would swing by dt/2 times the power of the weight.
-double potentialLag(const State& state, const Settings& settings);
+double staggeredPotentialOffset(const State& state, const Settings& settings);
 
 }  // namespace sim

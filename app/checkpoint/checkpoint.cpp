@@ -125,7 +125,7 @@ void visitOrigin(V& v, Origin& origin)
 
 }  // namespace
 
-std::string trajectoryHash(const SceneSetup& setup)
+std::string trajectoryHash(const LoadedScene& setup)
 {
     sim::Scene scene = setup.scene;
     scene.title.clear();

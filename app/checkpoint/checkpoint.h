@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/reports/run_report.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 #include "sim/state.h"
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct Checkpoint {
 
 /// Hash of what the states of a run depend on, and at which times it has frames: all of the scene but when it ends and
 /// how its pictures look. 16 hexadecimal digits.
-std::string trajectoryHash(const SceneSetup& setup);
+std::string trajectoryHash(const LoadedScene& setup);
 
 /// Write an HDF5 file with a checksum, whole or not at all. Throws std::runtime_error.
 void saveCheckpoint(const CheckpointOrigin& origin, const sim::State& state, const std::filesystem::path& file);

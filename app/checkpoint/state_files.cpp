@@ -26,7 +26,7 @@ fs::path stateFile(const fs::path& runFolder, StateKind kind, std::int64_t frame
 
 std::vector<std::int64_t> storedFrames(const fs::path& runFolder, StateKind kind) { return numbersIn(stateFolder(runFolder, kind), kHead, kTail); }
 
-StateWriter::StateWriter(fs::path runFolder, const SceneSetup& setup, CheckpointOrigin origin)
+StateWriter::StateWriter(fs::path runFolder, const LoadedScene& setup, CheckpointOrigin origin)
     : folder_(std::move(runFolder)), origin_(std::move(origin))
 {
     const OutputSettings& output = setup.pictures.output;

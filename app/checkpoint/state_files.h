@@ -24,7 +24,7 @@ std::vector<std::int64_t> storedFrames(const std::filesystem::path& runFolder, S
 class StateWriter {
  public:
     /// @param origin  of the run; frame, hash and logs are filled in for each state
-    StateWriter(std::filesystem::path runFolder, const SceneSetup& setup, CheckpointOrigin origin);
+    StateWriter(std::filesystem::path runFolder, const LoadedScene& setup, CheckpointOrigin origin);
 
     /// Is there to be a checkpoint of this frame?
     bool isDue(std::int64_t frame) const;

@@ -39,7 +39,7 @@ Tolerance readTolerance(const std::filesystem::path& file, bool isRun, const std
     const bool isSi = node.location.source && node.location.source->isSi;
     for (const std::string& set : sets) sim::apply(sim::parseOverride(set, isSi), node);
     Tolerance tolerance;
-    sim::SectionReader::read(&node, "tolerance", [&](auto& v) { describe(v, tolerance); });
+    sim::SectionReader::read(&node, "tolerance", [&](auto& v) { visitFields(v, tolerance); });
     return tolerance;
 }
 

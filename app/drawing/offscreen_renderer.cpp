@@ -45,7 +45,7 @@ std::string offscreenRendererName()
     return context->versionName() + ", " + context->rendererName();
 }
 
-DrawFrame startOffscreenRenderer(const SceneSetup& setup, bool asPanel)
+DrawFrame startOffscreenRenderer(const LoadedScene& setup, bool asPanel)
 {
     const render::Look look = lookOf(setup.pictures, setup.label, asPanel);
     return [drawer = std::make_shared<Drawer>(), look, scene = setup.scene.name, settings = setup.pictures.render.camera](FrameSnapshot& snapshot) {

@@ -7,7 +7,7 @@ namespace app {
 /// A renderer without a window, for the calling thread, that draws frames as the scene's file says.
 /// A camera that frames everything is placed by the first frame and stays.
 /// @param asPanel  without the label, time and colour bar that putSideBySide() puts around all panels of a comparison
-DrawFrame startOffscreenRenderer(const SceneSetup& setup, bool asPanel);
+DrawFrame startOffscreenRenderer(const LoadedScene& setup, bool asPanel);
 
 /// What it draws with: "3.3 (Core Profile) Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 256 bits)".
 std::string offscreenRendererName();

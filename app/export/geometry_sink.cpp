@@ -7,7 +7,7 @@
 
 namespace app {
 
-GeometrySink::GeometrySink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& runFolder, const std::string& provenance)
+GeometrySink::GeometrySink(const LoadedScene& setup, const Backends& backends, const std::filesystem::path& runFolder, const std::string& provenance)
     : density_(setup.scene.settings.liquid.density)
 {
     const OutputSettings& output = setup.pictures.output;

@@ -15,7 +15,7 @@ namespace app {
 class GeometrySink {
  public:
     /// @param provenance  of what it writes, see provenanceOf(); goes into a file beside the geometry
-    GeometrySink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& runFolder, const std::string& provenance);
+    GeometrySink(const LoadedScene& setup, const Backends& backends, const std::filesystem::path& runFolder, const std::string& provenance);
 
     /// @param fabric  what state.fabric is the state of
     void take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame);

@@ -32,7 +32,7 @@ SnapshotExtras extrasOf(const RenderSettings& settings)
             .surface = settings.liquidStyle == LiquidStyle::Surface};
 }
 
-void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, double density,
+void fillSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, double density,
                   const SnapshotExtras& extras, FrameSnapshot& snapshot)
 {
     const sim::LiquidParticles& liquid = state.liquid;

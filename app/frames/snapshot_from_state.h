@@ -15,7 +15,7 @@ SnapshotExtras extrasOf(const RenderSettings& settings);
 /// @param contacts  between fabric and fabric, of the last step; null where there are none
 /// @param density   of the liquid [g/cm^3]; particles are drawn as balls of their mean volume
 /// @param extras    which values colour liquid and fabric, and which lines there are over them
-void takeSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, double density,
+void fillSnapshot(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, double density,
                   const SnapshotExtras& extras, FrameSnapshot& snapshot);
 
 }  // namespace app

@@ -60,7 +60,7 @@ struct Frames::Parts {
 render::Image Frames::Parts::draw(const app::RealSimulation& simulation)
 {
     const sim::State& state = simulation.state();
-    app::takeSnapshot(state, simulation.fabric(), simulation.contacts(), density, app::extrasOf(pictures.render), snapshot);
+    app::fillSnapshot(state, simulation.fabric(), simulation.contacts(), density, app::extrasOf(pictures.render), snapshot);
     placeObstacles(state.time, snapshot.obstacles);
     const render::FrameView view = snapshot.view();
     if (!everything) everything = render::bounds(view);

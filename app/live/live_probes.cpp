@@ -18,7 +18,7 @@ std::vector<ProbeTitle> titlesOf(const Probes& probes)
 
 }  // namespace
 
-void LiveProbes::begin(const SceneSetup& setup, const SimulationHandle& simulation)
+void LiveProbes::begin(const LoadedScene& setup, const SimulationHandle& simulation)
 {
     const std::optional<Probes> probes = readProbes(setup);
     reader_.reset();
@@ -33,7 +33,7 @@ void LiveProbes::begin(const SceneSetup& setup, const SimulationHandle& simulati
     add(reader_->initial(simulation));
 }
 
-void LiveProbes::goBack(const SceneSetup& setup, double time)
+void LiveProbes::goBack(const LoadedScene& setup, double time)
 {
     if (!reader_) return;
     const Probes probes = reader_->probes();

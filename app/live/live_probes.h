@@ -29,9 +29,9 @@ struct LiveReadings {
 class LiveProbes {
  public:
     /// All is read anew, beginning with the state before the first step. Throws InputError.
-    void begin(const SceneSetup& setup, const SimulationHandle& simulation);
+    void begin(const LoadedScene& setup, const SimulationHandle& simulation);
     /// What was read after a time does not hold [s]; from there on it is read again, forces as means since then.
-    void goBack(const SceneSetup& setup, double time);
+    void goBack(const LoadedScene& setup, double time);
     void step(const SimulationHandle& simulation, bool isReflected);
 
     LiveReadings take();

@@ -159,7 +159,7 @@ void LiveSimulation::goTo(const RewindBuffer::RewindPoint& moment)
 /// From the initial state of the scene as it is set.
 void LiveSimulation::resetSimulation()
 {
-    const SceneSetup& setup = settings_.setup();
+    const LoadedScene& setup = settings_.setup();
     simulation_ = backends_.startSimulation(setup);
     blockedSources_.emplace(setup.scene);
     placeObstacles_ = backends_.meshObstacles(setup);
@@ -194,7 +194,7 @@ void LiveSimulation::publish(bool always)
         lock.unlock();
         if (!snapshot) snapshot = std::make_unique<FrameSnapshot>();
         snapshot->number = frame_;
-        app::takeSnapshot(state, simulation_->fabric(), simulation_->contacts(), settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
+        app::fillSnapshot(state, simulation_->fabric(), simulation_->contacts(), settings_.setup().scene.settings.liquid.density, extras_, *snapshot);
         placeObstacles_(state.time, snapshot->obstacles);
         lock.lock();
         std::swap(ready_, snapshot);

@@ -6,7 +6,7 @@
 
 namespace app {
 
-FrameSink::FrameSink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& folder, bool asPanel, bool fromStart)
+FrameSink::FrameSink(const LoadedScene& setup, const Backends& backends, const std::filesystem::path& folder, bool asPanel, bool fromStart)
     : setup_(setup), placeObstacles_(backends.meshObstacles(setup))
 {
     std::shared_ptr<FrameSnapshot> start;
@@ -36,7 +36,7 @@ void FrameSink::take(const sim::State& state, const sim::Fabric& fabric, const s
 
 void FrameSink::fillIn(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, FrameSnapshot& snapshot) const
 {
-    takeSnapshot(state, fabric, contacts, setup_.scene.settings.liquid.density, extrasOf(setup_.pictures.render), snapshot);
+    fillSnapshot(state, fabric, contacts, setup_.scene.settings.liquid.density, extrasOf(setup_.pictures.render), snapshot);
     placeObstacles_(state.time, snapshot.obstacles);
 }
 

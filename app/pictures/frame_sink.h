@@ -15,7 +15,7 @@ class FrameSink {
     /// @param asPanel    pictures are to stand beside others
     /// @param fromStart  the first frame will be the initial state; if not, that is looked at to place a camera that
     ///                   frames everything
-    FrameSink(const SceneSetup& setup, const Backends& backends, const std::filesystem::path& folder, bool asPanel, bool fromStart);
+    FrameSink(const LoadedScene& setup, const Backends& backends, const std::filesystem::path& folder, bool asPanel, bool fromStart);
 
     /// @param stateHash  hash of the whole state, of which `state` may hold what pictures need only
     void take(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, std::int64_t frame, std::uint64_t stateHash);
@@ -27,7 +27,7 @@ class FrameSink {
  private:
     void fillIn(const sim::State& state, const sim::Fabric& fabric, const sim::ActiveContacts* contacts, FrameSnapshot& snapshot) const;
 
-    const SceneSetup& setup_;
+    const LoadedScene& setup_;
     PlaceObstacles placeObstacles_;
     std::optional<FramePipeline> pipeline_;
 };

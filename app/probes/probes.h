@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/readings/measures.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 #include "sim/core/types.h"
 #include "sim/scene/formula.h"
 
@@ -30,6 +30,6 @@ struct Probes {
 };
 
 /// Nothing where a scene has no such section. Throws InputError.
-std::optional<Probes> readProbes(const SceneSetup& setup);
+std::optional<Probes> readProbes(const LoadedScene& setup);
 
 }  // namespace app

@@ -32,9 +32,9 @@ std::vector<Vec3> pointsAlong(const Node& node, const std::string& path)
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     int count = 11;
     sim::SectionReader::read(&node, path, [&](auto& v) {
-        v.needs("from", "one end of the line, like from: [0, 0, 0]");
+        v.required("from", "one end of the line, like from: [0, 0, 0]");
         v.vector("from", from, sim::Quantity::Length, "One end of the line");
-        v.needs("to", "the other end of the line, like to: [10, 0, 0]");
+        v.required("to", "the other end of the line, like to: [10, 0, 0]");
         v.vector("to", to, sim::Quantity::Length, "The other end of the line");
         v.integer("points", count, 2, kMostPoints, "So many points, the ends included");
     });
@@ -47,9 +47,9 @@ Hoop hoopIn(const Node& node, const std::string& path)
 {
     Hoop hoop;
     sim::SectionReader::read(&node, path, [&](auto& v) {
-        v.needs("center", "a point in its plane, like center: [0, 2, 0]");
+        v.required("center", "a point in its plane, like center: [0, 2, 0]");
         v.vector("center", hoop.center, sim::Quantity::Length, "A point of the plane, the middle of the hoop");
-        v.needs("normal", "the direction through it that counts as positive, like normal: [0, -1, 0]");
+        v.required("normal", "the direction through it that counts as positive, like normal: [0, -1, 0]");
         v.vector("normal", hoop.normal, sim::Quantity::None, "Direction through it that counts as positive");
         v.numberOr("radius", hoop.radius, std::numeric_limits<double>::infinity(), sim::Quantity::Length, sim::Range::above(0.0),
                    "Of a hoop; left out: the whole plane");
@@ -74,7 +74,7 @@ Probe probeIn(const Node& node, const std::string& path, std::size_t number, con
     sim::SectionReader::read(&node, path, [](auto& v) {
         v.other("name", "What tables and plots call it");
         v.other("unit", "As tables and plots show it");
-        v.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
+        v.required("read", "a formula of what is read as the scene runs, like read: liquid_y");
         v.formula("read", "What is read, as in validate");
         v.other("along", "Read at points along a line, x, y, z in the formula");
     });
@@ -104,7 +104,7 @@ std::vector<std::string> Probes::columns() const
     return names;
 }
 
-std::optional<Probes> readProbes(const SceneSetup& setup)
+std::optional<Probes> readProbes(const LoadedScene& setup)
 {
     const Node* output = setup.file.root.find("output");
     const Node* node = output ? output->find("probes") : nullptr;
@@ -117,7 +117,7 @@ std::optional<Probes> readProbes(const SceneSetup& setup)
         v.other("let", "Names for formulas");
         v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
         v.other("hoops", "Planes and hoops through which flux(\"name\") is read");
-        v.needs("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
+        v.required("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
         v.other("readings", "What is read");
     });
     Probes probes{.every = setup.pictures.output.every, .all = {}, .measures = std::make_shared<Measures>(setup.scene)};

@@ -49,7 +49,7 @@ ProvenanceJson librariesJson(const std::string& drawnBy)
     return libraries;
 }
 
-ProvenanceJson sceneJson(const SceneSetup& setup)
+ProvenanceJson sceneJson(const LoadedScene& setup)
 {
     ProvenanceJson texts = ProvenanceJson::object();
     for (const sim::SceneText& text : setup.file.texts) texts[text.file] = text.text;
@@ -75,7 +75,7 @@ std::string processorName()
     return "unknown";
 }
 
-std::string provenanceOf(const SceneSetup& setup, int threads, const std::string& drawnBy, const std::string& before)
+std::string provenanceOf(const LoadedScene& setup, int threads, const std::string& drawnBy, const std::string& before)
 {
     const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
     ProvenanceJson json = {{"version", DRENCH_VERSION},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <string>
 
@@ -16,6 +16,6 @@ std::string processorName();
 /// written and resolved.
 /// @param drawnBy  what draws the pictures, with its version; empty without pictures
 /// @param before   the same text of the run that is gone on with, or whose states are used; empty for one from the start
-std::string provenanceOf(const SceneSetup& setup, int threads, const std::string& drawnBy, const std::string& before);
+std::string provenanceOf(const LoadedScene& setup, int threads, const std::string& drawnBy, const std::string& before);
 
 }  // namespace app

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/reports/run_report.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <filesystem>
 #include <string>

@@ -84,7 +84,7 @@ ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& 
 
 double readInterval(sim::SectionReader& section, const ReadingContext& context)
 {
-    section.needs("every", "the time between two readings, like every: 1.0e-2");
+    section.required("every", "the time between two readings, like every: 1.0e-2");
     const double every = readConstant(*section.find("every"), section.pathOf("every"), context);
     if (every <= 0.0) sim::fail(section.locationOf("every"), section.pathOf("every") + ": must be above 0 s");
     return every;

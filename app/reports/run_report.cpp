@@ -33,7 +33,7 @@ std::string stageTable(const StageTimes& times)
     return table + fmt::format("{:<20}{:>12.3f}\n", "step", 1000.0 * median(times.total));
 }
 
-Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance)
+Reports::Reports(const std::filesystem::path& folder, const LoadedScene& setup, std::string contentHash, std::string provenance)
     : folder_(folder), begin_(setup.scene.settings.time.start), gravity_(setup.scene.settings.gravity)
 {
     const auto& output = setup.pictures.output;
@@ -45,7 +45,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     describe(setup, std::move(contentHash), std::move(provenance));
 }
 
-Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance,
+Reports::Reports(const std::filesystem::path& folder, const LoadedScene& setup, std::string contentHash, std::string provenance,
                  const LogsSoFar& before, double time)
     : folder_(folder),
       summary_(before.summary),
@@ -62,7 +62,7 @@ Reports::Reports(const std::filesystem::path& folder, const SceneSetup& setup, s
     describe(setup, std::move(contentHash), std::move(provenance));
 }
 
-void Reports::describe(const SceneSetup& setup, std::string contentHash, std::string provenance)
+void Reports::describe(const LoadedScene& setup, std::string contentHash, std::string provenance)
 {
     summary_.scene = setup.scene.name;
     summary_.title = setup.scene.title;

@@ -3,7 +3,7 @@
 #include "app/probes/probe_log.h"
 #include "app/readings/force_log.h"
 #include "app/reports/energy_ledger.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 #include "app/system/atomic_files.h"
 #include "sim/state.h"
 
@@ -84,10 +84,10 @@ struct LogsSoFar {
 class Reports {
  public:
     /// Writes a report.json that says "running".
-    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance);
+    Reports(const std::filesystem::path& folder, const LoadedScene& setup, std::string contentHash, std::string provenance);
 
     /// Goes on with the logs of a run that is resumed in its folder: what its logs say of steps later than `time` [s] is forgotten.
-    Reports(const std::filesystem::path& folder, const SceneSetup& setup, std::string contentHash, std::string provenance, const LogsSoFar& before,
+    Reports(const std::filesystem::path& folder, const LoadedScene& setup, std::string contentHash, std::string provenance, const LogsSoFar& before,
             double time);
 
     /// The state before the first step: the first rows of energy.csv and probes.csv.
@@ -102,7 +102,7 @@ class Reports {
     LogsSoFar soFar() const;
 
  private:
-    void describe(const SceneSetup& setup, std::string contentHash, std::string provenance);
+    void describe(const LoadedScene& setup, std::string contentHash, std::string provenance);
     double wallSeconds() const;
     void writeReport();
     const std::filesystem::path folder_;

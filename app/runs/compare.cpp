@@ -63,7 +63,7 @@ void drawEnergies(const std::vector<ComparedRun>& runs, const std::filesystem::p
 
 std::vector<ComparedRun> comparedRuns(const Options& options, const Backends& backends, const std::filesystem::path& folder)
 {
-    const SceneSetup asWritten = backends.loadScene({options.scene, "", options.sets});
+    const LoadedScene asWritten = backends.loadScene({options.scene, "", options.sets});
     logNotes(asWritten);
     const std::uint64_t program = programHash();
     std::vector<ComparedRun> runs;

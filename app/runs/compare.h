@@ -14,7 +14,7 @@ namespace app {
 
 /// One variant of a comparison: an ordinary run in a folder of its own.
 struct ComparedRun {
-    SceneSetup setup;
+    LoadedScene setup;
     std::filesystem::path folder;
     std::string contentHash;
     double cost = 1.0;  ///< what it is expected to take, relative to other runs of the same command

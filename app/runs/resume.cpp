@@ -35,7 +35,7 @@ bool isRunSetting(const std::string& set)
 }
 
 /// The scene as it stands in the folder, with what may be set for a run that goes on.
-SceneSetup load(const fs::path& scene, const std::vector<std::string>& sets, std::int64_t step, const ChangedScene::Load& loadScene)
+LoadedScene load(const fs::path& scene, const std::vector<std::string>& sets, std::int64_t step, const ChangedScene::Load& loadScene)
 {
     SceneRequest request = {.file = scene.string(), .variant = "", .sets = {}};
     std::vector<std::string> changed;
@@ -48,7 +48,7 @@ SceneSetup load(const fs::path& scene, const std::vector<std::string>& sets, std
     return settings.setup();
 }
 
-void requireSameScene(const SceneSetup& setup, const Checkpoint& checkpoint, const fs::path& folder)
+void requireSameScene(const LoadedScene& setup, const Checkpoint& checkpoint, const fs::path& folder)
 {
     if (trajectoryHash(setup) != checkpoint.origin.trajectory)
         throw sim::InputError(
@@ -75,7 +75,7 @@ bool isFinished(const ResumeRequest& request)
     return report && report->status == "done" && storedFrames(request.folder, StateKind::ForResuming).empty();
 }
 
-ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetup(const SceneRequest&)>& loadScene)
+ResumedRun resumeRun(const ResumeRequest& request, const std::function<LoadedScene(const SceneRequest&)>& loadScene)
 {
     const fs::path scene = request.folder / "resolved.yaml";
     if (!fs::exists(scene))

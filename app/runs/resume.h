@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/checkpoint/checkpoint.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@ struct ResumeRequest {
 };
 
 struct ResumedRun {
-    SceneSetup setup;
+    LoadedScene setup;
     Checkpoint checkpoint;
     std::filesystem::path out;
     bool isBranch = false;  ///< it goes on in another folder than it began
@@ -37,6 +37,6 @@ bool isFinished(const ResumeRequest& request);
 /// pictures. In another folder, a branch, all may change that can change during a run: from the next step on, as
 /// `changes` of the branch's scene say, so that the branch can be run from the start as well.
 /// Throws InputError, having touched nothing.
-ResumedRun resumeRun(const ResumeRequest& request, const std::function<SceneSetup(const SceneRequest&)>& load);
+ResumedRun resumeRun(const ResumeRequest& request, const std::function<LoadedScene(const SceneRequest&)>& load);
 
 }  // namespace app

@@ -24,7 +24,7 @@ namespace {
 /// What a run leaves of its frames, as far as it is wanted: pictures, geometry and states.
 class Frames {
  public:
-    Frames(const SceneSetup& setup, const Backends& backends, const RunOptions& options, const std::string& provenance)
+    Frames(const LoadedScene& setup, const Backends& backends, const RunOptions& options, const std::string& provenance)
         : geometry_(setup, backends, options.out, provenance),
           states_(options.out, setup, {setup.scene.name, setup.variant, setup.label, trajectoryHash(setup), programHash(), provenance})
     {
@@ -79,7 +79,7 @@ void stepUntil(double until, SimulationHandle& simulation, Reports& reports, Pro
 }
 
 /// All frames behind `first`, then what is left of the duration after the last one. True if it came to the end.
-bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept, Reports& reports)
+bool runFrames(const LoadedScene& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept, Reports& reports)
 {
     const auto& time = setup.scene.settings.time;
     const std::int64_t frames = frameCount(setup);
@@ -103,7 +103,7 @@ bool runFrames(const SceneSetup& setup, const RunOptions& options, std::int64_t 
 }
 
 /// The same; of a run that fails in a mode that takes bad steps back, the last good state is kept.
-bool runFramesOrKeepState(const SceneSetup& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept,
+bool runFramesOrKeepState(const LoadedScene& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept,
                           Reports& reports)
 try {
     return runFrames(setup, options, first, simulation, kept, reports);
@@ -116,7 +116,7 @@ try {
 bool resumesInPlace(const RunOptions& options) { return options.from && !options.isBranch; }
 
 /// The logs of a run that begins, or of one that is gone on with, in a folder without anything later.
-Reports openReports(const SceneSetup& setup, const RunOptions& options, const std::string& provenance)
+Reports openReports(const LoadedScene& setup, const RunOptions& options, const std::string& provenance)
 {
     if (resumesInPlace(options)) {
         Reports reports(options.out, setup, options.contentHash, provenance, options.from->origin.logs, options.from->state.time);
@@ -129,7 +129,7 @@ Reports openReports(const SceneSetup& setup, const RunOptions& options, const st
     return Reports(options.out, setup, options.contentHash, provenance);
 }
 
-std::unique_ptr<SimulationHandle> startOrResume(const SceneSetup& setup, const Backends& backends, const RunOptions& options)
+std::unique_ptr<SimulationHandle> startOrResume(const LoadedScene& setup, const Backends& backends, const RunOptions& options)
 {
     auto simulation = options.from ? backends.resumeSimulation(setup, options.from->state) : backends.startSimulation(setup);
     if (setup.pictures.output.ledger) simulation->bookEnergy();
@@ -145,7 +145,7 @@ try {
 
 }  // namespace
 
-RunSummary runOffline(const SceneSetup& setup, const Backends& backends, const RunOptions& options)
+RunSummary runOffline(const LoadedScene& setup, const Backends& backends, const RunOptions& options)
 {
     // First what the user may have got wrong: earlier results stay until this run can begin.
     const auto simulation = startOrResume(setup, backends, options);

@@ -23,6 +23,6 @@ struct RunOptions {
 
 /// Run a scene to its end without a window: step, draw, write; a run that is stopped leaves a checkpoint. Returns what report.json says at the end:
 /// done or interrupted. What goes wrong is thrown after report.json says "failed" and why; frames before it are kept.
-RunSummary runOffline(const SceneSetup& setup, const Backends& backends, const RunOptions& options);
+RunSummary runOffline(const LoadedScene& setup, const Backends& backends, const RunOptions& options);
 
 }  // namespace app

@@ -14,7 +14,7 @@ namespace app {
 /// A run that is over, or under way, with the states it has stored.
 struct StoredRun {
     std::filesystem::path folder;
-    SceneSetup setup;  ///< of the scene in it, with what is set for pictures and files
+    LoadedScene setup;  ///< of the scene in it, with what is set for pictures and files
     StateKind kind = StateKind::ForPictures;
     std::vector<std::int64_t> frames;  ///< of which there is a state, ascending; at least one
 };

@@ -87,7 +87,7 @@ bool ChangedScene::change(const std::vector<std::string>& sets, std::int64_t ste
     tidy(changes);
     requireSameFile();
     if (!now.empty()) load_(requestOf(sets, {}));  // complains about values, not about a list of changes
-    SceneSetup all = load_(requestOf(later, changes));
+    LoadedScene all = load_(requestOf(later, changes));
     setup_ = later.empty() || step == 0 ? std::move(all) : load_(requestOf({}, changes));
     changes_ = std::move(changes);
     if (step == 0) append(start_.sets, later);
@@ -112,7 +112,7 @@ bool ChangedScene::restart()
     for (const Change& change : changes_)
         if (!change.isOfScene) append(sets, change.sets);
     append(sets, waiting_);
-    SceneSetup setup = load_(requestOf(sets, {}));
+    LoadedScene setup = load_(requestOf(sets, {}));
     const bool isOther = !sets.empty() || setup.identity != identity_;
     append(start_.sets, sets);
     waiting_.clear();
@@ -121,7 +121,7 @@ bool ChangedScene::restart()
 }
 
 /// With what the scene itself changes on the way.
-void ChangedScene::begin(SceneSetup setup)
+void ChangedScene::begin(LoadedScene setup)
 {
     setup_ = std::move(setup);
     identity_ = setup_.identity;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 #include "sim/scene/parameters.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace app {
 /// The scene of a live simulation as it stands.
 struct LiveScene {
     SceneRequest request;                    ///< a run of it repeats what was done live
-    SceneSetup setup;                        ///< what that run is
+    LoadedScene setup;                       ///< what that run is
     std::vector<sim::Parameter> parameters;  ///< what holds now
     std::vector<std::string> waiting;        ///< changes that a restart would make, each as `--set` takes it
 };
@@ -21,12 +21,12 @@ struct LiveScene {
 /// A scene that was asked for, and what was changed in it since: by hand as it runs, or where it is gone on with.
 class ChangedScene {
  public:
-    using Load = std::function<SceneSetup(const SceneRequest&)>;
+    using Load = std::function<LoadedScene(const SceneRequest&)>;
 
     /// Throws InputError.
     ChangedScene(SceneRequest request, Load load);
 
-    const SceneSetup& setup() const { return setup_; }
+    const LoadedScene& setup() const { return setup_; }
     LiveScene scene(std::int64_t step) const;
     /// Does a change with this or a later step come from the scene itself?
     std::int64_t nextChange(std::int64_t step) const;
@@ -46,7 +46,7 @@ class ChangedScene {
         bool isOfScene = false;  ///< it stands in the file
     };
 
-    void begin(SceneSetup setup);
+    void begin(LoadedScene setup);
     void requireSameFile() const;
     static void tidy(std::vector<Change>& changes);
     SceneRequest requestOf(const std::vector<std::string>& sets, const std::vector<Change>& changes) const;
@@ -55,7 +55,7 @@ class ChangedScene {
     SceneRequest start_;                ///< with all that was set for the start
     std::vector<Change> changes_;       ///< in order of their steps
     std::vector<std::string> waiting_;  ///< for a restart
-    SceneSetup setup_;                  ///< of all but those that wait
+    LoadedScene setup_;                 ///< of all but those that wait
     std::string identity_;              ///< of the scene at the start
 };
 

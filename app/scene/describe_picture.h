@@ -64,9 +64,9 @@ inline std::span<const Choice<CompareLayout>> choicesOf(CompareLayout)
 template <class V>
 void describeOrbit(V& v, CameraSettings& c)
 {
-    v.needs("target", "the point to look at, like target: [0, 5, 0]");
+    v.required("target", "the point to look at, like target: [0, 5, 0]");
     v.vector("target", c.lookAt, Quantity::Length, "Point to look at");
-    v.needs("distance", "how far the eye is from the target, like distance: 60");
+    v.required("distance", "how far the eye is from the target, like distance: 60");
     v.number("distance", c.distance, Quantity::Length, Range::above(0.0), "Distance of the eye from the target");
     v.number("azimuth", c.azimuthDegrees, Quantity::AngleDegrees, Range::any(), "Angle of the eye around the vertical");
     v.number("elevation", c.elevationDegrees, Quantity::AngleDegrees, Range::between(-89.0, 89.0), "Angle of the eye above the horizon");
@@ -74,9 +74,9 @@ void describeOrbit(V& v, CameraSettings& c)
 }
 
 template <class V>
-void describe(V& v, CameraSettings& c)
+void visitFields(V& v, CameraSettings& c)
 {
-    v.onlyRuns("frame", "auto", {}, "Everything is in the picture");
+    v.onlySupports("frame", "auto", {}, "Everything is in the picture");
     v.when(!c.orbit && !c.autoFrame, [&](auto& w) {
         w.vector("look_at", c.lookAt, Quantity::Length, "Point in the middle of the picture");
         w.vector("eye", c.eye, Quantity::Length, "Place of the camera");
@@ -144,7 +144,7 @@ void describeFabricLook(V& v, FabricLookSettings& f)
 }
 
 template <class V>
-void describe(V& v, RenderSettings& r)
+void visitFields(V& v, RenderSettings& r)
 {
     v.pixels("size", r.width, r.height, 16, 16384, "Width and height of the picture in pixels");
     v.color("background", r.background, "Red, green, blue, 0 to 1");
@@ -171,7 +171,7 @@ inline bool isCodecName(const std::string& name)
 }
 
 template <class V>
-void describe(V& v, OutputSettings& o)
+void visitFields(V& v, OutputSettings& o)
 {
     v.text("dir", o.dir, "Folder of the results; left out: out/<name>/<variant>");
     v.number("every", o.every, Quantity::Time, Range::above(0.0), "Simulated time from picture to picture");
@@ -203,7 +203,7 @@ void describe(V& v, OutputSettings& o)
 }
 
 template <class V>
-void describe(V& v, Tolerance& t)
+void visitFields(V& v, Tolerance& t)
 {
     const Range share = Range::between(0.0, 1.0);
     v.number("mean_ssim", t.pictures.meanSsim, Quantity::None, share, "Pictures: mean structural similarity, at least");
@@ -219,13 +219,13 @@ void describe(V& v, Tolerance& t)
 }
 
 template <class V>
-void describe(V& v, CompareSettings& c)
+void visitFields(V& v, CompareSettings& c)
 {
     v.text("name", c.name, "Name of the comparison; left out: the scene's");
     v.other("variants", "The runs to compare");
     v.choice("layout", c.layout, "How pictures stand side by side");
     v.flags("products", {{"video", &c.video}, {"sheet", &c.sheet}, {"energy_plot", &c.energyPlot}, {"table", &c.table}}, "What is made of the runs");
-    v.onlyRuns("sync", "time", {}, "Pictures of equal simulated time stand side by side");
+    v.onlySupports("sync", "time", {}, "Pictures of equal simulated time stand side by side");
     v.text("reference", c.reference, "Label of the variant the others are held against");
     v.section("tolerance", c.tolerance, "What drench diff takes for the same");
 }

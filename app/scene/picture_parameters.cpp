@@ -12,7 +12,7 @@ std::vector<sim::Parameter> pictureParametersOf(const RenderSettings& settings)
     std::vector<sim::Parameter> all;
     RenderSettings values = settings;
     sim::ParameterList render(all, "render");
-    describe(render, values);
+    visitFields(render, values);
     return all;
 }
 

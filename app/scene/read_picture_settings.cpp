@@ -61,9 +61,9 @@ PictureSettings readPictureSettings(const sim::SceneFile& file)
 {
     PictureSettings settings;
     const Node& root = file.root;
-    sim::SectionReader::read(root.find("render"), "render", [&](auto& v) { describe(v, settings.render); });
-    sim::SectionReader::read(root.find("output"), "output", [&](auto& v) { describe(v, settings.output); });
-    sim::SectionReader::read(root.find("compare"), "compare", [&](auto& v) { describe(v, settings.compare); });
+    sim::SectionReader::read(root.find("render"), "render", [&](auto& v) { visitFields(v, settings.render); });
+    sim::SectionReader::read(root.find("output"), "output", [&](auto& v) { visitFields(v, settings.output); });
+    sim::SectionReader::read(root.find("compare"), "compare", [&](auto& v) { visitFields(v, settings.compare); });
     if (const Node* output = root.find("output"))
         if (const Node* probes = output->find("probes")) settings.output.probes = probes->flow();
     settings.compare.variants = variantsOf(file);
@@ -78,11 +78,11 @@ std::string printPictureSettings(const PictureSettings& settings)
     sim::SectionWriter w;
     w.section("render", copy.render, "");
     w.below("output", "", [&](sim::SectionWriter& inner) {
-        describe(inner, copy.output);
+        visitFields(inner, copy.output);
         if (!copy.output.probes.empty()) inner.line("probes", copy.output.probes, "What is read as the run goes, into probes.csv");
     });
     w.below("compare", "", [&](sim::SectionWriter& inner) {
-        describe(inner, copy.compare);
+        visitFields(inner, copy.compare);
         writeVariants(inner, copy.compare.variants);
     });
     return w.take();

@@ -61,8 +61,8 @@ SchemaJson sourceSchema()
     sim::KeyList emission, fill;
     sim::Emission emissionValues;
     sim::FillSettings fillValues;
-    sim::describe(emission, emissionValues);
-    sim::describe(fill, fillValues);
+    sim::visitFields(emission, emissionValues);
+    sim::visitFields(fill, fillValues);
     const SchemaJson fillMap = mapSchema(fill.keys, SchemaOf::Section);
     return schemaOfKeysRead(keys, {{"name", textSchema()},
                                    {"shape", definitionOf("shape")},

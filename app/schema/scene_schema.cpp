@@ -39,7 +39,7 @@ SchemaJson variantsSchema() { return {{"anyOf", {listSchema(settingsSchema(), 1)
 SchemaJson liquidSchema()
 {
     sim::LiquidSettings values;
-    SchemaJson schema = declaredMap([&](KeyList& v) { describe(v, values); });
+    SchemaJson schema = declaredMap([&](KeyList& v) { visitFields(v, values); });
     SchemaJson presets = SchemaJson::array();
     for (const sim::LiquidPreset& preset : sim::liquidPresets()) presets.push_back(preset.name);
     presets.push_back("none");
@@ -51,7 +51,7 @@ SchemaJson liquidSchema()
 SchemaJson compareSchema()
 {
     CompareSettings values;
-    SchemaJson schema = declaredMap([&](KeyList& v) { describe(v, values); });
+    SchemaJson schema = declaredMap([&](KeyList& v) { visitFields(v, values); });
     schema["properties"]["variants"].update(variantsSchema());
     return schema;
 }
@@ -68,7 +68,7 @@ SchemaJson changesSchema()
 template <class Read>
 SchemaJson lastKeyRead(const std::string& text, Read read)
 {
-    SceneSetup setup;
+    LoadedScene setup;
     return mapSchema(keysReadBy(text,
                                 [&](const Node& node) {
                                     setup.file.root = node;
@@ -120,7 +120,7 @@ SchemaJson probesSchema()
 SchemaJson outputSchema()
 {
     OutputSettings values;
-    SchemaJson schema = declaredMap([&](KeyList& v) { describe(v, values); });
+    SchemaJson schema = declaredMap([&](KeyList& v) { visitFields(v, values); });
     schema["properties"]["probes"].update(probesSchema());
     return schema;
 }
@@ -150,7 +150,7 @@ SchemaJson sceneProperties()
     sim::FabricMaterial material;
     RenderSettings render;
     KeyList top;
-    describe(top, settings);
+    visitFields(top, settings);
     describeFabric(top, settings);
     SchemaJson properties = {
         {"drench", {{"const", 1}, {"description", "Schema version"}}},
@@ -162,13 +162,13 @@ SchemaJson sceneProperties()
     const SchemaJson method = transfer["properties"]["method"];
     transfer = {{"anyOf", {method, transfer}}};
     properties.update({{"liquid", liquidSchema()},
-                       {"materials", namedSchema(declaredMap([&](KeyList& v) { describe(v, material); }))},
+                       {"materials", namedSchema(declaredMap([&](KeyList& v) { visitFields(v, material); }))},
                        {"fabrics", listSchema(definitionOf("fabric"))},
                        {"obstacles", listSchema(definitionOf("obstacle"))},
                        {"domain", definitionOf("shape")},
                        {"motion", {{"anyOf", {namedSchema(definitionOf("motion")), listSchema(definitionOf("named_motion_piece"))}}}},
                        {"changes", changesSchema()},
-                       {"render", declaredMap([&](KeyList& v) { describe(v, render); })},
+                       {"render", declaredMap([&](KeyList& v) { visitFields(v, render); })},
                        {"output", outputSchema()},
                        {"compare", compareSchema()},
                        {"validate", validateSchema()},
@@ -194,7 +194,7 @@ std::string studySchema()
 {
     SchemaJson schema = {{"$schema", kDraft}, {"title", "Drench study"}};
     StudyFields values;
-    schema.update(declaredMap([&](KeyList& v) { describe(v, values); }));
+    schema.update(declaredMap([&](KeyList& v) { visitFields(v, values); }));
     schema["properties"]["set"].update(settingsSchema());
     schema["properties"]["runs"].update(variantsSchema());
     schema["required"] = {"scene", "runs"};

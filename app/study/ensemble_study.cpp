@@ -36,9 +36,9 @@ std::string mapOf(const std::vector<std::string>& sets)
 
 }  // namespace
 
-Study ensembleStudy(const EnsembleRequest& request, const std::function<SceneSetup(const SceneRequest&)>& load)
+Study ensembleStudy(const EnsembleRequest& request, const std::function<LoadedScene(const SceneRequest&)>& load)
 {
-    const SceneSetup asWritten = load(request.scene);
+    const LoadedScene asWritten = load(request.scene);
     Study study = {.name = sim::asName(asWritten.scene.name + "_ensemble"), .file = request.folder / kEnsembleFile, .runs = {}, .retries = 1};
     for (int n = 0; n < request.count; ++n) {
         const std::uint64_t number = static_cast<std::uint64_t>(request.first) + static_cast<std::uint64_t>(n);

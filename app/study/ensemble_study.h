@@ -19,7 +19,7 @@ struct EnsembleRequest {
 };
 
 /// The study that does them; its file is ensemble.yaml in the folder, which is not written yet. Throws InputError for a scene that would be refused.
-Study ensembleStudy(const EnsembleRequest& request, const std::function<SceneSetup(const SceneRequest&)>& load);
+Study ensembleStudy(const EnsembleRequest& request, const std::function<LoadedScene(const SceneRequest&)>& load);
 
 /// The text of that file: a study like any other.
 std::string ensembleText(const Study& study, const EnsembleRequest& request);

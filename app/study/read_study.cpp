@@ -44,11 +44,11 @@ std::vector<std::string> Study::parameters() const
     return keys;
 }
 
-Study readStudy(const std::filesystem::path& file, const std::function<SceneSetup(const SceneRequest&)>& load)
+Study readStudy(const std::filesystem::path& file, const std::function<LoadedScene(const SceneRequest&)>& load)
 {
     const Node root = readFile(file);
     StudyFields fields = {.name = file.stem().string(), .scene = "", .variant = "", .retries = 1};
-    sim::SectionReader::read(&root, "", [&](auto& v) { describe(v, fields); });
+    sim::SectionReader::read(&root, "", [&](auto& v) { visitFields(v, fields); });
     Study study = {.name = fields.name, .file = file, .runs = {}, .retries = fields.retries};
     if (study.name.empty() || study.name != sim::asName(study.name)) {
         const Node* name = root.find("study");

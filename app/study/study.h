@@ -15,7 +15,7 @@ struct StudyRun {
     std::string name;                                         ///< of its folder
     std::vector<std::pair<std::string, std::string>> values;  ///< dotted key and value of what this run sets
     SceneRequest request;
-    SceneSetup setup;  ///< read in advance, so that no mistake is found hours later
+    LoadedScene setup;  ///< read in advance, so that no mistake is found hours later
 };
 
 /// Runs of one scene with different settings.
@@ -37,14 +37,14 @@ struct StudyFields {
 
 /// The declaration of all its keys; see sim/scene/describe.h.
 template <class V>
-void describe(V& v, StudyFields& s)
+void visitFields(V& v, StudyFields& s)
 {
     v.text("study", s.name, "Name of the study, and of the folder of its results; left out: that of the file");
-    v.needs("scene", "the file of the scene that is run, relative to the study, like scene: drop.yaml");
+    v.required("scene", "the file of the scene that is run, relative to the study, like scene: drop.yaml");
     v.text("scene", s.scene, "Its scene, relative to this file");
     v.text("variant", s.variant, "Of the scene; left out: the scene as written");
     v.other("set", "What all runs set: dotted keys and values");
-    v.needs("runs", "what is tried, like runs: {grid.cell: [0.3, 0.4]}");
+    v.required("runs", "what is tried, like runs: {grid.cell: [0.3, 0.4]}");
     v.other("runs", "Dotted keys with lists of values, of which all combinations are run, or a list of runs");
     v.integer("retries", s.retries, 0, 100, "Times that a failed run is tried again");
 }
@@ -59,6 +59,6 @@ void describe(V& v, StudyFields& s)
 ///     retries: 1
 ///
 /// Throws InputError with file and line, also for a scene that would be refused.
-Study readStudy(const std::filesystem::path& file, const std::function<SceneSetup(const SceneRequest&)>& load);
+Study readStudy(const std::filesystem::path& file, const std::function<LoadedScene(const SceneRequest&)>& load);
 
 }  // namespace app

@@ -38,7 +38,7 @@ int runVerbBench(const Options& options, const Backends& backends)
 {
     SceneRequest request = options.request();
     request.file = benchScene(options.scene).string();
-    const SceneSetup setup = backends.loadScene(request);
+    const LoadedScene setup = backends.loadScene(request);
     std::vector<BenchResult> results;
     for (const int threads : options.benchThreads) {
         results.push_back({threads, {}});

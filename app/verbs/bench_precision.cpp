@@ -44,7 +44,7 @@ void tell(const PrecisionRow& row)
 /// What the table has of a case.
 PrecisionCase caseOf(const std::vector<PrecisionRun>& runs, const Options& options, const PrecisionTable& table)
 {
-    const SceneSetup& setup = runs.front().setup;
+    const LoadedScene& setup = runs.front().setup;
     PrecisionCase of{runs.front().scene, setup.scene.title, *readPrecision(setup), {}};
     for (const PrecisionRun& run : runs) {
         const PrecisionRow* row = table.find(run, options.threads, 1);
@@ -69,7 +69,7 @@ PrecisionCase runCase(const std::string& file, const std::vector<PrecisionRun>& 
 {
     const auto isMissing = [&](const PrecisionRun& run) { return !table.find(run, options.threads, 1); };
     PrecisionCase of = caseOf(runs, options, table);
-    std::vector<std::vector<Reading>> converged;
+    std::vector<std::vector<Sample>> converged;
     if (of.precision.needsConverged() && (std::ranges::any_of(runs, isMissing) || nextToRepeat(runs, of, options.repeats)))
         converged = convergedReadings(folder / (of.name + "_converged.csv"), convergedSetup(file, backends), options.threads, backends, stopWanted);
     const auto measure = [&](const PrecisionRun& run, int repeats) {

@@ -6,7 +6,7 @@ namespace app {
 
 int runVerbCheck(const Options& options, const Backends& backends)
 {
-    const SceneSetup setup = backends.loadScene(options.request());
+    const LoadedScene setup = backends.loadScene(options.request());
     logNotes(setup);
     fmt::print("{}", setup.resolved);
     return 0;

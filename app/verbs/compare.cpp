@@ -60,7 +60,7 @@ int compareFolders(const Options& options, const Backends& backends)
 int runVerbCompare(const Options& options, const Backends& backends)
 {
     if (!options.from.empty()) return compareFolders(options, backends);
-    const SceneSetup asWritten = backends.loadScene({options.scene, "", options.sets});
+    const LoadedScene asWritten = backends.loadScene({options.scene, "", options.sets});
     if (options.orRun && (asWritten.pictures.compare.variants.empty() || options.variants.size() == 1)) return runVerbRun(options, backends);
     const auto folder = options.out.empty() ? defaultComparisonFolder(asWritten) : options.out;
     const auto runs = comparedRuns(options, backends, folder);

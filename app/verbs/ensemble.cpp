@@ -35,7 +35,7 @@ void gatherEnsemble(const std::filesystem::path& folder, const std::string& name
 
 int runVerbEnsemble(const Options& options, const Backends& backends)
 {
-    const SceneSetup setup = backends.loadScene(options.request());
+    const LoadedScene setup = backends.loadScene(options.request());
     logNotes(setup);
     const auto folder = options.out.empty() ? std::filesystem::path(defaultFolder(setup).string() + "_ensemble") : options.out;
     const EnsembleRequest request = {

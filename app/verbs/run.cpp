@@ -25,7 +25,7 @@ void printOutcome(const RunSummary& summary, const std::filesystem::path& folder
                formatDuration(summary.wallSeconds), summary.peakMemoryMegabytes, folder.string());
 }
 
-RunOptions runOptions(const Options& options, const SceneSetup& setup)
+RunOptions runOptions(const Options& options, const LoadedScene& setup)
 {
     return {.out = options.out.empty() ? defaultFolder(setup) : options.out,
             .contentHash = contentHash(setup, options.asPanel, programHash()),
@@ -37,7 +37,7 @@ RunOptions runOptions(const Options& options, const SceneSetup& setup)
 }
 
 /// A run that fails says where its last good state is, if it has kept one.
-RunSummary runReportingKeptState(const SceneSetup& setup, const RunOptions& run, const Backends& backends)
+RunSummary runReportingKeptState(const LoadedScene& setup, const RunOptions& run, const Backends& backends)
 try {
     return runOffline(setup, backends, run);
 } catch (const sim::RunError&) {
@@ -49,7 +49,7 @@ try {
 /// A run that was done without pictures and is gone on with has none either.
 bool hasPictures(const std::filesystem::path& folder) { return !numbersIn(folder, "frame_", ".png").empty(); }
 
-RunSummary runToItsEnd(const SceneSetup& setup, const RunOptions& run, const Options& options, const Backends& backends)
+RunSummary runToItsEnd(const LoadedScene& setup, const RunOptions& run, const Options& options, const Backends& backends)
 {
     RunSummary summary = withThreads(options.threads, [&] { return runReportingKeptState(setup, run, backends); });
     if (run.frames && options.video && summary.status == RunStatus::Done && hasPictures(run.out)) makeVideo(run.out, setup.pictures.output);
@@ -83,7 +83,7 @@ int continueRun(const Options& options, const Backends& backends)
 int runAgain(const Options& options, const Backends& backends)
 {
     const RunToRepeat repeated = readRunToRepeat(options.again);
-    SceneSetup setup = backends.loadScene(repeated.request);
+    LoadedScene setup = backends.loadScene(repeated.request);
     setup.variant = repeated.variant;
     setup.label = repeated.label;
     RunOptions run = runOptions(options, setup);
@@ -102,7 +102,7 @@ int runVerbRun(const Options& options, const Backends& backends)
 {
     if (!options.resume.empty()) return continueRun(options, backends);
     if (!options.again.empty()) return runAgain(options, backends);
-    const SceneSetup setup = backends.loadScene(options.request());
+    const LoadedScene setup = backends.loadScene(options.request());
     logNotes(setup);
     return exitCodeOf(runToItsEnd(setup, runOptions(options, setup), options, backends));
 }

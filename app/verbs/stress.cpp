@@ -78,7 +78,7 @@ StabilityResult mapOf(const std::string& scene, const Options& options, const Ba
 {
     constexpr double kFirstMoments = 0.32, kQuick = 0.24;  // [s]: so long until water and fabric of the paper's splashes have met
     const auto file = sceneFile(scene);
-    const SceneSetup setup = backends.loadScene({file.string(), "", options.sets});
+    const LoadedScene setup = backends.loadScene({file.string(), "", options.sets});
     const double whole = setup.scene.settings.time.duration;
     const double wanted = options.duration > 0.0 ? options.duration : std::min(whole, options.quick ? kQuick : kFirstMoments);
     std::vector<StabilityMethod> methods = stabilityMethods(setup, options.methods);

@@ -19,10 +19,10 @@ namespace app {
 
 namespace {
 
-SceneSetup loadCase(const std::filesystem::path& file, bool isQuick, const Backends& backends)
+LoadedScene loadCase(const std::filesystem::path& file, bool isQuick, const Backends& backends)
 {
     SceneRequest request{file.string(), "", {}};
-    SceneSetup setup = backends.loadScene(request);
+    LoadedScene setup = backends.loadScene(request);
     const std::optional<Validation> validation = readValidation(setup);
     if (!validation) throw sim::InputError(fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
     logNotes(setup);
@@ -43,7 +43,7 @@ int runVerbValidate(const Options& options, const Backends& backends)
 {
     const auto folder = options.out.empty() ? std::filesystem::path("out") / (options.quick ? "validation_quick" : "validation") : options.out;
     // All are loaded, and so validated, before the first one starts.
-    std::vector<std::pair<std::string, SceneSetup>> cases;
+    std::vector<std::pair<std::string, LoadedScene>> cases;
     for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options.quick, backends));
     makeFolder(folder);
     std::vector<CaseResult> results;

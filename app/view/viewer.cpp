@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kLongestWait = 0.1;  ///< for a picture of full quality while something changes [s]
 
-std::string labelOf(const SceneSetup& setup) { return setup.label.empty() ? "as written" : setup.label; }
+std::string labelOf(const LoadedScene& setup) { return setup.label.empty() ? "as written" : setup.label; }
 
 SceneRequest withVariant(SceneRequest request, const std::string& variant)
 {

@@ -13,7 +13,7 @@ struct Coupling {
     const Fabric& fabric;
     SortedVertices vertices;
     LiquidAround around;
-    WetElements elements;
+    PorousElements elements;
     Capture capture;
     Mixture mixture;
     Drip drip;

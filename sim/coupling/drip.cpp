@@ -19,7 +19,7 @@ constexpr double kLeastDrop = 1.0e-3;        ///< of the nominal mass: less stay
 
 }  // namespace
 
-Drip::Drip(const Fabric& fabric, const WetElements& elements, const Settings& settings, double nominalMass)
+Drip::Drip(const Fabric& fabric, const PorousElements& elements, const Settings& settings, double nominalMass)
     : elements_(elements),
       capacity_(poreCapacity(fabric, settings.liquid.density)),
       excess_(fabric.vertexCount()),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/coupling/wet_elements.h"
+#include "sim/coupling/porous_elements.h"
 #include "sim/grid/obstacles.h"
 #include "sim/settings.h"
 #include "sim/state.h"
@@ -18,7 +18,7 @@ class Drip {
     static constexpr double kMostOver = 0.03;  ///< share of what pores hold that stays beyond it [-]
 
     /// @param nominalMass  of a particle [g]
-    Drip(const Fabric& fabric, const WetElements& elements, const Settings& settings, double nominalMass);
+    Drip(const Fabric& fabric, const PorousElements& elements, const Settings& settings, double nominalMass);
 
     /// Drops come off within the fabric, or beside it, where no solid is; fabric in a solid, where it gets without contact, keeps what it has.
     /// @return mass that came off [g]
@@ -34,7 +34,7 @@ class Drip {
     double drain(std::span<const Wet> pool, const Obstacles& obstacles, State& state) const;
     Vec3 jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const;
 
-    const WetElements& elements_;
+    const PorousElements& elements_;
     std::vector<double> capacity_;  ///< mass that the pores of each vertex hold [g]
     std::vector<double> excess_;    ///< mass of each vertex beyond its pores as the step began to drip [g]
     std::vector<Wet> wet_;          ///< vertices with too much, by cells

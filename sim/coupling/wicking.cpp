@@ -25,7 +25,7 @@ double leastExtent(const Fabric& fabric, const std::array<int, 3>& v)
 }
 
 /// An element as it stands.
-struct Slopes {
+struct ShapeGradients {
     std::array<Vec3, 3> of;  ///< gradients of the corners' hat functions [1/cm]
     double size = 0.0;       ///< length or area [cm, cm^2]
     Vec3 direction;          ///< of an edge, or normal to a face
@@ -35,7 +35,7 @@ struct Slopes {
 };
 
 /// False for an element without extent.
-bool findSlopes(const std::vector<Vec3>& x, const std::array<int, 3>& v, Slopes& out)
+bool findShapeGradients(const std::vector<Vec3>& x, const std::array<int, 3>& v, ShapeGradients& out)
 {
     out.isEdge = v[2] < 0;
     if (out.isEdge) {
@@ -55,7 +55,7 @@ bool findSlopes(const std::vector<Vec3>& x, const std::array<int, 3>& v, Slopes&
 
 }  // namespace
 
-Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settings& settings)
+Wicking::Wicking(const Fabric& fabric, const PorousElements& elements, const Settings& settings)
     : fabric_(fabric),
       elements_(elements),
       settings_(settings.coupling.wicking),
@@ -67,7 +67,7 @@ Wicking::Wicking(const Fabric& fabric, const WetElements& elements, const Settin
       flow_(elements.size()),
       carried_(elements.size())
 {
-    for (std::vector<double>* u : {&head_, &part_, &absorbed_}) u->resize(fabric.vertexCount());
+    for (std::vector<double>* u : {&head_, &outflowLimiter_, &absorbed_}) u->resize(fabric.vertexCount());
     isWetElement_.resize(elements.size());
     isActive_.resize(fabric.vertexCount());
     for (std::vector<Vec3>* u : {&acceleration_, &velocity_, &toPins_}) u->resize(fabric.vertexCount());
@@ -140,23 +140,23 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
     parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
         const std::array<int, 3>& v = elements_.vertices[e];
         const int corners = elements_.corners(e);
-        Slopes slopes;
-        if (!isWetElement_[e] || !findSlopes(state.x, v, slopes)) return;
+        ShapeGradients gradients;
+        if (!isWetElement_[e] || !findShapeGradients(state.x, v, gradients)) return;
         filling_[e] = 0.0;
         for (int c = 0; c < corners; ++c) filling_[e] += state.absorbed[v[c]] / fabric_.volume[v[c]] / corners;
         Vec3 body = density_ * gravity, force = Vec3::Zero();
         for (int c = 0; c < corners; ++c) {
             body -= density_ / corners * acceleration_[v[c]];
-            force += head_[v[c]] * slopes.of[c];
+            force += head_[v[c]] * gradients.of[c];
         }
-        force += slopes.within(body);
+        force += gradients.within(body);
         const double strength = force.norm();
         if (!(strength > 0.0)) return;
         const int m = fabric_.vertexMaterial[v[0]];
         const double fraction = fabric_.materials[m].volumeFraction;
         const double speed = laws_[m].speedUnder((1.0 - fraction) * strength, along_[m], fraction);
-        const Vec3 flow = settings_.rateScale * elements_.crossSection[e] * slopes.size * speed / strength * force;
-        for (int c = 0; c < corners; ++c) rate_[e][c] = -flow.dot(slopes.of[c]);
+        const Vec3 flow = settings_.rateScale * elements_.crossSection[e] * gradients.size * speed / strength * force;
+        for (int c = 0; c < corners; ++c) rate_[e][c] = -flow.dot(gradients.of[c]);
     });
 }
 
@@ -169,7 +169,7 @@ double Wicking::fillingOf(std::size_t e, int v, const FabricState& state) const
 /// No vertex gives more than it has.
 void Wicking::limitDonors(double h, const FabricState& state)
 {
-    parallelFor(part_.size(), kGrain, [&](std::size_t v) {
+    parallelFor(outflowLimiter_.size(), kGrain, [&](std::size_t v) {
         if (!isActive_[v]) return;
         double out = 0.0;  // [g]
         for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
@@ -177,7 +177,7 @@ void Wicking::limitDonors(double h, const FabricState& state)
             for (int c = 0; c < elements_.corners(e); ++c)
                 if (elements_.vertices[e][c] == static_cast<int>(v)) out += h * std::max(rate_[e][c], 0.0) * fillingOf(e, static_cast<int>(v), state);
         }
-        part_[v] = out > state.absorbed[v] ? state.absorbed[v] / out : 1.0;
+        outflowLimiter_[v] = out > state.absorbed[v] ? state.absorbed[v] / out : 1.0;
     });
 }
 
@@ -185,7 +185,7 @@ void Wicking::transport(double h, FabricState& state)
 {
     const auto leaves = [&](std::size_t e, int c) {
         const int v = elements_.vertices[e][c];
-        return part_[v] * h * std::max(rate_[e][c], 0.0) * fillingOf(e, v, state);
+        return outflowLimiter_[v] * h * std::max(rate_[e][c], 0.0) * fillingOf(e, v, state);
     };
     parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
         if (!isWetElement_[e]) return;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "sim/coupling/porous_elements.h"
 #include "sim/coupling/porous_law.h"
-#include "sim/coupling/wet_elements.h"
 #include "sim/grid/block_grid.h"
 #include "sim/settings.h"
 
@@ -15,7 +15,7 @@ namespace sim {
 /// (Darcy's law with the pores' suction: coupling/README.md, Wicking). What leaves a vertex arrives at others, with its momentum.
 class Wicking {
  public:
-    Wicking(const Fabric& fabric, const WetElements& elements, const Settings& settings);
+    Wicking(const Fabric& fabric, const PorousElements& elements, const Settings& settings);
 
     /// Over dt [s], in substeps as short as stability and solver.wicking_substeps ask for.
     /// @param before  velocity of each vertex when the step began [cm/s]
@@ -39,7 +39,7 @@ class Wicking {
     void transport(double h, FabricState& state);
 
     const Fabric& fabric_;
-    const WetElements& elements_;
+    const PorousElements& elements_;
     WickingSettings settings_;
     double density_;                       ///< [g/cm^3]
     double longest_ = 0.0;                 ///< stable substep [s]
@@ -54,7 +54,7 @@ class Wicking {
     std::vector<double> head_;                           ///< suction of each vertex less the pressure of the liquid around it [dyn/cm^2]
     std::vector<std::array<double, 3>> rate_;  ///< at each corner of an element: outflow per filling of its envelope, < 0 is inflow [cm^3/s]
     std::vector<double> filling_;              ///< filling of each element: mean of its corners [g/cm^3]
-    std::vector<double> part_;                 ///< limiter of the outflow of each vertex [0..1]
+    std::vector<double> outflowLimiter_;       ///< limiter of the outflow of each vertex [0..1]
     std::vector<double> flow_;                 ///< through an element, over its inflow's rate [g s/cm^3]
     std::vector<Vec3> carried_;                ///< momentum of flow_ [g/cm^2]
     std::vector<double> absorbed_;             ///< mass of liquid at each vertex after the substep [g]

@@ -180,8 +180,8 @@ Vec3 anyAcross(const Vec3& t)
 /// The reference axis u of one edge, for the next: parallel transport (fabric/rods/README.md, Kinematics).
 Vec3 carriedAcross(const Vec3& u, const Vec3& from, const Vec3& to)
 {
-    const Triple<double> t = toTriple(to);
-    return toVec3(unitAcross(transported(toTriple(u), toTriple(from), t), t));
+    const Vec3T<double> t = toVec3T(to);
+    return toVec3(unitAcross(transported(toVec3T(u), toVec3T(from), t), t));
 }
 
 }  // namespace

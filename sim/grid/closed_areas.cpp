@@ -15,7 +15,7 @@ ClosedAreas::ClosedAreas(const BlockGrid& grid, int block, const Obstacles& obst
     for (int n = 0; n < count_ && areShared(); ++n) faces_[n].emplace(grid, block, obstacles, solid_[n]);
 }
 
-Closing ClosedAreas::closing(int axis, const Vec3i& cell, double closed, int owner) const
+FaceOcclusion ClosedAreas::occlusion(int axis, const Vec3i& cell, double closed, int owner) const
 {
     constexpr double kNothing = 1.0e-9, kAlike = 0.05;  // areas [-]; slopes of surfaces against the face
     struct Part {
@@ -31,14 +31,14 @@ Closing ClosedAreas::closing(int axis, const Vec3i& cell, double closed, int own
             parts[count++] = {solid_[n], area, std::abs(obstacles_.normal(middle, solid_[n])[axis]),
                               std::abs(obstacles_.distance(middle, solid_[n]))};
     }
-    if (count == 0) return {owner, Closing::kNone, closed, 0.0};
+    if (count == 0) return {owner, FaceOcclusion::kNone, closed, 0.0};
     const auto comesFirst = [](const Part& a, const Part& b) { return std::abs(a.slope - b.slope) > kAlike ? a.slope < b.slope : a.depth < b.depth; };
     for (int n = 1; n < count; ++n)
         for (int m = n; m > 0 && comesFirst(parts[m], parts[m - 1]); --m) std::swap(parts[m], parts[m - 1]);
-    Closing closing{parts[0].solid, count > 1 ? parts[1].solid : owner, std::min(closed, parts[0].area), 0.0};
-    closing.ofSecond = closed - closing.ofFirst;
-    if (closing.second == closing.first) closing = {closing.first, Closing::kNone, closed, 0.0};
-    return closing;
+    FaceOcclusion occlusion{parts[0].solid, count > 1 ? parts[1].solid : owner, std::min(closed, parts[0].area), 0.0};
+    occlusion.ofSecond = closed - occlusion.ofFirst;
+    if (occlusion.second == occlusion.first) occlusion = {occlusion.first, FaceOcclusion::kNone, closed, 0.0};
+    return occlusion;
 }
 
 }  // namespace sim

@@ -8,7 +8,7 @@
 namespace sim {
 
 /// What two solids have of a face's closed area [-]; where more close it the second has what those after it do.
-struct Closing {
+struct FaceOcclusion {
     static constexpr int kNone = -1;
     int first = kNone, second = kNone;  ///< numbers of the solids
     double ofFirst = 0.0, ofSecond = 0.0;
@@ -24,7 +24,7 @@ class ClosedAreas {
     /// Who closes the face normal to `axis` at the lower side of a cell.
     /// @param closed  area that all solids together close
     /// @param owner   the solid that has what none is found to close
-    Closing closing(int axis, const Vec3i& cell, double closed, int owner) const;
+    FaceOcclusion occlusion(int axis, const Vec3i& cell, double closed, int owner) const;
 
  private:
     static constexpr int kMost = 8;  ///< solids that are told apart: what others close is the nearest one's

@@ -189,9 +189,9 @@ void ObstacleField::computeClosed(const BlockGrid& grid, int block, int slot, co
             closer_.block(slot, a)[c] = owner_.block(slot)[c];
             if (closed == 0.0) continue;
             const Vec3 middle = corner + grid.dx * (cell.cast<double>() + Vec3::Constant(0.5) - 0.5 * Vec3::Unit(a));
-            const Closing by = areas.closing(a, cell, closed, obstacles.nearest(middle));
+            const FaceOcclusion by = areas.occlusion(a, cell, closed, obstacles.nearest(middle));
             closer_.block(slot, a)[c] = static_cast<std::uint16_t>(by.first);
-            if (by.second != Closing::kNone) closer_.block(slot, kAxes + a)[c] = static_cast<std::uint16_t>(by.second);
+            if (by.second != FaceOcclusion::kNone) closer_.block(slot, kAxes + a)[c] = static_cast<std::uint16_t>(by.second);
             ofSecond_.block(slot, a)[c] = by.ofSecond;
             if (!anyMoved_ || !touchedByMoving_[slot]) continue;
             double& swept = swept_.block(slot, a)[c];
@@ -201,11 +201,11 @@ void ObstacleField::computeClosed(const BlockGrid& grid, int block, int slot, co
     }
 }
 
-Closing ObstacleField::closing(int block, int axis, int face) const
+FaceOcclusion ObstacleField::occlusion(int block, int axis, int face) const
 {
     const int slot = slot_[block];
     const double ofSecond = ofSecond_.block(slot, axis)[face], ofFirst = 1.0 - open_.block(slot, axis)[face] - ofSecond;
-    const int second = ofSecond > 0.0 ? closer_.block(slot, kAxes + axis)[face] : Closing::kNone;
+    const int second = ofSecond > 0.0 ? closer_.block(slot, kAxes + axis)[face] : FaceOcclusion::kNone;
     return {closer_.block(slot, axis)[face], second, ofFirst, ofSecond};
 }
 

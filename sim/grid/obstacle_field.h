@@ -20,7 +20,7 @@ class ObstacleField {
 
     /// Follow the blocks of the grid and the motion of the obstacles.
     /// @param previous  number each block had at the last update, or BlockGrid::kNone
-    /// @param mirrors   plane walls in planes of faces mirror the liquid (foldAtWalls): what is behind them counts as room
+    /// @param mirrors   plane walls in planes of faces mirror the liquid (mirrorAtWalls): what is behind them counts as room
     void update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors);
 
     /// As told by the last update: nothing of the liquid is left on the faces behind plane walls then.
@@ -50,7 +50,7 @@ class ObstacleField {
     /// Are two solids or more so near that they may close a face together?
     bool isShared(int block) const { return shared_[slot_[block]] != 0; }
     /// Who closes a face of a shared block.
-    Closing closing(int block, int axis, int face) const;
+    FaceOcclusion occlusion(int block, int axis, int face) const;
     /// Distance from the middle of each cell [cm], at most kExactDistance cells.
     const double* centerDistance(int block) const { return centerDistance_.block(slot_[block]); }
     /// Number of the solid that is nearest to the middle of each cell, where that is nearer than kExactDistance cells.

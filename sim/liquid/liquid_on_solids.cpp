@@ -200,15 +200,15 @@ void LiquidOnSolids::addShared(const CutGrid& cut, const FaceRow& row, int lane,
 {
     const ObstacleField& field = cut.field;
     const int b = blocks_[row.place], c = row.first + lane, axis = row.axis;
-    const Closing closing = field.closing(b, axis, c);
-    const double closed = closing.ofFirst + closing.ofSecond, rest = on.got[lane] - closed * on.push[lane];
+    const FaceOcclusion occlusion = field.occlusion(b, axis, c);
+    const double closed = occlusion.ofFirst + occlusion.ofSecond, rest = on.got[lane] - closed * on.push[lane];
     const auto add = [&](int solid, double got, double share, double work) {
         sums[solid] += {{-got * Vec3::Unit(axis), -got * at.cross(Vec3::Unit(axis))}, share * on.pressed[lane], share * on.pressed[lane] * at, work};
     };
     add(nearestTo(cut, {b, c}, axis), rest, 0.0, rest * field.wallVelocity(b, axis)[c]);
     if (!(closed > 0.0)) return;
-    add(closing.first, closing.ofFirst * on.push[lane], closing.ofFirst / closed, on.push[lane] * field.swept(b, axis)[c]);
-    if (closing.second != Closing::kNone) add(closing.second, closing.ofSecond * on.push[lane], closing.ofSecond / closed, 0.0);
+    add(occlusion.first, occlusion.ofFirst * on.push[lane], occlusion.ofFirst / closed, on.push[lane] * field.swept(b, axis)[c]);
+    if (occlusion.second != FaceOcclusion::kNone) add(occlusion.second, occlusion.ofSecond * on.push[lane], occlusion.ofSecond / closed, 0.0);
 }
 
 /// To the solids that the faces of a row are nearest to.

@@ -106,7 +106,7 @@ Vec3 slide(const Obstacles& obstacles, double dx, const Vec3& from, const Vec3& 
 }
 
 /// Take away the velocity towards the solid at a particle.
-PushedOut stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidParticles& particles, Vec3& onSolid)
+PushOutTotals stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidParticles& particles, Vec3& onSolid)
 {
     const Vec3 velocity = particles.velocity(p);
     const double towards = std::min(0.0, (velocity - wall).dot(normal)), mass = particles.mass[p];
@@ -115,8 +115,8 @@ PushedOut stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidPartic
     return {0.5 * mass * towards * (2.0 * velocity.dot(normal) - towards), -mass * towards * wall.dot(normal), Vec3::Zero()};
 }
 
-PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p,
-                  LiquidParticles& particles, std::span<Impulse> onSolids)
+PushOutTotals keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p,
+                      LiquidParticles& particles, std::span<Impulse> onSolids)
 {
     const Vec3 x = particles.position(p);
     Vec3 moved = x, normal = Vec3::Zero();
@@ -129,7 +129,7 @@ PushedOut keepOut(const Obstacles& obstacles, double dx, const std::array<Aligne
     for (int a = 0; a < kAxes; ++a) particles.x[a][p] = moved[a];
     const Vec3 wall = obstacles.anyMoving() ? obstacles.velocity(moved) : Vec3(Vec3::Zero());
     Vec3 onSolid;
-    PushedOut pushed = stop(wall, normal, p, particles, onSolid);
+    PushOutTotals pushed = stop(wall, normal, p, particles, onSolid);
     onSolids[obstacles.nearest(moved)] += Impulse::at(moved, onSolid);
     if (!wall.isZero()) pushed.carried = particles.mass[p] * (moved - x);
     return pushed;
@@ -146,12 +146,12 @@ bool mayMeet(const std::array<AlignedArray<double>, kAxes>* before, const Liquid
 
 }  // namespace
 
-PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest, const std::array<AlignedArray<double>, kAxes>* before,
-                             LiquidParticles& particles, ChunkSums<Impulse>& onSolids)
+PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest,
+                                 const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles, ChunkSums<Impulse>& onSolids)
 {
     const auto ofBlock = [&](std::size_t n, std::span<Impulse> impulses) {
         const int b = order.occupied[n];
-        PushedOut pushed;
+        PushOutTotals pushed;
         // Solids are known where they are now: on its way a particle has been no nearer to them than this.
         const double half = 0.5 * kBlockEdge * cut.grid.dx;
         const double sweep = cut.obstacles.anyMoving() ? cut.obstacles.farthestMove(cut.grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
@@ -170,12 +170,12 @@ PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, dou
         return pushed;
     };
     const Chunks chunks(order.occupied.size());
-    std::array<PushedOut, kMaxChunks> partial;
+    std::array<PushOutTotals, kMaxChunks> partial;
     onSolids.begin(chunks.count(), cut.obstacles.count());
     parallelFor(chunks.count(), [&](std::size_t c) {
         for (std::size_t n = chunks.begin(c); n < chunks.end(c); ++n) partial[c] = partial[c] + ofBlock(n, onSolids.of(c));
     });
-    return std::accumulate(partial.begin(), partial.begin() + chunks.count(), PushedOut{});
+    return std::accumulate(partial.begin(), partial.begin() + chunks.count(), PushOutTotals{});
 }
 
 }  // namespace sim

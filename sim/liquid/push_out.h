@@ -13,12 +13,12 @@ namespace sim {
 inline constexpr double kPushedInFront = 0.01;
 
 /// What keeping particles outside of solids did to them.
-struct PushedOut {
+struct PushOutTotals {
     double lost = 0.0;            ///< kinetic energy to the contacts [erg], negative where moving solids gave some
     double work = 0.0;            ///< work of the impulses of moving solids [erg]
     Vec3 carried = Vec3::Zero();  ///< mass times displacement by moving solids [g cm]
 
-    PushedOut operator+(const PushedOut& other) const { return {lost + other.lost, work + other.work, carried + other.carried}; }
+    PushOutTotals operator+(const PushOutTotals& other) const { return {lost + other.lost, work + other.work, carried + other.carried}; }
 };
 
 /// Keep particles outside of the obstacles at their final positions. The path of each, straight from where it was before the step, is swept
@@ -29,7 +29,7 @@ struct PushedOut {
 /// @param before     those positions, in that order; null: particles inside solids are moved out, paths are not looked at
 /// @param farthest   how far a particle can have moved since the sort [cm]
 /// @param onSolids   what each solid gets of the particles' momentum; begun anew
-PushedOut pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest, const std::array<AlignedArray<double>, kAxes>* before,
-                             LiquidParticles& particles, ChunkSums<Impulse>& onSolids);
+PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest,
+                                 const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles, ChunkSums<Impulse>& onSolids);
 
 }  // namespace sim

@@ -134,11 +134,11 @@ void WallFaces::find(const CutGrid& cut, double friction, const FaceFields& face
     findFollowers(cut.grid, cut.obstacles, friction, faces);
 }
 
-WallFaces::Led WallFaces::ledByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const
+WallFaces::WallDriven WallFaces::drivenByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const
 {
     const auto ofBlock = [&](std::size_t n) {
         const int b = blocks_[n];
-        Led sum;
+        WallDriven sum;
         for (const Follower& f : followers_[n]) {
             if (f.share == 0.0) continue;
             const double mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face],
@@ -149,7 +149,7 @@ WallFaces::Led WallFaces::ledByWalls(const ObstacleField& field, const FaceField
         }
         return sum;
     };
-    return parallelReduce(blocks_.size(), Led{}, ofBlock, std::plus<>());
+    return parallelReduce(blocks_.size(), WallDriven{}, ofBlock, std::plus<>());
 }
 
 void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces)

@@ -20,15 +20,15 @@ class WallFaces {
     bool empty() const { return count_ == 0; }
 
     /// Moving walls and the part of the closed faces' liquid that follows them while the rest follows open faces: it gets their velocity.
-    struct Led {
+    struct WallDriven {
         double work = 0.0;          ///< impulse of the walls on it, without that which holds its weight, times their velocity [erg]
         Vec3 heavy = Vec3::Zero();  ///< momentum that it gets, of what has weight [g cm/s]
-        Led operator+(const Led& o) const { return {work + o.work, heavy + o.heavy}; }
+        WallDriven operator+(const WallDriven& o) const { return {work + o.work, heavy + o.heavy}; }
     };
     /// From masses and momenta after find, before fold takes this part off the faces. Faces that keep all of theirs are not in it.
     /// @param weightless  mass of each face whose weight nothing feels [g]
-    Led ledByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const;
-    Led led;  ///< in this step; nothing where all walls rest
+    WallDriven drivenByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const;
+    WallDriven driven;  ///< in this step; nothing where all walls rest
 
     /// Move mass, momentum and room of the closed faces to those that they follow. What follows no open face keeps its own.
     void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces);

@@ -145,7 +145,7 @@ void applyWalls(const CutGrid& cut, double friction, bool goesStraight, WallFace
     mirror(cut.grid, cut.obstacles, friction, valid, followers.mirrored, velocity);
 }
 
-void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless)
+void mirrorAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless)
 {
     weightless.resize(grid.count());
     forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall&, int, auto&& forBlocksAtWall) {
@@ -174,7 +174,7 @@ void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFie
     });
 }
 
-void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid)
+void mirrorAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid)
 {
     const bool moves = obstacles.anyMoving();
     if (moves) {
@@ -182,9 +182,9 @@ void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double frict
         parallelFor(field.blocksNearSolid().size(), 8,
                     [&](std::size_t n) { std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0); });
     }
-    foldAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
+    mirrorAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
     followers.find({grid, field, obstacles}, friction, liquid.faces);
-    followers.led = moves ? followers.ledByWalls(field, liquid.faces, liquid.weightless) : WallFaces::Led{};
+    followers.driven = moves ? followers.drivenByWalls(field, liquid.faces, liquid.weightless) : WallFaces::WallDriven{};
     followers.fold(grid, field, liquid.faces);
 }
 

@@ -25,11 +25,12 @@ inline bool usesMirrorBoundary(double friction) { return friction < 1.0; }
 /// After P2G: what particles gave to faces behind plane walls in planes of faces goes to the images of these faces in front, as if every
 /// particle had its mirror image behind the wall. Without it the faces next to a wall know only half of the liquid around them.
 /// @param weightless  mass of each face whose weight nothing feels: images are pulled the other way along the wall's normal [g]
-void foldAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless);
+void mirrorAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceFields& faces, BlockArray<double, 3>& weightless);
 
-/// After P2G: mirrors at all walls along which liquid slips. What is behind plane ones goes to images (foldAtPlaneWalls), behind others to the faces
-/// that it will follow (WallFaces), with its room.
-void foldAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid);
+/// After P2G: mirrors at all walls along which liquid slips. What is behind plane ones goes to images (mirrorAtPlaneWalls), behind others to the
+/// faces that it will follow (WallFaces), with its room.
+void mirrorAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers,
+                   LiquidGrid& liquid);
 
 /// After dt of weight on all that faces carry: take back what it did to the weightless part. Then weight does on the faces the work that it does
 /// on the particles, which read the velocities of applyWalls: sum (m_f - weightless) g u_f = sum m_p g v_p, where no wall has friction. Along walls

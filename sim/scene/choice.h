@@ -5,7 +5,7 @@
 namespace sim {
 
 /// One word a scene may say for a value of an enumeration. Each enumeration has a function choicesOf(E) beside its
-/// describe() that lists them.
+/// visitFields() that lists them.
 template <class E>
 struct Choice {
     const char* word;

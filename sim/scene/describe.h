@@ -51,7 +51,7 @@ inline std::span<const Choice<FillSettings::Pattern>> choicesOf(FillSettings::Pa
 }
 
 template <class V>
-void describe(V& v, TimeSettings& t)
+void visitFields(V& v, TimeSettings& t)
 {
     v.number("dt", t.dt, Quantity::Time, Range::above(0.0), "Time step; its upper bound in modes cfl and adaptive");
     v.fixed([&](auto& w) {
@@ -100,14 +100,14 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
 }
 
 template <class V>
-void describe(V& v, RelaxSettings& r)
+void visitFields(V& v, RelaxSettings& r)
 {
     v.number("rate", r.rate, Quantity::Frequency, Range::atLeast(0.0), "Rate at which crowded particles are pushed apart; 0 = off");
     v.number("range", r.range, Quantity::None, Range::aboveTo(0.0, 10.0), "Reach of the push in nominal particle radii");
 }
 
 template <class V>
-void describe(V& v, VolumeSettings& s)
+void visitFields(V& v, VolumeSettings& s)
 {
     v.number("rate", s.rate, Quantity::Frequency, Range::atLeast(0.0),
              "Rate at which cells that hold too much liquid expand and holes in it close; 0 = off");
@@ -126,7 +126,7 @@ class SectionReader;
 void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid);
 
 template <class V>
-void describe(V& v, LiquidSettings& l)
+void visitFields(V& v, LiquidSettings& l)
 {
     v.other("preset", "Sets the next constants: water | oil | honey | acetal | none");
     v.whenReading([&](auto& reader) { readLiquidPreset(reader, l); });
@@ -154,7 +154,7 @@ void describe(V& v, LiquidSettings& l)
 }
 
 template <class V>
-void describe(V& v, SolverSettings& s)
+void visitFields(V& v, SolverSettings& s)
 {
     v.number("pressure_tolerance", s.pressureTolerance, Quantity::None, Range::aboveTo(0.0, 0.1),
              "Largest residual relative to the largest right-hand side");
@@ -176,7 +176,7 @@ void describeNames(V& v, Scene& s)
 
 /// What `fill` of a source says; `spacing` 0 stands for liquid.particle_spacing or the pattern's own.
 template <class V>
-void describe(V& v, FillSettings& f)
+void visitFields(V& v, FillSettings& f)
 {
     v.choice("pattern", f.pattern, "How particles are laid out");
     v.seed("seed", f.seed, "Start of the random numbers");
@@ -184,10 +184,10 @@ void describe(V& v, FillSettings& f)
 }
 
 template <class V>
-void describe(V& v, Emission& e)
+void visitFields(V& v, Emission& e)
 {
     v.number("from", e.from, Quantity::Time, Range::any(), "Begin of the span; left out: the start of the run");
-    v.needs("to", "the end of the span in which the source gives liquid, like to: 0.5");
+    v.required("to", "the end of the span in which the source gives liquid, like to: 0.5");
     v.number("to", e.to, Quantity::Time, Range::any(), "End of the span");
     v.numberOr("max_volume", e.maxVolume, std::numeric_limits<double>::infinity(), Quantity::Volume, Range::above(0.0),
                "The source stops when it has given so much");
@@ -196,13 +196,13 @@ void describe(V& v, Emission& e)
 
 /// The sections of a scene that are plain settings.
 template <class V>
-void describe(V& v, Settings& s)
+void visitFields(V& v, Settings& s)
 {
     v.section("time", s.time, "");
     v.group("transfer", "", [&](auto& w) { describeTransfer(w, s.transfer, s.fabricTransfer); });
-    v.needs("grid", "where the size of cells stands, like grid: {cell: 0.288}");
+    v.required("grid", "where the size of cells stands, like grid: {cell: 0.288}");
     v.group("grid", "", [&](auto& w) {
-        w.needs("cell", "the edge of a grid cell, like cell: 0.288");
+        w.required("cell", "the edge of a grid cell, like cell: 0.288");
         w.fixed([&](auto& f) { f.number("cell", s.cell, Quantity::Length, Range::above(0.0), "Edge of a grid cell"); });
     });
     v.vector("gravity", s.gravity, Quantity::Acceleration, "Acceleration of everything");
@@ -214,7 +214,7 @@ void describe(V& v, Settings& s)
 template <class V>
 void describeLater(V& v)
 {
-    v.later("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
+    v.unsupported("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
 }
 
 }  // namespace sim

@@ -30,7 +30,7 @@ inline std::span<const Choice<CaptureLaw>> choicesOf(CaptureLaw)
 }
 
 template <class V>
-void describe(V& v, CaptureSettings& c)
+void visitFields(V& v, CaptureSettings& c)
 {
     v.choice("law", c.law, "By the fabric's pores, or by the liquid in the cells around as published");
     v.number("rate", c.rate, Quantity::Frequency, Range::atLeast(0.0), "Part of its pores that fabric in liquid fills per time; 0 = it stays dry");
@@ -43,14 +43,14 @@ void describe(V& v, CaptureSettings& c)
 }
 
 template <class V>
-void describe(V& v, WickingSettings& w)
+void visitFields(V& v, WickingSettings& w)
 {
     v.number("rate_scale", w.rateScale, Quantity::None, Range::atLeast(0.0), "Factor on the flow of liquid inside fabric; 0 = it stays");
     v.flag("pressure", w.pressure, "The pressure of the liquid around drives that flow too");
 }
 
 template <class V>
-void describe(V& v, CohesionSettings& c)
+void visitFields(V& v, CohesionSettings& c)
 {
     v.number("strength", c.strength, Quantity::None, Range::atLeast(0.0),
              "Of liquid bridges: 1 is the capillary force along the threads that touch; 2e-3 as published, 0 = none");
@@ -59,7 +59,7 @@ void describe(V& v, CohesionSettings& c)
 }
 
 template <class V>
-void describe(V& v, CouplingSettings& c)
+void visitFields(V& v, CouplingSettings& c)
 {
     v.choice("drag", c.drag, "What liquid feels that flows through fabric; off: it still moves inside of it as with nonlinear");
     v.choice("drag_fraction", c.dragFraction, "Whose fraction of fibres drag goes by: the fabric's own, or the cell's mean as published");
@@ -70,10 +70,10 @@ void describe(V& v, CouplingSettings& c)
     v.section("capture", c.capture, "Fabric takes up liquid");
     v.section("wicking", c.wicking, "Liquid moves in fabric");
     v.flag("drip", c.drip, "Fabric lets go of liquid that its pores cannot hold");
-    v.onlyRuns("drag_uses_new_velocity", "true", {"false"}, "Drag by the fabric's velocity at the end of the step");
-    v.onlyRuns("air_drag", "false", {"true"}, "Air drags fabric");
-    v.onlyRuns("varying_fraction", "false", {"true"}, "Fabric that is stretched has wider pores");
-    v.onlyRuns("pore_pressure_on_fabric", "false", {"true"}, "Suction in its pores moves fabric");
+    v.onlySupports("drag_uses_new_velocity", "true", {"false"}, "Drag by the fabric's velocity at the end of the step");
+    v.onlySupports("air_drag", "false", {"true"}, "Air drags fabric");
+    v.onlySupports("varying_fraction", "false", {"true"}, "Fabric that is stretched has wider pores");
+    v.onlySupports("pore_pressure_on_fabric", "false", {"true"}, "Suction in its pores moves fabric");
     v.section("cohesion", c.cohesion, "Wet fabric sticks, fabric.solver vertex only");
 }
 

@@ -49,7 +49,7 @@ inline std::span<const Choice<TorsionModel>> choicesOf(TorsionModel)
 }
 
 template <class V>
-void describe(V& v, FabricSettings& f)
+void visitFields(V& v, FabricSettings& f)
 {
     v.fixed([&](auto& w) { w.choice("solver", f.solver, "off: pins follow their motions, all else stays where it is"); });
     v.choice("integrator", f.integrator,
@@ -77,7 +77,7 @@ void resolvePorous(const SectionReader& section, double poreRadius, double threa
 
 /// The two of `porous` that everything follows from, and the other ways to say them.
 template <class V>
-void describe(V& v, PorousSettings& p)
+void visitFields(V& v, PorousSettings& p)
 {
     v.fixed([&](auto& w) {
         w.number("fibre_diameter", p.fibreDiameter, Quantity::Length, Range::above(0.0), "Thickness of a fibre");
@@ -94,9 +94,9 @@ void describe(V& v, PorousSettings& p)
 }
 
 template <class V>
-void describe(V& v, FabricMaterial& m)
+void visitFields(V& v, FabricMaterial& m)
 {
-    v.needs("young", "Young's modulus of the fibres, like young: 6.6e+7 (dyn/cm^2) or young: 6.6 MPa");
+    v.required("young", "Young's modulus of the fibres, like young: 6.6e+7 (dyn/cm^2) or young: 6.6 MPa");
     v.number("young", m.young, Quantity::Pressure, Range::above(0.0), "Young's modulus of the fibres");
     v.number("poisson", m.poisson, Quantity::None, Range::inside(-1.0, 0.5), "Poisson's ratio");
     v.fixed([&](auto& w) { w.number("density", m.density, Quantity::Density, Range::above(0.0), "Of the fibres"); });
@@ -121,9 +121,9 @@ void describeFabric(V& v, Settings& s)
 {
     v.section("porous", s.porous, "");
     v.section("fabric", s.fabric, "");
-    v.later("contact",
-            "how hard solids push fabric follows from its mass and the step, with every solver; remove the section "
-            "(fabric.contact: false takes contact away, obstacles[].collide: false that with one solid)");
+    v.unsupported("contact",
+                  "how hard solids push fabric follows from its mass and the step, with every solver; remove the section "
+                  "(fabric.contact: false takes contact away, obstacles[].collide: false that with one solid)");
 }
 
 }  // namespace sim

@@ -11,10 +11,10 @@ struct IgnoresReading {
     void whenReading(Action)
     {
     }
-    void onlyRuns(const char*, const char*, std::initializer_list<const char*>, const char*) {}
-    void later(const char*, const char*) {}
+    void onlySupports(const char*, const char*, std::initializer_list<const char*>, const char*) {}
+    void unsupported(const char*, const char*) {}
     void other(const char*, const char*) {}
-    void needs(const char*, const char*) {}
+    void required(const char*, const char*) {}
     void require(bool, const char*, const std::string&) {}
 };
 

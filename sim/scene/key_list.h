@@ -52,7 +52,7 @@ struct DeclaredKey {
 class KeyList {
  public:
     std::vector<DeclaredKey> keys;
-    std::vector<std::string> laterKeys;  ///< known, and refused in this version
+    std::vector<std::string> unsupportedKeys;  ///< known, and refused in this version
 
     std::vector<std::string> names() const
     {
@@ -141,7 +141,7 @@ class KeyList {
     template <class T>
     void section(const char* key, T& x, const char* help)
     {
-        group(key, help, [&](KeyList& inner) { describe(inner, x); });
+        group(key, help, [&](KeyList& inner) { visitFields(inner, x); });
     }
     template <class Fields>
     void group(const char* key, const char* help, Fields fields)
@@ -172,16 +172,16 @@ class KeyList {
     void whenReading(Action)
     {
     }
-    void onlyRuns(const char* key, const char* word, std::initializer_list<const char*>, const char* help)
+    void onlySupports(const char* key, const char* word, std::initializer_list<const char*>, const char* help)
     {
         DeclaredKey& k = add(key, DeclaredKey::Kind::Word, help);
         k.words = {word};
         k.word = word;
     }
-    void later(const char* key, const char*) { laterKeys.emplace_back(key); }
+    void unsupported(const char* key, const char*) { unsupportedKeys.emplace_back(key); }
     void other(const char* key, const char* help) { add(key, DeclaredKey::Kind::Other, help); }
     void formula(const char* key, const char* help) { add(key, DeclaredKey::Kind::Formula, help); }
-    void needs(const char* key, const char* what) { needed_.emplace_back(key, what); }
+    void required(const char* key, const char* what) { needed_.emplace_back(key, what); }
     void require(bool, const char*, const std::string&) {}
 
  private:

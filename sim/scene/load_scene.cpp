@@ -2,7 +2,7 @@
 
 #include "sim/scene/describe.h"
 #include "sim/scene/describe_fabric.h"
-#include "sim/scene/measure_region.h"
+#include "sim/scene/estimate_volume.h"
 #include "sim/scene/read_bodies.h"
 #include "sim/scene/read_changes.h"
 #include "sim/scene/read_fabrics.h"
@@ -30,12 +30,12 @@ void describeTop(V& v, Settings& settings)
 {
     v.other("drench", "");
     v.other("scene", "");
-    describe(v, settings);
+    visitFields(v, settings);
     describeFabric(v, settings);
     for (const char* key : {"liquid", "materials", "fabrics", "obstacles", "domain", "motion", "changes"}) v.other(key, "");
     for (const char* key : {"render", "output", "compare", "validate", "precision"}) v.other(key, "");
-    v.later("benchmark", "no verb reads it; remove the section (drench bench --scene times a scene)");
-    v.later("test", "no verb reads it; remove the section (a scene's checks stand in validate)");
+    v.unsupported("benchmark", "no verb reads it; remove the section (drench bench --scene times a scene)");
+    v.unsupported("test", "no verb reads it; remove the section (a scene's checks stand in validate)");
     describeLater(v);
 }
 
@@ -52,14 +52,14 @@ void readNames(const Node& root, const std::string& file, Scene& scene)
 }
 
 /// A source must hold some liquid, and not more than fits into memory.
-void checkSource(const Scene& scene, std::size_t mostBoxes, SourceSettings& source)
+void checkSource(const Scene& scene, std::size_t maxBoxes, SourceSettings& source)
 {
     const std::string path = joinPath("liquid.sources", source.name);
-    const RegionMeasure region = measureRegion(source, scene, mostBoxes);
+    const VolumeEstimate region = estimateVolume(source, scene, maxBoxes);
     source.volume = region.volume;
     if (region.isUnbounded) fail(source.where, fmt::format("{}: reaches to infinity; intersect its shape with a box", path));
     if (region.isEmpty) {
-        const bool isBodiless = measureRegion(source, Scene{}, mostBoxes).isEmpty;
+        const bool isBodiless = estimateVolume(source, Scene{}, maxBoxes).isEmpty;
         fail(source.where, fmt::format("{}: is empty: {}", path,
                                        isBodiless ? "its shape has no volume; make its parts overlap"
                                                   : "its shape lies outside of the domain or inside obstacles; move it"));
@@ -126,7 +126,7 @@ void readLiquidPreset(const SectionReader& section, LiquidSettings& liquid)
 void readSettings(const Node& root, Settings& settings, std::vector<NamedMaterial>& materials)
 {
     SectionReader::read(&root, "", [&](auto& v) { describeTop(v, settings); });
-    SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { describe(v, settings.liquid); });
+    SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { visitFields(v, settings.liquid); });
     materials = readMaterials(root, settings.porous);
     checkCohesion(root, settings);
 }
@@ -180,7 +180,7 @@ Scene readScene(const SceneFile& file)
         scene.domainText = std::move(shape.text);
     }
     scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
-    for (SourceSettings& source : scene.sources) checkSource(scene, root.location.source->bounds.regionBoxes, source);
+    for (SourceSettings& source : scene.sources) checkSource(scene, root.location.source->bounds.maxBoxes, source);
     for (const FabricPiece& piece : scene.fabrics) scene.notes.insert(scene.notes.end(), piece.notes.begin(), piece.notes.end());
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());
     for (const ObstacleSettings& solid : scene.obstacles) scene.notes.insert(scene.notes.end(), solid.notes.begin(), solid.notes.end());

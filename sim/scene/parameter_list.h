@@ -74,7 +74,7 @@ class ParameterList : public IgnoresReading {
     void section(const char* key, T& x, const char*)
     {
         ParameterList inner = below(key);
-        describe(inner, x);
+        visitFields(inner, x);
     }
     template <class Fields>
     void group(const char* key, const char*, Fields fields)

@@ -39,14 +39,14 @@ std::vector<Parameter> parametersOf(const Settings& settings, const std::vector<
     std::vector<Parameter> all;
     Settings values = settings;
     ParameterList top(all, "");
-    describe(top, values);
+    visitFields(top, values);
     ParameterList liquid(all, "liquid");
-    describe(liquid, values.liquid);
+    visitFields(liquid, values.liquid);
     describeFabric(top, values);
     for (const NamedMaterial& named : materials) {
         FabricMaterial material = named.material;
         ParameterList inner(all, joinPath("materials", named.name));
-        describe(inner, material);
+        visitFields(inner, material);
     }
     return all;
 }

@@ -34,12 +34,12 @@ void writeSource(SectionWriter& w, SourceSettings source)
     }
     w.below("  fill", "", [&](SectionWriter& inner) {
         inner.indentBy(1);
-        describe(inner, source.fill);
+        visitFields(inner, source.fill);
     });
     std::string spans;
     for (Emission& e : source.emissions) {
         SectionWriter span;
-        describe(span, e);
+        visitFields(span, e);
         spans += (spans.empty() ? "" : ", ") + span.flow();
     }
     w.line("  emit", "[" + spans + "]", "[s], [cm/s]");
@@ -49,7 +49,7 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
 {
     LiquidSettings liquid = scene.settings.liquid;
     top.below("liquid", "", [&](SectionWriter& w) {
-        describe(w, liquid);
+        visitFields(w, liquid);
         if (!scene.sources.empty()) w.line("sources", "", "");
         for (const SourceSettings& source : scene.sources) writeSource(w, source);
     });
@@ -70,7 +70,8 @@ void writeObstacle(SectionWriter& w, const ObstacleSettings& obstacle)
 void writeMaterials(SectionWriter& top, std::vector<NamedMaterial> materials)
 {
     top.below("materials", "", [&](SectionWriter& w) {
-        for (NamedMaterial& m : materials) w.below(Node::scalar(m.name, {}).flow(), "", [&](SectionWriter& inner) { describe(inner, m.material); });
+        for (NamedMaterial& m : materials)
+            w.below(Node::scalar(m.name, {}).flow(), "", [&](SectionWriter& inner) { visitFields(inner, m.material); });
     });
 }
 
@@ -125,7 +126,7 @@ std::string printScene(const Scene& scene)
     Scene names = scene;
     w.below("scene", "", [&](SectionWriter& inner) { describeNames(inner, names); });
     Settings settings = scene.settings;
-    describe(w, settings);
+    visitFields(w, settings);
     writeLiquid(w, scene);
     if (!scene.fabrics.empty() || !scene.materials.empty()) writeFabric(w, scene);
     if (!scene.obstacles.empty()) w.line("obstacles", "", "");

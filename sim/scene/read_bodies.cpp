@@ -40,7 +40,7 @@ std::vector<Emission> readEmissions(const Node& source, const std::string& path,
     for (std::size_t i = 0; i < list->items.size(); ++i) {
         const std::string itemPath = fmt::format("{}.emit.{}", path, i);
         Emission e = initial;
-        SectionReader::read(&list->items[i], itemPath, [&](auto& v) { describe(v, e); });
+        SectionReader::read(&list->items[i], itemPath, [&](auto& v) { visitFields(v, e); });
         checkEmission(e, list->items[i], itemPath, initial.from);
         all.push_back(e);
     }
@@ -69,7 +69,7 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     initial.from = initial.to = settings.time.start;
     SectionReader::read(&node, path, [&](auto& v) {
         v.other("name", "");
-        v.needs("shape", "what the liquid fills, like shape: {ball: {center: [0, 5, 0], radius: 1}}");
+        v.required("shape", "what the liquid fills, like shape: {ball: {center: [0, 5, 0], radius: 1}}");
         v.other("shape", "");
         v.vector("velocity", initial.velocity, Quantity::Velocity, "");
         v.other("velocity_field", "");
@@ -100,7 +100,7 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
     double friction = 0.0;
     SectionReader::read(&node, path, [&](auto& v) {
         v.other("name", "");
-        v.needs("shape", "the solid body, like shape: {ball: {center: [0, 0, 0], radius: 1}}");
+        v.required("shape", "the solid body, like shape: {ball: {center: [0, 0, 0], radius: 1}}");
         v.other("shape", "");
         v.flag("inside", obstacle.inside, "");
         v.other("motion", "");

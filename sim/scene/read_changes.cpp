@@ -67,9 +67,9 @@ std::vector<SettingsChange> readChanges(const Node& root, const Scene& scene)
         const std::string path = fmt::format("changes.{}", i);
         int step = 0;
         SectionReader::read(&item, path, [&](auto& v) {
-            v.needs("step", "the first step with what is set, like step: 100");
+            v.required("step", "the first step with what is set, like step: 100");
             v.integer("step", step, 1, std::numeric_limits<int>::max(), "");
-            v.needs("set", "what holds from then on, like set: {time.dt: 1.0e-3}");
+            v.required("set", "what holds from then on, like set: {time.dt: 1.0e-3}");
             v.other("set", "");
         });
         if (i > 0 && step < changes.back().step)

@@ -36,7 +36,7 @@ template <class V>
 void describeThread(V& v, std::array<double, 2>& radius)
 {
     v.other("material", "Name of one of materials");
-    v.needs("radius", "half the thickness of a yarn or of the cloth, like radius: 0.02; [a, b] is an elliptic section");
+    v.required("radius", "half the thickness of a yarn or of the cloth, like radius: 0.02; [a, b] is an elliptic section");
     v.numberOrPair("radius", radius, Quantity::Length, kSize, "");
 }
 
@@ -47,7 +47,7 @@ struct Placement {
 };
 
 template <class V>
-void describe(V& v, Placement& p)
+void visitFields(V& v, Placement& p)
 {
     v.whenReading([&](auto& r) {
         p.byCenter = r.has("center");
@@ -85,7 +85,7 @@ ReadFabricShape readClothGrid(const Context& context)
     bool bySize = false;
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
-        v.needs("nodes", "the number of vertices each way, like nodes: [50, 50]");
+        v.required("nodes", "the number of vertices each way, like nodes: [50, 50]");
         v.counts("nodes", grid.nodes, 2, context.mostVertices(), "");
         v.whenReading([&](auto& r) {
             bySize = r.has("size");
@@ -93,7 +93,7 @@ ReadFabricShape readClothGrid(const Context& context)
         });
         v.when(!bySize, [&](auto& w) { w.numberOrPair("spacing", grid.spacing, Quantity::Length, kSize, ""); });
         v.when(bySize, [&](auto& w) { w.numberOrPair("size", size, Quantity::Length, kSize, ""); });
-        describe(v, placement);
+        visitFields(v, placement);
     };
     SectionReader::read(&context.node, context.path, fields);
     requireFew(pointCount(grid), context);
@@ -113,15 +113,15 @@ ReadFabricShape readWovenYarns(const Context& context)
     std::array<double, 2> radius{};
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
-        v.needs("yarns", "their number along u and along v, the border included, like yarns: [50, 50]");
+        v.required("yarns", "their number along u and along v, the border included, like yarns: [50, 50]");
         v.counts("yarns", cloth.yarns, 3, context.mostVertices(), "");
-        v.needs("spacing", "the distance from yarn to yarn, like spacing: 0.144");
+        v.required("spacing", "the distance from yarn to yarn, like spacing: 0.144");
         v.number("spacing", cloth.spacing, Quantity::Length, kSize, "");
         v.whenReading([&](auto&) { cloth.amplitude = 0.5 * cloth.spacing; });
         v.number("amplitude", cloth.amplitude, Quantity::Length, Range::between(0.0, kFarthest), "");
         v.choice("weave", cloth.weave, "");
         v.flag("borders", cloth.borders, "");
-        describe(v, placement);
+        visitFields(v, placement);
     };
     SectionReader::read(&context.node, context.path, fields);
     requireFew(pointCount(cloth), context);
@@ -182,8 +182,8 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     double scale = parseNumber("1", Quantity::Length, context.node.location.source && context.node.location.source->isSi).value;
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
-        v.needs("file", isCloth ? "an OBJ file, relative to the scene, like file: shirt.obj"
-                                : "an OBJ file whose l lines are yarns, relative to the scene, like file: net.obj");
+        v.required("file", isCloth ? "an OBJ file, relative to the scene, like file: shirt.obj"
+                                   : "an OBJ file whose l lines are yarns, relative to the scene, like file: net.obj");
         v.text("file", file, "");
         v.number("scale", scale, Quantity::Length, kSize, "The file's unit");
         v.when(isCloth, [&](auto& w) {

@@ -42,7 +42,7 @@ std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings&
         m.name = section->keys[i];
         requireName(m.name, node.location, "materials");
         m.material.volumeFraction = porous.volumeFraction;
-        SectionReader::read(&node, joinPath("materials", m.name), [&](auto& v) { describe(v, m.material); });
+        SectionReader::read(&node, joinPath("materials", m.name), [&](auto& v) { visitFields(v, m.material); });
     }
     return materials;
 }

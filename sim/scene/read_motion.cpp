@@ -58,7 +58,7 @@ void describeTurn(V& v, Piece& p)
 }
 
 template <class V>
-void describe(V& v, Piece& p, const Kind& kind)
+void visitFields(V& v, Piece& p, const Kind& kind)
 {
     if (!kind.followsPath) v.pair("t", p.t, Quantity::Time, kTime, "");
     if (kind.translates || kind.rotates) v.pair("ease", p.ease, Quantity::Time, Range::atLeast(0.0), "");
@@ -90,7 +90,7 @@ class PieceReader {
     std::string addTo(Motion& motion)
     {
         kind_ = kindOf();
-        const auto fields = [&](auto& v) { describe(v, piece_, kind_); };
+        const auto fields = [&](auto& v) { visitFields(v, piece_, kind_); };
         SectionReader::read(&node_, path_, fields);
         if (!kind_.followsPath) checkSpan();
         std::string tail;
@@ -134,7 +134,7 @@ class PieceReader {
         const std::string path = joinPath(path_, "rotate");
         const auto fields = [&](auto& v) {
             describeTurn(v, piece_);
-            v.needs("angle", "how far to turn, in degrees, like angle: 90");
+            v.required("angle", "how far to turn, in degrees, like angle: 90");
             v.number("angle", piece_.angle, Quantity::Angle, Range::between(-1.0e6, 1.0e6), "");
         };
         SectionReader::read(&node, path, fields);
@@ -153,10 +153,10 @@ class PieceReader {
         const auto fields = [&](auto& v) {
             if (kind_.swings) describeTurn(v, piece_);
             if (!kind_.swings) v.vector("direction", piece_.direction, Quantity::None, "");
-            v.needs("amplitude", "how far it swings to each side, a length (with axis: an angle)");
+            v.required("amplitude", "how far it swings to each side, a length (with axis: an angle)");
             if (kind_.swings) v.number("amplitude", piece_.swing, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
             if (!kind_.swings) v.number("amplitude", piece_.amplitude, Quantity::Length, Range::between(-kFarthest, kFarthest), "");
-            v.needs("frequency", "swings per second, like frequency: 2");
+            v.required("frequency", "swings per second, like frequency: 2");
             v.number("frequency", piece_.frequency, Quantity::Frequency, Range::aboveTo(0.0, kFastest), "");
         };
         SectionReader::read(&node, path, fields);

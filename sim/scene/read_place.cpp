@@ -36,9 +36,9 @@ ReadTransform readRotation(const Node& node, const std::string& path, const Vec3
     Vec3 axis = Vec3::UnitY(), origin = middle;
     double angle = 0.0;
     const auto fields = [&](auto& v) {
-        v.needs("axis", "the direction to turn about, like axis: [0, 0, 1]");
+        v.required("axis", "the direction to turn about, like axis: [0, 0, 1]");
         v.vector("axis", axis, Quantity::None, "");
-        v.needs("angle", "how far to turn, in degrees, like angle: 30");
+        v.required("angle", "how far to turn, in degrees, like angle: 30");
         v.number("angle", angle, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
         v.vector("origin", origin, Quantity::Length, "");
     };

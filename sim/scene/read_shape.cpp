@@ -31,7 +31,7 @@ ReadShape readBox(const Node& node, const Context& context, bool isRound)
             w.vector("min", low, Quantity::Length, "");
             w.vector("max", high, Quantity::Length, "");
         });
-        if (isRound) v.needs("round", "the radius of the edges, added outside of half");
+        if (isRound) v.required("round", "the radius of the edges, added outside of half");
         if (isRound) v.number("round", round, Quantity::Length, kRound, "");
         v.whenReading([&](auto& r) {
             const bool byCenter = r.has("center") && r.has("half"), byCorners = r.has("min") && r.has("max");
@@ -57,9 +57,9 @@ ReadShape readBall(const Node& node, const Context& context)
     Vec3 center = Vec3::Zero();
     double radius = 0.0;
     const auto fields = [&](auto& v) {
-        v.needs("center", "the middle of the ball, like center: [0, 5, 0]");
+        v.required("center", "the middle of the ball, like center: [0, 5, 0]");
         v.vector("center", center, Quantity::Length, "");
-        v.needs("radius", "the size of the ball, like radius: 1.44");
+        v.required("radius", "the size of the ball, like radius: 1.44");
         v.number("radius", radius, Quantity::Length, kSize, "");
     };
     SectionReader::read(&node, context.path, fields);
@@ -72,11 +72,11 @@ ReadShape readCapsule(const Node& node, const Context& context)
     Vec3 a = Vec3::Zero(), b = Vec3::Zero();
     double radius = 0.0;
     const auto fields = [&](auto& v) {
-        v.needs("a", "one end of the axis, like a: [0, 0, 0]");
+        v.required("a", "one end of the axis, like a: [0, 0, 0]");
         v.vector("a", a, Quantity::Length, "");
-        v.needs("b", "the other end of the axis, like b: [2, 0, 0]");
+        v.required("b", "the other end of the axis, like b: [2, 0, 0]");
         v.vector("b", b, Quantity::Length, "");
-        v.needs("radius", "the distance of the surface from the axis, like radius: 0.5");
+        v.required("radius", "the distance of the surface from the axis, like radius: 0.5");
         v.number("radius", radius, Quantity::Length, kSize, "");
     };
     SectionReader::read(&node, context.path, fields);
@@ -89,12 +89,12 @@ ReadShape readCylinder(const Node& node, const Context& context)
     Vec3 center = Vec3::Zero(), axis = Vec3::UnitY();
     double radius = 0.0, half = 0.0, round = 0.0;
     const auto fields = [&](auto& v) {
-        v.needs("center", "the middle of the cylinder, like center: [0, 5, 0]");
+        v.required("center", "the middle of the cylinder, like center: [0, 5, 0]");
         v.vector("center", center, Quantity::Length, "");
         v.vector("axis", axis, Quantity::None, "");
-        v.needs("radius", "the distance of the side from the axis, like radius: 0.5");
+        v.required("radius", "the distance of the side from the axis, like radius: 0.5");
         v.number("radius", radius, Quantity::Length, kSize, "");
-        v.needs("half", "half of the height, like half: 2");
+        v.required("half", "half of the height, like half: 2");
         v.number("half", half, Quantity::Length, kSize, "");
         v.number("round", round, Quantity::Length, kRound, "");
         v.require(round <= radius, "round", "must not be above radius");
@@ -109,11 +109,11 @@ ReadShape readMesh(const Node& node, const Context& context)
     std::string file;
     double scale = parseNumber("1", Quantity::Length, node.location.source && node.location.source->isSi).value, cell = 0.5 * context.cell;
     const auto fields = [&](auto& v) {
-        v.needs("file", "an OBJ file, relative to the scene, like file: cow.obj");
+        v.required("file", "an OBJ file, relative to the scene, like file: cow.obj");
         v.text("file", file, "");
         v.number("scale", scale, Quantity::Length, kSize, "");
         v.number("cell", cell, Quantity::Length, kSize, "");
-        v.later("cache", "this version finds the distances of a mesh anew in every run; remove the key (a larger mesh.cell is faster)");
+        v.unsupported("cache", "this version finds the distances of a mesh anew in every run; remove the key (a larger mesh.cell is faster)");
     };
     SectionReader::read(&node, context.path, fields);
     if (!(cell > 0.0)) fail(node.location, fmt::format("{}.cell is missing; it is the pitch of the distance field, like cell: 0.1", context.path));

@@ -173,7 +173,7 @@ void SectionReader::color(const char* key, Eigen::Vector3f& out, const char*)
     out = rgb.cast<float>();
 }
 
-void SectionReader::onlyRuns(const char* key, const char* word, std::initializer_list<const char*> others, const char*)
+void SectionReader::onlySupports(const char* key, const char* word, std::initializer_list<const char*> others, const char*)
 {
     const Node* n = find(key);
     if (!n || (n->isScalar() && n->text == word)) return;
@@ -182,12 +182,12 @@ void SectionReader::onlyRuns(const char* key, const char* word, std::initializer
     readChoice(*n, pathOf(key), {word});
 }
 
-void SectionReader::later(const char* key, const char* message)
+void SectionReader::unsupported(const char* key, const char* message)
 {
     if (const Node* n = find(key)) failAt(*n, pathOf(key), message);
 }
 
-void SectionReader::needs(const char* key, const char* what)
+void SectionReader::required(const char* key, const char* what)
 {
     if (!has(key)) fail(locationOf(key), fmt::format("{} is missing; it is {}", pathOf(key), what));
 }

@@ -106,7 +106,7 @@ class SectionReader {
     template <class T>
     void section(const char* key, T& out, const char*)
     {
-        read(find(key), pathOf(key), [&](auto& v) { describe(v, out); });
+        read(find(key), pathOf(key), [&](auto& v) { visitFields(v, out); });
     }
     template <class Fields>
     void group(const char* key, const char*, Fields fields)
@@ -146,13 +146,13 @@ class SectionReader {
         action(*this);
     }
     /// A choice of which this version runs one.
-    void onlyRuns(const char* key, const char* word, std::initializer_list<const char*> others, const char*);
+    void onlySupports(const char* key, const char* word, std::initializer_list<const char*> others, const char*);
     /// A key that this version knows and refuses.
-    void later(const char* key, const char* message);
+    void unsupported(const char* key, const char* message);
     /// A key that other code reads.
     void other(const char*, const char*) {}
     void formula(const char*, const char*) {}
-    void needs(const char* key, const char* what);
+    void required(const char* key, const char* what);
     void require(bool isMet, const char* key, const std::string& message);
 
     /// Reads one map by a declaration: first are there only keys it knows, then its fields. Without a map everything
@@ -165,7 +165,7 @@ class SectionReader {
         KeyList known;
         fields(known);
         if (const auto& source = node->location.source; source && source->listener) source->listener(known);
-        reader.refuseKeysBut(known.names(), known.laterKeys);
+        reader.refuseKeysBut(known.names(), known.unsupportedKeys);
         fields(reader);
     }
 

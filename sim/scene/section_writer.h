@@ -94,7 +94,7 @@ class SectionWriter : public IgnoresReading {
     template <class T>
     void section(const char* key, T& x, const char* help)
     {
-        below(key, help, [&](SectionWriter& w) { describe(w, x); });
+        below(key, help, [&](SectionWriter& w) { visitFields(w, x); });
     }
     template <class Fields>
     void group(const char* key, const char* help, Fields fields)

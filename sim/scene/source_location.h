@@ -17,7 +17,7 @@ struct ReadingBounds {
     std::filesystem::path folder = {};  ///< the files it names must lie below; empty: anywhere
     std::size_t values = 500'000;       ///< words, lists and maps, aliases copied out
     int vertices = 5'000'000;           ///< bound of the vertices of all fabrics
-    std::size_t regionBoxes = 100'000;  ///< into which a source is cut to measure its volume
+    std::size_t maxBoxes = 100'000;     ///< into which a source is cut to measure its volume
 };
 
 class KeyList;

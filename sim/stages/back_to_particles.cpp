@@ -41,7 +41,7 @@ GatherSettings gatherSettings(const StepContext& c)
     }
     if (settings.modes > kModesAtSurface) settings.manyModes = &work.grid.deep;
     if (c.plan.relaxes) settings.displacement = work.displacement.data();
-    if (c.plan.corrects) settings.faceDisplacement = &work.volume.displacement;
+    if (c.plan.correctsVolume) settings.faceDisplacement = &work.volume.displacement;
     if (c.plan.reflects) settings.reflected = &work.reflection.velocity;
     if (c.settings().time.reflects()) settings.atMidpoint = &work.free.held;
     if (c.settings().time.reflects() && isFrameMoving(c)) settings.frames = work.free.frames.data();
@@ -58,13 +58,13 @@ void keepPlaces(const LiquidParticles& particles, std::array<AlignedArray<double
 }
 
 /// @param fastest  speed at which particles may have moved [cm/s]
-PushedOut pushOut(StepContext& c, double fastest)
+PushOutTotals pushOut(StepContext& c, double fastest)
 {
     if (!c.hasObstacles()) return {};
     Workspace& work = c.work;
     work.obstacles.moveTo(c.state.time, c.state.time + c.dt);
-    const double farthest =
-        fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) + (c.plan.corrects ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
+    const double farthest = fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) +
+                            (c.plan.correctsVolume ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
     return pushOutOfObstacles(work.order, c.cut(), farthest, &work.places, c.state.liquid, work.pushedSolids);
 }
 
@@ -133,7 +133,7 @@ void gridToParticles(StepContext& c)
     if (c.hasObstacles()) keepPlaces(particles, work.places);
     GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gatherSettings(c), work.gather, particles);
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
-    const PushedOut pushed = pushOut(c, std::max(held, along));
+    const PushOutTotals pushed = pushOut(c, std::max(held, along));
     sums.kinetic -= pushed.lost;
     const WeightSums weights = weightSums(particles, c.settings().gravity);
     c.report.maxSpeed = c.plan.reflects ? along : held;
@@ -144,7 +144,7 @@ void gridToParticles(StepContext& c)
     c.report.liquidCells = countLiquidCells(grid, *c.plan.surfaceCells);
     if (!std::isfinite(held) || !std::isfinite(c.report.energies.total())) c.report.failure = "velocities are not finite";
     work.momentum.liquidMoved(sums.momentum, weights.mass * c.fallTime() * c.settings().gravity, work.onSolids, work.pushedSolids);
-    c.energy.solidsGave();
+    c.energy.bookSolidsWork();
     c.energy.toParticles(c.dt, pushed);
 }
 

@@ -29,8 +29,8 @@ void capture(StepContext& c)
     const StageScope scope(c.clock, Stage::Capture);
     State& state = c.state;
     Coupling& coupling = *c.work.coupling;
-    c.plan.meetsFabric = findVerticesInLiquid(c);
-    if (!c.plan.meetsFabric) return;
+    c.plan.overlapsFabric = findVerticesInLiquid(c);
+    if (!c.plan.overlapsFabric) return;
     const ExchangeWatch watch(coupling.fabric, state, &c.work.order);
     coupling.twist.store(coupling.fabric, state.fabric);
     c.report.capturedMass = coupling.capture.capture(c.dt, state.grid, c.work.order, coupling.vertices, state.liquid, state.fabric);
@@ -42,7 +42,7 @@ void capture(StepContext& c)
 
 void deleteCaptured(StepContext& c)
 {
-    if (!c.plan.meetsFabric) return;
+    if (!c.plan.overlapsFabric) return;
     const StageScope scope(c.clock, Stage::Capture);
     c.work.coupling->capture.removeEmptyParticles(c.state.liquid);
 }

@@ -13,7 +13,7 @@ void fabricToGrid(StepContext& c)
 
 void findMixture(StepContext& c)
 {
-    if (!c.plan.meetsFabric) return;
+    if (!c.plan.overlapsFabric) return;
     const StageScope scope(c.clock, Stage::Mixture);
     const std::optional<FabricFaces> faces = c.work.fabric->faces();
     // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (liquid/README.md, Reflection).

@@ -29,7 +29,7 @@ void particlesToGrid(StepContext& c)
     } else particlesToFaces(sorted, work.scatter, work.grid.faces);
     work.momentum.liquidOnFaces(work.grid.faces, grid.count());
     if (c.hasObstacles()) work.onSolids.begin(c.cut(), work.grid.faces);
-    if (hasImages(c)) foldAtWalls(grid, work.obstacles, c.settings().liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
+    if (hasImages(c)) mirrorAtWalls(grid, work.obstacles, c.settings().liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
     c.energy.toGrid();
 }
 

@@ -12,7 +12,7 @@ namespace sim {
 
 namespace {
 
-/// Largest share of an error of volume that a long step corrects; to correct all of it at once would overshoot [-].
+/// Largest share of an error of volume that a long step correctsVolume; to correct all of it at once would overshoot [-].
 constexpr double kLargestShare = 0.5;
 
 /// What pressure and surface tension have changed of velocities [cm/s], in FreeLiquid::change.
@@ -189,7 +189,7 @@ void correctStrain(StepContext& c)
     addToPressure(again, c);
 }
 
-void pressIn(StepContext& c)
+void bookInflowWork(StepContext& c)
 {
     if (!c.plan.isWet || c.work.emission.inflows.empty()) return;
     const StageScope scope(c.clock, Stage::Pressure);
@@ -210,8 +210,8 @@ void correctVolume(StepContext& c)
     Workspace& work = c.work;
     const double rate = c.settings().liquid.volume.rate;
     state.uncorrected += c.dt;
-    c.plan.corrects = isDue(rate, state.uncorrected, c.dt);
-    if (!c.plan.corrects) return;
+    c.plan.correctsVolume = isDue(rate, state.uncorrected, c.dt);
+    if (!c.plan.correctsVolume) return;
     const StageScope scope(c.clock, Stage::Volume);
     const double strength = std::min(kLargestShare, rate * state.uncorrected);
     c.report.volume = correctVolume(c.cut(), c.settings(), strength, *c.plan.pressure, work.volume);
@@ -222,7 +222,7 @@ void correctVolume(StepContext& c)
     takeMeans(state.grid, bodies, work.volume.displacement, work.free, work.volume.displacement);
 }
 
-void keepMomentum(StepContext& c)
+void conserveMomentum(StepContext& c)
 {
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Pressure);

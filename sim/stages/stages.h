@@ -51,11 +51,11 @@ void project(StepContext& c);
 /// Stretching within the reach of a B-spline is no inertia: what the pressure did, without it.
 void correctStrain(StepContext& c);
 /// Work of sources that press liquid into liquid.
-void pressIn(StepContext& c);
+void bookInflowWork(StepContext& c);
 /// Displacements of the faces that bring the liquid back to its volume.
 void correctVolume(StepContext& c);
 /// Pressure and surface tension leave free liquid the momentum that it has, and walls add no energy to it.
-void keepMomentum(StepContext& c);
+void conserveMomentum(StepContext& c);
 
 // fabric.cpp: the fabric, with what the liquid does to it.
 

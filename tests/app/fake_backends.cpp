@@ -166,9 +166,9 @@ ToySettings readToy(const SceneRequest& request)
 
 }  // namespace
 
-SceneSetup toySetup(const ToySettings& toy)
+LoadedScene toySetup(const ToySettings& toy)
 {
-    SceneSetup setup;
+    LoadedScene setup;
     setup.scene.name = "toy";
     setup.scene.settings.time.duration = toy.duration;
     setup.scene.settings.time.dt = toy.dt;
@@ -191,10 +191,10 @@ Backends toyBackends(const ToySettings& toy)
 {
     Backends backends;
     backends.loadScene = [toy](const SceneRequest&) { return toySetup(toy); };
-    backends.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(toy); };
-    backends.resumeSimulation = [toy](const SceneSetup&, const sim::State& state) { return std::make_unique<ToySimulation>(toy, state); };
-    backends.meshObstacles = [](const SceneSetup&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
-    backends.startRenderer = [toy](const SceneSetup&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
+    backends.startSimulation = [toy](const LoadedScene&) { return std::make_unique<ToySimulation>(toy); };
+    backends.resumeSimulation = [toy](const LoadedScene&, const sim::State& state) { return std::make_unique<ToySimulation>(toy, state); };
+    backends.meshObstacles = [](const LoadedScene&) { return [](double, std::vector<FrameSnapshot::Mesh>&) {}; };
+    backends.startRenderer = [toy](const LoadedScene&, bool) { return [toy](FrameSnapshot& snapshot) { return drawToy(toy, snapshot); }; };
     backends.drawnBy = [] { return "toy"; };
     backends.putSideBySide = [](const std::vector<Panel>& panels, const PictureSettings&, double) { return putToysSideBySide(panels); };
     backends.writePng = writePicture;
@@ -208,7 +208,7 @@ Backends toyBackendsFromFiles()
     Backends backends = toyBackends({});
     backends.loadScene = [toy](const SceneRequest& request) {
         *toy = readToy(request);
-        SceneSetup setup = toySetup(*toy);
+        LoadedScene setup = toySetup(*toy);
         setup.request = request;
         setup.variant = request.variant.empty() ? "default" : request.variant;
         if (request.file.starts_with("scenes/")) {
@@ -219,7 +219,7 @@ Backends toyBackendsFromFiles()
         setup.label = request.variant == "b" ? "B|2" : request.variant == "a" ? "A" : "";
         return setup;
     };
-    backends.startSimulation = [toy](const SceneSetup&) { return std::make_unique<ToySimulation>(*toy); };
+    backends.startSimulation = [toy](const LoadedScene&) { return std::make_unique<ToySimulation>(*toy); };
     return backends;
 }
 

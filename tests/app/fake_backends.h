@@ -21,7 +21,7 @@ struct ToySettings {
     int failAtWriting = -1;  ///< the frame whose file cannot be written
 };
 
-SceneSetup toySetup(const ToySettings& toy);
+LoadedScene toySetup(const ToySettings& toy);
 Backends toyBackends(const ToySettings& toy);
 
 /// The same from files, for a whole program.

@@ -16,7 +16,7 @@ Backends partsWithANote()
 {
     Backends backends = test::toyBackends({});
     backends.loadScene = [](const SceneRequest&) {
-        SceneSetup setup = test::toySetup({});
+        LoadedScene setup = test::toySetup({});
         setup.scene.notes.emplace_back(kNote);
         return setup;
     };

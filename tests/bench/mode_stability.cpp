@@ -2,7 +2,7 @@
 //   mode_stability MODES ...
 // One line of a table per number of modes; its head with no argument. results/mode_stability.md says what came out.
 
-#include "tests/physics/energy_course.h"
+#include "tests/physics/energy_history.h"
 #include "tests/physics/vortex_run.h"
 #include "tests/sim/transfer/transfers.h"
 

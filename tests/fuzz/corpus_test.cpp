@@ -1,5 +1,5 @@
 #include "tests/fuzz/fuzz_folder.h"
-#include "tests/sim/scene/loads_or_complains.h"
+#include "tests/sim/scene/loads_or_rejects.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ class FuzzFolder {
     FuzzFolder()
     {
         app::test::writeFile(folder_ / "part.yaml", "time: {dt: 1.0e-3}\ngrid: {cell: 0.2}\n");
-        options_.bounds = {.folder = folder_.path(), .values = 5000, .vertices = 300, .regionBoxes = 64};
+        options_.bounds = {.folder = folder_.path(), .values = 5000, .vertices = 300, .maxBoxes = 64};
     }
     std::string name() const { return (folder_ / "fuzz.yaml").string(); }
     const sim::LoadOptions& options() const { return options_; }

@@ -1,7 +1,7 @@
 // For libFuzzer: any bytes are a scene or are refused in one line. tests/fuzz/run builds and starts it.
 
 #include "tests/fuzz/fuzz_folder.h"
-#include "tests/sim/scene/loads_or_complains.h"
+#include "tests/sim/scene/loads_or_rejects.h"
 
 #include <cstddef>
 #include <cstdint>

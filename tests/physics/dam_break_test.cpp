@@ -1,4 +1,4 @@
-#include "tests/physics/energy_course.h"
+#include "tests/physics/energy_history.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ TEST(DamBreak, FrontFollowsMartinAndMoyceWithApic) { followTheExperiment(kApic);
 
 /// Liquid thrown into the corner under a lid falls down again; right at the lid, it would hang there while its gradients
 /// grow by g dt in every step.
-TEST(DamBreak, NothingHangsUnderALid)
+TEST(DamBreak, NoLiquidSticksToTheCeiling)
 {
     for (const Transfer& transfer : {kApic, kPoly11}) {
         Scene scene = tankScene(transfer, 1.0, {12.0, 12.0, 4.0}, {0.0, 6.0, 0.0}, {4.0, 10.0, 4.0});

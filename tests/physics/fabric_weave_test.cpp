@@ -1,5 +1,5 @@
-#include "tests/physics/crossings.h"
 #include "tests/physics/fabric_runs.h"
+#include "tests/physics/intersection_check.h"
 
 #include <gtest/gtest.h>
 

@@ -94,7 +94,7 @@ Mat3 turned(double angle, const Vec3& axis) { return Eigen::AngleAxisd(angle, ax
 class Frames : public ::testing::TestWithParam<FabricSolver> {};
 
 /// The grid maps to itself: only rounding may tell.
-TEST_P(Frames, ThatMapTheGridToItselfSeeTheSame)
+TEST_P(Frames, LatticeSymmetriesAreExact)
 {
     const double until = 5.0e-3, cell = 0.25;
     const Seen here = runIn(GetParam(), {}, until);
@@ -120,7 +120,7 @@ TEST_P(Frames, ThatMapTheGridToItselfSeeTheSame)
 }
 
 /// The grid does not map to itself: its errors tell, but they are small.
-TEST_P(Frames, ThatLieAslantInTheGridSeeNearlyTheSame)
+TEST_P(Frames, RotationInvarianceIsApproximate)
 {
     const double until = 0.015;
     const Seen here = runIn(GetParam(), {}, until, false);

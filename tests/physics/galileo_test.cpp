@@ -72,7 +72,7 @@ Centre centreOf(const State& state)
     return {sum.x / mass, sum.v / mass};
 }
 
-TEST(Galileo, TheCentreOfFreeLiquidGoesLikeAStone)
+TEST(Galileo, CentreOfMassOfFreeLiquidIsBallistic)
 {
     Random random(30);
     for (const Transfer& transfer : kTransfers)
@@ -102,7 +102,7 @@ std::vector<Vec3> placesAfter(int steps, Simulation simulation)
 }
 
 /// A frame that moves on by whole cells in a step has the same grid: nothing but rounding may differ.
-TEST(Galileo, AFrameThatMovesByCellsSeesTheSame)
+TEST(Galileo, BoostByWholeCellsIsExact)
 {
     constexpr int kSteps = 8;
     constexpr double kDt = 2.0e-3;

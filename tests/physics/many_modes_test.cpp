@@ -1,5 +1,5 @@
 // More modes than 8 keep still liquid still and gain no energy in a dam break (transfer/README.md, More than 8 modes).
-#include "tests/physics/energy_course.h"
+#include "tests/physics/energy_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Advection-reflection against the plain splitting (liquid/README.md, Reflection).
-#include "tests/physics/energy_course.h"
+#include "tests/physics/energy_history.h"
 #include "tests/physics/vortex_run.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Solids that move do work on the liquid, and only what they do makes its energy grow.
-#include "tests/physics/energy_course.h"
+#include "tests/physics/energy_history.h"
 
 #include "sim/energy_changes.h"
 

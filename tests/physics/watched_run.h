@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/simulation.h"
-#include "tests/physics/crossings.h"
+#include "tests/physics/intersection_check.h"
 
 #include <algorithm>
 #include <chrono>

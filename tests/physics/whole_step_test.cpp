@@ -60,7 +60,7 @@ TEST(WholeStep, RunsOnlyTheStagesItNeeds)
         EXPECT_TRUE(more.stageRan[static_cast<int>(stage)]) << kStageNames[static_cast<int>(stage)];
 }
 
-TEST(WholeStep, EmptySceneDoesNothingInPeace)
+TEST(WholeStep, EmptySceneRuns)
 {
     Scene scene;
     scene.settings.cell = 0.5;

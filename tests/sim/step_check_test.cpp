@@ -36,13 +36,13 @@ struct Sample {
         scene.fabrics.push_back(cloth);
         simulation.emplace(scene);
         check.emplace(simulation->scene(), simulation->fabric());
-        const StepMemory before = simulation->state().memory;
+        const StepHistory before = simulation->state().memory;
         report = simulation->step(1.0e-3);
         state = simulation->state();
         state.memory = before;
     }
-    std::optional<Fault> rejectionReason() const { return check->rejectionReason(state, report); }
-    std::optional<Fault> violatedInvariant() const { return check->violatedInvariant(state, report); }
+    std::optional<StepFailure> rejectionReason() const { return check->rejectionReason(state, report); }
+    std::optional<StepFailure> violatedInvariant() const { return check->violatedInvariant(state, report); }
 };
 
 TEST(StepCheck, FindsNothingInAGoodStep)
@@ -126,7 +126,7 @@ TEST(StepCheck, FindsNothingWhereNothingIsLeft)
     report.dt = 1.0e-3;
     check.start(report.energies, state.memory);
     spoilStack();
-    const std::optional<Fault> fault = check.rejectionReason(state, report);
+    const std::optional<StepFailure> fault = check.rejectionReason(state, report);
     EXPECT_FALSE(fault) << fault->what;
 }
 

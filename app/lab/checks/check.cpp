@@ -17,17 +17,17 @@ double Check::expectedAt(double time, double at) const
     return (*before)[1] + ((*after)[1] - (*before)[1]) * (at - (*before)[0]) / ((*after)[0] - (*before)[0]);
 }
 
-std::optional<Reading> readOnce(const Check& check, double time)
+std::optional<Sample> readOnce(const Check& check, double time)
 {
     const std::array now = {time};
     const double at = check.against(now);
     if (at < check.from || at > check.to) return std::nullopt;
-    Reading reading{at, check.read(now), check.expectedAt(time, at)};
+    Sample reading{at, check.read(now), check.expectedAt(time, at)};
     if (check.hasCurve() && !std::isfinite(reading.expected)) return std::nullopt;
     return reading;
 }
 
-Finding judge(const Check& check, std::span<const Reading> readings)
+Finding judge(const Check& check, std::span<const Sample> readings)
 {
     Finding finding;
     finding.value = statisticOf(check.statistic, readings, check.level);

@@ -42,9 +42,9 @@ struct Finding {
 };
 
 /// A reading of the simulation that `measures` looks at; nothing outside from … to. Throws FormulaError.
-std::optional<Reading> readOnce(const Check& check, double time);
+std::optional<Sample> readOnce(const Check& check, double time);
 
-Finding judge(const Check& check, std::span<const Reading> readings);
+Finding judge(const Check& check, std::span<const Sample> readings);
 
 /// "within 3 %", "at least 0.1, at most 1.2".
 std::string bounds(const Check& check);

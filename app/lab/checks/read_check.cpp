@@ -28,7 +28,7 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
     sim::SectionReader::read(&node, path, [&](auto& v) {
         v.text("name", called, "What tables and plots call it");
         v.text("unit", unit, "As tables and plots show it");
-        v.needs("read", "a formula of what is read as the scene runs, like read: liquid_y");
+        v.required("read", "a formula of what is read as the scene runs, like read: liquid_y");
         v.formula("read", "What is read as the scene runs, of t and the names of app/readings/measures.h");
         v.formula("against", "What readings are ordered by; left out: the time t");
         v.formula("from", "Readings below it, of against, do not count");

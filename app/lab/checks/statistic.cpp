@@ -12,30 +12,30 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double mean(std::span<const Reading> all)
+double mean(std::span<const Sample> all)
 {
-    return std::accumulate(all.begin(), all.end(), 0.0, [](double sum, const Reading& r) { return sum + r.value; }) / static_cast<double>(all.size());
+    return std::accumulate(all.begin(), all.end(), 0.0, [](double sum, const Sample& r) { return sum + r.value; }) / static_cast<double>(all.size());
 }
 
 /// Slope of the straight line through points.
-double slope(std::span<const Reading> all)
+double slope(std::span<const Sample> all)
 {
     if (all.size() < 2) return kNone;
     double middle = 0.0;
-    for (const Reading& r : all) middle += r.at / static_cast<double>(all.size());
+    for (const Sample& r : all) middle += r.at / static_cast<double>(all.size());
     const double level = mean(all);
     double across = 0.0, along = 0.0;
-    for (const Reading& r : all) {
+    for (const Sample& r : all) {
         across += (r.at - middle) * (r.value - level);
         along += (r.at - middle) * (r.at - middle);
     }
     return across / along;
 }
 
-double slopeOfLogarithm(std::span<const Reading> all, bool isOfBoth)
+double slopeOfLogarithm(std::span<const Sample> all, bool isOfBoth)
 {
-    std::vector<Reading> logarithms;
-    for (const Reading& r : all)
+    std::vector<Sample> logarithms;
+    for (const Sample& r : all)
         if (!isOfBoth || (r.at > 0.0 && r.value > 0.0)) logarithms.push_back({isOfBoth ? std::log(r.at) : r.at, std::log(std::abs(r.value)), 0.0});
     return slope(logarithms);
 }
@@ -43,14 +43,14 @@ double slopeOfLogarithm(std::span<const Reading> all, bool isOfBoth)
 /// Where readings pass their mean, and the largest distance from it between two passings.
 struct Oscillations {
     std::vector<double> passings;
-    std::vector<Reading> peaks;
+    std::vector<Sample> peaks;
 };
 
-Oscillations oscillationsOf(std::span<const Reading> all)
+Oscillations oscillationsOf(std::span<const Sample> all)
 {
     Oscillations swings;
     const double level = mean(all);
-    Reading peak;
+    Sample peak;
     for (std::size_t i = 1; i < all.size(); ++i) {
         const double before = all[i - 1].value - level, now = all[i].value - level;
         if ((before < 0.0) != (now < 0.0)) {
@@ -63,34 +63,34 @@ Oscillations oscillationsOf(std::span<const Reading> all)
     return swings;
 }
 
-double period(std::span<const Reading> all)
+double period(std::span<const Sample> all)
 {
     const std::vector<double> passings = oscillationsOf(all).passings;
     if (passings.size() < 3) return kNone;
     return 2.0 * (passings.back() - passings.front()) / static_cast<double>(passings.size() - 1);
 }
 
-std::vector<double> errors(std::span<const Reading> all)
+std::vector<double> errors(std::span<const Sample> all)
 {
     std::vector<double> errors;
-    for (const Reading& r : all) errors.push_back(std::abs(r.value / r.expected - 1.0));
+    for (const Sample& r : all) errors.push_back(std::abs(r.value / r.expected - 1.0));
     return errors;
 }
 
-double rmsError(std::span<const Reading> all)
+double rmsError(std::span<const Sample> all)
 {
     double error = 0.0, size = 0.0;
-    for (const Reading& r : all) {
+    for (const Sample& r : all) {
         error += (r.value - r.expected) * (r.value - r.expected);
         size += (r.expected - all.front().expected) * (r.expected - all.front().expected);
     }
     return std::sqrt(error / size);
 }
 
-double reach(std::span<const Reading> all, double level)
+double reach(std::span<const Sample> all, double level)
 {
     for (std::size_t i = 1; i < all.size(); ++i) {
-        const Reading &before = all[i - 1], &now = all[i];
+        const Sample &before = all[i - 1], &now = all[i];
         if (before.value < level && now.value >= level) return before.at + (now.at - before.at) * (level - before.value) / (now.value - before.value);
     }
     return kNone;
@@ -98,10 +98,10 @@ double reach(std::span<const Reading> all, double level)
 
 }  // namespace
 
-double statisticOf(Statistic what, std::span<const Reading> all, double level)
+double statisticOf(Statistic what, std::span<const Sample> all, double level)
 {
     if (all.empty()) return kNone;
-    const auto byValue = [](const Reading& a, const Reading& b) { return a.value < b.value; };
+    const auto byValue = [](const Sample& a, const Sample& b) { return a.value < b.value; };
     switch (what) {
         case Statistic::First: return all.front().value;
         case Statistic::Last: return all.back().value;

@@ -8,7 +8,7 @@ namespace app {
 
 /// One reading of a run: where it was taken (a time, or what the check is plotted against), what was read, what is
 /// known.
-struct Reading {
+struct Sample {
     double at = 0.0, value = 0.0, expected = 0.0;
 };
 
@@ -54,6 +54,6 @@ inline std::span<const sim::Choice<Statistic>> choicesOf(Statistic)
 
 /// NaN where there are too few readings for it.
 /// @param level  of Statistic::Reach
-double statisticOf(Statistic what, std::span<const Reading> readings, double level = 0.0);
+double statisticOf(Statistic what, std::span<const Sample> readings, double level = 0.0);
 
 }  // namespace app

@@ -10,7 +10,7 @@ bool Precision::needsConverged() const
     return std::ranges::any_of(errors, [](const Check& check) { return !check.expect && check.table.empty(); });
 }
 
-double errorOf(const Check& check, std::span<const Reading> readings)
+double errorOf(const Check& check, std::span<const Sample> readings)
 {
     const Finding finding = judge(check, readings);
     if (check.hasCurve()) return finding.value;

@@ -2,7 +2,7 @@
 
 #include "app/lab/checks/check.h"
 #include "app/readings/measures.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <memory>
 #include <optional>
@@ -45,9 +45,9 @@ struct Precision {
 };
 
 /// Nothing where a scene has no such section. Throws InputError.
-std::optional<Precision> readPrecision(const SceneSetup& setup);
+std::optional<Precision> readPrecision(const LoadedScene& setup);
 
 /// How far a finding is from what is known: relative to that, or absolute where that is nothing.
-double errorOf(const Check& check, std::span<const Reading> readings);
+double errorOf(const Check& check, std::span<const Sample> readings);
 
 }  // namespace app

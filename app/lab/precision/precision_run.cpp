@@ -15,11 +15,11 @@ namespace app {
 namespace {
 
 using Choices = std::vector<PrecisionChoice>;
-using AllReadings = std::vector<std::vector<Reading>>;
+using AllReadings = std::vector<std::vector<Sample>>;
 
-SceneSetup load(const std::string& file, const std::vector<std::string>& sets, const Backends& backends)
+LoadedScene load(const std::string& file, const std::vector<std::string>& sets, const Backends& backends)
 {
-    SceneSetup setup = backends.loadScene({.file = file, .variant = "", .sets = sets});
+    LoadedScene setup = backends.loadScene({.file = file, .variant = "", .sets = sets});
     if (!readPrecision(setup)) throw sim::InputError(fmt::format("{}: has no section precision, which tells what to run it with", file));
     return setup;
 }
@@ -31,7 +31,7 @@ std::vector<std::string> setsOf(const std::string& file, const std::array<const 
     for (const PrecisionChoice* choice : of) sets.insert(sets.end(), choice->sets.begin(), choice->sets.end());
     const PrecisionChoice& step = *of[3];
     if (step.cells <= 0.0) return sets;
-    const SceneSetup setup = load(file, sets, backends);
+    const LoadedScene setup = load(file, sets, backends);
     const double speed = readPrecision(setup)->speed;
     if (!(speed > 0.0))
         throw sim::InputError(fmt::format("{}: precision.speed is missing: how fast is liquid that crosses so many cells per step?", file));
@@ -44,19 +44,19 @@ std::vector<Check> checksAgainst(const Precision& precision, const AllReadings& 
     std::vector<Check> checks = precision.errors;
     for (std::size_t i = 0; i < checks.size() && i < converged.size(); ++i)
         if (!checks[i].expect && checks[i].table.empty())
-            for (const Reading& reading : converged[i]) checks[i].table.push_back({reading.at, reading.value});
+            for (const Sample& reading : converged[i]) checks[i].table.push_back({reading.at, reading.value});
     return checks;
 }
 
 /// What one run reads.
 struct Outcome {
     AllReadings errors;
-    std::vector<Reading> energies;
+    std::vector<Sample> energies;
     RunReadings followed;
 };
 
 /// @param checks  that look at the section's measures
-Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::vector<Check>& checks, const Backends& backends,
+Outcome runOnce(const LoadedScene& setup, const Precision& precision, const std::vector<Check>& checks, const Backends& backends,
                 const std::function<bool()>& stopWanted)
 {
     const auto simulation = backends.startSimulation(setup);
@@ -75,7 +75,7 @@ Outcome runOnce(const SceneSetup& setup, const Precision& precision, const std::
 }
 
 /// Of the energies after the start, whose particles the grid has not yet smoothed.
-double viscosityOf(const Precision& precision, const std::vector<Reading>& energies)
+double viscosityOf(const Precision& precision, const std::vector<Sample>& energies)
 {
     if (precision.decay <= 0.0 || energies.empty()) return std::numeric_limits<double>::quiet_NaN();
     return statisticOf(Statistic::Rate, std::span(energies).subspan(1)) / precision.decay;
@@ -106,9 +106,9 @@ PrecisionRow rowOf(const PrecisionRun& run, int threads, int repeats)
 
 }  // namespace
 
-std::string settingsOf(const SceneSetup& setup)
+std::string settingsOf(const LoadedScene& setup)
 {
-    SceneSetup asked = setup;
+    LoadedScene asked = setup;
     asked.identity += readPrecision(setup)->question;
     return contentHash(asked, false, 0);
 }
@@ -126,19 +126,19 @@ std::vector<PrecisionRun> precisionRuns(const std::string& file, const Backends&
             for (const auto& integrator : wanted(precision.integrators))
                 for (const auto& step : wanted(precision.steps)) {
                     const PrecisionNames names{method.name, integrator.name, step.name, resolution.name};
-                    SceneSetup setup = load(file, setsOf(file, {&resolution, &method, &integrator, &step}, backends), backends);
+                    LoadedScene setup = load(file, setsOf(file, {&resolution, &method, &integrator, &step}, backends), backends);
                     const std::string settings = settingsOf(setup);
                     runs.push_back({setup.scene.name, names, std::move(setup), settings});
                 }
     return runs;
 }
 
-SceneSetup convergedSetup(const std::string& file, const Backends& backends)
+LoadedScene convergedSetup(const std::string& file, const Backends& backends)
 {
     return load(file, readPrecision(load(file, {}, backends))->converged, backends);
 }
 
-AllReadings readErrors(const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted)
+AllReadings readErrors(const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted)
 {
     const Precision precision = *readPrecision(setup);
     std::vector<Check> checks = precision.errors;

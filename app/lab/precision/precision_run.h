@@ -13,26 +13,26 @@ namespace app {
 struct PrecisionRun {
     std::string scene;  ///< the case
     PrecisionNames names;
-    SceneSetup setup;
+    LoadedScene setup;
     std::string settings;  ///< PrecisionRow::settings
 };
 
 /// 16 digits for what the outcome depends on, beside the program.
-std::string settingsOf(const SceneSetup& setup);
+std::string settingsOf(const LoadedScene& setup);
 
 /// All combinations of the scene's choices. Throws InputError, also where it has no section precision.
 /// @param isQuick  only those that its part `quick` names
 std::vector<PrecisionRun> precisionRuns(const std::string& file, const Backends& backends, bool isQuick);
 
 /// The run that others are held against.
-SceneSetup convergedSetup(const std::string& file, const Backends& backends);
+LoadedScene convergedSetup(const std::string& file, const Backends& backends);
 
 /// What a run reads for each of the errors, to its end. Throws RunError.
-std::vector<std::vector<Reading>> readErrors(const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted);
+std::vector<std::vector<Sample>> readErrors(const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted);
 
 /// Run it so many times. What keeps a run from its end stands in the row; a wish to stop is thrown as RunError.
 /// @param converged  readings of the run to compare with, of each of the errors; empty where all is known
-PrecisionRow measurePrecision(const PrecisionRun& run, const std::vector<std::vector<Reading>>& converged, int threads, int repeats,
+PrecisionRow measurePrecision(const PrecisionRun& run, const std::vector<std::vector<Sample>>& converged, int threads, int repeats,
                               const Backends& backends, const std::function<bool()>& stopWanted);
 
 }  // namespace app

@@ -17,7 +17,7 @@ using Choices = std::vector<PrecisionChoice>;
 PrecisionChoice choiceIn(const Node& node, const std::string& path)
 {
     sim::SectionReader section(node, path);
-    section.needs("name", "what tables and plots call it, like {name: APIC, transfer.method: apic}");
+    section.required("name", "what tables and plots call it, like {name: APIC, transfer.method: apic}");
     PrecisionChoice choice{.name = sim::readText(*section.find("name"), section.pathOf("name"))};
     if (choice.name.find_first_of(",\"\n") != std::string::npos) sim::fail(node.location, path + ".name: stands in a CSV file: no commas or quotes");
     section.number("cells", choice.cells, sim::Quantity::None, sim::Range::above(0.0), "");
@@ -120,7 +120,7 @@ std::string questionIn(const sim::SectionReader& section)
 
 }  // namespace
 
-std::optional<Precision> readPrecision(const SceneSetup& setup)
+std::optional<Precision> readPrecision(const LoadedScene& setup)
 {
     const Node* node = setup.file.root.find("precision");
     if (!node) return std::nullopt;
@@ -143,7 +143,7 @@ std::optional<Precision> readPrecision(const SceneSetup& setup)
     sim::SectionReader section(*node, "precision");
     auto measures = std::make_shared<Measures>(setup.scene);
     const ReadingContext context = readContext(section, setup.scene, *measures);
-    section.needs("errors", "a list of what is compared, like errors: [{read: flow_error, expect: 0}]");
+    section.required("errors", "a list of what is compared, like errors: [{read: flow_error, expect: 0}]");
     precision.measures = std::move(measures);
     precision.every = readInterval(section, context);
     if (const Node* at = section.find("energy")) precision.energy = readFormula(*at, "precision.energy", context.reading);

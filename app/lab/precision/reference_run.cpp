@@ -16,7 +16,7 @@ namespace app {
 
 namespace {
 
-using AllReadings = std::vector<std::vector<Reading>>;
+using AllReadings = std::vector<std::vector<Sample>>;
 
 std::string headerOf(const std::string& settings) { return "error,at,value," + settings; }
 
@@ -24,7 +24,7 @@ std::string textOf(const AllReadings& all, const std::string& settings)
 {
     std::string text = headerOf(settings) + '\n';
     for (std::size_t i = 0; i < all.size(); ++i)
-        for (const Reading& reading : all[i]) fmt::format_to(std::back_inserter(text), "{},{:.12g},{:.12g}\n", i, reading.at, reading.value);
+        for (const Sample& reading : all[i]) fmt::format_to(std::back_inserter(text), "{},{:.12g},{:.12g}\n", i, reading.at, reading.value);
     return text;
 }
 
@@ -41,7 +41,7 @@ AllReadings readFile(const std::filesystem::path& file, const std::string& setti
         char* at = nullptr;
         const unsigned long number = std::strtoul(line.c_str(), &at, 10);
         char* end = at;
-        Reading reading;
+        Sample reading;
         if (*at == ',') reading.at = std::strtod(at + 1, &end);
         if (end == at || *end != ',' || number >= count)
             throw sim::InputError(fmt::format("{}: is not what bench precision left: remove it", file.string()));
@@ -53,7 +53,7 @@ AllReadings readFile(const std::filesystem::path& file, const std::string& setti
 
 }  // namespace
 
-AllReadings convergedReadings(const std::filesystem::path& file, const SceneSetup& setup, int threads, const Backends& backends,
+AllReadings convergedReadings(const std::filesystem::path& file, const LoadedScene& setup, int threads, const Backends& backends,
                               const std::function<bool()>& stopWanted)
 {
     const std::string settings = settingsOf(setup);

@@ -37,22 +37,22 @@ struct Places {
 
 void tell(const RandomStressResult& result)
 {
-    const StressOutcome& outcome = result.outcome;
-    if (outcome.ending == StressEnding::Finished) return;
-    fmt::print("{:<18} {:>6.1f} s  {}: {}\n", result.scene, outcome.seconds, kStressEndings[static_cast<int>(outcome.ending)], outcome.message);
+    const RunVerdict& outcome = result.outcome;
+    if (outcome.ending == RunOutcome::Finished) return;
+    fmt::print("{:<18} {:>6.1f} s  {}: {}\n", result.scene, outcome.seconds, kRunOutcomes[static_cast<int>(outcome.ending)], outcome.message);
     std::fflush(stdout);
 }
 
 /// Of a run that finished or stopped: is it where and as fast as it may be?
-void judgeLaws(const fs::path& file, const fs::path& folder, const RandomScene& scene, StressOutcome& outcome)
+void judgeLaws(const fs::path& file, const fs::path& folder, const RandomScene& scene, RunVerdict& outcome)
 {
     if (isFault(outcome.ending)) return;
     if (const std::string why = whyUnsound(courseOf(folder)); !why.empty()) {
-        outcome.ending = StressEnding::Unsound;
+        outcome.ending = RunOutcome::Unsound;
         outcome.message = why;
     }
     if (const std::string why = describeEscape(file, folder, scene.vessel); !why.empty()) {
-        outcome.ending = StressEnding::Escaped;
+        outcome.ending = RunOutcome::Escaped;
         outcome.message = why;
     }
 }
@@ -88,7 +88,7 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
         RandomStressResult result{name, judgeEnd(end, places.folder(name), kPictures)};
         judgeLaws(places.file(name), places.folder(name), sceneOf(n), result.outcome);
         tell(result);
-        if (result.outcome.ending == StressEnding::Finished) places.remove(name);
+        if (result.outcome.ending == RunOutcome::Finished) places.remove(name);
         results.emplace(n, std::move(result));
     };
     runProcesses(pool);
@@ -99,7 +99,7 @@ std::vector<RandomStressResult> runRandomStress(const RandomStress& stress)
 
 std::string randomStressReport(const RandomStress& stress, const std::vector<RandomStressResult>& results)
 {
-    std::map<StressEnding, int> counts;
+    std::map<RunOutcome, int> counts;
     double seconds = 0.0;
     for (const RandomStressResult& result : results) {
         ++counts[result.outcome.ending];
@@ -107,15 +107,15 @@ std::string randomStressReport(const RandomStress& stress, const std::vector<Ran
     }
     std::string text = fmt::format("# {} random scenes, seed {}\n\nThey took {} of one thread's time.\n\n| ending | scenes |\n|---|---:|\n",
                                    results.size(), stress.seed, formatDuration(seconds));
-    for (int e = 0; e < static_cast<int>(StressEnding::Count); ++e)
-        text += fmt::format("| {} | {} |\n", kStressEndings[e], counts[static_cast<StressEnding>(e)]);
+    for (int e = 0; e < static_cast<int>(RunOutcome::Count); ++e)
+        text += fmt::format("| {} | {} |\n", kRunOutcomes[e], counts[static_cast<RunOutcome>(e)]);
     std::string again = "drench run FILE --threads 1";
     for (const std::string& key : stress.set) again += fmt::format(" --set {}", key);
     text += fmt::format("\n## What did not finish\n\nEach scene is a file that runs again by `{}`.\n\n| file | ending | message |\n|---|---|---|\n",
                         again);
     for (const RandomStressResult& result : results)
-        if (const StressOutcome& outcome = result.outcome; outcome.ending != StressEnding::Finished)
-            text += fmt::format("| scenes/{}.yaml | {} | {} |\n", result.scene, kStressEndings[static_cast<int>(outcome.ending)], outcome.message);
+        if (const RunVerdict& outcome = result.outcome; outcome.ending != RunOutcome::Finished)
+            text += fmt::format("| scenes/{}.yaml | {} | {} |\n", result.scene, kRunOutcomes[static_cast<int>(outcome.ending)], outcome.message);
     return text;
 }
 
@@ -123,7 +123,7 @@ std::string randomStressTable(const std::vector<RandomStressResult>& results)
 {
     std::string csv = "scene,ending,seconds,message\n";
     for (const RandomStressResult& result : results)
-        fmt::format_to(std::back_inserter(csv), "{},{},{:.3f},{}\n", result.scene, kStressEndings[static_cast<int>(result.outcome.ending)],
+        fmt::format_to(std::back_inserter(csv), "{},{},{:.3f},{}\n", result.scene, kRunOutcomes[static_cast<int>(result.outcome.ending)],
                        result.outcome.seconds, quoted(result.outcome.message));
     return csv;
 }

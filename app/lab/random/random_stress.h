@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/lab/endings/stress_ending.h"
+#include "app/lab/endings/run_outcome.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ struct RandomStress {
 
 struct RandomStressResult {
     std::string scene;
-    StressOutcome outcome;
+    RunVerdict outcome;
 };
 
 /// Scenes that finished are removed, with what they left; of the others scene and logs stay. Returns those that were run,

@@ -1,7 +1,7 @@
 #include "app/lab/stability/stability_map.h"
 
 #include "app/lab/endings/run_course.h"
-#include "app/lab/endings/stress_ending.h"
+#include "app/lab/endings/run_outcome.h"
 #include "app/system/atomic_files.h"
 
 #include <fmt/format.h>
@@ -31,19 +31,19 @@ std::string whyUnstable(const StabilityRow& row, const RunCourse& course)
 StabilityRow judgeStability(const ProcessEnd& end, const std::filesystem::path& folder, StabilityRow row)
 {
     constexpr int kNoPictures = 0;
-    const StressOutcome outcome = judgeEnd(end, folder, kNoPictures);
+    const RunVerdict outcome = judgeEnd(end, folder, kNoPictures);
     const RunCourse course = courseOf(folder);
     row.seconds = outcome.seconds;
     row.energyGain = course.energyGain;
     row.why = withoutCommas(outcome.message);
-    if (outcome.ending == StressEnding::NotFinite) {
+    if (outcome.ending == RunOutcome::NotFinite) {
         row.why = "not finite: " + row.why;
     } else {
         row.largestSpeed = course.largestSpeed;
-        if (outcome.ending == StressEnding::Finished) row.why = withoutCommas(whyUnstable(row, course));
-        else row.why = fmt::format("{}: {}", kStressEndings[static_cast<int>(outcome.ending)], row.why);
+        if (outcome.ending == RunOutcome::Finished) row.why = withoutCommas(whyUnstable(row, course));
+        else row.why = fmt::format("{}: {}", kRunOutcomes[static_cast<int>(outcome.ending)], row.why);
     }
-    row.isStable = outcome.ending == StressEnding::Finished && row.why.empty();
+    row.isStable = outcome.ending == RunOutcome::Finished && row.why.empty();
     return row;
 }
 

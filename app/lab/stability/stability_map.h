@@ -43,11 +43,11 @@ struct StabilityMap {
 
 /// PIC, APIC and PolyPIC of 8, 11, 15 and 27 modes, those of them that are named (none: all), with each fabric solver where the
 /// scene has fabric. Throws InputError for a name that there is not.
-std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std::vector<std::string>& names);
+std::vector<StabilityMethod> stabilityMethods(const LoadedScene& setup, const std::vector<std::string>& names);
 
 /// Methods with one number of the scene made larger or smaller by factors: stiffness, density, viscosity or cell. Throws
 /// InputError for another one.
-std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
+std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const LoadedScene& setup, const std::string& knob,
                                            const std::vector<double>& factors);
 
 /// Judge a run by how it ended and its logs in the folder.

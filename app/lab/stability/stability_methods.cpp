@@ -33,7 +33,7 @@ void requireMethod(const std::string& name)
     if (std::ranges::find(known, name) == known.end()) throw sim::InputError(fmt::format("--method {}: there are {}", name, fmt::join(known, ", ")));
 }
 
-std::vector<std::string> parameterOverrides(const SceneSetup& setup, const std::string& knob, double factor)
+std::vector<std::string> parameterOverrides(const LoadedScene& setup, const std::string& knob, double factor)
 {
     const sim::LiquidSettings& liquid = setup.scene.settings.liquid;
     if (knob == "density") return {fmt::format("liquid.density={:.6g}", factor * liquid.density)};
@@ -49,7 +49,7 @@ std::vector<std::string> parameterOverrides(const SceneSetup& setup, const std::
 
 }  // namespace
 
-std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std::vector<std::string>& names)
+std::vector<StabilityMethod> stabilityMethods(const LoadedScene& setup, const std::vector<std::string>& names)
 {
     std::ranges::for_each(names, requireMethod);
     std::vector<StabilityMethod> methods;
@@ -65,7 +65,7 @@ std::vector<StabilityMethod> stabilityMethods(const SceneSetup& setup, const std
     return methods;
 }
 
-std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const SceneSetup& setup, const std::string& knob,
+std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const LoadedScene& setup, const std::string& knob,
                                            const std::vector<double>& factors)
 {
     std::vector<StabilityMethod> all;

@@ -21,7 +21,7 @@ constexpr int kWholeStep = sim::kStages;
 std::string_view stageName(int stage) { return stage == kWholeStep ? "step" : sim::kStageNames[stage]; }
 
 /// Steps end on frame times, as in a run, so that the states are a run's.
-double nextFrameTime(const SceneSetup& setup, double time)
+double nextFrameTime(const LoadedScene& setup, double time)
 {
     constexpr double kRounding = 1.0e-9;
     const auto& output = setup.pictures.output;
@@ -53,7 +53,7 @@ void addStep(const sim::StepReport& report, double share, BenchRepeat& repeat)
 double BenchResult::minimum(int stage) const { return std::ranges::min(allRepeats(*this, stage)); }
 double BenchResult::middle(int stage) const { return median(allRepeats(*this, stage)); }
 
-BenchRepeat benchOnce(const SceneSetup& setup, const Backends& backends, const Options& options)
+BenchRepeat benchOnce(const LoadedScene& setup, const Backends& backends, const Options& options)
 {
     const auto simulation = backends.startSimulation(setup);
     const sim::State& state = simulation->state();

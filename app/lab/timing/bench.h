@@ -30,7 +30,7 @@ struct BenchResult {
 };
 
 /// Start the scene anew and time options.steps steps after the warm-up ones, on the threads that are there.
-BenchRepeat benchOnce(const SceneSetup& setup, const Backends& backends, const Options& options);
+BenchRepeat benchOnce(const LoadedScene& setup, const Backends& backends, const Options& options);
 
 /// Do all repeats end in the same state? A speed-up that changes the state is a different program.
 bool sameState(const std::vector<BenchResult>& results);

@@ -32,7 +32,7 @@ Check checkIn(const Node& node, std::size_t index, const ReadingContext& context
 
 }  // namespace
 
-std::optional<Validation> readValidation(const SceneSetup& setup)
+std::optional<Validation> readValidation(const LoadedScene& setup)
 {
     const Node* node = setup.file.root.find("validate");
     if (!node) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<Validation> readValidation(const SceneSetup& setup)
     validation.every = readInterval(section, context);
     if (const Node* quick = section.find("quick"))
         for (const sim::Override& change : sim::overridesOf(*quick, {})) validation.quick.push_back(change.text());
-    section.needs("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
+    section.required("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
     const Node& checks = *section.find("checks");
     if (!checks.isList() || checks.items.empty()) sim::fail(checks.location, "validate.checks: needs a list of at least one check");
     for (std::size_t i = 0; i < checks.items.size(); ++i) validation.checks.push_back(checkIn(checks.items[i], i, context));

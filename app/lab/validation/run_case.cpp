@@ -17,7 +17,7 @@ void readAll(const Validation& validation, double time, CaseResult& result)
         if (const auto reading = readOnce(validation.checks[i], time)) result.readings[i].push_back(*reading);
 }
 
-void runAndRead(const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted, CaseResult& result)
+void runAndRead(const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted, CaseResult& result)
 {
     const Validation& validation = result.validation;
     const auto simulation = backends.startSimulation(setup);
@@ -36,7 +36,7 @@ void runAndRead(const SceneSetup& setup, const Backends& backends, const std::fu
 
 bool CaseResult::passes() const { return failure.empty() && std::ranges::all_of(findings, &Finding::passes); }
 
-CaseResult runCase(const std::string& name, const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted)
+CaseResult runCase(const std::string& name, const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted)
 {
     const auto begin = std::chrono::steady_clock::now();
     CaseResult result{.name = name, .setup = setup, .validation = *readValidation(setup), .readings = {}};

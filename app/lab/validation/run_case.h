@@ -12,11 +12,11 @@ namespace app {
 /// What came of one case of the validation.
 struct CaseResult {
     std::string name;  ///< of its file
-    SceneSetup setup;
-    Validation validation;                       ///< of it
-    std::vector<std::vector<Reading>> readings;  ///< of each check
-    std::vector<Finding> findings = {};          ///< of each check; none when the run failed
-    std::string failure = {};                    ///< why the run did not come to its end
+    LoadedScene setup;
+    Validation validation;                      ///< of it
+    std::vector<std::vector<Sample>> readings;  ///< of each check
+    std::vector<Finding> findings = {};         ///< of each check; none when the run failed
+    std::string failure = {};                   ///< why the run did not come to its end
     std::int64_t steps = 0;
     double wallSeconds = 0.0;
 
@@ -24,6 +24,6 @@ struct CaseResult {
 };
 
 /// Runs a scene with a section `validate` to its end and compares it with what is known.
-CaseResult runCase(const std::string& name, const SceneSetup& setup, const Backends& backends, const std::function<bool()>& stopWanted);
+CaseResult runCase(const std::string& name, const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted);
 
 }  // namespace app

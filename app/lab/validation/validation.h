@@ -2,7 +2,7 @@
 
 #include "app/lab/checks/check.h"
 #include "app/readings/measures.h"
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <memory>
 #include <optional>
@@ -21,6 +21,6 @@ struct Validation {
 };
 
 /// Nothing where a scene has no such section. Throws InputError.
-std::optional<Validation> readValidation(const SceneSetup& setup);
+std::optional<Validation> readValidation(const LoadedScene& setup);
 
 }  // namespace app

@@ -101,7 +101,7 @@ void writeReadings(const CaseResult& result, const std::filesystem::path& folder
 {
     std::string csv = "check,at,found,known\n";
     for (std::size_t i = 0; i < result.readings.size(); ++i)
-        for (const Reading& reading : result.readings[i])
+        for (const Sample& reading : result.readings[i])
             fmt::format_to(std::back_inserter(csv), "{},{:.9g},{:.9g},{:.9g}\n", i, reading.at, reading.value, reading.expected);
     writeWhole(folder / (result.name + ".csv"), csv);
     const auto enough = [](const auto& readings) { return readings.size() > 1; };

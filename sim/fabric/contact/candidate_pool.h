@@ -13,13 +13,13 @@ struct CandidatePool {
     PairKind kind;
     AlignedArray<int> a, b;
     AlignedArray<std::array<int, 4>> vertices;
-    AlignedArray<double> reach, core;  ///< as in PairRange [cm]
+    AlignedArray<double> reach, core;  ///< as in ContactDistances [cm]
     AlignedArray<double> distance;     ///< distance of the two where they were last measured [cm]
     AlignedArray<double> p, q;         ///< and their nearest points (Closest)
     std::vector<int> unmeasured;       ///< places of pairs that have not been measured yet
 
     std::size_t size() const { return a.size(); }
-    PairRange range(std::size_t i) const { return {reach[i], core[i]}; }
+    ContactDistances range(std::size_t i) const { return {reach[i], core[i]}; }
 
     /// Drops the pairs of dirty primitives and takes in those of its kind that a search found.
     void replace(const Primitives& primitives, std::span<const char> dirty, const PairSearch& search);

@@ -16,8 +16,8 @@ enum class PairKind { EdgeEdge, VertexFace };
 /// Edges 0-1 and 2-3: the points (1 − p) x0 + p x1 and (1 − q) x2 + q x3. Vertex 0 and face 1-2-3: x0 and (1 − p − q) x1 + p x2 + q x3.
 template <class T>
 struct Closest {
-    T p, q;                ///< [0..1]
-    Triple<T> separation;  ///< from the point of the second to that of the first [cm]
+    T p, q;               ///< [0..1]
+    Vec3T<T> separation;  ///< from the point of the second to that of the first [cm]
 };
 
 /// Shares of the four vertices in the separation; those of the second primitive are negative, all sum to zero.
@@ -60,10 +60,10 @@ template <class T>
 /// Source: Ericson 2005, "Real-Time Collision Detection", 5.1.9; of parallel edges the middle of the overlap, an edge without length is a
 /// point.
 template <class T>
-[[gnu::always_inline]] inline Closest<T> closestOnEdges(const std::array<Triple<T>, 4>& x)
+[[gnu::always_inline]] inline Closest<T> closestOnEdges(const std::array<Vec3T<T>, 4>& x)
 {
     using namespace detail;
-    const Triple<T> first = x[1] - x[0], second = x[3] - x[2], apart = x[0] - x[2];
+    const Vec3T<T> first = x[1] - x[0], second = x[3] - x[2], apart = x[0] - x[2];
     const T aa = positive(dot(first, first)), bb = positive(dot(second, second)), ab = dot(first, second);
     const T a = dot(first, apart), b = dot(second, apart);
     const T across = aa * bb - ab * ab, perLength = 1.0 / aa;
@@ -78,20 +78,20 @@ template <class T>
 
 /// The foot of the perpendicular where it falls into the triangle, else the nearest point of the three edges.
 template <class T>
-[[gnu::always_inline]] inline Closest<T> closestOnFace(const std::array<Triple<T>, 4>& x)
+[[gnu::always_inline]] inline Closest<T> closestOnFace(const std::array<Vec3T<T>, 4>& x)
 {
     using namespace detail;
-    const Triple<T> e1 = x[2] - x[1], e2 = x[3] - x[1], e3 = x[3] - x[2], apart = x[0] - x[1], apart3 = x[0] - x[2];
+    const Vec3T<T> e1 = x[2] - x[1], e2 = x[3] - x[1], e3 = x[3] - x[2], apart = x[0] - x[1], apart3 = x[0] - x[2];
     const T a = positive(dot(e1, e1)), b = positive(dot(e2, e2)), ab = dot(e1, e2);
     const T f1 = dot(apart, e1), f2 = dot(apart, e2);
     const T zero = T{}, one = T{} + 1.0;
 
     T p = unitClamp(T(f1 / a)), q = zero;
-    Triple<T> separation = apart - p * e1;
+    Vec3T<T> separation = apart - p * e1;
     T nearest = dot(separation, separation);
     const auto take = [&](T otherP, T otherQ, auto&& better) __attribute__((always_inline))
     {
-        const Triple<T> s = apart - otherP * e1 - otherQ * e2;
+        const Vec3T<T> s = apart - otherP * e1 - otherQ * e2;
         const T d = dot(s, s);
         const Mask<T> chosen = better(d);
         p = choose(chosen, otherP, p), q = choose(chosen, otherQ, q), nearest = choose(chosen, d, nearest);
@@ -110,7 +110,7 @@ template <class T>
 }
 
 template <class T>
-[[gnu::always_inline]] inline Closest<T> closestPoints(PairKind kind, const std::array<Triple<T>, 4>& x)
+[[gnu::always_inline]] inline Closest<T> closestPoints(PairKind kind, const std::array<Vec3T<T>, 4>& x)
 {
     return kind == PairKind::EdgeEdge ? closestOnEdges(x) : closestOnFace(x);
 }
@@ -118,29 +118,29 @@ template <class T>
 /// How far the first k and the other 4 − k vertices of a pair move against each other at most, k = 2 for edges and 1 for a vertex: the
 /// distance can't change by more. Common motion is left out. Displacements and result in [cm].
 template <class T, class Root, class Greater>
-[[gnu::always_inline]] inline T relativeMotion(PairKind kind, const std::array<Triple<T>, 4>& u, Root&& root, Greater&& greater)
+[[gnu::always_inline]] inline T relativeMotion(PairKind kind, const std::array<Vec3T<T>, 4>& u, Root&& root, Greater&& greater)
 {
-    const auto from = [&](int a, const Triple<T>& middle) __attribute__((always_inline))
+    const auto from = [&](int a, const Vec3T<T>& middle) __attribute__((always_inline))
     {
-        const Triple<T> d = u[a] - middle;
+        const Vec3T<T> d = u[a] - middle;
         return dot(d, d);
     };
     const T half = T{} + 0.5, third = T{} + 1.0 / 3.0;
     if (kind == PairKind::EdgeEdge) {
-        const Triple<T> middle = T(0.5 * half) * ((u[0] + u[1]) + (u[2] + u[3]));
+        const Vec3T<T> middle = T(0.5 * half) * ((u[0] + u[1]) + (u[2] + u[3]));
         return root(greater(from(0, middle), from(1, middle))) + root(greater(from(2, middle), from(3, middle)));
     }
-    const Triple<T> middle = half * (u[0] + third * (u[1] + u[2] + u[3]));
+    const Vec3T<T> middle = half * (u[0] + third * (u[1] + u[2] + u[3]));
     return root(from(0, middle)) + root(greater(from(1, middle), greater(from(2, middle), from(3, middle))));
 }
 
-inline double relativeMotion(PairKind kind, const std::array<Triple<double>, 4>& u)
+inline double relativeMotion(PairKind kind, const std::array<Vec3T<double>, 4>& u)
 {
     return relativeMotion(
         kind, u, [](double v) { return std::sqrt(v); }, [](double a, double b) { return std::max(a, b); });
 }
 
-[[gnu::always_inline]] inline Pack relativeMotion(PairKind kind, const std::array<Triple<Pack>, 4>& u)
+[[gnu::always_inline]] inline Pack relativeMotion(PairKind kind, const std::array<Vec3T<Pack>, 4>& u)
 {
     return relativeMotion(
         kind, u, [](Pack v) { return sqrtPack(v); }, [](Pack a, Pack b) { return maxPack(a, b); });
@@ -163,7 +163,7 @@ inline double sweptGap(PairKind kind, const std::array<Vec3, 4>& x, const std::a
 /// Could the move u bring a pair that is `distance` apart nearer than `bound` [cm]? A quick answer that is never falsely no.
 inline bool mayApproach(PairKind kind, const std::array<Vec3, 4>& x, const std::array<Vec3, 4>& u, double distance, double bound)
 {
-    const double motion = relativeMotion(kind, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2]), toTriple(u[3])});
+    const double motion = relativeMotion(kind, {toVec3T(u[0]), toVec3T(u[1]), toVec3T(u[2]), toVec3T(u[3])});
     return motion >= distance - bound && sweptGap(kind, x, u) <= bound;
 }
 

@@ -10,18 +10,18 @@ double collisionFreeFraction(PairKind kind, const std::array<Vec3, 4>& x, const 
     constexpr double kShare = 0.9;      // of what is certainly free is taken at once
     constexpr int kMostAdvances = 200;  // those that creep along each other have got far enough by then
 
-    std::array<Triple<double>, 4> at, move;
+    std::array<Vec3T<double>, 4> at, move;
     const Vec3 middle = 0.25 * (u[0] + u[1] + u[2] + u[3]);
     for (std::size_t c = 0; c < 4; ++c) {
-        at[c] = toTriple(x[c]);
-        move[c] = toTriple(u[c] - middle);
+        at[c] = toVec3T(x[c]);
+        move[c] = toVec3T(u[c] - middle);
     }
     const double length = relativeMotion(kind, move);
     if (length == 0.0) return 1.0;
     const auto gap = [&](double t) {
-        std::array<Triple<double>, 4> now;
+        std::array<Vec3T<double>, 4> now;
         for (std::size_t c = 0; c < 4; ++c) now[c] = at[c] + t * move[c];
-        const Triple<double> apart = closestPoints(kind, now).separation;
+        const Vec3T<double> apart = closestPoints(kind, now).separation;
         return std::sqrt(dot(apart, apart)) - separation;
     };
     const double first = gap(0.0);

@@ -15,7 +15,7 @@ struct FabricContact::Parts {
 
     /// What the friction of an active pair goes by.
     struct FrictionPair {
-        contact::PairRange range;
+        contact::ContactDistances range;
         Vec3 apart;                      ///< separation where it was looked at last [cm]
         std::array<Vec3, 2> directions;  ///< ends less begins of the pair's directions there [cm]
         double stiffness;                ///< stiffness of the pair [dyn/cm]

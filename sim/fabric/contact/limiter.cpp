@@ -135,7 +135,7 @@ Limiter::ApproachingPair Limiter::closing(std::span<const Vec3> x, const Candida
     c.vertices = pairs.vertices[place];
     c.weights = pairWeights(c.kind, pairs.p[place], pairs.q[place]);
     const double d = pairs.distance[place];
-    const PairRange range = pairs.range(place);
+    const ContactDistances range = pairs.range(place);
     Vec3 apart = Vec3::Zero();
     c.compliance = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {

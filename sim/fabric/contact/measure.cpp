@@ -17,7 +17,7 @@ struct Measured {
 template <PairKind kKind>
 [[gnu::noinline]] void measureEight(const Points& x, const std::array<EightIndices, 4>& vertices, Measured& result)
 {
-    std::array<Triple<Pack>, 4> corners;
+    std::array<Vec3T<Pack>, 4> corners;
     for (std::size_t c = 0; c < 4; ++c) corners[c] = gather(x, vertices[c]);
     const Closest<Pack> closest = closestPoints(kKind, corners);
     result = {sqrtPack(dot(closest.separation, closest.separation)), closest.p, closest.q};

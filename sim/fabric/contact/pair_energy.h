@@ -18,7 +18,7 @@ inline constexpr double kSoftShare = 0.5;  ///< part of the spring's way over wh
 /// distance above the core can pay, and right at the core the parabola that touches it there, so that one Newton step leads a pair out that
 /// a limited move has left below. C2 at R, C1 at τ, convex. (fabric/contact/README.md, Energy of a pair). The beginning is soft, as a spring that is
 /// stiff at once chatters under light loads, and cloth that should slide on cloth sticks (ClothOnCloth tests).
-inline PairEnergy pairEnergy(double distance, const PairRange& range, double stiffness)
+inline PairEnergy pairEnergy(double distance, const ContactDistances& range, double stiffness)
 {
     if (distance >= range.reach) return {};
     const double wall = range.wall(), pressed = range.reach - wall, depth = wall - range.core;

@@ -51,17 +51,17 @@ class PairSearch::Filter {
         if (count_ == 0) return;
         for (std::size_t lane = count_; lane < kLanes; ++lane)
             for (EightIndices& corner : corner_) corner[lane] = corner[0];
-        std::array<Triple<Pack>, 4> x, u;
+        std::array<Vec3T<Pack>, 4> x, u;
         for (std::size_t c = 0; c < 4; ++c) {
             x[c] = gather(sweep_.from, corner_[c]);
             u[c] = gather(sweep_.move, corner_[c]);
         }
-        const Triple<Pack> apart = closestPoints(kind_, x).separation;
+        const Vec3T<Pack> apart = closestPoints(kind_, x).separation;
         const Pack least = sqrtPack(dot(apart, apart)) - relativeMotion(kind_, u);
         for (std::size_t lane = 0; lane < count_; ++lane) {
             const int a = first_[lane], b = second_[lane];
             if (!(least[lane] <= search_.reach_[a] + search_.reach_[b])) continue;
-            const PairRange range = search_.primitives_.range(a, b, restPairs_.distanceOf(a, b));
+            const ContactDistances range = search_.primitives_.range(a, b, restPairs_.distanceOf(a, b));
             if (range.core > 0.0) found_.push_back({a, b, range});
         }
         count_ = 0;

@@ -12,7 +12,7 @@ namespace sim::contact {
 /// Two primitives that may touch soon.
 struct FoundPair {
     int a, b;  ///< as Primitives numbers them, a < b
-    PairRange range;
+    ContactDistances range;
 };
 
 /// Margins of the Verlet list of pairs: how far two primitives may be apart and still make a candidate, and how far vertices may drift before

@@ -3,7 +3,7 @@
 #include "sim/core/aligned_array.h"
 #include "sim/core/simd.h"
 #include "sim/core/types.h"
-#include "sim/fabric/triple.h"
+#include "sim/fabric/vec3t.h"
 
 #include <array>
 #include <span>
@@ -51,7 +51,7 @@ using EightIndices = std::array<int, kLanes>;
     return {pickLanes(xy0, xy4, lower), pickLanes(xy0, xy4, upper), pickLanes(zw0, zw4, lower), pickLanes(zw0, zw4, upper)};
 }
 
-[[gnu::always_inline]] inline Triple<Pack> gather(const Points& points, const EightIndices& index)
+[[gnu::always_inline]] inline Vec3T<Pack> gather(const Points& points, const EightIndices& index)
 {
     const QuadPack q = gatherQuads(points, index);
     return {q.x, q.y, q.z};

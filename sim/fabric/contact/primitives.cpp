@@ -110,7 +110,7 @@ bool Primitives::canTouch(int a, int b) const
     return !(pinned[v[0]] && pinned[v[1]] && pinned[v[2]] && pinned[v[3]]);
 }
 
-PairRange Primitives::range(int a, int b, double restDistance) const
+ContactDistances Primitives::range(int a, int b, double restDistance) const
 {
     const double touching = radius[a] + radius[b];
     if (restDistance < kJoined * touching) return {};

@@ -11,7 +11,7 @@
 namespace sim::contact {
 
 /// Distances of one pair at which something happens [cm] (fabric/contact/README.md, Pairs).
-struct PairRange {
+struct ContactDistances {
     double reach = 0.0;  ///< R: it acts below
     double core = 0.0;   ///< distance below which it never comes; 0: the two are one body at rest and make no pair
 
@@ -60,7 +60,7 @@ struct Primitives {
         return piece[v[0]] == piece[v[3]];
     }
     /// @param restDistance  of the two [cm]; anything large for pairs far apart
-    PairRange range(int a, int b, double restDistance) const;
+    ContactDistances range(int a, int b, double restDistance) const;
 
  private:
     void addYarns(const Fabric& fabric);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/fabric/triple.h"
+#include "sim/fabric/vec3t.h"
 
 #include <array>
 
@@ -13,17 +13,17 @@ namespace sim {
 
 /// 3x3, by rows.
 template <class T>
-using Rows = std::array<Triple<T>, 3>;
+using Rows = std::array<Vec3T<T>, 3>;
 
 template <class T>
-Triple<T> operator*(const Rows<T>& m, const Triple<T>& v)
+Vec3T<T> operator*(const Rows<T>& m, const Vec3T<T>& v)
 {
     return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
 }
 
 /// Σ_a v_a m_a: the transpose of m times v.
 template <class T>
-Triple<T> transposedTimes(const Rows<T>& m, const Triple<T>& v)
+Vec3T<T> transposedTimes(const Rows<T>& m, const Vec3T<T>& v)
 {
     return v.x * m[0] + v.y * m[1] + v.z * m[2];
 }
@@ -33,7 +33,7 @@ template <class T>
 struct Symmetric {
     T xx, yy, zz, xy, yz, zx;
 
-    friend Triple<T> operator*(const Symmetric& m, const Triple<T>& v)
+    friend Vec3T<T> operator*(const Symmetric& m, const Vec3T<T>& v)
     {
         return {m.xx * v.x + m.xy * v.y + m.zx * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z, m.zx * v.x + m.yz * v.y + m.zz * v.z};
     }
@@ -41,19 +41,19 @@ struct Symmetric {
 
 /// Angular velocity of an edge whose ends move apart at `along`.
 template <class T>
-Triple<T> angularVelocityOfEdge(const Triple<T>& reciprocal, const Triple<T>& along)
+Vec3T<T> angularVelocityOfEdge(const Vec3T<T>& reciprocal, const Vec3T<T>& along)
 {
     return cross(reciprocal, along);
 }
 /// Angular velocity of a face's normal, where the edges from its first corner change at u1 and u2.
 template <class T>
-Triple<T> angularVelocityOfNormal(const Triple<T>& normal, const std::array<Triple<T>, 2>& reciprocal, const Triple<T>& u1, const Triple<T>& u2)
+Vec3T<T> angularVelocityOfNormal(const Vec3T<T>& normal, const std::array<Vec3T<T>, 2>& reciprocal, const Vec3T<T>& u1, const Vec3T<T>& u2)
 {
     return cross(dot(normal, u1) * reciprocal[0] + dot(normal, u2) * reciprocal[1], normal);
 }
 
 template <class T, int kCount>
-using Triples = std::array<Triple<T>, kCount>;
+using Triples = std::array<Vec3T<T>, kCount>;
 
 /// An edge of a yarn.
 template <class T>
@@ -63,21 +63,21 @@ struct EdgeContact {
     using Corners = Triples<T, kCorners>;
 
     Across d;
-    Triple<T> reciprocal;   ///< direction of the edge over its length [1/cm]
+    Vec3T<T> reciprocal;    ///< direction of the edge over its length [1/cm]
     Symmetric<T> k00, k11;  ///< ∂²E/∂d² [erg]
     Rows<T> k01;
 
     /// Change of the stress when the surroundings move: G carries d, the corners move by u.
     Across change(const Across& rates, const Corners& u) const
     {
-        const Triple<T> turn = angularVelocityOfEdge(reciprocal, u[1] - u[0]);
-        const Triple<T> first = rates[0] - cross(turn, d[0]), second = rates[1] - cross(turn, d[1]);
+        const Vec3T<T> turn = angularVelocityOfEdge(reciprocal, u[1] - u[0]);
+        const Vec3T<T> first = rates[0] - cross(turn, d[0]), second = rates[1] - cross(turn, d[1]);
         return {k00 * first + k01 * second, transposedTimes(k01, first) + k11 * second};
     }
     /// What a stress does to the corners: transpose of how they turn d.
     Corners nodalResponse(const Across& stress) const
     {
-        const Triple<T> lever = cross(cross(stress[0], d[0]) + cross(stress[1], d[1]), reciprocal);
+        const Vec3T<T> lever = cross(cross(stress[0], d[0]) + cross(stress[1], d[1]), reciprocal);
         return {-lever, lever};
     }
 };
@@ -90,8 +90,8 @@ struct FaceContact {
     using Corners = Triples<T, kCorners>;
 
     Across d;
-    Triple<T> normal;
-    std::array<Triple<T>, 2> reciprocal;  ///< in the plane, of the two edges from the first corner [1/cm]
+    Vec3T<T> normal;
+    std::array<Vec3T<T>, 2> reciprocal;  ///< in the plane, of the two edges from the first corner [1/cm]
     Symmetric<T> k;
 
     Across change(const Across& rates, const Corners& u) const
@@ -100,8 +100,8 @@ struct FaceContact {
     }
     Corners nodalResponse(const Across& stress) const
     {
-        const Triple<T> lever = cross(cross(stress[0], d[0]), normal);
-        const Triple<T> second = -(dot(lever, reciprocal[0]) * normal), third = -(dot(lever, reciprocal[1]) * normal);
+        const Vec3T<T> lever = cross(cross(stress[0], d[0]), normal);
+        const Vec3T<T> second = -(dot(lever, reciprocal[0]) * normal), third = -(dot(lever, reciprocal[1]) * normal);
         return {-(second + third), second, third};
     }
 };

@@ -84,11 +84,11 @@ std::vector<Vec3> ElementContact::unstrained(const FabricState& state) const
 std::array<Vec3, 2> ElementContact::expectedMoves(std::size_t e, const Local& at, const PredictedMotion& prediction) const
 {
     const auto change = [&](int corner) {
-        return toTriple(prediction.motion.velocity[corners_[e][corner]] - prediction.motion.velocity[corners_[e][0]]);
+        return toVec3T(prediction.motion.velocity[corners_[e][corner]] - prediction.motion.velocity[corners_[e][0]]);
     };
-    const std::array<Triple<double>, 2> reciprocal = {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])};
+    const std::array<Vec3T<double>, 2> reciprocal = {toVec3T(at.reciprocal[0]), toVec3T(at.reciprocal[1])};
     const Vec3 turn = toVec3(isEdge(e) ? angularVelocityOfEdge(reciprocal[0], change(1))
-                                       : angularVelocityOfNormal(toTriple(at.normal), reciprocal, change(1), change(2)));
+                                       : angularVelocityOfNormal(toVec3T(at.normal), reciprocal, change(1), change(2)));
     const Mat3& g = prediction.motion.gradient[e];
     return {prediction.h * (g * at.d[0] - turn.cross(at.d[0])), prediction.h * (g * at.d[1] - turn.cross(at.d[1]))};
 }

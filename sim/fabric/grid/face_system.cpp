@@ -71,11 +71,11 @@ void FaceSystem::gatherElements(const BlockArray<double, 3>& u, std::vector<Mat3
 /// Which faces elements feel. The stiffness of contact over a mass that is next to none would be an eigenvalue which round-off makes negative.
 void FaceSystem::findMissingParts()
 {
-    isFelt_.resize(blocks());
+    actsOnElements_.resize(blocks());
     const double least = kLeastMass * totalMass_ / static_cast<double>(fabric_.vertexCount());
     const double* mass = mass_.block(0);
     parallelFor(mass_.size() / kBlockCells, 8, [&](std::size_t c) {
-        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) isFelt_.block(0)[i] = mass[i] > least ? 1.0 : 0.0;
+        for (std::size_t i = c * kBlockCells; i < (c + 1) * kBlockCells; ++i) actsOnElements_.block(0)[i] = mass[i] > least ? 1.0 : 0.0;
     });
     hasSmallMasses_.resize(particles_->order().occupied.size());
     forEachBlock(particles_->order(), *grid_, mass_, [&](std::size_t n, const FaceTile& tile) {
@@ -90,7 +90,7 @@ void FaceSystem::findMissingParts()
                     }
         hasSmallMasses_[n] = any;
     });
-    gatherElements(isFelt_, missing_);
+    gatherElements(actsOnElements_, missing_);
     constexpr double kRoundOff = 1.0e-12;
     for (Mat3& missing : missing_)
         if (missing.cwiseAbs().maxCoeff() <= kRoundOff) missing.setZero();
@@ -104,7 +104,7 @@ void FaceSystem::clearSmallMasses(std::size_t n, FaceTile& tile) const
     const int block = order.occupied[n];
     forEachTileRow(*grid_, block, OccupiedBox(order.cells(block)), [&](int piece, int cell, int node, auto length) {
         for (int a = 0; a < kAxes; ++a)
-            for (int i = 0; i < length; ++i) tile.v[a][node + i] *= isFelt_.block(piece, a)[cell + i];
+            for (int i = 0; i < length; ++i) tile.v[a][node + i] *= actsOnElements_.block(piece, a)[cell + i];
     });
 }
 

@@ -138,9 +138,9 @@ class FaceSystem {
     double totalMass_;              ///< [g]
     FaceRows rows_;
 
-    BlockArray<double, 3> isFelt_;      ///< 1 at each face with enough mass to act on elements, else 0 [-]
-    std::vector<char> hasSmallMasses_;  ///< whether each occupied block has faces with less mass than that, but some
-    std::vector<Mat3> missing_;         ///< gradient at each element of a 1 on faces that act on it; 0 if all do [-]
+    BlockArray<double, 3> actsOnElements_;  ///< 1 at each face with enough mass to act on elements, else 0 [-]
+    std::vector<char> hasSmallMasses_;      ///< whether each occupied block has faces with less mass than that, but some
+    std::vector<Mat3> missing_;             ///< gradient at each element of a 1 on faces that act on it; 0 if all do [-]
     ActiveElements<EdgeContact<Pack>> activeEdges_;
     ActiveElements<FaceContact<Pack>> activeFaces_;
     std::vector<Vec3> nodalForces_;          ///< forces of the active elements on their corners

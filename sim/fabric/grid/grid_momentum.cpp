@@ -33,7 +33,7 @@ void GridFabricSolver::findGroups(std::span<const ObstacleContact> touching)
     for (int b = 0; b < grid.count(); ++b) groupOfBlock_[b] = nearBlock_[b] < 0 ? -1 : groups_.freeGroupOf(nearBlock_[b]);
 }
 
-void GridFabricSolver::keepMomentum(std::span<const ObstacleContact> touching)
+void GridFabricSolver::conserveMomentum(std::span<const ObstacleContact> touching)
 {
     findGroups(touching);
     if (groups_.anyFree()) system_.balanceMomentum(start_, groupOfBlock_, groups_.pieces(), velocity_);

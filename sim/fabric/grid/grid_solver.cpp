@@ -247,7 +247,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
 
     clock.start(Stage::FabricSolve);
     solve({h, gravity, state, loads, until, kinetic}, report);
-    keepMomentum(touching);
+    conserveMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
     if (booksEnergy_) bookSolve(h, gravity, state, loads, report.energyChanges.emplace());

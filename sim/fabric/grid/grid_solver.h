@@ -63,7 +63,7 @@ class GridFabricSolver final : public FabricIntegrator {
     double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
     PredictedMotion predictionOn(double h, const FaceTolerance& tolerance) const;
     void findGroups(std::span<const ObstacleContact> touching);
-    void keepMomentum(std::span<const ObstacleContact> touching);
+    void conserveMomentum(std::span<const ObstacleContact> touching);
     const BlockArray<double, 3>* expectedChange(const FabricState& state);
     void storeChange(FabricState& state) const;
     void storeAccelerations(double h, FabricState& state);

@@ -56,8 +56,8 @@ void Rods::addStretching(int g, const FabricState& state, double h, std::span<Pa
 
     for (int j = 0; j < group.edges(); ++j) {
         const int i = group.firstEdge + j, row = 4 * j;
-        const PackTriple from = gathered(state.x, layout_.vertex[group.firstVertex + j]);
-        const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
+        const PackVec3 from = gathered(state.x, layout_.vertex[group.firstVertex + j]);
+        const PackVec3 to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
         const RodEdge<Pack> e = edgeBetween(from, to, layout_.edge[i]);
         const Pack stretch = e.length * perRestLength_[i];
         Pack force = select(perRestLength_[i] > 0.0, k.stretch * (stretch - one), broadcast(0.0));

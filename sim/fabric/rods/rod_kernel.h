@@ -12,10 +12,10 @@ namespace sim {
 /// One edge of a rod in its present place.
 template <class T>
 struct RodEdge {
-    T length;             ///< [cm]
-    Triple<T> tangent;    ///< [-]
-    Triple<T> reference;  ///< first axis of the reference frame [-]
-    Triple<T> m1, m2;     ///< axes of the material frame: along the half axes a and b of the section [-]
+    T length;            ///< [cm]
+    Vec3T<T> tangent;    ///< [-]
+    Vec3T<T> reference;  ///< first axis of the reference frame [-]
+    Vec3T<T> m1, m2;     ///< axes of the material frame: along the half axes a and b of the section [-]
 };
 
 /// Derivatives of a quantity by the 11 unknowns of an interior vertex: x before, θ_e, x, θ_f, x after.
@@ -42,19 +42,19 @@ RodStrain<T> rodStrain(const RodEdge<T>& e, const RodEdge<T>& f)
 {
     const T one = constant<T>(1.0), zero = constant<T>(0.0), least = constant<T>(kLeastFold);
     const T inverse = one / largerOf(one + dot(e.tangent, f.tangent), least);
-    const Triple<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
-    const Triple<T> middle = inverse * (e.tangent + f.tangent);
+    const Vec3T<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
+    const Vec3T<T> middle = inverse * (e.tangent + f.tangent);
     const T perE = one / e.length, perF = one / f.length;
-    const std::array<Triple<T>, 4> axis = {e.m2, e.m1, f.m2, f.m1};
+    const std::array<Vec3T<T>, 4> axis = {e.m2, e.m1, f.m2, f.m1};
     constexpr std::array<double, 4> kSign = {1.0, -1.0, 1.0, -1.0};
 
     RodStrain<T> s;
     for (int k = 0; k < 4; ++k) {
         const T sign = constant<T>(kSign[k]);
         s.curvature[k] = sign * dot(binormal, axis[k]);
-        const Triple<T> d = (sign * constant<T>(2.0) * inverse) * axis[k];
-        const Triple<T> byE = perE * (cross(f.tangent, d) - s.curvature[k] * middle);
-        const Triple<T> byF = perF * (-cross(e.tangent, d) - s.curvature[k] * middle);
+        const Vec3T<T> d = (sign * constant<T>(2.0) * inverse) * axis[k];
+        const Vec3T<T> byE = perE * (cross(f.tangent, d) - s.curvature[k] * middle);
+        const Vec3T<T> byF = perF * (-cross(e.tangent, d) - s.curvature[k] * middle);
         for (int a = 0; a < 3; ++a) {
             s.curvatureGradient[k][a] = -byE[a];
             s.curvatureGradient[k][4 + a] = byE[a] - byF[a];
@@ -94,12 +94,12 @@ TwistCurvature<T> twistCurvature(const RodEdge<T>& e, const RodEdge<T>& f)
 {
     const T one = constant<T>(1.0), least = constant<T>(kLeastFold), quarter = constant<T>(0.25);
     const T inverse = one / largerOf(one + dot(e.tangent, f.tangent), least);
-    const Triple<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
-    const Triple<T> middle = inverse * (e.tangent + f.tangent);
-    const Triple<T> onE = (-quarter / (e.length * e.length)) * (e.tangent + middle);
-    const Triple<T> onF = (-quarter / (f.length * f.length)) * (f.tangent + middle);
+    const Vec3T<T> binormal = (constant<T>(2.0) * inverse) * cross(e.tangent, f.tangent);
+    const Vec3T<T> middle = inverse * (e.tangent + f.tangent);
+    const Vec3T<T> onE = (-quarter / (e.length * e.length)) * (e.tangent + middle);
+    const Vec3T<T> onF = (-quarter / (f.length * f.length)) * (f.tangent + middle);
     const T both = constant<T>(0.5) / (e.length * f.length);
-    const Triple<T> turn = (constant<T>(2.0) * inverse) * e.tangent;
+    const Vec3T<T> turn = (constant<T>(2.0) * inverse) * e.tangent;
     TwistCurvature<T> c;
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {

@@ -8,9 +8,9 @@
 
 namespace sim {
 
-inline PackTriple gathered(const std::vector<Vec3>& values, const StrandLayout::Lanes& index)
+inline PackVec3 gathered(const std::vector<Vec3>& values, const StrandLayout::Lanes& index)
 {
-    PackTriple v{};
+    PackVec3 v{};
     for (int l = 0; l < kLanes; ++l)
         if (index[l] >= 0) setLane(v, l, values[index[l]]);
     return v;
@@ -25,10 +25,10 @@ inline Pack gathered(const std::vector<double>& values, const StrandLayout::Lane
 }
 
 /// The edge between two gathered vertices; unused lanes get an edge of length 1.
-inline RodEdge<Pack> edgeBetween(const PackTriple& from, const PackTriple& to, const StrandLayout::Lanes& edges)
+inline RodEdge<Pack> edgeBetween(const PackVec3& from, const PackVec3& to, const StrandLayout::Lanes& edges)
 {
     RodEdge<Pack> e;
-    PackTriple along = to - from;
+    PackVec3 along = to - from;
     for (int l = 0; l < kLanes; ++l)
         if (edges[l] < 0) setLane(along, l, Vec3::UnitX());
     e.length = norm(along);
@@ -42,7 +42,7 @@ inline void setMaterialFrame(const FabricState& state, const StrandLayout::Lanes
     e.reference = gathered(state.reference, edges);
     const Pack theta = gathered(state.theta, edges);
     const auto [c, s] = directionOf(theta);
-    const PackTriple second = cross(e.tangent, e.reference);
+    const PackVec3 second = cross(e.tangent, e.reference);
     e.m1 = c * e.reference + s * second;
     e.m2 = c * second - s * e.reference;
 }
@@ -60,12 +60,12 @@ template <class Visit>
 void Rods::forEachInnerVertex(int g, const FabricState& state, Visit&& visit) const
 {
     const StrandLayout::Group& group = layout_.groups[g];
-    PackTriple from = gathered(state.x, layout_.vertex[group.firstVertex]);
+    PackVec3 from = gathered(state.x, layout_.vertex[group.firstVertex]);
     RodEdge<Pack> before;
     Pack thetaBefore{};
     for (int j = 0; j < group.edges(); ++j) {
         const StrandLayout::Lanes& edges = layout_.edge[group.firstEdge + j];
-        const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
+        const PackVec3 to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
         RodEdge<Pack> edge = edgeBetween(from, to, edges);
         setMaterialFrame(state, edges, edge);
         const Pack theta = gathered(state.theta, edges);

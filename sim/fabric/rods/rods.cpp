@@ -85,14 +85,14 @@ void Rods::transportFrames(FabricState& state) const
 {
     parallelFor(layout_.groups.size(), [&](std::size_t g) {
         const StrandLayout::Group& group = layout_.groups[g];
-        PackTriple from = gathered(state.x, layout_.vertex[group.firstVertex]);
-        PackTriple tangentBefore{}, referenceBefore{};
+        PackVec3 from = gathered(state.x, layout_.vertex[group.firstVertex]);
+        PackVec3 tangentBefore{}, referenceBefore{};
         for (int j = 0; j < group.edges(); ++j) {
             const StrandLayout::Lanes& edges = layout_.edge[group.firstEdge + j];
-            const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
-            const PackTriple tangent = edgeBetween(from, to, edges).tangent;
-            const PackTriple reference = unitAcross(transported(gathered(state.reference, edges), gathered(state.tangent, edges), tangent), tangent);
-            const PackTriple carried = j > 0 ? transported(referenceBefore, tangentBefore, tangent) : reference;
+            const PackVec3 to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
+            const PackVec3 tangent = edgeBetween(from, to, edges).tangent;
+            const PackVec3 reference = unitAcross(transported(gathered(state.reference, edges), gathered(state.tangent, edges), tangent), tangent);
+            const PackVec3 carried = j > 0 ? transported(referenceBefore, tangentBefore, tangent) : reference;
             const Pack turned = angleOf(dot(cross(carried, reference), tangent), dot(carried, reference));
             for (int l = 0; l < kLanes; ++l) {
                 const int e = edges[l];
@@ -118,8 +118,8 @@ void Rods::startStep(const FabricState& state)
         const StrandLayout::Group& group = layout_.groups[g];
         for (int j = 0; j < group.edges(); ++j) {
             const int i = group.firstEdge + j;
-            const PackTriple from = gathered(state.x, layout_.vertex[group.firstVertex + j]);
-            const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
+            const PackVec3 from = gathered(state.x, layout_.vertex[group.firstVertex + j]);
+            const PackVec3 to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
             startStretch_[i] = edgeBetween(from, to, layout_.edge[i]).length * perRestLength_[i];
         }
         forEachInnerVertex(static_cast<int>(g), state, [&](const InnerVertex& at) {
@@ -138,8 +138,8 @@ std::array<double, 3> Rods::energies(const FabricState& state) const
         Pack stretching{}, bending{}, twisting{};
         for (int j = 0; j < group.edges(); ++j) {
             const int i = group.firstEdge + j;
-            const PackTriple from = gathered(state.x, layout_.vertex[group.firstVertex + j]);
-            const PackTriple to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
+            const PackVec3 from = gathered(state.x, layout_.vertex[group.firstVertex + j]);
+            const PackVec3 to = gathered(state.x, layout_.vertex[group.firstVertex + j + 1]);
             const Pack used = select(perRestLength_[i] > 0.0, broadcast(1.0), broadcast(0.0));
             const Pack strain = edgeBetween(from, to, layout_.edge[i]).length * perRestLength_[i] - used;
             const Pack restLength = select(perRestLength_[i] > 0.0, broadcast(1.0) / perRestLength_[i], broadcast(0.0));

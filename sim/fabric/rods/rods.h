@@ -3,7 +3,7 @@
 #include "sim/core/aligned_array.h"
 #include "sim/fabric/fabric.h"
 #include "sim/fabric/rods/strand_matrix.h"
-#include "sim/fabric/triple.h"
+#include "sim/fabric/vec3t.h"
 #include "sim/settings.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/core/pack_math.h"
-#include "sim/fabric/triple.h"
+#include "sim/fabric/vec3t.h"
 #include "sim/settings.h"
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr double kLeastStretch = 1.0e-12;
 inline constexpr double kLeastDivisor = 1.0e-300;
 
 template <class T>
-using ShellCorners = std::array<Triple<T>, kShellVertices>;
+using ShellCorners = std::array<Vec3T<T>, kShellVertices>;
 
 /// Constants of a triangle.
 template <class T>
@@ -35,7 +35,7 @@ struct ShellRest {
 /// Columns of the 3x2 deformation gradient, and the Green strain with engineering shear [-].
 template <class T>
 struct MembraneStrain {
-    Triple<T> u, w;
+    Vec3T<T> u, w;
     std::array<T, 3> green;
 };
 
@@ -115,17 +115,17 @@ std::array<T, 3> positivePart(const std::array<T, 3>& s)
 template <class T>
 struct Dihedral {
     T sine, cosine;
-    std::array<Triple<T>, 4> gradient;
+    std::array<Vec3T<T>, 4> gradient;
 };
 
 /// Equations: fabric/shells/README.md, Hinges. x0 own opposite corner, x1 → x2 the edge, x3 the other side's corner.
 template <class T>
-Dihedral<T> dihedral(const Triple<T>& x0, const Triple<T>& x1, const Triple<T>& x2, const Triple<T>& x3)
+Dihedral<T> dihedral(const Vec3T<T>& x0, const Vec3T<T>& x1, const Vec3T<T>& x2, const Vec3T<T>& x3)
 {
     const T one = constant<T>(1.0);
-    const Triple<T> edge = x2 - x1, own = cross(edge, x0 - x2), other = -cross(edge, x3 - x2);
+    const Vec3T<T> edge = x2 - x1, own = cross(edge, x0 - x2), other = -cross(edge, x3 - x2);
     const T length = norm(edge), perOwn = one / norm(own), perOther = one / norm(other);
-    const Triple<T> along = (one / length) * edge, n = perOwn * own, m = perOther * other;
+    const Vec3T<T> along = (one / length) * edge, n = perOwn * own, m = perOther * other;
     Dihedral<T> d;
     d.sine = dot(cross(n, m), along);
     d.cosine = dot(n, m);
@@ -141,8 +141,8 @@ inline double angleOf(double sine, double cosine) { return std::atan2(sine, cosi
 /// How the three edges of a triangle are bent.
 template <class T>
 struct ShellBend {
-    std::array<T, 3> angle;                                         ///< 0 on the boundary [rad]
-    std::array<std::array<Triple<T>, kShellVertices>, 3> gradient;  ///< derivative of each angle by each vertex [1/cm]
+    std::array<T, 3> angle;                                        ///< 0 on the boundary [rad]
+    std::array<std::array<Vec3T<T>, kShellVertices>, 3> gradient;  ///< derivative of each angle by each vertex [1/cm]
 };
 
 template <class T>
@@ -153,7 +153,7 @@ ShellBend<T> shellBend(const ShellRest<T>& rest, const ShellCorners<T>& x)
         const int first = (k + 1) % 3, second = (k + 2) % 3;
         const Dihedral<T> d = dihedral(x[k], x[first], x[second], x[3 + k]);
         b.angle[k] = rest.hasNeighbor[k] * angleOf(d.sine, d.cosine);
-        for (Triple<T>& g : b.gradient[k]) g = Triple<T>{constant<T>(0.0), constant<T>(0.0), constant<T>(0.0)};
+        for (Vec3T<T>& g : b.gradient[k]) g = Vec3T<T>{constant<T>(0.0), constant<T>(0.0), constant<T>(0.0)};
         b.gradient[k][k] = rest.hasNeighbor[k] * d.gradient[0];
         b.gradient[k][first] = rest.hasNeighbor[k] * d.gradient[1];
         b.gradient[k][second] = rest.hasNeighbor[k] * d.gradient[2];

@@ -15,7 +15,7 @@ using Vec2 = Eigen::Vector2d;
 
 double dihedralAngle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3)
 {
-    const Dihedral<double> d = dihedral(toTriple(x0), toTriple(x1), toTriple(x2), toTriple(x3));
+    const Dihedral<double> d = dihedral(toVec3T(x0), toVec3T(x1), toVec3T(x2), toVec3T(x3));
     return angleOf(d.sine, d.cosine);
 }
 

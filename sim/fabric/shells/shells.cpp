@@ -73,9 +73,9 @@ void Shells::startStep(std::span<const Vec3> x)
 
 /// Stresses and moments of kLanes triangles, and what they depend on.
 struct Shells::Forces {
-    MembraneStress<Pack> elastic;                       ///< of the membrane, without damping
-    std::array<Pack, 3> stress;                         ///< of the membrane, with it
-    std::array<std::array<PackTriple, 3>, 3> byStrain;  ///< of each own vertex: ∂ε/∂x for the three strains
+    MembraneStress<Pack> elastic;                     ///< of the membrane, without damping
+    std::array<Pack, 3> stress;                       ///< of the membrane, with it
+    std::array<std::array<PackVec3, 3>, 3> byStrain;  ///< of each own vertex: ∂ε/∂x for the three strains
     ShellBend<Pack> bend;
     BendMeasure measure;
     std::array<Pack, 3> moment;  ///< ∂E/∂θ of each edge
@@ -120,7 +120,7 @@ struct Shells::Forces {
 {
     const Pack zero{};
     for (int i = 0; i < kShellVertices; ++i) {
-        PackTriple g{zero, zero, zero};
+        PackVec3 g{zero, zero, zero};
         for (int k = 0; k < 3; ++k) g += forces.moment[k] * forces.bend.gradient[k][i];
         if (i < 3)
             for (int s = 0; s < 3; ++s) g += (batch.rest.area * forces.stress[s]) * forces.byStrain[i][s];
@@ -145,7 +145,7 @@ struct Shells::Forces {
     for (int k = 0; k < 3; ++k) q[k] *= forces.measure.curvature[k];
     for (Pack& entry : q) entry *= one + forces.bendRate;
     for (int i = 0; i < kShellVertices; ++i) {
-        std::array<PackTriple, 3> bendRow;  // Q times the derivatives by vertex i
+        std::array<PackVec3, 3> bendRow;  // Q times the derivatives by vertex i
         for (int a = 0; a < 3; ++a) {
             const std::array<Pack, 3> column = timesBending(q, {bend.gradient[0][i][a], bend.gradient[1][i][a], bend.gradient[2][i][a]});
             for (int k = 0; k < 3; ++k) bendRow[k][a] = column[k];

@@ -100,18 +100,18 @@ void VertexSolver::removeSpuriousGain(const Part& part)
         slowDown(due(), fabric_, groups_, mass_, state);
         return;
     }
-    Way way{std::vector<Vec3>(state.x.size()), {}, std::vector<double>(state.theta.size())};
-    for (std::size_t v = 0; v < state.x.size(); ++v) way.moves[v] = state.x[v] - start_.x[v];
-    for (std::size_t e = 0; e < state.theta.size(); ++e) way.turns[e] = state.theta[e] - start_.theta[e];
-    way.drift = groups_.drifts(mass_, way.moves);
+    SubstepDisplacement displacement{std::vector<Vec3>(state.x.size()), {}, std::vector<double>(state.theta.size())};
+    for (std::size_t v = 0; v < state.x.size(); ++v) displacement.moves[v] = state.x[v] - start_.x[v];
+    for (std::size_t e = 0; e < state.theta.size(); ++e) displacement.turns[e] = state.theta[e] - start_.theta[e];
+    displacement.drift = groups_.drifts(mass_, displacement.moves);
     // Where all of the motion does not pay for it, only a part of the way can be, but for the drift of what nothing holds.
     for (const double share : {0.5, 0.25, 0.125, 0.0}) {
         if (canPay()) break;
-        goPart(part, way, share);
+        applyFraction(part, displacement, share);
     }
     if (!canPay()) {  // what is in the way of the drift deforms it: all stays where it was, and keeps the momentum of its drift
-        std::ranges::fill(way.drift, Vec3::Zero());
-        goPart(part, way, 0.0);
+        std::ranges::fill(displacement.drift, Vec3::Zero());
+        applyFraction(part, displacement, 0.0);
         const std::vector<Vec3> drift = groups_.drifts(mass_, start_.v);
         for (std::size_t v = 0; v < state.v.size(); ++v)
             if (!fabric_.pinned[v]) state.v[v] += drift[groups_.pieceOf(static_cast<int>(v))];
@@ -120,7 +120,7 @@ void VertexSolver::removeSpuriousGain(const Part& part)
 }
 
 /// From the start of the attempt a share of the way against the drift, and all of that.
-void VertexSolver::goPart(const Part& part, const Way& way, double share)
+void VertexSolver::applyFraction(const Part& part, const SubstepDisplacement& displacement, double share)
 {
     FabricState& state = part.state;
     const double lastFraction = state.vertexSolver.lastFraction;
@@ -129,14 +129,14 @@ void VertexSolver::goPart(const Part& part, const Way& way, double share)
     state.springStep = springStep_;
     solidLimiter_.moveTo(part.t, part.t + part.h);
     if (contact_) contact_->beginStep(state.x, mass_, stepOfInertia(part.h), springStep_, start_.vertexSolver.onFabric);
-    for (std::size_t v = 0; v < way.moves.size(); ++v) {
-        const Vec3& drift = way.drift[groups_.pieceOf(static_cast<int>(v))];
-        move_[v] = drift + share * (way.moves[v] - drift);
+    for (std::size_t v = 0; v < displacement.moves.size(); ++v) {
+        const Vec3& drift = displacement.drift[groups_.pieceOf(static_cast<int>(v))];
+        move_[v] = drift + share * (displacement.moves[v] - drift);
     }
     limit(state, part.report, part.clock);
     commit(state, part.clock);
     solidLimiter_.rest();
-    for (std::size_t e = 0; e < way.turns.size(); ++e) state.theta[e] += share * way.turns[e];
+    for (std::size_t e = 0; e < displacement.turns.size(); ++e) state.theta[e] += share * displacement.turns[e];
     findMeanRates(part.h, state);
     storeContacts(part.h, state);
 }

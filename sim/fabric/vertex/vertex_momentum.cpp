@@ -25,7 +25,7 @@ void VertexSolver::findMomenta(const FabricState& state)
 
 /// Weight and the liquid alone change the momentum of a group that nothing holds: what else did in the step of length h [s] is taken from all
 /// of its velocities alike.
-void VertexSolver::keepMomentum(double h, FabricState& state)
+void VertexSolver::conserveMomentum(double h, FabricState& state)
 {
     if (!groups_.anyFree()) return;
     missing_.assign(groups_.pieces(), Vec3::Zero());
@@ -51,11 +51,11 @@ void VertexSolver::keepMomentum(double h, FabricState& state)
     }
     for (std::size_t v = 0; v < state.v.size(); ++v)
         if (const int group = groupOf(v); group >= 0) state.v[v] += correction_[group];
-    if (isSecondOrder_) keepForces(state);
+    if (isSecondOrder_) conserveForces(state);
 }
 
 /// Forces on a group that nothing holds sum up to none, whatever its pieces remember of what they have parted from.
-void VertexSolver::keepForces(FabricState& state)
+void VertexSolver::conserveForces(FabricState& state)
 {
     for (std::vector<Vec3>* force : {&state.vertexSolver.force, &state.vertexSolver.meanForce}) {
         if (force->empty()) return;

@@ -80,9 +80,9 @@ void VertexSolver::checkConvergence(double h, Newton& newton) const
 {
     const double largest = parallelMax(fabric_.vertexCount(), [&](std::size_t v) { return move_[v].norm(); });
     const double move = rmsInRadii(move_);
-    newton.isQuiet = largest < kQuietAcceleration * referenceAcceleration_ * h * h && move < kSmallMove;
+    newton.hasNegligibleChange = largest < kQuietAcceleration * referenceAcceleration_ * h * h && move < kSmallMove;
     newton.hasConverged = move < kSmallMove || (move < kSettledMove && (newton.count == 0 || move < kContraction * newton.lastMove));
-    newton.isNear = newton.hasConverged && move < kLastMove;
+    newton.isNearSolution = newton.hasConverged && move < kLastMove;
     newton.lastMove = move;
     ++newton.count;
 }
@@ -128,7 +128,7 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         solve(part, newton);
         checkConvergence(h, newton);
         applyStep(part, newton);
-        const bool isLastMove = newton.isQuiet || newton.count >= (newton.isNear ? settings_.newton : most);
+        const bool isLastMove = newton.hasNegligibleChange || newton.count >= (newton.isNearSolution ? settings_.newton : most);
         if (!isLastMove) continue;
         const double frictionError = contacts_ ? contact_->frictionError(state.x, kSignificantFriction * referenceAcceleration_) : 0.0;
         // Steps that something drives are halved instead: shorter ones take less energy from it that fabric cannot follow.

@@ -15,7 +15,7 @@ namespace sim {
 double VertexSolver::stepOfInertia(double h) const { return isSecondOrder_ ? h / std::numbers::sqrt2 : h; }
 
 /// How far the mean of forces is behind the last of them, at the start of a step of h, relative to the last step: it is by a step.
-double VertexSolver::lagOf(double h) const
+double VertexSolver::meanForceLag(double h) const
 {
     constexpr double kMost = 2.0;  // in steps that grow faster what the mean remembers of noise would
     return start_.vertexSolver.lastStep > 0.0 ? std::min(kMost, h / start_.vertexSolver.lastStep) : 0.0;
@@ -83,8 +83,8 @@ double VertexSolver::abruptShare(double h, const ActingContact& contact, std::sp
     return std::min(1.0 - lasting, 2.0 * approach / (answer * h));
 }
 
-/// Half of the forces of contact that act as impulses, and of what made another of Newton's last move; the rest of contact lasts. Each contact gives to
-/// both sides alike.
+/// Half of the forces of contact that act as impulses, and of what made another of Newton's last move; the rest of contact lasts. Each contact gives
+/// to both sides alike.
 void VertexSolver::findAbrupt(double h, FabricState& state)
 {
     abrupt_.resize(state.x.size());
@@ -153,7 +153,7 @@ void VertexSolver::findSecondOrderRates(double h, FabricState& state)
         now.force[v] = -Vec3(gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]);
         now.meanForce[v] = 0.5 * (meanForceBefore(v, h) + now.force[v]);
     }
-    const double lag = lagOf(h);
+    const double lag = meanForceLag(h);
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) {
         const double turn = state.theta[e] - start_.theta[e];
         now.torque[e] = now.meanTorque[e] = 0.0;

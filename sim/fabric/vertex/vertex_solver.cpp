@@ -71,7 +71,7 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
     findMomenta(state);
     advanceInParts({t, h, 0, state, report, clock});
     const double kinetic = booksEnergy_ ? energies(state, gravity).kinetic : 0.0;
-    keepMomentum(h, state);
+    conserveMomentum(h, state);
     if (booksEnergy_) (*report.energyChanges)[EnergyChange::Implicit] += energies(state, gravity).kinetic - kinetic;
     if (forces_ && loads_) reportLiquid(state);
     report.candidates = contact_ ? contact_->candidates() : 0;
@@ -80,7 +80,7 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
 
 void VertexSolver::advanceInParts(const Part& part)
 {
-    if (attempt(part)) return;
+    if (trySubstep(part)) return;
     ++part.report.halvings;
     start_.vertexSolver.lastFraction = part.state.vertexSolver.lastFraction;
     part.state = start_;
@@ -181,7 +181,7 @@ void VertexSolver::storeContacts(double h, FabricState& state)
     state.stored = contactEnergy(h, state.x, state);
 }
 
-bool VertexSolver::attempt(const Part& part)
+bool VertexSolver::trySubstep(const Part& part)
 {
     const double h = part.h;
     FabricState& state = part.state;
@@ -194,7 +194,7 @@ bool VertexSolver::attempt(const Part& part)
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
                          limits_.listBuilds > kMaxListBuilds || solidLimits_.left > 0 || !newton.hasConverged ||
-                         (newton.gain > kMuchGain && (isDriven_ || !newton.isQuiet));
+                         (newton.gain > kMuchGain && (isDriven_ || !newton.hasNegligibleChange));
     state.vertexSolver.lastFraction = fraction;
     // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
     if (isDriven_) isLast = isLast && part.level >= kDrivenHalvings;

@@ -48,7 +48,7 @@ class VertexSolver final : public FabricIntegrator {
         double lastMove = 0.0;             ///< rms [radii]
         double wanted = 0.0, taken = 0.0;  ///< mass-weighted squared norms of the Newton step and of its accepted part [g cm^2]
         double gain = 0.0;                 ///< spurious energy gain relative to the kinetic energy, after the last iteration [-]
-        bool hasConverged = false, isNear = false, isQuiet = false;
+        bool hasConverged = false, isNearSolution = false, hasNegligibleChange = false;
     };
 
     /// A step or a part of one, and what it works on.
@@ -62,7 +62,7 @@ class VertexSolver final : public FabricIntegrator {
         Part half(double from) const { return {from, 0.5 * h, level + 1, state, report, clock}; }
     };
     /// One attempt at a part; false if it should be redone in halves.
-    bool attempt(const Part& part);
+    bool trySubstep(const Part& part);
     void advanceInParts(const Part& part);
     bool beginAttempt(const Part& part, bool isLast);
     void predict(const Part& part);
@@ -78,13 +78,13 @@ class VertexSolver final : public FabricIntegrator {
     bool limitAlternately(const FabricState& state, StageClock& clock);
     SolidLimiter::Limited limitAtSolids(const FabricState& state);
     void turnHeldEdges(double t, FabricState& state) const;
-    double lagOf(double h) const;
+    double meanForceLag(double h) const;
     /// a0 of a step of h but for gravity, times the mass [dyn].
     Vec3 meanForceBefore(std::size_t v, double h) const
     {
         const FabricState::VertexSolverPart& before = start_.vertexSolver;
         if (before.force.empty()) return Vec3::Zero();
-        return before.force[v] + lagOf(h) * (before.meanForce[v] - before.force[v]);
+        return before.force[v] + meanForceLag(h) * (before.meanForce[v] - before.force[v]);
     }
     bossak::Vertex bossakOf(std::size_t v, double h) const;
     double stepOfInertia(double h) const;
@@ -118,16 +118,16 @@ class VertexSolver final : public FabricIntegrator {
     std::optional<EnergyChanges> dissipateGain(double h, FabricState& state);
     void removeSpuriousGain(const Part& part);
     /// Displacement of a substep: vertices, rigid drift of groups, twist.
-    struct Way {
+    struct SubstepDisplacement {
         std::vector<Vec3> moves;    ///< displacement of each vertex [cm]
         std::vector<Vec3> drift;    ///< displacement of each piece's group, where nothing holds it, else 0 [cm]
         std::vector<double> turns;  ///< twist of each yarn edge [rad]
     };
-    void goPart(const Part& part, const Way& way, double share);
+    void applyFraction(const Part& part, const SubstepDisplacement& displacement, double share);
     void findGroups(FabricGroups& groups) const;
     void findMomenta(const FabricState& state);
-    void keepMomentum(double h, FabricState& state);
-    void keepForces(FabricState& state);
+    void conserveMomentum(double h, FabricState& state);
+    void conserveForces(FabricState& state);
     std::vector<char> heldBySolids() const;
     InternalGradient gradientAt(const FabricState& state, double length) const;
     void bookOutside(double h, const FabricState& state, InternalGradient& gradient, EnergyChanges& changes);
@@ -158,7 +158,7 @@ class VertexSolver final : public FabricIntegrator {
     SolidLimiter solidLimiter_;
     FabricGroups groups_, attemptGroups_;  ///< groups of pieces in the step under way, and in its last attempt alone
     std::vector<Vec3> momentum_;           ///< momentum of each piece at the start of the step [g cm/s]
-    std::vector<Vec3> missing_;            ///< momentum that each group lacks at the end of the step [g cm/s]; in keepForces: force [dyn]
+    std::vector<Vec3> missing_;            ///< momentum that each group lacks at the end of the step [g cm/s]; in conserveForces: force [dyn]
     std::vector<Vec3> correction_;         ///< velocity that makes up for missing_, of each group [cm/s]
     std::vector<Vec3> groupInertia_;       ///< mass of each group, with drag [g]
     std::vector<Vec3> restReference_;      ///< reference direction of each yarn edge at rest

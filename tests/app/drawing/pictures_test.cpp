@@ -12,29 +12,29 @@
 namespace app::test {
 namespace {
 
-SceneSetup load(const std::string& name, std::vector<std::string> sets)
+LoadedScene load(const std::string& name, std::vector<std::string> sets)
 {
     return drenchBackends().loadScene({.file = DRENCH_SOURCE_DIR "/scenes/" + name + ".yaml", .variant = "", .sets = std::move(sets)});
 }
 
 /// A run as far as `time` [s].
-std::unique_ptr<SimulationHandle> runTo(double time, const SceneSetup& setup)
+std::unique_ptr<SimulationHandle> runTo(double time, const LoadedScene& setup)
 {
     auto simulation = drenchBackends().startSimulation(setup);
     while (simulation->state().time < time) simulation->step(time);
     return simulation;
 }
 
-FrameSnapshot shotOf(const SimulationHandle& simulation, const SceneSetup& setup, const SnapshotExtras& extras)
+FrameSnapshot shotOf(const SimulationHandle& simulation, const LoadedScene& setup, const SnapshotExtras& extras)
 {
     FrameSnapshot snapshot;
-    takeSnapshot(simulation.state(), simulation.fabric(), simulation.contacts(), setup.scene.settings.liquid.density, extras, snapshot);
+    fillSnapshot(simulation.state(), simulation.fabric(), simulation.contacts(), setup.scene.settings.liquid.density, extras, snapshot);
     drenchBackends().meshObstacles(setup)(simulation.state().time, snapshot.obstacles);
     return snapshot;
 }
 
 /// Drawn as the scene's file says. Kept to be looked at if DRENCH_KEEP_PICTURES names a folder.
-render::Image pictureOf(FrameSnapshot& snapshot, const SceneSetup& setup, const std::string& name)
+render::Image pictureOf(FrameSnapshot& snapshot, const LoadedScene& setup, const std::string& name)
 {
     const TemporaryFolder folder;
     const char* const keep = std::getenv("DRENCH_KEEP_PICTURES");
@@ -47,7 +47,7 @@ render::Image pictureOf(FrameSnapshot& snapshot, const SceneSetup& setup, const 
 /// bottom and at the surface, where the pressure of the last cells goes on.
 TEST(Pictures, PressureAtRestIsTheWeightAbove)
 {
-    const SceneSetup setup = load("validation/hydrostatics", {"time.duration=0.05", "render.liquid.color_by=pressure"});
+    const LoadedScene setup = load("validation/hydrostatics", {"time.duration=0.05", "render.liquid.color_by=pressure"});
     const auto simulation = runTo(0.05, setup);
     FrameSnapshot snapshot = shotOf(*simulation, setup, extrasOf(setup.pictures.render));
     ASSERT_GT(snapshot.positions.size(), 1000u);
@@ -76,7 +76,7 @@ TEST(Pictures, SurfaceCoversWhatItsParticlesDo)
     for (const std::string style : {"spheres", "surface"}) {
         std::vector<std::string> sets = common;
         sets.push_back("render.liquid.style=" + style);
-        const SceneSetup setup = load("drop", sets);
+        const LoadedScene setup = load("drop", sets);
         const auto simulation = runTo(0.05, setup);
         FrameSnapshot snapshot = shotOf(*simulation, setup, extrasOf(setup.pictures.render));
         EXPECT_EQ(style == "surface", !snapshot.surface.triangles.empty());
@@ -97,7 +97,7 @@ TEST(Pictures, SurfaceCoversWhatItsParticlesDo)
 /// for the last move of the step.
 TEST(Pictures, ContactsAreWhereYarnsTouch)
 {
-    const SceneSetup setup =
+    const LoadedScene setup =
         load("yarn_sheet", {"fabrics.sheet.woven_yarns.yarns=[20, 20]", "obstacles.ball.shape={ball: {center: [1.4, 1.05, 1.4], radius: 0.8}}",
                             "render.camera={look_at: [1.4, 0, 1.4], eye: [1.4, 3.0, 6.0], fov: 40}"});
     const auto simulation = runTo(0.01, setup);
@@ -119,7 +119,7 @@ TEST(Pictures, ContactsAreWhereYarnsTouch)
 /// Where the grid is and where the liquid goes, over the same picture.
 TEST(Pictures, BlocksAndArrowsAreOverTheScene)
 {
-    const SceneSetup setup = load("drop", {"render.size=[960, 720]"});
+    const LoadedScene setup = load("drop", {"render.size=[960, 720]"});
     const auto simulation = runTo(0.06, setup);
     FrameSnapshot snapshot = shotOf(*simulation, setup, {.blocks = true, .arrows = true});
     EXPECT_EQ(snapshot.lines.size(), 3u);

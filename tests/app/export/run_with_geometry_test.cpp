@@ -15,7 +15,7 @@ using test::TemporaryFolder;
 
 void runToy(const test::ToySettings& toy, const std::filesystem::path& out, bool geometry)
 {
-    SceneSetup setup = test::toySetup(toy);
+    LoadedScene setup = test::toySetup(toy);
     setup.scene.settings.liquid.density = 4.0;
     setup.pictures.output.geometry = geometry;
     runOffline(setup, test::toyBackends(toy), {.out = out, .contentHash = "0123", .frames = false});

@@ -63,9 +63,9 @@ TEST(Snapshot, ValuesAreSpeedsOrPressures)
     const Vec3 place(1.1, 3.0, 4.0);
     p.state.liquid.add(place, 1.0, 0, {3.0, 4.0, 0.0});
     FrameSnapshot snapshot;
-    takeSnapshot(p.state, {}, nullptr, 1.0, {}, snapshot);
+    fillSnapshot(p.state, {}, nullptr, 1.0, {}, snapshot);
     EXPECT_EQ(snapshot.values.at(0), 5.0f);
-    takeSnapshot(p.state, {}, nullptr, 1.0, {.pressure = true}, snapshot);
+    fillSnapshot(p.state, {}, nullptr, 1.0, {.pressure = true}, snapshot);
     EXPECT_NEAR(snapshot.values.at(0), LinearPressure::exact(place), 1.0e-3);
     EXPECT_TRUE(snapshot.extras.pressure);
     EXPECT_EQ(snapshot.view().liquid.values[0], snapshot.values[0]);

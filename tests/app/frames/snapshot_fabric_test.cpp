@@ -38,14 +38,14 @@ struct YarnAndFace {
     FrameSnapshot snapshot(FabricColorBy colorBy)
     {
         FrameSnapshot taken;
-        takeSnapshot(state, fabric, nullptr, 1.0, {.yarns = colorBy, .cloth = colorBy}, taken);
+        fillSnapshot(state, fabric, nullptr, 1.0, {.yarns = colorBy, .cloth = colorBy}, taken);
         return taken;
     }
     sim::Fabric fabric;
     sim::State state;
 };
 
-TEST(FabricInFrame, GeometryArrives)
+TEST(SnapshotFabric, GeometryArrives)
 {
     FrameSnapshot taken = YarnAndFace().snapshot(FabricColorBy::Material);
     const render::FrameView view = taken.view();
@@ -64,7 +64,7 @@ TEST(FabricInFrame, GeometryArrives)
 }
 
 /// Of its pores that are full; 0 where all is dry, for the colour bar has a lower end.
-TEST(FabricInFrame, SaturationIsTheFullPartOfThePores)
+TEST(SnapshotFabric, SaturationIsTheFullPartOfThePores)
 {
     YarnAndFace scene;
     EXPECT_EQ((std::vector<float>{0, 0, 0}), scene.snapshot(FabricColorBy::Saturation).yarns.values);
@@ -82,7 +82,7 @@ TEST(FabricInFrame, SaturationIsTheFullPartOfThePores)
     EXPECT_EQ((std::vector<float>{0, 0.25f, 0, 0, 1, 0}), taken.cloth.values);
 }
 
-TEST(FabricInFrame, DirectionsTurnWithTheMaterialFrames)
+TEST(SnapshotFabric, DirectionsTurnWithTheMaterialFrames)
 {
     const FrameSnapshot taken = YarnAndFace().snapshot(FabricColorBy::Material);
     const float half = std::sqrt(0.5f);
@@ -91,14 +91,14 @@ TEST(FabricInFrame, DirectionsTurnWithTheMaterialFrames)
     EXPECT_LT((taken.yarns.directions[2] - Eigen::Vector3f(0, 0, 1)).norm(), 1e-6f);
 }
 
-TEST(FabricInFrame, SpeedColorsEveryVertex)
+TEST(SnapshotFabric, SpeedColorsEveryVertex)
 {
     const FrameSnapshot taken = YarnAndFace().snapshot(FabricColorBy::Speed);
     EXPECT_EQ(std::vector<float>(3, 5.0f), taken.yarns.values);
     EXPECT_EQ(std::vector<float>(6, 5.0f), taken.cloth.values);
 }
 
-TEST(FabricInFrame, StrainIsTheLargestStretchAtTheVertex)
+TEST(SnapshotFabric, StrainIsTheLargestStretchAtTheVertex)
 {
     const FrameSnapshot taken = YarnAndFace().snapshot(FabricColorBy::Strain);
     EXPECT_NEAR(0.0, taken.yarns.values[0], 1e-6);
@@ -108,7 +108,7 @@ TEST(FabricInFrame, StrainIsTheLargestStretchAtTheVertex)
     EXPECT_EQ(0.0f, taken.cloth.values[0]) << "no face there";
 }
 
-TEST(FabricInFrame, StrainDoesNotSeeARotation)
+TEST(SnapshotFabric, StrainDoesNotSeeARotation)
 {
     YarnAndFace scene;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.0, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -116,11 +116,11 @@ TEST(FabricInFrame, StrainDoesNotSeeARotation)
     for (const float strain : scene.snapshot(FabricColorBy::Strain).cloth.values) EXPECT_NEAR(0.0, strain, 1e-6);
 }
 
-TEST(FabricInFrame, NothingIsLeftOfAnEarlierFrame)
+TEST(SnapshotFabric, NothingIsLeftOfAnEarlierFrame)
 {
     YarnAndFace scene;
     FrameSnapshot taken = scene.snapshot(FabricColorBy::Speed);
-    takeSnapshot(sim::State(), sim::Fabric(), nullptr, 1.0, {}, taken);
+    fillSnapshot(sim::State(), sim::Fabric(), nullptr, 1.0, {}, taken);
     const render::FrameView view = taken.view();
     EXPECT_TRUE(view.yarns.begin.empty());
     EXPECT_TRUE(view.yarns.positions.empty());

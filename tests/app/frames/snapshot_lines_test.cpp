@@ -111,11 +111,11 @@ TEST(Snapshot, HasTheLinesThatAreWantedAndNoOthers)
 
     FrameSnapshot snapshot;
     state.fabric.x.clear();
-    takeSnapshot(state, {}, nullptr, 1.0, {.blocks = true}, snapshot);
+    fillSnapshot(state, {}, nullptr, 1.0, {.blocks = true}, snapshot);
     ASSERT_EQ(snapshot.view().lines.size(), 1u);
     EXPECT_EQ(snapshot.view().lines[0].points.size(), 24u);
     EXPECT_EQ(snapshot.view().lines[0].width, snapshot.lines[0].width);
-    takeSnapshot(state, {}, nullptr, 1.0, {}, snapshot);
+    fillSnapshot(state, {}, nullptr, 1.0, {}, snapshot);
     EXPECT_TRUE(snapshot.view().lines.empty()) << "nothing is left of an earlier frame";
 }
 

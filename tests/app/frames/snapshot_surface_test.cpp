@@ -26,11 +26,11 @@ struct Cube {
     sim::State state;
 };
 
-TEST(SurfaceInFrame, IsThereWhereItIsAskedFor)
+TEST(SnapshotSurface, IsThereWhereItIsAskedFor)
 {
     const Cube cube;
     FrameSnapshot snapshot;
-    takeSnapshot(cube.state, {}, nullptr, 1.0, {.surface = true}, snapshot);
+    fillSnapshot(cube.state, {}, nullptr, 1.0, {.surface = true}, snapshot);
     const FrameSnapshot::Surface& surface = snapshot.surface;
     ASSERT_GT(surface.triangles.size(), 200u);
     ASSERT_EQ(surface.positions.size(), surface.normals.size());
@@ -41,11 +41,11 @@ TEST(SurfaceInFrame, IsThereWhereItIsAskedFor)
         EXPECT_LT((surface.positions[v] - Eigen::Vector3f::Constant(1.875f)).cwiseAbs().maxCoeff(), 1.2f);
     }
     EXPECT_EQ(snapshot.view().surface.triangles.data(), surface.triangles.data());
-    takeSnapshot(cube.state, {}, nullptr, 1.0, {}, snapshot);
+    fillSnapshot(cube.state, {}, nullptr, 1.0, {}, snapshot);
     EXPECT_TRUE(surface.positions.empty() && surface.normals.empty() && surface.values.empty() && surface.triangles.empty());
 }
 
-TEST(SurfaceInFrame, ValuesArePressuresWhereTheyAreAskedFor)
+TEST(SnapshotSurface, ValuesArePressuresWhereTheyAreAskedFor)
 {
     const Cube cube;
     FrameSnapshot::Surface surface;

@@ -186,7 +186,7 @@ TEST(Import, ImportedScenesRun)
 {
     for (const char* name : {"sheet", "weave", "bodies", "odd"}) {
         const Imported imported(ownScene(name));
-        const SceneSetup setup = imported.setup();
+        const LoadedScene setup = imported.setup();
         const auto simulation = imported.start(setup);
         const double end = 5.0 * setup.scene.settings.time.dt;
         while (simulation->state().time < end * (1.0 - 1.0e-9)) simulation->step(end);

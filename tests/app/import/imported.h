@@ -19,9 +19,9 @@ class Imported {
         yaml_ = folder_ / (xml.stem().string() + ".yaml");
         report = importScene(xml, yaml_, options, backends_);
     }
-    SceneSetup setup() const { return backends_.loadScene({yaml_.string(), "", {}}); }
+    LoadedScene setup() const { return backends_.loadScene({yaml_.string(), "", {}}); }
     sim::Scene scene() const { return setup().scene; }
-    std::unique_ptr<SimulationHandle> start(const SceneSetup& setup) const { return backends_.startSimulation(setup); }
+    std::unique_ptr<SimulationHandle> start(const LoadedScene& setup) const { return backends_.startSimulation(setup); }
     std::string yaml() const { return contentOf(yaml_); }
     const std::filesystem::path& folder() const { return folder_.path(); }
 

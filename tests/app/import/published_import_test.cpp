@@ -97,7 +97,7 @@ TEST_P(PublishedScene, StartsWithThePublishedLiquid)
 TEST_P(PublishedScene, RunsFor50Steps)
 {
     const Imported imported(xml);
-    const SceneSetup setup = imported.setup();
+    const LoadedScene setup = imported.setup();
     const auto simulation = imported.start(setup);
     const double end = 50.0 * setup.scene.settings.time.dt;
     for (int i = 0; i < 50; ++i) simulation->step(end);

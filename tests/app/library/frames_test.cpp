@@ -20,10 +20,10 @@ render::Image byProgram()
 {
     const TemporaryFolder folder;
     const app::Backends backends = app::drenchBackends();
-    const app::SceneSetup setup = backends.loadScene({.file = kScene, .variant = "", .sets = {}});
+    const app::LoadedScene setup = backends.loadScene({.file = kScene, .variant = "", .sets = {}});
     const auto simulation = backends.startSimulation(setup);
     app::FrameSnapshot snapshot;
-    app::takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), setup.scene.settings.liquid.density,
+    app::fillSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), setup.scene.settings.liquid.density,
                       app::extrasOf(setup.pictures.render), snapshot);
     backends.meshObstacles(setup)(0.0, snapshot.obstacles);
     backends.startRenderer(setup, false)(snapshot)(folder / "program.png");

@@ -21,7 +21,7 @@ SceneRequest shortDrop()
 
 std::uint64_t hashOfRun(const SceneRequest& request)
 {
-    const SceneSetup setup = drenchBackends().loadScene(request);
+    const LoadedScene setup = drenchBackends().loadScene(request);
     const auto run = drenchBackends().startSimulation(setup);
     for (std::int64_t frame = 1; frame <= frameCount(setup); ++frame)
         while (run->state().time < frameTime(setup, frame)) run->step(frameTime(setup, frame));
@@ -105,7 +105,7 @@ SceneRequest probedDrop()
 /// Of a run without a window.
 std::vector<ProbeReading> readingsOfRun(const SceneRequest& request)
 {
-    const SceneSetup setup = drenchBackends().loadScene(request);
+    const LoadedScene setup = drenchBackends().loadScene(request);
     const auto run = drenchBackends().startSimulation(setup);
     ProbeReader reader(*readProbes(setup), setup.scene.settings.time.start);
     std::vector<ProbeReading> readings = {reader.initial(*run)};

@@ -44,9 +44,9 @@ TEST(BlockedSources, AreToldOfOnceEachWithTimeAndVolume)
     EXPECT_NE(second[0].find("liquid.sources.jet: stops at 1.5 s after 3 cm^3"), std::string::npos) << second[0];
 }
 
-SceneSetup setupOf(const test::ToySettings& toy)
+LoadedScene setupOf(const test::ToySettings& toy)
 {
-    SceneSetup setup = test::toySetup(toy);
+    LoadedScene setup = test::toySetup(toy);
     setup.scene.sources.resize(1);
     setup.scene.sources[0].name = "tap";
     return setup;
@@ -63,7 +63,7 @@ int timesTold(const std::string& words)
 TEST(BlockedSources, AreToldOfByValidate)
 {
     const test::ToySettings toy{.every = 0.05, .shutAtStep = 3};
-    SceneSetup setup = setupOf(toy);
+    LoadedScene setup = setupOf(toy);
     setup.file = sim::sceneFileFromText("drench: 1\nvalidate:\n  every: 0.05\n  checks:\n    - {read: liquid_x, at_most: 9}\n", "case.yaml");
     const test::Log log;
     EXPECT_TRUE(runCase("cup", setup, test::toyBackends(toy), [] { return false; }).passes());

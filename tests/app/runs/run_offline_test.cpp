@@ -38,7 +38,7 @@ TEST(RunOffline, WritesOnlyTheLogsTheSceneWants)
 {
     for (const bool energy : {false, true}) {
         TemporaryFolder folder;
-        SceneSetup setup = test::toySetup({});
+        LoadedScene setup = test::toySetup({});
         setup.pictures.output.energy = energy;
         setup.pictures.output.stats = !energy;
         runOffline(setup, test::toyBackends({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
@@ -51,7 +51,7 @@ TEST(RunOffline, WritesOnlyTheLogsTheSceneWants)
 TEST(RunOffline, LedgerOfEnergyTellsWhatIsNotBooked)
 {
     TemporaryFolder folder;
-    SceneSetup setup = test::toySetup({});
+    LoadedScene setup = test::toySetup({});
     setup.pictures.output.ledger = true;
     runOffline(setup, test::toyBackends({}), {.out = folder.path(), .contentHash = "0123", .threads = 2});
     EXPECT_EQ(test::linesOf(folder / "energy_ledger.csv").size(), 1u + 1u + 15u) << "header, initial state, steps";
@@ -275,7 +275,7 @@ TEST(RunOffline, ASceneThatCannotBeginLeavesEarlierResultsAlone)
     TemporaryFolder folder;
     runToy({}, folder.path());
     auto backends = test::toyBackends({});
-    backends.startSimulation = [](const SceneSetup&) -> std::unique_ptr<SimulationHandle> { throw sim::InputError("no room for a particle"); };
+    backends.startSimulation = [](const LoadedScene&) -> std::unique_ptr<SimulationHandle> { throw sim::InputError("no room for a particle"); };
     EXPECT_THROW(runOffline(test::toySetup({}), backends, {.out = folder.path(), .contentHash = ""}), sim::InputError);
     EXPECT_EQ(reportOf(folder.path()).at("status"), "done");
     EXPECT_TRUE(std::filesystem::exists(folder / frameFileName(5)));

@@ -1,5 +1,5 @@
 // Needs a display: tests/CMakeLists.txt runs it under Xvfb.
-#include "tests/app/view/hands.h"
+#include "tests/app/view/ui_driver.h"
 
 #include <gtest/gtest.h>
 

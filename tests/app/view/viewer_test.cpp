@@ -4,7 +4,7 @@
 #include "app/frames/snapshot_from_state.h"
 #include "render/image.h"
 #include "render/image_compare.h"
-#include "tests/app/view/hands.h"
+#include "tests/app/view/ui_driver.h"
 
 #include <gtest/gtest.h>
 
@@ -16,13 +16,13 @@ namespace {
 TEST(Viewer, ShowsWhatARunDraws)
 {
     const Backends backends = drenchBackends();
-    const SceneSetup setup = backends.loadScene(drop());
+    const LoadedScene setup = backends.loadScene(drop());
     Desktop desktop(drop(), kPaused);
     const render::Image window = desktop.shot();
 
     FrameSnapshot snapshot;
     const auto simulation = backends.startSimulation(setup);
-    takeSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0, extrasOf(setup.pictures.render), snapshot);
+    fillSnapshot(simulation->state(), simulation->fabric(), simulation->contacts(), 1.0, extrasOf(setup.pictures.render), snapshot);
     backends.meshObstacles(setup)(0.0, snapshot.obstacles);
     backends.startRenderer(setup, false)(snapshot)("run.png");
     const render::Image drawn = render::readPng("run.png");

@@ -43,7 +43,7 @@ struct Towel {
 
     Settings settings;
     Fabric fabric;
-    WetElements elements;
+    PorousElements elements;
     Drip drip;
     State state;
 };

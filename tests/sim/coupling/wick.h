@@ -38,7 +38,7 @@ struct Wick {
     }
 
     Fabric fabric;
-    WetElements elements;
+    PorousElements elements;
     FabricState state;
     std::vector<Vec3> before;
     Settings settings;

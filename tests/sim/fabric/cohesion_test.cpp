@@ -149,7 +149,7 @@ TEST(WetSheet, HangsFromACeilingUntilItIsTooHeavy)
     }
 }
 
-TEST(WetSheet, WhatHoldsWhileItIsWetFallsWhenItIsDry)
+TEST(WetSheet, AdhesionVanishesWhenDry)
 {
     WetRun run({sheetUnderCeiling()}, 1.0, 5.0e-3, {ceiling()});
     ASSERT_GT(5.0e-3 * fullForce(1.0), 1.2 * run.weight());

@@ -23,7 +23,7 @@ double kinetic(const LiquidParticles& particles)
 struct Gone {
     SortedLiquid liquid = randomLiquid(3000, 1, {24, 24, 24}, {-12, -12, -12}, kCell);
     std::vector<Vec3> from, after;
-    PushedOut pushed;
+    PushOutTotals pushed;
     double lost = 0.0;  ///< kinetic energy [erg]
 
     Gone(const Obstacles& obstacles, double farthest, Chance& chance)

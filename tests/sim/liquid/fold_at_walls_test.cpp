@@ -53,7 +53,7 @@ TEST(Walls, FoldingIsLikeMirroredParticles)
     all.sort();
     particlesToFaces({inside.particles, inside.order, inside.grid}, scratch, folded);
     BlockArray<double, 3> weightless;
-    foldAtPlaneWalls(inside.grid, obstacles, folded, weightless);
+    mirrorAtPlaneWalls(inside.grid, obstacles, folded, weightless);
     particlesToFaces({all.particles, all.order, all.grid}, scratch, expected);
     for (int a = 0; a < kAxes; ++a)
         for (int z = a == 2; z < size.z(); ++z)
@@ -118,9 +118,9 @@ AtWalls passWalls(GridScene& scene, std::mt19937& random, double friction)
     AtWalls result;
     result.given = energyOfSums(scene);
     WallFaces followers;
-    foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
+    mirrorAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
     result.folded = energyOfSums(scene);
-    result.work = followers.led.work;
+    result.work = followers.driven.work;
     scene.forEachFace([&](int a, const Vec3i& c) {
         const CellRef ref = scene.at(c);
         const double m = faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell];
@@ -197,7 +197,7 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
         const double friction = 0.0, dt = 0.01;
         const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
         WallFaces followers;
-        foldAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
+        mirrorAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
         computeFaceVelocities(scene.grid, gravity, dt, false, scene.liquid);
         withholdWeightOfImages(scene.grid, scene.obstacles, gravity, dt, scene.liquid);
         const auto mass = [&](const auto& sums, int a, const Vec3i& c) {
@@ -236,7 +236,7 @@ TEST(Walls, WeightIsEvenAlongThem)
         });
         const Vec3 gravity(300.0 * unit(random), -981.0, 200.0 * unit(random));
         WallFaces followers;
-        foldAtWalls(scene.grid, scene.obstacles, std::array{0.0, 0.3, 0.9}[seed % 3], scene.field, followers, scene.liquid);
+        mirrorAtWalls(scene.grid, scene.obstacles, std::array{0.0, 0.3, 0.9}[seed % 3], scene.field, followers, scene.liquid);
         computeFaceVelocities(scene.grid, gravity, 0.01, false, scene.liquid);
         withholdWeightOfImages(scene.grid, scene.obstacles, gravity, 0.01, scene.liquid);
         scene.forEachFace([&](int a, const Vec3i& c) {
@@ -269,7 +269,7 @@ TEST(Walls, FrictionlessOnesOffTheGridKeepMassAndMomentum)
         });
         sumUp(0);
         WallFaces followers;
-        foldAtWalls(scene.grid, scene.obstacles, 0.0, scene.field, followers, scene.liquid);
+        mirrorAtWalls(scene.grid, scene.obstacles, 0.0, scene.field, followers, scene.liquid);
         sumUp(1);
         for (int a = 0; a < kAxes; ++a) {
             EXPECT_NEAR(mass[1][a], mass[0][a], 1.0e-12 * mass[0][a]);

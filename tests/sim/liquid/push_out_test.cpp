@@ -10,10 +10,10 @@ namespace {
 constexpr double kCell = 0.25;  // [cm]
 
 /// Random particles that have moved by up to `farthest` since they were sorted, and what pushing out makes of them.
-struct PushedOut {
+struct PushOutTotals {
     std::vector<Vec3> before, after;
 
-    PushedOut(const Obstacles& obstacles, double farthest)
+    PushOutTotals(const Obstacles& obstacles, double farthest)
     {
         SortedLiquid liquid = randomLiquid(6000, 1, {30, 30, 30}, {-15, -15, -15}, kCell);
         ObstacleField field;
@@ -33,7 +33,7 @@ struct PushedOut {
 
 void expectAllOutside(const Obstacles& obstacles, double farthest)
 {
-    const PushedOut pushed(obstacles, farthest);
+    const PushOutTotals pushed(obstacles, farthest);
     std::size_t moved = 0;
     for (std::size_t p = 0; p < pushed.before.size(); ++p) {
         const double distance = obstacles.distance(pushed.before[p]);

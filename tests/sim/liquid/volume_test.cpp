@@ -97,7 +97,7 @@ TEST(Volume, OfThinPlacesAtTheSurfaceIsLeftAlone)
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
-TEST(Volume, WhatComesOffACeilingIsNotPulledBackToIt)
+TEST(Volume, DetachingLiquidIsNotPulledBackToTheCeiling)
 {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);

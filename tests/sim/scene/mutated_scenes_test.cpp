@@ -1,4 +1,4 @@
-#include "tests/sim/scene/loads_or_complains.h"
+#include "tests/sim/scene/loads_or_rejects.h"
 
 #include <gtest/gtest.h>
 

@@ -102,7 +102,7 @@ TEST(TriangleTree, KnowsFacesEdgesAndCornersOfABox)
     }
 }
 
-TEST(TriangleTree, WindsOnceAroundTheInside)
+TEST(TriangleTree, WindingNumberIsOneInside)
 {
     const TriangleTree tree(ballMesh());
     for (int p = 0; p < 500; ++p) {

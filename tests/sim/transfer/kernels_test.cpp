@@ -100,7 +100,7 @@ TEST_P(FastKernels, SameBitsForAnyThreadCount)
     for (int threads : {2, 3, 8}) EXPECT_EQ(roundTrip(threads), one) << threads << " threads";
 }
 
-TEST(FastKernels, EightThreadsReallyTakePart)
+TEST(FastKernels, UsesEightThreads)
 {
 #ifdef __SANITIZE_THREAD__
     const int expected = kPlainThreads;  // of the thread sanitizer's build, however many are asked for

@@ -11,16 +11,16 @@ namespace {
 
 /// value(t) at n + 1 times from 0 to `end`.
 template <class Value>
-std::vector<Reading> readings(int n, double end, Value&& value)
+std::vector<Sample> readings(int n, double end, Value&& value)
 {
-    std::vector<Reading> all;
+    std::vector<Sample> all;
     for (int i = 0; i <= n; ++i) all.push_back({end * i / n, value(end * i / n), 2.0});
     return all;
 }
 
 TEST(Statistic, OneOfTheReadingsOrTheirMean)
 {
-    const std::vector<Reading> all = {{0, 3, 0}, {1, 1, 0}, {2, 5, 0}, {3, 4, 0}};
+    const std::vector<Sample> all = {{0, 3, 0}, {1, 1, 0}, {2, 5, 0}, {3, 4, 0}};
     EXPECT_EQ(statisticOf(Statistic::First, all), 3.0);
     EXPECT_EQ(statisticOf(Statistic::Last, all), 4.0);
     EXPECT_EQ(statisticOf(Statistic::Mean, all), 3.25);
@@ -49,7 +49,7 @@ TEST(Statistic, PeriodAndEnvelopeOfADampedSwing)
 
 TEST(Statistic, ErrorsAreRelativeToWhatIsKnown)
 {
-    const std::vector<Reading> all = {{0, 1.0, 2.0}, {1, 2.2, 2.0}};
+    const std::vector<Sample> all = {{0, 1.0, 2.0}, {1, 2.2, 2.0}};
     EXPECT_NEAR(statisticOf(Statistic::MeanError, all), 0.3, 1.0e-12);
     EXPECT_NEAR(statisticOf(Statistic::LargestError, all), 0.5, 1.0e-12);
 }
@@ -57,14 +57,14 @@ TEST(Statistic, ErrorsAreRelativeToWhatIsKnown)
 TEST(Statistic, RmsErrorIsRelativeToTheWayOfWhatIsKnown)
 {
     // What is known goes from 2 to 5 and 6: 3 and 4 away from where it began.
-    const std::vector<Reading> all = {{0, 2.0, 2.0}, {1, 5.0, 5.0}, {2, 8.0, 6.0}};
+    const std::vector<Sample> all = {{0, 2.0, 2.0}, {1, 5.0, 5.0}, {2, 8.0, 6.0}};
     EXPECT_NEAR(statisticOf(Statistic::RmsError, all), 2.0 / 5.0, 1.0e-12);
 }
 
 TEST(Statistic, IsNotANumberWhereThereAreTooFewReadings)
 {
     EXPECT_TRUE(std::isnan(statisticOf(Statistic::Last, {})));
-    const std::vector<Reading> one = {{1, 1, 1}}, rising = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}};
+    const std::vector<Sample> one = {{1, 1, 1}}, rising = {{0, 0, 0}, {1, 1, 0}, {2, 2, 0}};
     EXPECT_TRUE(std::isnan(statisticOf(Statistic::Slope, one)));
     EXPECT_TRUE(std::isnan(statisticOf(Statistic::Period, rising)));
     EXPECT_TRUE(std::isnan(statisticOf(Statistic::EnvelopeRate, rising)));

@@ -37,12 +37,12 @@ Backends flightParts(const std::string& text)
     Backends backends = test::toyBackends({});
     backends.loadScene = [text](const SceneRequest& request) {
         const sim::SceneFile file = sim::sceneFileFromText(text, "flight.yaml", {.variant = "", .set = request.sets});
-        SceneSetup setup = test::toySetup({.dt = numberAt(file, "time", "dt"), .speed = numberAt(file, "", "speed")});
+        LoadedScene setup = test::toySetup({.dt = numberAt(file, "time", "dt"), .speed = numberAt(file, "", "speed")});
         setup.scene.settings.cell = 0.2;
         setup.file = file;
         return setup;
     };
-    backends.startSimulation = [](const SceneSetup& setup) {
+    backends.startSimulation = [](const LoadedScene& setup) {
         const double speed = std::stod(setup.identity.substr(setup.identity.find("speed: ") + 7));
         return test::toyBackends({.dt = setup.scene.settings.time.dt, .speed = speed, .failAtStep = setup.scene.settings.cell < 0.0 ? 1 : 0})
             .startSimulation(setup);
@@ -86,13 +86,13 @@ TEST(Precision, HoldsRunsAgainstAConvergedOne)
     text.replace(text.find(", expect: t"), 11, "");
     text += "  converged: {speed: 2}\n";
     const Backends backends = flightParts(text);
-    const SceneSetup setup = convergedSetup("", backends);
+    const LoadedScene setup = convergedSetup("", backends);
     const auto file = folder.path() / "flight_converged.csv";
     const auto readings = convergedReadings(file, setup, 1, backends, never);
     const auto run = precisionRuns("", backends, false).front();
     EXPECT_NEAR(measurePrecision(run, readings, 1, 1, backends, never).error, 0.5, 1.0e-12);
 
-    SceneSetup falling = setup;  // it would fall over, but is read and not run
+    LoadedScene falling = setup;  // it would fall over, but is read and not run
     falling.scene.settings.cell = -1.0;
     const auto again = convergedReadings(file, falling, 1, backends, never);
     EXPECT_NEAR(measurePrecision(run, again, 1, 1, backends, never).error, 0.5, 1.0e-9);

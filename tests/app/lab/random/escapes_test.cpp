@@ -140,7 +140,7 @@ TEST(Escapes, WhatLedFabricDripsBehindASolidIsNotCounted)
 }
 
 /// A state that is not finite is nowhere.
-TEST(Escapes, WhatIsNowhereHasEscaped)
+TEST(Escapes, NonFinitePositionsCountAsEscaped)
 {
     KeptRun run;
     run.place(0, sim::Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));

@@ -141,7 +141,7 @@ TEST(StabilityMap, TablesReadBack)
 
 TEST(StabilityMap, MethodsGoWithBothFabricSolversWhereThereIsFabric)
 {
-    SceneSetup setup;
+    LoadedScene setup;
     EXPECT_EQ(stabilityMethods(setup, {}).size(), 6u);
     setup.scene.fabrics.emplace_back();
     EXPECT_EQ(stabilityMethods(setup, {}).size(), 12u);

@@ -14,7 +14,7 @@ sim::SceneFile caseOf(const std::string& section) { return sim::sceneFileFromTex
 /// The toy's one particle of 2 g flies along x at 1 cm/s.
 CaseResult fly(const std::string& checks, const test::ToySettings& toy = {})
 {
-    SceneSetup setup = test::toySetup(toy);
+    LoadedScene setup = test::toySetup(toy);
     setup.file = caseOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks));
     return runCase("flight", setup, test::toyBackends(toy), [] { return false; });
 }
@@ -71,7 +71,7 @@ TEST(Validation, MistakesNameTheirLine)
 {
     const auto mistake = [](const std::string& section) -> std::string {
         try {
-            SceneSetup setup;
+            LoadedScene setup;
             setup.file = caseOf(section);
             readValidation(setup);
         } catch (const sim::InputError& error) {

@@ -99,7 +99,7 @@ TEST(CandidateList, LooksAheadAlongTheStepsToCome)
 }
 
 /// A yarn that would pass another by is knocked before it, and goes on.
-TEST(CandidateList, WhoIsKnockedOffItsWayIsSoughtAlongItsNewOne)
+TEST(CandidateList, RefreshesPairsAfterDeflection)
 {
     constexpr double kRadius = 0.05;
     ContactScene scene;

@@ -38,7 +38,7 @@ double searchedDistance(PairKind kind, const Corners& x)
 
 Closest<double> closestOf(PairKind kind, const Corners& x)
 {
-    return closestPoints<double>(kind, {toTriple(x[0]), toTriple(x[1]), toTriple(x[2]), toTriple(x[3])});
+    return closestPoints<double>(kind, {toVec3T(x[0]), toVec3T(x[1]), toVec3T(x[2]), toVec3T(x[3])});
 }
 
 void expectClosest(PairKind kind, const Corners& x, double tolerance)
@@ -113,7 +113,7 @@ TEST(ClosestPoints, PacksAgreeWithScalars)
     std::mt19937 random(4);
     for (PairKind kind : kKinds)
         for (int i = 0; i < 20; ++i) {
-            std::array<Triple<Pack>, 4> packed;
+            std::array<Vec3T<Pack>, 4> packed;
             std::array<Corners, kLanes> x;
             for (int lane = 0; lane < kLanes; ++lane) {
                 x[lane] = randomCorners(random);
@@ -139,16 +139,16 @@ TEST(RelativeMotion, BoundsTheChangeOfDistance)
             const Corners x = randomCorners(random), u = randomCorners(random, 0.5);
             Corners y;
             for (int c = 0; c < 4; ++c) y[c] = x[c] + u[c];
-            const double motion = relativeMotion(kind, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2]), toTriple(u[3])});
+            const double motion = relativeMotion(kind, {toVec3T(u[0]), toVec3T(u[1]), toVec3T(u[2]), toVec3T(u[3])});
             const auto distance = [&](const Corners& z) {
-                const Triple<double> s = closestOf(kind, z).separation;
+                const Vec3T<double> s = closestOf(kind, z).separation;
                 return std::sqrt(dot(s, s));
             };
             EXPECT_LE(std::abs(distance(y) - distance(x)), motion * (1.0 + 1.0e-12));
         }
 }
 
-TEST(SafeFraction, StopsBeforeAndNotLongBeforeTheMeeting)
+TEST(CollisionFreeFraction, StopsBeforeAndNotLongBeforeTheMeeting)
 {
     std::mt19937 random(6);
     int stopped = 0;
@@ -158,7 +158,7 @@ TEST(SafeFraction, StopsBeforeAndNotLongBeforeTheMeeting)
             const auto distanceAt = [&](double t) {
                 Corners y;
                 for (int c = 0; c < 4; ++c) y[c] = x[c] + t * u[c];
-                const Triple<double> s = closestOf(kind, y).separation;
+                const Vec3T<double> s = closestOf(kind, y).separation;
                 return std::sqrt(dot(s, s));
             };
             const double separation = 0.3 * distanceAt(0.0);
@@ -173,7 +173,7 @@ TEST(SafeFraction, StopsBeforeAndNotLongBeforeTheMeeting)
     EXPECT_GT(stopped, 50);
 }
 
-constexpr PairRange kRange = {0.108, 0.0547};
+constexpr ContactDistances kRange = {0.108, 0.0547};
 
 TEST(PairEnergy, DerivativesMatchDifferences)
 {

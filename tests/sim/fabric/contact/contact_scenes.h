@@ -142,17 +142,17 @@ struct NearPair {
     int a, b;
     contact::PairKind kind;
     std::array<int, 4> vertices;
-    contact::PairRange range;
+    contact::ContactDistances range;
 };
 
-inline std::array<Triple<double>, 4> cornersOf(const std::array<int, 4>& v, std::span<const Vec3> x)
+inline std::array<Vec3T<double>, 4> cornersOf(const std::array<int, 4>& v, std::span<const Vec3> x)
 {
-    return {toTriple(x[v[0]]), toTriple(x[v[1]]), toTriple(x[v[2]]), toTriple(x[v[3]])};
+    return {toVec3T(x[v[0]]), toVec3T(x[v[1]]), toVec3T(x[v[2]]), toVec3T(x[v[3]])};
 }
 
 inline double distanceOf(const NearPair& pair, std::span<const Vec3> x)
 {
-    const Triple<double> s = contact::closestPoints(pair.kind, cornersOf(pair.vertices, x)).separation;
+    const Vec3T<double> s = contact::closestPoints(pair.kind, cornersOf(pair.vertices, x)).separation;
     return std::sqrt(dot(s, s));
 }
 

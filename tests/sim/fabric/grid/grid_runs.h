@@ -139,16 +139,16 @@ inline EdgeContact<double> edgeOf(const ElementContact& contact, std::size_t e)
     const ElementContact::Local& at = contact.local(e);
     const auto symmetric = [](const Mat3& m) { return Symmetric<double>{m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}; };
     Rows<double> mixed;
-    for (int a = 0; a < 3; ++a) mixed[a] = toTriple(at.stiffness[1].row(a));
-    return {{toTriple(at.d[0]), toTriple(at.d[1])}, toTriple(at.reciprocal[0]), symmetric(at.stiffness[0]), symmetric(at.stiffness[2]), mixed};
+    for (int a = 0; a < 3; ++a) mixed[a] = toVec3T(at.stiffness[1].row(a));
+    return {{toVec3T(at.d[0]), toVec3T(at.d[1])}, toVec3T(at.reciprocal[0]), symmetric(at.stiffness[0]), symmetric(at.stiffness[2]), mixed};
 }
 inline FaceContact<double> faceOf(const ElementContact& contact, std::size_t e)
 {
     const ElementContact::Local& at = contact.local(e);
     const Mat3& m = at.stiffness[0];
-    return {{toTriple(at.d[0])},
-            toTriple(at.normal),
-            {toTriple(at.reciprocal[0]), toTriple(at.reciprocal[1])},
+    return {{toVec3T(at.d[0])},
+            toVec3T(at.normal),
+            {toVec3T(at.reciprocal[0]), toVec3T(at.reciprocal[1])},
             {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}};
 }
 
@@ -169,8 +169,8 @@ struct PlainPush {
 inline PlainPush gradientOf(const ElementContact& contact, std::size_t e)
 {
     const std::array<Vec3, 2>& stress = contact.stress(e).stress;
-    if (contact.isEdge(e)) return PlainPush(edgeOf(contact, e), {toTriple(stress[0]), toTriple(stress[1])});
-    return PlainPush(faceOf(contact, e), {toTriple(stress[0])});
+    if (contact.isEdge(e)) return PlainPush(edgeOf(contact, e), {toVec3T(stress[0]), toVec3T(stress[1])});
+    return PlainPush(faceOf(contact, e), {toVec3T(stress[0])});
 }
 
 /// Its Hessian times a move by G and of the corners by u.
@@ -179,10 +179,10 @@ inline PlainPush changeOf(const ElementContact& contact, std::size_t e, const Ma
     const std::array<Vec3, 2>& d = contact.local(e).d;
     if (contact.isEdge(e)) {
         const EdgeContact<double> edge = edgeOf(contact, e);
-        return PlainPush(edge, edge.change({toTriple(g * d[0]), toTriple(g * d[1])}, {toTriple(u[0]), toTriple(u[1])}));
+        return PlainPush(edge, edge.change({toVec3T(g * d[0]), toVec3T(g * d[1])}, {toVec3T(u[0]), toVec3T(u[1])}));
     }
     const FaceContact<double> face = faceOf(contact, e);
-    return PlainPush(face, face.change({toTriple(g * d[0])}, {toTriple(u[0]), toTriple(u[1]), toTriple(u[2])}));
+    return PlainPush(face, face.change({toVec3T(g * d[0])}, {toVec3T(u[0]), toVec3T(u[1]), toVec3T(u[2])}));
 }
 
 /// Squeezes and shears what lies across the fabric.

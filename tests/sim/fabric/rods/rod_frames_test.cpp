@@ -19,10 +19,10 @@ TEST(RodFrames, TransportAroundAClosedPathTurnsBySolidAngle)
     const double cap = kPi / 3.0;
     const auto tangentAt = [&](int i) {
         const double a = 2.0 * kPi * i / kSteps;
-        return Triple<double>{std::sin(cap) * std::cos(a), std::sin(cap) * std::sin(a), std::cos(cap)};
+        return Vec3T<double>{std::sin(cap) * std::cos(a), std::sin(cap) * std::sin(a), std::cos(cap)};
     };
-    const Triple<double> start = unitAcross(Triple<double>{1.0, 0.3, 0.2}, tangentAt(0));
-    Triple<double> u = start;
+    const Vec3T<double> start = unitAcross(Vec3T<double>{1.0, 0.3, 0.2}, tangentAt(0));
+    Vec3T<double> u = start;
     for (int i = 1; i <= kSteps; ++i) u = unitAcross(transported(u, tangentAt(i - 1), tangentAt(i)), tangentAt(i));
     const double angle = std::abs(std::atan2(dot(tangentAt(0), cross(start, u)), dot(start, u)));
     EXPECT_NEAR(angle, 2.0 * kPi * (1.0 - std::cos(cap)), 1.0e-5);
@@ -62,8 +62,8 @@ TEST(RodFrames, HelixHasItsCurvature)
         const int j = n / 2;
         for (auto [edge, i] : {std::pair{&e, j - 1}, std::pair{&f, j}}) {
             edge->length = fabric.edges.restLength[i];
-            edge->tangent = toTriple(s.tangent[i]);
-            edge->m1 = toTriple(s.reference[i]);
+            edge->tangent = toVec3T(s.tangent[i]);
+            edge->m1 = toVec3T(s.reference[i]);
             edge->m2 = cross(edge->tangent, edge->m1);
         }
         const RodStrain<double> strain = rodStrain(e, f);

@@ -2,7 +2,7 @@
 #include "sim/fabric/grid/grid_solver.h"
 #include "sim/fabric/vertex/vertex_solver.h"
 #include "sim/shapes/tessellate.h"
-#include "tests/physics/crossings.h"
+#include "tests/physics/intersection_check.h"
 #include "tests/sim/fabric/solids/solid_crossings.h"
 
 #include <gtest/gtest.h>
@@ -170,7 +170,7 @@ TEST(FabricAtSolids, AMeshHoldsAsItsSamplesSay)
     }
 }
 
-TEST(FabricAtSolids, WhatBeginsInsideIsLetOut)
+TEST(FabricAtSolids, InitialOverlapIsResolved)
 {
     for (const FabricSolver kind : kSolvers) {
         const ObstacleSettings table = solidOf(Shape::box({0.0, -0.5, 0.0}, {2.0, 0.5, 2.0}));

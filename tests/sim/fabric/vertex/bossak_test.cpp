@@ -118,7 +118,7 @@ TEST(Bossak, StiffSpringsEndInAFewSteps)
 }
 
 /// What sinks steadily moves as fast as its velocity says, whatever the liquid does to it in a step.
-TEST(Bossak, SinksAsFastAsDragHasIt)
+TEST(Bossak, TerminalVelocityIsThatOfTheDrag)
 {
     for (const double drag : {1.0e-2, 1.0, 30.0}) {
         const double mass = 2.0, h = 1.0e-3, flow = 3.0;
@@ -137,7 +137,7 @@ TEST(Bossak, SinksAsFastAsDragHasIt)
 }
 
 /// What is stopped within a step is at rest at its end, but for half a step of its weight.
-TEST(Bossak, ImpulsesStopAndThrowNothingBack)
+TEST(Bossak, InelasticImpulsesDoNotRebound)
 {
     Vertex at{2.0, Vec3::Zero(), Vec3::Zero(), Vec3(0.0, -100.0, 0.0), Vec3::Zero(), Vec3(0.0, -980.0, 0.0), 1.0e-3};
     const Vec3 stopping = -at.inertia().cwiseProduct(at.freeMove()) / (at.h * at.h);

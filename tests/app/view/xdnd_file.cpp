@@ -1,4 +1,4 @@
-#include "tests/app/view/dragged_file.h"
+#include "tests/app/view/xdnd_file.h"
 
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>

@@ -38,7 +38,7 @@ inline SceneRequest shortDrop()
 
 inline std::uint64_t hashOfRun(const std::string& file)
 {
-    const SceneSetup setup = drenchBackends().loadScene({.file = file, .variant = "", .sets = {}});
+    const LoadedScene setup = drenchBackends().loadScene({.file = file, .variant = "", .sets = {}});
     const auto run = drenchBackends().startSimulation(setup);
     for (std::int64_t frame = 1; frame <= frameCount(setup); ++frame)
         while (run->state().time < frameTime(setup, frame)) run->step(frameTime(setup, frame));

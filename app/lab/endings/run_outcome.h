@@ -10,7 +10,7 @@
 namespace app {
 
 /// How a run under stress ended.
-enum class StressEnding {
+enum class RunOutcome {
     Finished,  ///< to its end, all numbers finite, all pictures there
     Stopped,   ///< it told scene, step, stage and why
     TimedOut,
@@ -22,20 +22,20 @@ enum class StressEnding {
     Crashed,      ///< a signal ended it
     Count
 };
-inline constexpr std::array<std::string_view, static_cast<int>(StressEnding::Count)> kStressEndings = {
+inline constexpr std::array<std::string_view, static_cast<int>(RunOutcome::Count)> kRunOutcomes = {
     "finished", "stopped with a diagnosis", "timed out", "unsound", "through a solid", "refused", "not finite", "undiagnosed", "crashed"};
 
 /// Must never happen.
-inline bool isFault(StressEnding ending) { return ending >= StressEnding::Unsound; }
+inline bool isFault(RunOutcome ending) { return ending >= RunOutcome::Unsound; }
 
-struct StressOutcome {
-    StressEnding ending = StressEnding::Finished;
+struct RunVerdict {
+    RunOutcome ending = RunOutcome::Finished;
     std::string message;   ///< why, one line; empty where it finished
     double seconds = 0.0;  ///< wall
 };
 
 /// Judge the end of `drench run` by its exit code, its last words and what it left in its folder.
 /// @param pictures  that it must have left, were it finished
-StressOutcome judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures);
+RunVerdict judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures);
 
 }  // namespace app

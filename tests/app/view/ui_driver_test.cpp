@@ -3,8 +3,8 @@
 
 #include "app/system/atomic_files.h"
 #include "render/image_compare.h"
-#include "tests/app/view/dragged_file.h"
-#include "tests/app/view/hands.h"
+#include "tests/app/view/ui_driver.h"
+#include "tests/app/view/xdnd_file.h"
 
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ struct SceneRequest {
 };
 
 /// One scene file, read and resolved, with what it says about pictures and files.
-struct SceneSetup {
+struct LoadedScene {
     sim::Scene scene;
     PictureSettings pictures;
     std::string variant = "default";  ///< names its output folder
@@ -34,7 +34,7 @@ struct SceneSetup {
 
 /// What makes two runs the same: the resolved scene, how its pictures are drawn, and the program that ran it, as 16
 /// hexadecimal digits.
-std::string contentHash(const SceneSetup& setup, bool asPanel, std::uint64_t programHash);
+std::string contentHash(const LoadedScene& setup, bool asPanel, std::uint64_t programHash);
 
 /// Hash of this program's own file: another build may give other results.
 std::uint64_t programHash();
@@ -43,22 +43,22 @@ std::string hexDigits(std::uint64_t value);
 
 /// Where a run's results go unless --out says so: the scene's output.dir, with {name} and {variant} filled in, else
 /// out/<name>/<variant>.
-std::filesystem::path defaultFolder(const SceneSetup& setup);
+std::filesystem::path defaultFolder(const LoadedScene& setup);
 
 /// Where the products of a comparison go unless --out says so, with a folder per variant below: the same without
 /// {variant}, and under the comparison's own name if it has one.
-std::filesystem::path defaultComparisonFolder(const SceneSetup& setup);
+std::filesystem::path defaultComparisonFolder(const LoadedScene& setup);
 
 /// Tells the user what was mended in the scene's files, and what in them asks for nothing.
-void logNotes(const SceneSetup& setup);
+void logNotes(const LoadedScene& setup);
 
 /// Frames after the initial one that the scene asks for.
-std::int64_t frameCount(const SceneSetup& setup);
+std::int64_t frameCount(const LoadedScene& setup);
 
 /// Number of the last frame at or before a simulated time [s].
-std::int64_t lastFrameUpTo(const SceneSetup& setup, double time);
+std::int64_t lastFrameUpTo(const LoadedScene& setup, double time);
 
 /// Simulated time of a frame [s]; frame 0 is the initial state.
-double frameTime(const SceneSetup& setup, std::int64_t frame);
+double frameTime(const LoadedScene& setup, std::int64_t frame);
 
 }  // namespace app

@@ -1,4 +1,4 @@
-#include "sim/scene/measure_region.h"
+#include "sim/scene/estimate_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,12 @@ double regionDistance(const Vec3& x, const SourceSettings& source, const Scene& 
 }
 
 /// Boxes of one level that can be looked at in a fraction of a second.
-std::size_t affordableBoxes(const SourceSettings& source, const Scene& scene, std::size_t mostBoxes)
+std::size_t affordableBoxes(const SourceSettings& source, const Scene& scene, std::size_t maxBoxes)
 {
     constexpr std::size_t kTextOfOnePart = 40, kDistancesInAll = 4'000'000;
     std::size_t text = source.shapeText.size() + scene.domainText.size();
     for (const ObstacleSettings& o : scene.obstacles) text += o.shapeText.size();
-    return std::min(mostBoxes, kDistancesInAll / (1 + text / kTextOfOnePart));
+    return std::min(maxBoxes, kDistancesInAll / (1 + text / kTextOfOnePart));
 }
 
 Vec3 childCenter(const Vec3& center, const Vec3& half, int child)
@@ -58,9 +58,9 @@ std::vector<Vec3> boxCenters(const Eigen::AlignedBox3d& bounds, const Vec3i& cou
 
 }  // namespace
 
-RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene, std::size_t mostBoxes)
+VolumeEstimate estimateVolume(const SourceSettings& source, const Scene& scene, std::size_t maxBoxes)
 {
-    RegionMeasure result;
+    VolumeEstimate result;
     Eigen::AlignedBox3d bounds = source.shape.bounds();
     if (scene.domain) bounds = bounds.intersection(scene.domain->bounds());
     if (source.shape.empty() || bounds.isEmpty()) {
@@ -72,7 +72,7 @@ RegionMeasure measureRegion(const SourceSettings& source, const Scene& scene, st
         return result;
     }
     // Boxes that are surely full or surely empty are settled, the others are halved along each axis, level by level.
-    const std::size_t affordable = affordableBoxes(source, scene, mostBoxes);
+    const std::size_t affordable = affordableBoxes(source, scene, maxBoxes);
     const Vec3i counts = boxCounts(bounds, affordable);
     std::vector<Vec3> open = boxCenters(bounds, counts), next;
     Vec3 half = 0.5 * bounds.sizes().cwiseQuotient(counts.cast<double>());

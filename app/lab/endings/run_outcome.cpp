@@ -1,4 +1,4 @@
-#include "app/lab/endings/stress_ending.h"
+#include "app/lab/endings/run_outcome.h"
 
 #include "app/frames/frame_pipeline.h"
 
@@ -39,18 +39,18 @@ std::string firstMissingPicture(const std::filesystem::path& folder, int picture
 
 }  // namespace
 
-StressOutcome judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures)
+RunVerdict judgeEnd(const ProcessEnd& end, const std::filesystem::path& folder, int pictures)
 {
-    const auto outcome = [&](StressEnding ending, std::string why) { return StressOutcome{ending, std::move(why), end.seconds}; };
+    const auto outcome = [&](RunOutcome ending, std::string why) { return RunVerdict{ending, std::move(why), end.seconds}; };
     constexpr int kSignals = 128, kMistake = 2;  // exit codes
-    if (end.timedOut) return outcome(StressEnding::TimedOut, fmt::format("ended after {:.0f} s", end.seconds));
-    if (end.exit.code > kSignals) return outcome(StressEnding::Crashed, fmt::format("signal {}: {}", end.exit.code - kSignals, end.exit.lastWords()));
-    if (const std::string why = firstStepThatIsNotFinite(folder / "steps.jsonl"); !why.empty()) return outcome(StressEnding::NotFinite, why);
+    if (end.timedOut) return outcome(RunOutcome::TimedOut, fmt::format("ended after {:.0f} s", end.seconds));
+    if (end.exit.code > kSignals) return outcome(RunOutcome::Crashed, fmt::format("signal {}: {}", end.exit.code - kSignals, end.exit.lastWords()));
+    if (const std::string why = firstStepThatIsNotFinite(folder / "steps.jsonl"); !why.empty()) return outcome(RunOutcome::NotFinite, why);
     const std::string words = end.exit.lastWords();
-    if (end.exit.code == kMistake) return outcome(StressEnding::Refused, words);
-    if (!end.exit.ok()) return outcome(isDiagnosis(words) ? StressEnding::Stopped : StressEnding::Undiagnosed, words);
+    if (end.exit.code == kMistake) return outcome(RunOutcome::Refused, words);
+    if (!end.exit.ok()) return outcome(isDiagnosis(words) ? RunOutcome::Stopped : RunOutcome::Undiagnosed, words);
     const std::string missing = firstMissingPicture(folder, pictures);
-    return outcome(missing.empty() ? StressEnding::Finished : StressEnding::Undiagnosed, missing);
+    return outcome(missing.empty() ? RunOutcome::Finished : RunOutcome::Undiagnosed, missing);
 }
 
 }  // namespace app

@@ -1,13 +1,13 @@
-#include "app/scene/scene_setup.h"
+#include "app/scene/loaded_scene.h"
 
 #include <gtest/gtest.h>
 
 namespace app {
 namespace {
 
-SceneSetup setupNamed(const std::string& name, const std::string& dir, const std::string& comparison = "")
+LoadedScene setupNamed(const std::string& name, const std::string& dir, const std::string& comparison = "")
 {
-    SceneSetup setup;
+    LoadedScene setup;
     setup.scene.name = name;
     setup.variant = "apic";
     setup.pictures.output.dir = dir;
@@ -15,13 +15,13 @@ SceneSetup setupNamed(const std::string& name, const std::string& dir, const std
     return setup;
 }
 
-TEST(SceneSetup, FolderOfARunHasItsSceneAndVariant)
+TEST(LoadedScene, FolderOfARunHasItsSceneAndVariant)
 {
     EXPECT_EQ(defaultFolder(setupNamed("drop", "")), "out/drop/apic");
     EXPECT_EQ(defaultFolder(setupNamed("drop", "results/{variant}/of_{name}")), "results/apic/of_drop");
 }
 
-TEST(SceneSetup, FolderOfAComparisonIsThatOfItsRunsWithoutTheVariant)
+TEST(LoadedScene, FolderOfAComparisonIsThatOfItsRunsWithoutTheVariant)
 {
     EXPECT_EQ(defaultComparisonFolder(setupNamed("drop", "")), "out/drop");
     EXPECT_EQ(defaultComparisonFolder(setupNamed("drop", "", "study")), "out/study");

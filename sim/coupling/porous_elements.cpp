@@ -1,8 +1,8 @@
-#include "sim/coupling/wet_elements.h"
+#include "sim/coupling/porous_elements.h"
 
 namespace sim {
 
-WetElements::WetElements(const Fabric& fabric)
+PorousElements::PorousElements(const Fabric& fabric)
 {
     for (std::size_t e = 0; e < fabric.edges.size(); ++e) {
         const auto [a, b] = fabric.strands.radius[fabric.edges.strand[e]];
