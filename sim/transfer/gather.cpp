@@ -123,6 +123,8 @@ template <int kAxis>
     for (int a = 0; a < kAxes; ++a) path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * past[0] + c[a][0][1][0] * past[1] + c[a][0][0][1] * past[2]);
 }
 
+[[gnu::always_inline]] inline Pack squaredNorm(const Pack (&v)[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
 constexpr int kRowsAhead = 64;  ///< particles; rows are overwritten, so fetch them for writing (transfer/README.md, Kernels)
 
@@ -153,10 +155,7 @@ template <class Set, int kModes, bool kFold, class Rows>
     if (batch.atMidpoint) findPaths(ctx, node, x, path);
     else
         for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
-    if (ctx.settings.atMidpoint != nullptr) {
-        const Pack squared = path[0] * path[0] + path[1] * path[1] + path[2] * path[2];
-        sums.maxPathSquared = maxPack(sums.maxPathSquared, select(lanes, squared, zero));
-    }
+    if (ctx.settings.atMidpoint != nullptr) sums.maxPathSquared = maxPack(sums.maxPathSquared, select(lanes, squaredNorm(path), zero));
     if (ctx.displacementTile != nullptr) displace(ctx, node, x);
     Pack speedSquared = zero, xi[3];
     for (int a = 0; a < kAxes; ++a) {

@@ -1,27 +1,7 @@
-#include "app/runs/run_offline.h"
-
-#include "app/reports/output_folder.h"
-#include "sim/core/check.h"
-#include "tests/app/fake_backends.h"
-#include "tests/app/temporary_folder.h"
-
-#include <nlohmann/json.hpp>
+#include "tests/app/runs/toy_runs.h"
 
 namespace app {
 namespace {
-
-using nlohmann::json;
-using test::TemporaryFolder;
-using test::ToySettings;
-
-RunSummary runToy(
-    const ToySettings& toy, const std::filesystem::path& out, std::function<bool()> stopWanted = [] { return false; })
-{
-    const RunOptions options = {.out = out, .contentHash = "0123", .threads = 2, .stopWanted = std::move(stopWanted)};
-    return runOffline(test::toySetup(toy), test::toyBackends(toy), options);
-}
-
-json reportOf(const std::filesystem::path& out) { return json::parse(test::contentOf(out / "report.json")); }
 
 TEST(RunOffline, LeavesPicturesLogsAndReport)
 {
@@ -279,53 +259,6 @@ TEST(RunOffline, ASceneThatCannotBeginLeavesEarlierResultsAlone)
     EXPECT_THROW(runOffline(test::toySetup({}), backends, {.out = folder.path(), .contentHash = ""}), sim::InputError);
     EXPECT_EQ(reportOf(folder.path()).at("status"), "done");
     EXPECT_TRUE(std::filesystem::exists(folder / frameFileName(5)));
-}
-
-TEST(OutputFolder, RefusesAFile)
-{
-    TemporaryFolder folder;
-    test::writeFile(folder / "file", "text");
-    EXPECT_THROW(claimFolder(folder / "file", {"toy", "default"}), sim::InputError);
-    EXPECT_THROW(claimFolder(folder.path() / "file" / "below", {"toy", "default"}), sim::InputError);
-    EXPECT_EQ(test::contentOf(folder / "file"), "text");
-}
-
-TEST(OutputFolder, RefusesAnotherScenesResults)
-{
-    TemporaryFolder folder;
-    runToy({}, folder.path());
-    EXPECT_THROW(claimFolder(folder.path(), {"another", "default"}), sim::InputError);
-    EXPECT_THROW(claimFolder(folder.path(), {"toy", "apic"}), sim::InputError);
-    EXPECT_TRUE(std::filesystem::exists(folder / frameFileName(5)));
-    claimFolder(folder.path(), {"toy", "default"});
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-}
-
-TEST(OutputFolder, RefusesAFolderWithFilesThatAreNoResults)
-{
-    TemporaryFolder folder;
-    test::writeFile(folder / "frame_00000.png", "someone's holiday");
-    EXPECT_THROW(claimFolder(folder.path(), {"toy", "default"}), sim::InputError);
-    EXPECT_TRUE(std::filesystem::exists(folder / "frame_00000.png"));
-}
-
-TEST(OutputFiles, AWriteThatFailsLeavesTheOldFile)
-{
-    TemporaryFolder folder;
-    writeWhole(folder / "report.json", "old");
-    std::filesystem::create_directory(folder / "report.json.part");
-    EXPECT_THROW(writeWhole(folder / "report.json", "new"), std::runtime_error);
-    EXPECT_EQ(test::contentOf(folder / "report.json"), "old");
-    std::filesystem::remove(folder / "report.json.part");
-    writeWhole(folder / "report.json", "new");
-    EXPECT_EQ(test::contentOf(folder / "report.json"), "new");
-    EXPECT_FALSE(std::filesystem::exists(folder / "report.json.part"));
-}
-
-TEST(OutputFiles, AFullDiskIsTold)
-{
-    LineFile full("/dev/full");
-    EXPECT_THROW(full.add("line"), std::runtime_error);
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "tests/sim/coupling/bath.h"
+
 #include "sim/coupling/mixture.h"
 #include "tests/sim/fabric/pieces.h"
 #include "tests/sim/liquid/grid_scene.h"
@@ -6,78 +8,6 @@
 
 namespace sim::test {
 namespace {
-
-using testing::Noise;
-
-constexpr double kStep = 1.0e-3;  // s
-
-/// Cloth and yarns in the middle of liquid that moves at random.
-struct Bath {
-    explicit Bath(DragLaw law = DragLaw::Nonlinear) : scene(Vec3i(0, 0, 0), Vec3i(16, 16, 16))
-    {
-        testing::Noise noise(7);
-        const Vec3 middle = scene.corner(Vec3i(8, 8, 8));
-        FabricPiece cloth = testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.144}, middle}), testing::wool(), {0.017, 0.017});
-        FabricPiece yarn = testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03});
-        cloth.material.volumeFraction = yarn.material.volumeFraction = 0.4;
-        fabric = assembleFabric(std::vector<FabricPiece>{cloth, yarn});
-        around = LiquidAround(fabric.vertexCount());
-        state = restState(fabric);
-        for (Vec3& v : state.v) v = 20.0 * noise.vector();
-        scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * scene.grid.dx; });
-        scene.setRandomVelocities(20.0);
-        settings.cell = scene.grid.dx;
-        settings.gravity.setZero();
-        settings.coupling.drag = law;
-        settings.coupling.capillary = false;
-    }
-    Vec3 fabricMomentum() const
-    {
-        Vec3 sum = Vec3::Zero();
-        for (std::size_t v = 0; v < state.v.size(); ++v) sum += fabric.mass[v] * state.v[v];
-        return sum;
-    }
-    /// The fabric under the liquid's loads alone.
-    void moveFabric(const LiquidLoads& loads)
-    {
-        for (std::size_t v = 0; v < state.v.size(); ++v) {
-            const Vec3 inertia = Vec3::Constant(fabric.mass[v]) + loads.drag[v];
-            state.v[v] = (fabric.mass[v] * state.v[v] + loads.impulse[v]).cwiseQuotient(inertia);
-        }
-    }
-
-    Vec3 momentum(const Mixture& mixture) const { return fabricMomentum() + mixture.liquidMomentum(*shared, scene.liquid); }
-    /// A step of the two without pressure.
-    void exchange(Mixture& mixture) { finish(mixture, eliminateDragWithoutPressure(mixture)); }
-    /// Moves the fabric under the liquid's loads alone, and separates the phases.
-    void finish(Mixture& mixture, const Mixture::EliminatedDrag& eliminated)
-    {
-        const Mixture::AppliedPressure applied = mixture.applyPressure(eliminated, scene.liquid);
-        moveFabric(mixture.vertexLoads(applied));
-        mixture.recoverPhaseVelocities(applied, state, scene.liquid);
-    }
-    Mixture::EliminatedDrag eliminateDragWithoutPressure(Mixture& mixture)
-    {
-        BlockArray<double, 3> noPressure;
-        noPressure.resize(scene.grid.count());
-        for (int b = 0; b < scene.grid.count(); ++b) std::fill_n(noPressure.block(b), 3 * kBlockCells, 0.0);
-        return mixture.eliminateDrag(*shared, scene.field, scene.liquid, noPressure);
-    }
-    bool find(Mixture& mixture)
-    {
-        vertices.sort(scene.grid, state);
-        shared = mixture.findSharedFaces(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
-        return shared.has_value();
-    }
-
-    GridScene scene;
-    Fabric fabric;
-    LiquidAround around{0};  ///< 0 from all vertices
-    SortedVertices vertices;
-    FabricState state;
-    Settings settings;
-    std::optional<Mixture::SharedFaces> shared;  ///< of the last find()
-};
 
 /// What drag takes from one phase it gives to the other, and it makes no energy.
 TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
@@ -201,94 +131,6 @@ TEST(Mixture, PairsAnswerWithTheMassOfBothPhases)
         EXPECT_LT(none.norm(), 1.0e-12 * told.norm());
         EXPECT_LT((with - without - told).norm(), 1.0e-10 * (told.norm() + without.norm())) << seed;
     }
-}
-
-/// The bath's liquid below a height only, at rest.
-void fillBelow(Bath& bath, double height)
-{
-    for (int b = 0; b < bath.scene.grid.count(); ++b) {
-        std::fill_n(bath.scene.liquid.inside.block(b), BlockBits<>::kWords, 0);
-        std::fill_n(bath.scene.liquid.faces.sums.block(b), 6 * kBlockCells, 0.0);
-    }
-    const Vec3 middle = bath.scene.corner(Vec3i(8, 8, 8));
-    bath.scene.fill([&](const Vec3& x) { return std::max(x.y() - height, (x - middle).cwiseAbs().maxCoeff() - 6.4 * bath.scene.grid.dx); });
-    bath.scene.setRandomVelocities(0.0);
-}
-
-/// Liquid under dry fabric is drawn up (coupling/README.md, Suction), by as much as the fabric is drawn down where the reaction is asked for.
-TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
-{
-    for (const bool hasReaction : {false, true}) {
-        Bath bath(DragLaw::Off);
-        for (Vec3& v : bath.state.v) v.setZero();
-        bath.settings.coupling.capillary = true;
-        bath.settings.coupling.capillaryReaction = hasReaction;
-        double middle = 0.0;
-        for (const Vec3& x : bath.state.x) middle += x.y() / static_cast<double>(bath.state.x.size());
-        fillBelow(bath, middle - 0.5 * bath.scene.grid.dx);
-        Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
-        ASSERT_TRUE(bath.find(mixture));
-        bath.exchange(mixture);
-        const Vec3 up = mixture.liquidMomentum(*bath.shared, bath.scene.liquid);
-        EXPECT_GT(up.y(), 1.0e-4);
-        EXPECT_GT(up.y(), std::abs(up.x()) + std::abs(up.z()));
-        if (hasReaction) EXPECT_LT(bath.momentum(mixture).norm(), 1.0e-13 * up.norm());
-        else EXPECT_EQ(bath.fabricMomentum(), Vec3::Zero().eval());
-    }
-}
-
-/// A face with hardly any fabric beside much liquid: what is drawn through it, the vertices that draw have to bear, not the little on the face.
-TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
-{
-    testing::Noise noise(11);
-    for (int n = 0; n < 12; ++n) {
-        Bath bath(DragLaw::Off);
-        const double dx = bath.scene.grid.dx, beyond = std::pow(10.0, -1.0 - n % 4) * dx;
-        Vec3 shift = dx * noise.vector();
-        const int axis = n % kAxes;  // along it a vertex reaches a face by as little
-        shift[axis] += (std::ceil(bath.state.x[0][axis] / dx) - 0.5) * dx + beyond - bath.state.x[0][axis] - shift[axis];
-        for (Vec3& x : bath.state.x) x += shift;
-        for (Vec3& v : bath.state.v) v.setZero();
-        bath.settings.coupling.capillary = bath.settings.coupling.capillaryReaction = true;
-        fillBelow(bath, bath.scene.corner(Vec3i(8, 8, 8)).y() + dx * noise());
-        Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
-        ASSERT_TRUE(bath.find(mixture));
-        const Mixture::AppliedPressure applied = mixture.applyPressure(bath.eliminateDragWithoutPressure(mixture), bath.scene.liquid);
-        double fastest = 0.0;  // cm/s
-        const LiquidLoads& loads = mixture.vertexLoads(applied);
-        for (std::size_t v = 0; v < bath.fabric.vertexCount(); ++v)
-            fastest = std::max(fastest, loads.impulse[v].cwiseAbs().maxCoeff() / bath.fabric.mass[v]);
-        ASSERT_GT(fastest, 0.0);
-        FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
-        fabric.spread(bath.state);
-        const FaceLoads onFaces = mixture.faceLoads(applied);
-        double fastestFace = 0.0;
-        Vec3 sum = Vec3::Zero();
-        for (int b = 0; b < fabric.grid().count(); ++b)
-            for (int a = 0; a < kAxes; ++a)
-                for (int c = 0; c < kBlockCells; ++c) {
-                    const double mass = fabric.mass.block(b, a)[c], impulse = onFaces.impulse.block(b, a)[c];
-                    sum[a] += impulse;
-                    if (mass > 0.0) fastestFace = std::max(fastestFace, std::abs(impulse) / mass);
-                    else EXPECT_EQ(impulse, 0.0);
-                }
-        EXPECT_LE(fastestFace, fastest * (1.0 + 1.0e-9)) << n;
-        mixture.recoverPhaseVelocities(applied, FabricFaces{fabric.grid(), fabric.velocity}, bath.scene.liquid);
-        const Vec3 drawn = mixture.liquidMomentum(*bath.shared, bath.scene.liquid);
-        EXPECT_LT((sum + drawn).norm(), 1.0e-12 * drawn.norm());
-    }
-}
-
-TEST(Mixture, FullPoresDoNotSuck)
-{
-    Bath bath(DragLaw::Off);
-    bath.settings.coupling.capillary = true;
-    for (Vec3& v : bath.state.v) v.setZero();
-    bath.scene.setRandomVelocities(0.0);  // fabric amid liquid: every cell that it reaches is full
-    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
-    ASSERT_TRUE(bath.find(mixture));
-    bath.exchange(mixture);
-    EXPECT_LT(mixture.liquidMomentum(*bath.shared, bath.scene.liquid).norm(), 1.0e-12);
 }
 
 TEST(Mixture, FarFabricIsLeftAlone)

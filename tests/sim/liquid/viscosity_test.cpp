@@ -1,5 +1,7 @@
-#include "sim/liquid/viscosity.h"
+#include "tests/sim/liquid/viscous_scene.h"
+
 #include "sim/liquid/liquid_on_solids.h"
+#include "sim/liquid/viscosity.h"
 #include "tests/sim/fixtures.h"
 #include "tests/sim/grid/random_solids.h"
 #include "tests/sim/liquid/grid_scene.h"
@@ -11,119 +13,6 @@
 
 namespace sim::test {
 namespace {
-
-/// One step of viscosity on liquid that is given on the grid.
-struct ViscousScene {
-    GridScene scene;
-    ViscosityWorkspace work;
-
-    ViscousScene(const Vec3i& first, const Vec3i& end) : scene(first, end) { scene.settings.viscosity = 100.0; }
-
-    SolveReport solve(double dt, double tolerance = 1.0e-13)
-    {
-        scene.solver.viscosityTolerance = tolerance;
-        scene.solver.maxIterations = 5000;
-        return solveViscosity(scene.cut(), scene.settings, scene.solver, dt, work, scene.liquid);
-    }
-    double mass(int axis, const Vec3i& c) const
-    {
-        const CellRef ref = scene.at(c);
-        return scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + axis)[ref.cell];
-    }
-    bool isUnknown(int axis, const Vec3i& c) const { return work.system.unknown.test(scene.at(c).block, scene.at(c).cell, axis); }
-    /// Σ of(axis, cell) over the unknown faces.
-    template <class Of>
-    auto sum(Of&& of)
-    {
-        decltype(of(0, Vec3i())) total = of(0, scene.lower) * 0.0;
-        scene.forEachFace([&](int a, const Vec3i& c) {
-            if (isUnknown(a, c)) total += of(a, c);
-        });
-        return total;
-    }
-    double energy()
-    {
-        return sum([&](int a, const Vec3i& c) { return 0.5 * mass(a, c) * std::pow(scene.velocity(a, c), 2); });
-    }
-    Vec3 momentum()
-    {
-        return sum([&](int a, const Vec3i& c) { return Vec3(mass(a, c) * scene.velocity(a, c) * Vec3::Unit(a)); });
-    }
-    Vec3 angularMomentum()
-    {
-        return sum([&](int a, const Vec3i& c) { return Vec3(mass(a, c) * scene.velocity(a, c) * scene.faceMiddle(a, c).cross(Vec3::Unit(a))); });
-    }
-};
-
-const Vec3 kMiddle(1.3, 1.1, 1.5);
-
-/// A ball of liquid in the air, with masses that differ from face to face.
-ViscousScene ball()
-{
-    ViscousScene viscous({-3, -3, -3}, {13, 13, 13});
-    viscous.scene.fill([](const Vec3& x) { return (x - kMiddle).norm() - 1.2; });
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> unit(0.5, 1.1);
-    viscous.scene.forEachFace([&](int a, const Vec3i& c) {
-        const CellRef ref = viscous.scene.at(c);
-        viscous.scene.liquid.faces.sums.block(ref.block, FaceFields::kMass + a)[ref.cell] *= unit(random);
-    });
-    viscous.scene.setRandomVelocities(100.0);
-    return viscous;
-}
-
-/// A tank turned against the grid, about half full.
-ViscousScene puddle(double friction)
-{
-    ViscousScene viscous({-3, -3, -3}, {13, 13, 13});
-    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-    place.translate(kMiddle);
-    place.rotate(Eigen::AngleAxisd(0.4, Vec3(1.0, 2.0, 3.0).normalized()));
-    viscous.scene.add(Shape::box(Vec3::Zero(), Vec3(1.1, 1.0, 1.3)).inverted().moved(place));
-    viscous.scene.settings.wallFriction = friction;
-    viscous.scene.fill([](const Vec3& x) { return x.y() - 1.0; });
-    viscous.scene.setRandomVelocities(100.0);
-    return viscous;
-}
-
-TEST(ViscousSystem, IsSymmetricAndPositive)
-{
-    for (double friction : {0.0, 1.0}) {
-        ViscousScene viscous = puddle(friction);
-        viscous.solve(1.0e-2);
-        const ViscousSystem& system = viscous.work.system;
-        const BlockGrid& grid = viscous.scene.grid;
-        std::mt19937 random(1);
-        std::uniform_real_distribution<double> unit(-1.0, 1.0);
-        const auto some = [&] {
-            BlockArray<double, 3> v;
-            v.resize(grid.count());
-            for (int b = 0; b < grid.count(); ++b)
-                for (int a = 0; a < kAxes; ++a)
-                    for (int c = 0; c < kBlockCells; ++c) v.block(b, a)[c] = system.unknown.test(b, c, a) ? unit(random) : 0.0;
-            return v;
-        };
-        const auto times = [&](const BlockArray<double, 3>& v) {
-            BlockArray<double, 3> out;
-            out.resize(grid.count());
-            for (int b = 0; b < grid.count(); ++b) system.multiply(grid, v, b, out);
-            return out;
-        };
-        const auto dot = [&](const BlockArray<double, 3>& v, const BlockArray<double, 3>& w) {
-            return std::inner_product(v.block(0), v.block(grid.count()), w.block(0), 0.0);
-        };
-        for (int n = 0; n < 5; ++n) {
-            const BlockArray<double, 3> v = some(), w = some(), av = times(v), aw = times(w);
-            EXPECT_NEAR(dot(w, av), dot(v, aw), 1.0e-12 * dot(v, av));  // rounding of sums of 10^4 products
-            double inertia = 0.0;
-            viscous.scene.forEachFace([&](int a, const Vec3i& c) {
-                const CellRef ref = viscous.scene.at(c);
-                inertia += viscous.mass(a, c) * std::pow(v.block(ref.block, a)[ref.cell], 2);
-            });
-            EXPECT_GT(dot(v, av), inertia) << friction;
-        }
-    }
-}
 
 /// Parts of a step are steps: of liquid of one density, to the last bit.
 TEST(Viscosity, SubstepsAreStepsOfAPart)
@@ -142,30 +31,6 @@ TEST(Viscosity, SubstepsAreStepsOfAPart)
         change = std::max(change, std::abs(whole.scene.velocity(a, c) - once.scene.velocity(a, c)));
     });
     EXPECT_GT(change, 1.0e-3);
-}
-
-/// What conjugate gradients need of a preconditioner.
-TEST(ViscousMultigrid, IsSymmetricAndPositive)
-{
-    ViscousScene viscous = puddle(1.0);
-    viscous.scene.settings.viscosity = 1.0e3;
-    viscous.solve(1.0e-2, 1.0e-3);
-    const GridScene& scene = viscous.scene;
-    const int blocks = scene.grid.count();
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    std::array<BlockArray<double, 3>, 2> v, cycled;
-    for (int n = 0; n < 2; ++n) {
-        v[n].resize(blocks);
-        viscous.scene.forEachFace(
-            [&](int a, const Vec3i& c) { v[n].block(scene.at(c).block, a)[scene.at(c).cell] = viscous.isUnknown(a, c) ? unit(random) : 0.0; });
-        viscous.work.multigrid.cycle(v[n]);
-        cycled[n] = viscous.work.multigrid.solution();
-    }
-    const auto dot = [&](int n, int m) { return std::inner_product(v[n].block(0), v[n].block(blocks), cycled[m].block(0), 0.0); };
-    EXPECT_GT(dot(0, 0), 0.0);
-    EXPECT_GT(dot(1, 1), 0.0);
-    EXPECT_NEAR(dot(0, 1), dot(1, 0), 1.0e-12 * dot(0, 0));
 }
 
 /// V1. Rigid motions are strained by nothing but rounding, whatever the masses and however stiff.
