@@ -32,7 +32,7 @@ enum class Verb {
 
 /// How a window begins.
 struct ViewOptions {
-    int width = 1280, height = 800;  ///< of the window [screen units]
+    int width = 1280, height = 800;  ///< size of the window [screen units]
     bool paused = false;             ///< wait with the first step until somebody asks for it
     std::string beside = {};         ///< a variant of the scene to be shown beside it; empty: none
 };

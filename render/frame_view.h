@@ -13,7 +13,7 @@ struct FrameView {
     struct Liquid {
         std::span<const Eigen::Vector3f> positions;
         std::span<const float> values;  ///< one per position: what colours it, say the speed [cm/s]
-        float radius = 0.0f;            ///< of every sphere [cm]
+        float radius = 0.0f;            ///< radius of every sphere [cm]
     };
     /// The surface of the liquid, for looks that show it instead of particles.
     struct LiquidSurface {
@@ -27,7 +27,7 @@ struct FrameView {
         std::span<const Eigen::Vector3f> positions;
         std::span<const Eigen::Vector3f> directions;     ///< per position: first axis m1 of the section, across the yarn
         std::span<const float> along;                    ///< per position: length of the yarn at rest up to here [cm]
-        std::span<const int> begin;                      ///< of each strand in `positions`, and the end of the last
+        std::span<const int> begin;                      ///< begin of each strand in `positions`, and the end of the last
         std::span<const std::array<float, 2>> halfAxes;  ///< per strand: of the section along m1 and across it [cm]
         std::span<const int> materials;                  ///< per strand: which colour of the look
         std::span<const float> values;                   ///< per position what colours it; needed by a look that says so
@@ -52,7 +52,7 @@ struct FrameView {
         Eigen::Vector3f color = Eigen::Vector3f::Zero();
         float width = 1.5f;      ///< in a picture 720 pixels high [pixels], 1 at least in any
         bool isTapered = false;  ///< that wide at its first point, ends in a point at its second
-        float rim = 0.0f;        ///< of white below its edges, so that it stands out from the dark [pixels as above]
+        float rim = 0.0f;        ///< width of white below its edges, so that it stands out from the dark [pixels as above]
         float lift = 0.0f;       ///< as if this much nearer to the eye: what is thinner does not hide them [cm]
     };
 

@@ -8,7 +8,7 @@ namespace render {
 /// window (sigma 1.5 pixels, 11 x 11). Source: Wang, Bovik, Sheikh, Simoncelli 2004, "Image Quality Assessment".
 struct Similarity {
     double mean = 0.0;    ///< over all windows
-    double lowest = 0.0;  ///< of the worst window: catches a small thing that is missing
+    double lowest = 0.0;  ///< lowest value of the worst window: catches a small thing that is missing
     int x = 0, y = 0;     ///< middle of the worst window [pixels]
 };
 
@@ -20,8 +20,8 @@ inline constexpr int kVisibleStep = 4;
 
 /// How far the colours of two pictures are apart: sees changes of hue that leave the luminance alone.
 struct ColorDifference {
-    double share = 0.0;  ///< of the pixels that differ by more than kVisibleStep in some channel, 0 … 1
-    int largest = 0;     ///< of all channels, in steps of 255
+    double share = 0.0;  ///< share of the pixels that differ by more than kVisibleStep in some channel, 0 … 1
+    int largest = 0;     ///< largest difference of all channels, in steps of 255
     int x = 0, y = 0;    ///< the first pixel with the largest difference
 };
 

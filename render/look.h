@@ -34,21 +34,21 @@ struct FabricLook {
     bool isShown = true;
     bool byValue = false;                                 ///< colour map instead of one colour per material
     std::vector<Eigen::Vector3f> colors = kFabricColors;  ///< by material, again from the first when they run out
-    Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};     ///< of what is soaked; between, where it is less wet
+    Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};     ///< colour of what is soaked; between, where it is less wet
     ColorMap colorMap = ColorMap::Viridis;
     std::array<float, 2> range = {0.0f, 1.0f};  ///< values at the ends of the colour map
     std::string colorBarTitle = "strain";
 };
 
 struct YarnLook : FabricLook {
-    int tubeSides = 10;  ///< of tubes near the eye; thin ones in the picture have fewer
+    int tubeSides = 10;  ///< number of sides of tubes near the eye; thin ones in the picture have fewer
     float plies = 1.0f;  ///< depth of the grooves between the plies: 0 = smooth … 1
 };
 
 struct ObstacleLook {
     ObstacleStyle style = ObstacleStyle::Translucent;
     Eigen::Vector3f color = {0.36f, 0.42f, 0.50f};
-    float opacity = 0.15f;  ///< of the faces, 0 … 1
+    float opacity = 0.15f;  ///< opacity of the faces, 0 … 1
     Eigen::Vector3f solidColor = {0.70f, 0.72f, 0.75f};
 };
 

@@ -13,7 +13,7 @@ namespace render {
 struct MeshEdges {
     struct Edge {
         Eigen::Vector3f a, b;              ///< ends [cm]
-        Eigen::Vector3f normal0, normal1;  ///< of the faces left and right; equal at an open border
+        Eigen::Vector3f normal0, normal1;  ///< normals of the faces left and right; equal at an open border
         bool isSharp = false;              ///< a crease or a border; others show as silhouettes only
     };
     std::vector<Edge> edges;                                    ///< without those inside of flat faces

@@ -15,8 +15,8 @@ struct TubeMesh {
         Eigen::Vector3f position, normal;   ///< [cm], [-]
         float turn;                         ///< length of the yarn at rest up to here / pitch of its plies [-]
         float angle;                        ///< about the yarn, from m1 [turns]: 0 … 1
-        float value;                        ///< of FrameView, or 0
-        std::array<std::uint8_t, 4> color;  ///< its alpha: 255 = this colour, 0 = that of the value
+        float value;                        ///< value of FrameView, or 0
+        std::array<std::uint8_t, 4> color;  ///< alpha: 255 = this colour, 0 = that of the value
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
@@ -28,7 +28,7 @@ struct TubeMesh {
 struct TubeDetail {
     Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< [cm]
     float pixelsPerTangent = 1.0f;                  ///< pixels of 1 cm at 1 cm from the eye
-    int sides = 10;                                 ///< of a tube that is large in the picture, at least 3
+    int sides = 10;                                 ///< number of sides of a tube that is large in the picture, at least 3
 };
 
 /// The strand is so thin in the picture that its plies cannot be seen.

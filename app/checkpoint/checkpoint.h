@@ -15,8 +15,8 @@ struct CheckpointOrigin {
     std::string scene, variant, label;  ///< as in report.json
     std::string trajectory;             ///< trajectoryHash() of the scene
     std::uint64_t program = 0;          ///< hash of the program
-    std::string provenance;             ///< of the run, see provenanceOf()
-    std::uint64_t stateHash = 0;        ///< of the whole state, of which the file may hold what pictures need only
+    std::string provenance;             ///< provenance of the run, see provenanceOf()
+    std::uint64_t stateHash = 0;        ///< hash of the whole state, of which the file may hold what pictures need only
     std::int64_t frame = 0;             ///< the last one before the state, mostly that of the state itself
     LogsSoFar logs = {};
 };

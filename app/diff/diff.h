@@ -16,7 +16,7 @@ namespace app {
 struct DiffResult {
     DiffOptions of;
     Tolerance tolerance;
-    std::vector<DiffFinding> findings;   ///< of states, series and reports
+    std::vector<DiffFinding> findings;   ///< findings of states, series and reports
     std::vector<PictureDiff> pictures;   ///< the worst first
     std::shared_ptr<const void> frames;  ///< keeps pictures that were taken out of videos
 

@@ -16,11 +16,11 @@ inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers by column, one of each per row: a log of a run, or its report as one row. A row that lacks a column has kNothing in it.
 struct Series {
-    std::string name;                                   ///< of the file
+    std::string name;                                   ///< name of the file
     std::vector<std::string> columns;                   ///< in their order in the file
-    std::map<std::string, std::vector<double>> values;  ///< of each column, one per row
+    std::map<std::string, std::vector<double>> values;  ///< values of each column, one per row
     std::size_t rows = 0;
-    std::vector<double> times;  ///< of each row [s]; empty where the file has none
+    std::vector<double> times;  ///< times of each row [s]; empty where the file has none
 };
 
 /// A table of numbers: .csv with names in its first line, or .jsonl with an object per line. Columns of objects are named like

@@ -43,7 +43,7 @@ class StateDiff {
 
     std::size_t states_ = 0;
     std::optional<double> differsFrom_;
-    Largest position_{"cm"}, velocity_{"cm/s"}, mass_{"g"};  ///< of particles
+    Largest position_{"cm"}, velocity_{"cm/s"}, mass_{"g"};  ///< largest differences of particles
     Largest vertexPosition_{"cm"}, vertexVelocity_{"cm/s"}, absorbed_{"g"};
     Missing onlyA_, onlyB_;  ///< particles
     std::size_t verticesA_ = 0, verticesB_ = 0;

@@ -17,7 +17,7 @@ struct BandCurve {
 
 /// A part of a plot.
 struct BandPanel {
-    std::string title, unit;           ///< of the values
+    std::string title, unit;           ///< title and unit of the values
     std::vector<std::string> columns;  ///< one: over time; several: readings along a line, as they are at the end
     double scale = 1.0;                ///< values are told in so many units
 };

@@ -10,7 +10,7 @@ namespace app {
 /// One column of a log over time, in all runs of an ensemble.
 struct Band {
     std::string column;
-    std::vector<Spread> at;  ///< of each time; counts 0 where no run has a value
+    std::vector<Spread> at;  ///< spread of each time; counts 0 where no run has a value
 };
 
 /// A log over time.

@@ -11,7 +11,7 @@ namespace app {
 struct ColumnDifference {
     std::string name;
     Spread a, b;
-    MeanDifference found;  ///< of b against a
+    MeanDifference found;  ///< difference of b against a
 
     /// How far beyond its margin a difference is; above 1 it is seen.
     double clearness() const;

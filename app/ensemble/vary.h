@@ -11,8 +11,8 @@ namespace app {
 /// What is not the same in the runs of an ensemble.
 struct Vary {
     enum class What {
-        Seed,       ///< of sources whose particles are laid at random
-        Positions,  ///< of the particles of all sources: those on a lattice are moved at random within their places
+        Seed,       ///< seed of sources whose particles are laid at random
+        Positions,  ///< positions of the particles of all sources: those on a lattice are moved at random within their places
         Key         ///< a setting, drawn evenly from a range
     };
     What what = What::Seed;

@@ -25,7 +25,7 @@ struct ExportArray {
 /// One thing that files show: points, what joins them, and what is known at them. Nothing in it knows of a file format.
 struct ExportPart {
     enum class Kind { Points, Lines, Triangles };
-    std::string name;  ///< of its files, groups and prims: a letter, then letters, digits and _
+    std::string name;  ///< name of its files, groups and prims: a letter, then letters, digits and _
     Kind kind = Kind::Points;
     std::vector<Eigen::Vector3f> positions;  ///< [cm]
     std::vector<int> begin;                  ///< lines only: of each in `positions`, and the end of the last

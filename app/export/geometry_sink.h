@@ -21,7 +21,7 @@ class GeometrySink {
     void take(const sim::State& state, const sim::Fabric& fabric, std::int64_t frame);
 
  private:
-    const double density_;  ///< of the liquid [g/cm^3]
+    const double density_;  ///< density of the liquid [g/cm^3]
     PlaceObstacles placeObstacles_;
     std::vector<FrameSnapshot::Mesh> obstacles_;
     std::optional<Exporter> exporter_;

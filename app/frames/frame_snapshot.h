@@ -20,7 +20,7 @@ struct SnapshotExtras {
     bool blocks = false;                                                             ///< edges of the grid's blocks
     bool arrows = false;                                                             ///< where some of the particles go
     bool contacts = false;                                                           ///< lines between fabric and the fabric it touches
-    double arrowTime = 0.01;                                                         ///< that an arrow tells ahead [s]
+    double arrowTime = 0.01;                                                         ///< time that an arrow tells ahead [s]
 
     bool operator==(const SnapshotExtras&) const = default;
 };
@@ -48,7 +48,7 @@ struct FrameSnapshot {
         std::vector<std::array<float, 2>> halfAxes;  ///< [cm]
     };
     struct Cloth {
-        std::vector<Eigen::Vector3f> positions;  ///< of all vertices of the fabric; empty without faces [cm]
+        std::vector<Eigen::Vector3f> positions;  ///< positions of all vertices of the fabric; empty without faces [cm]
         std::vector<Eigen::Vector3i> triangles;
         std::vector<float> thickness, values, wetness;  ///< [cm]; as those of yarns
         std::vector<int> materials;
@@ -64,11 +64,11 @@ struct FrameSnapshot {
 
     std::int64_t number = 0;                 ///< 0 is the initial state
     double time = 0.0;                       ///< [s]
-    std::uint64_t stateHash = 0;             ///< of the state that it is of
-    std::vector<Eigen::Vector3f> positions;  ///< of the particles [cm]
+    std::uint64_t stateHash = 0;             ///< hash of the state that it is of
+    std::vector<Eigen::Vector3f> positions;  ///< positions of the particles [cm]
     std::vector<float> values;               ///< one per position: its speed [cm/s] or pressure [dyn/cm^2]
-    float radius = 0.0f;                     ///< of a particle [cm]
-    Surface surface;                         ///< of the liquid; empty unless `extras` ask for it
+    float radius = 0.0f;                     ///< radius of a particle [cm]
+    Surface surface;                         ///< surface of the liquid; empty unless `extras` ask for it
     Yarns yarns;
     Cloth cloth;
     std::vector<Mesh> obstacles;

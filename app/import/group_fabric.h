@@ -13,7 +13,7 @@ struct FabricGroup {
     std::vector<int> particles;  ///< ascending
     std::vector<std::vector<int>> strands;
     std::vector<sim::Vec3i> faces;
-    int line = 1;  ///< of the first element
+    int line = 1;  ///< line of the first element
 
     bool isLooseYarn() const { return faces.empty() && strands.size() == 1; }
 };

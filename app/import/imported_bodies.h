@@ -14,7 +14,7 @@ struct ImportedBodies {
     struct Source {
         std::string name, shape;  ///< the shape as YAML on one line
         std::vector<reference::Emission> emissions;
-        int line = 1;  ///< of the file
+        int line = 1;  ///< line of the file
     };
     struct Obstacle {
         std::string name, shape;

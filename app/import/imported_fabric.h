@@ -15,20 +15,20 @@ struct ImportedPin {
     int group = -1;  ///< -1: stands still
     bool twist = false;
     std::string selection;      ///< "corners: all, patch: 2"
-    std::vector<int> vertices;  ///< of the piece, ascending
+    std::vector<int> vertices;  ///< vertices of the piece, ascending
 };
 
 /// One piece of fabric of the scene to be written.
 struct ImportedPiece {
     std::string name;
-    int material = 0;                        ///< of the file
+    int material = 0;                        ///< material of the file
     std::array<double, 2> radius{};          ///< [cm]
     sim::Vec3 velocity = sim::Vec3::Zero();  ///< [cm/s]
     double wetness = 0.0;                    ///< share of the pores that is full [-]
     GeneratedFabric shape;                   ///< kind mesh or points: its geometry goes into a file of its own
-    std::vector<int> particles;              ///< of the file, by vertex
+    std::vector<int> particles;              ///< particles of the file, by vertex
     std::vector<ImportedPin> pins;
-    int line = 1;  ///< of the file
+    int line = 1;  ///< line of the file
 
     bool hasFile() const { return shape.kind == "mesh" || shape.kind == "points"; }
 };

@@ -22,7 +22,7 @@ struct ListedFabric {
 /// Cloth or yarns by a generator of scene files.
 struct GeneratedFabric {
     std::string kind;                                         ///< "cloth_grid"
-    std::vector<std::pair<std::string, std::string>> fields;  ///< its keys and values as YAML, but material and radius
+    std::vector<std::pair<std::string, std::string>> fields;  ///< keys and values as YAML, but material and radius
     std::string summary;                                      ///< "99 × 99 vertices, 0.144 cm apart"
     sim::FabricGeometry geometry;
     std::vector<int> pointOf;  ///< of each generated vertex the listed one

@@ -82,7 +82,7 @@ struct Particle {
 
 struct Cloth {
     int material = 0;
-    std::vector<Vec3i> faces;  ///< of particles
+    std::vector<Vec3i> faces;  ///< triangles of particles
     int line = 1;
 };
 
@@ -111,12 +111,12 @@ struct Field {
     Vec3 center = Vec3::Zero(), axis = Vec3::UnitY();     ///< [cm], of the rotation
     double angle = 0.0;                                   ///< about it [rad]
     double radius = 0.0, halfLength = 0.0, corner = 0.0;  ///< [cm]
-    Vec3 half = Vec3::Zero();                             ///< of a box, without its rounding [cm]
+    Vec3 half = Vec3::Zero();                             ///< half size of a box, without its rounding [cm]
     std::string file;
-    double scale = 1.0, dx = 0.0;     ///< of a file [-], [cm]
-    std::vector<int> parts;           ///< of a union or an intersection
+    double scale = 1.0, dx = 0.0;     ///< scale and cell of a file [-], [cm]
+    std::vector<int> parts;           ///< parts of a union or an intersection
     bool isPart = false;              ///< of another field
-    std::vector<Emission> emissions;  ///< of a source, at least one
+    std::vector<Emission> emissions;  ///< emissions of a source, at least one
     int line = 1;
 };
 
@@ -128,7 +128,7 @@ struct Script {
     double start = 0.0, end = 0.0, easeStart = 0.0, easeEnd = 0.0;  ///< [s]
     Vec3 direction = Vec3::Zero();                                  ///< of a translation its way, of a rotation its axis [cm] or [-]
     double angle = 0.0;                                             ///< [rad]
-    std::optional<Vec3> origin;                                     ///< of a rotation [cm]
+    std::optional<Vec3> origin;                                     ///< origin of a rotation [cm]
     bool isGlobal = false;
     double amplitude = 1.0, frequency = 1.0;
     std::vector<double> base;  ///< knots of a weno motion: values along the direction, baseStep apart
@@ -155,7 +155,7 @@ struct Scene {
     std::optional<Camera> camera;
     std::optional<Vec3> background;
     std::vector<int> springLines;  ///< lines of <springforce>
-    std::optional<int> poseLine;   ///< of <pose>
+    std::optional<int> poseLine;   ///< line of <pose>
 };
 
 }  // namespace app::reference

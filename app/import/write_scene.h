@@ -11,14 +11,14 @@ namespace app {
 
 /// All that a written scene is made of.
 struct ImportedScene {
-    std::string name;    ///< of the scene, and of the files of its fabric
+    std::string name;    ///< name of the scene, and of the files of its fabric
     std::string from;    ///< the XML's name
     std::string report;  ///< the name of the report beside the scene
     reference::Scene reference;
     std::vector<ImportedPiece> pieces;
     ImportedBodies bodies;
-    std::vector<std::pair<int, std::string>> motions;  ///< of groups with pins, as YAML on one line
-    const char* method = "apic";                       ///< of the transfer
+    std::vector<std::pair<int, std::string>> motions;  ///< motions of groups with pins, as YAML on one line
+    const char* method = "apic";                       ///< method of the transfer
     bool vertexSolver = false;
 
     bool hasFabric() const { return !pieces.empty(); }

@@ -38,9 +38,9 @@ struct Simulation::Parts {
     std::map<std::string, sim::Formula> formulas_;
 
     bool hasParticles_ = false, hasFabric_ = false;  ///< what follows is of the state as it is
-    std::array<std::vector<double>, 3> velocity_;    ///< of each particle [cm/s]
-    std::vector<Vec3> position_, vertexVelocity_;    ///< of each vertex [cm], [cm/s]
-    std::vector<double> saturation_;                 ///< of each vertex [0..1]
+    std::array<std::vector<double>, 3> velocity_;    ///< velocity of each particle [cm/s]
+    std::vector<Vec3> position_, vertexVelocity_;    ///< position and velocity of each vertex [cm], [cm/s]
+    std::vector<double> saturation_;                 ///< saturation of each vertex [0..1]
     std::vector<std::array<int, 2>> edges_;
     std::vector<std::array<int, 3>> triangles_;
 };

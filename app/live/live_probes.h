@@ -20,7 +20,7 @@ struct ProbeTitle {
 
 /// What was read since it was last taken.
 struct LiveReadings {
-    std::shared_ptr<const std::vector<ProbeTitle>> titles;       ///< of all probes; null where the scene has none
+    std::shared_ptr<const std::vector<ProbeTitle>> titles;       ///< titles of all probes; null where the scene has none
     double dropAfter = std::numeric_limits<double>::infinity();  ///< what was taken before and is of a later time does not hold any more [s]
     std::vector<ProbeReading> readings;                          ///< oldest first
 };

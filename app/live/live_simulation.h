@@ -34,7 +34,7 @@ struct LiveStatus {
 
 /// What the plots of a window show of a step.
 struct LiveStep {
-    std::int64_t step = 0;  ///< its number; going back makes numbers come again
+    std::int64_t step = 0;  ///< number; going back makes numbers come again
     double time = 0.0;      ///< time at its end [s]
     double seconds = 0.0;   ///< wall time that it took [s]
     sim::StepReport report;
@@ -73,7 +73,7 @@ class LiveSimulation {
     std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
     /// What has happened since the last call, oldest first.
     std::vector<LiveStep> takeSteps();
-    LiveReadings takeReadings() { return probes_.take(); }  ///< of output.probes
+    LiveReadings takeReadings() { return probes_.take(); }  ///< readings of output.probes
     /// The latest picture to draw, whole as it was between two steps; `old`, the one that was taken before it, if there
     /// is no newer one.
     std::unique_ptr<FrameSnapshot> takeSnapshot(std::unique_ptr<FrameSnapshot> old = nullptr);

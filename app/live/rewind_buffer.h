@@ -14,7 +14,7 @@ class RewindBuffer {
  public:
     struct RewindPoint {
         sim::State state;
-        std::int64_t frame = 0;  ///< its number
+        std::int64_t frame = 0;  ///< number of the frame
     };
 
     /// @param memory  for all of them [bytes]; the initial state is kept whatever it takes

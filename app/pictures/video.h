@@ -22,7 +22,7 @@ std::string videoProgramVersion();
 inline constexpr int kMaxVideoWidth = 4096;
 
 struct VideoFormat {
-    int width = 0, height = 0;  ///< of the pictures [pixels]; see kMaxVideoWidth. An odd edge gains a white line
+    int width = 0, height = 0;  ///< size of the pictures [pixels]; see kMaxVideoWidth. An odd edge gains a white line
     double fps = 50.0;
     std::string codec = "libx264";
 };

@@ -28,7 +28,7 @@ class ProbeLog {
     void step(const SimulationHandle& simulation, bool isReflected);
 
     bool isNew() const { return reader_.isNew(); }        ///< nothing was read yet
-    std::uintmax_t size() const { return file_.size(); }  ///< of the file [bytes]
+    std::uintmax_t size() const { return file_.size(); }  ///< size of the file [bytes]
     const ForceTotals& sinceReading() const { return reader_.sinceReading(); }
 
  private:

@@ -16,7 +16,7 @@ class SimulationHandle;
 /// What the probes of a scene tell at one time.
 struct ProbeReading {
     double time = 0.0;                          ///< [s]
-    std::vector<std::optional<double>> values;  ///< of each probe at each of its points, in their units; none where a formula has no value
+    std::vector<std::optional<double>> values;  ///< values of each probe at each of its points, in their units; none where a formula has no value
 };
 
 /// Reads the probes of a run at its start and after the first step that gets as far as the next reading is due. The steps are those that they would

@@ -15,7 +15,7 @@ namespace app {
 /// A number that is read as a scene runs, or one at each of some points.
 struct Probe {
     std::string name, unit;
-    sim::Formula read;              ///< of the time, and of x, y, z where there are points; knows the names of measures.h
+    sim::Formula read;              ///< formula of the time, and of x, y, z where there are points; knows the names of measures.h
     std::vector<sim::Vec3> points;  ///< along a line [cm]; empty: it is read once
 };
 

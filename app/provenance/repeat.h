@@ -11,9 +11,9 @@ namespace app {
 /// A run that came to its end, as its report.json alone tells it: enough to do it again.
 struct RunToRepeat {
     std::filesystem::path report;
-    SceneRequest request;  ///< its scene, resolved
+    SceneRequest request;  ///< the scene, resolved
     std::string variant, label;
-    std::string stateHash;   ///< of its last state
+    std::string stateHash;   ///< hash of its last state
     std::string provenance;  ///< see provenanceOf()
 };
 

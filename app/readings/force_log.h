@@ -29,7 +29,7 @@ struct ForceNames {
 struct ForceTotals {
     double time = 0.0;            ///< [s]
     double firstTime = 0.0;       ///< length of the last step, if it is the first of two [s]
-    std::vector<double> numbers;  ///< of each load: impulse [g cm/s] and its moment [g cm^2/s], largest force [dyn] and torque [dyn cm], and
+    std::vector<double> numbers;  ///< numbers of each load: impulse [g cm/s] and its moment [g cm^2/s], largest force [dyn] and torque [dyn cm], and
                                   ///< impulse and moment of the first of two steps
     /// @param isFirst  of two steps, of which this one reflects: only both together tell of forces how large they are
     void add(const sim::Forces& forces, bool isFirst = false);

@@ -20,7 +20,7 @@ class SimulationHandle;
 /// A plane, or the disc of it within a radius, through which liquid goes.
 struct Hoop {
     sim::Vec3 center = sim::Vec3::Zero();                     ///< [cm]
-    sim::Vec3 normal = sim::Vec3::UnitY();                    ///< of length 1
+    sim::Vec3 normal = sim::Vec3::UnitY();                    ///< normal of length 1
     double radius = std::numeric_limits<double>::infinity();  ///< [cm]
 };
 
@@ -93,7 +93,7 @@ class Measures {
     sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;
     sim::Impulse meanOnPins(const std::string& name) const;
 
-    double density_;  ///< of the liquid [g/cm^3]
+    double density_;  ///< density of the liquid [g/cm^3]
     ForceNames forceNames_;
     ForceTotals interval_;
     std::map<std::string, Hoop> hoops_;

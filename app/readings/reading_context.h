@@ -12,9 +12,9 @@ namespace app {
 
 /// What formulas of such a section may use.
 struct ReadingContext {
-    std::string path;           ///< of the section, for messages
-    sim::FormulaNames reading;  ///< of what is read: measures and the time
-    sim::FormulaNames known;    ///< of what is expected: the time
+    std::string path;           ///< path of the section, for messages
+    sim::FormulaNames reading;  ///< names of what is read: measures and the time
+    sim::FormulaNames known;    ///< names of what is expected: the time
     sim::FormulaNames constant;
 };
 

@@ -14,7 +14,7 @@ class EnergyLedger {
     struct Summary {
         double first = 0.0;            ///< energy at the start [erg]
         sim::EnergyChanges changes;    ///< since the start [erg]
-        double largestKinetic = 0.0;   ///< of liquid and fabric [erg]
+        double largestKinetic = 0.0;   ///< largest kinetic energy of liquid and fabric [erg]
         double largestUnbooked = 0.0;  ///< change of the energy that no part of the steps has booked [erg]
     };
 
@@ -26,7 +26,7 @@ class EnergyLedger {
     /// The report must have its energies booked.
     void step(double time, const sim::StepReport& report);
     const Summary& summary() const { return summary_; }
-    std::uintmax_t size() const { return file_.size(); }  ///< of the file [bytes]
+    std::uintmax_t size() const { return file_.size(); }  ///< size of the file [bytes]
 
  private:
     void add(double time, const sim::Energies& energies);

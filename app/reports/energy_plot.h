@@ -12,7 +12,7 @@ struct EnergyCurve {
     std::string variant;        ///< first column of the joined CSV
     std::string label;          ///< in the legend
     std::filesystem::path csv;  ///< an energy.csv as a run leaves it
-    std::int64_t vertices = 0;  ///< of fabric, which the paper counts with the particles
+    std::int64_t vertices = 0;  ///< number of vertices of fabric, which the paper counts with the particles
 };
 
 /// One table of all curves, long form: the columns of energy.csv behind one that names the variant.

@@ -25,7 +25,7 @@ struct StageTimes {
     std::array<std::vector<double>, sim::kStages> stages;  ///< one per step in which the stage ran [s]
 
     void add(const sim::StepReport& step);
-    double medianMilliseconds(int stage) const;  ///< of the steps in which it ran
+    double medianMilliseconds(int stage) const;  ///< median time [ms] of the steps in which it ran
 };
 
 /// "stage, median ms" as lines of text; "-" for stages that never ran.
@@ -47,7 +47,7 @@ struct RunSummary {
     double fabricMass = 0.0;                             ///< dry [g]
     double cell = 0.0;                                   ///< [cm]
     std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
-    double leastTakenFraction = 1.0;  ///< of the moves that the fabric's Newton asked for, over the steps [-]
+    double leastTakenFraction = 1.0;  ///< least share of the moves that the fabric's Newton asked for, over the steps [-]
     std::int64_t takenBack = 0;       ///< steps that turned out bad and were made again
     double largestCfl = 0.0;
     double massError = 0.0;  ///< (entered − left − there) / entered, largest over the steps [-]
@@ -65,7 +65,7 @@ struct RunResult {
     double simulatedTime = 0.0, wallSeconds = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
     double largestCfl = 0.0, massError = 0.0;                      ///< as in RunSummary
     double secondsPerStep = 0.0, meanSecondsPerStep = 0.0;         ///< the first is the median
-    double meanParticles = 0.0;                                    ///< of liquid, over the steps
+    double meanParticles = 0.0;                                    ///< mean number of particles of liquid, over the steps
     std::array<std::optional<double>, sim::kStages> stageSeconds;  ///< medians; nothing for a stage that never ran
 };
 
@@ -75,8 +75,9 @@ std::optional<RunResult> readReport(const std::filesystem::path& folder);
 /// How far the logs of a run have come.
 struct LogsSoFar {
     RunSummary summary;
-    std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0, probesBytes = 0;  ///< of steps.jsonl, energy.csv, energy_ledger.csv, probes.csv
-    ForceTotals sinceReading = {};                                                     ///< of probes
+    std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0,
+                   probesBytes = 0;  ///< sizes of steps.jsonl, energy.csv, energy_ledger.csv, probes.csv
+    ForceTotals sinceReading = {};   ///< forces since the last reading of probes
 };
 
 /// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is

@@ -53,7 +53,7 @@ FrameSequence sequenceOf(const ComparedRun& run);
 
 /// What is to be made of runs that are done.
 struct ComparisonOutputs {
-    const PictureSettings& pictures;  ///< of the scene, which says what it wishes
+    const PictureSettings& pictures;  ///< wishes of the scene about pictures
     bool withFrames, withVideo;       ///< what is made of pictures, too; and videos of them
     std::filesystem::path folder;     ///< where products go
 };

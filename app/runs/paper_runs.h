@@ -30,7 +30,7 @@ inline const std::vector<PaperVariant> kPaperVariants = {{"paper_apic", "APIC"},
 struct PaperResult {
     PaperScene scene;
     PictureSettings pictures;
-    std::vector<ComparedRun> runs;    ///< that got to their end
+    std::vector<ComparedRun> runs;    ///< runs that got to their end
     std::vector<Ensemble> ensembles;  ///< each of those with its repeats; none without repeats
 };
 

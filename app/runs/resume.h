@@ -14,7 +14,7 @@ namespace app {
 
 /// What the user wants to go on with.
 struct ResumeRequest {
-    std::filesystem::path folder;           ///< of the run
+    std::filesystem::path folder;           ///< folder of the run
     std::optional<std::int64_t> fromFrame;  ///< nothing: the last checkpoint
     std::vector<std::string> sets;          ///< "dotted.key=value"
     std::filesystem::path out;              ///< empty: go on in the folder itself
@@ -24,7 +24,7 @@ struct ResumedRun {
     LoadedScene setup;
     Checkpoint checkpoint;
     std::filesystem::path out;
-    bool isBranch = false;  ///< it goes on in another folder than it began
+    bool isBranch = false;  ///< whether it goes on in another folder than it began
 };
 
 /// Has this very run, by this very program, been stopped or killed with a checkpoint to go on from?

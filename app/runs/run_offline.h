@@ -10,7 +10,7 @@
 namespace app {
 
 struct RunOptions {
-    std::filesystem::path out;  ///< its folder
+    std::filesystem::path out;  ///< folder of the run
     std::string contentHash;
     int threads = 1;                                          ///< as limited by the caller; written into the report
     bool frames = true;                                       ///< draw pictures

@@ -14,9 +14,9 @@ namespace app {
 /// A run that is over, or under way, with the states it has stored.
 struct StoredRun {
     std::filesystem::path folder;
-    LoadedScene setup;  ///< of the scene in it, with what is set for pictures and files
+    LoadedScene setup;  ///< scene in it, with what is set for pictures and files
     StateKind kind = StateKind::ForPictures;
-    std::vector<std::int64_t> frames;  ///< of which there is a state, ascending; at least one
+    std::vector<std::int64_t> frames;  ///< frames of which there is a state, ascending; at least one
 };
 
 /// @param sets  "dotted.key=value", of render and output only: the states stay what they are

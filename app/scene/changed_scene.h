@@ -43,7 +43,7 @@ class ChangedScene {
     struct Change {
         std::int64_t step = 0;  ///< the first with it
         std::vector<std::string> sets;
-        bool isOfScene = false;  ///< it stands in the file
+        bool isOfScene = false;  ///< whether it stands in the file
     };
 
     void begin(LoadedScene setup);
@@ -55,8 +55,8 @@ class ChangedScene {
     SceneRequest start_;                ///< with all that was set for the start
     std::vector<Change> changes_;       ///< in order of their steps
     std::vector<std::string> waiting_;  ///< for a restart
-    LoadedScene setup_;                 ///< of all but those that wait
-    std::string identity_;              ///< of the scene at the start
+    LoadedScene setup_;                 ///< scene with all changes but those that wait
+    std::string identity_;              ///< identity of the scene at the start
 };
 
 }  // namespace app

@@ -36,11 +36,11 @@ struct FabricLookSettings {
     Eigen::Vector3f color = {0.80f, 0.70f, 0.55f};
     Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};
     ColorMap colorMap = ColorMap::Viridis;
-    std::array<double, 2> range = {0.0, 100.0};  ///< of the colour bar [cm/s], or of strain or saturation [-]
+    std::array<double, 2> range = {0.0, 100.0};  ///< range of the colour bar [cm/s], or of strain or saturation [-]
 };
 
 struct YarnLookSettings : FabricLookSettings {
-    int tubeSides = 10;  ///< of tubes near the camera
+    int tubeSides = 10;  ///< number of sides of tubes near the camera
 };
 
 struct RenderSettings {
@@ -50,7 +50,7 @@ struct RenderSettings {
     LiquidStyle liquidStyle = LiquidStyle::Spheres;
     ColorBy colorBy = ColorBy::Speed;
     ColorMap colorMap = ColorMap::Jet;
-    std::array<double, 2> range = {0.0, 200.0};  ///< of the colour bar [cm/s], or of pressure [dyn/cm^2]
+    std::array<double, 2> range = {0.0, 200.0};  ///< range of the colour bar [cm/s], or of pressure [dyn/cm^2]
     FabricLookSettings cloth;
     YarnLookSettings yarns;
     ObstacleStyle obstacleStyle = ObstacleStyle::Auto;
@@ -96,7 +96,7 @@ struct Variant {
 };
 
 struct CompareSettings {
-    std::string name;  ///< of the comparison; empty: the scene's
+    std::string name;  ///< name of the comparison; empty: the scene's
     std::vector<Variant> variants;
     CompareLayout layout = CompareLayout::Columns;
     bool video = true, sheet = false, energyPlot = true, table = true;

@@ -14,7 +14,7 @@ using SchemaJson = nlohmann::ordered_json;
 
 /// Whose keys they are.
 enum class SchemaOf {
-    Section,  ///< of a scene: what is left out has a value, which is told, or stands in a file that is included
+    Section,  ///< section of a scene: what is left out has a value, which is told, or stands in a file that is included
     Body,     ///< in a list, which no other file adds to: what is needed must be there
 };
 

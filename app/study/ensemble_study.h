@@ -15,7 +15,7 @@ struct EnsembleRequest {
     std::vector<Vary> varied;
     int count = 20;
     int first = 0;                 ///< number of the first run: others are other draws
-    std::filesystem::path folder;  ///< of the results
+    std::filesystem::path folder;  ///< folder of the results
 };
 
 /// The study that does them; its file is ensemble.yaml in the folder, which is not written yet. Throws InputError for a scene that would be refused.

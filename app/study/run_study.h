@@ -19,8 +19,8 @@ struct StudyOutcome {
 
 /// What a study's runs are made with.
 struct StudyPlaces {
-    std::filesystem::path folder;      ///< of the study; each run has a folder of its name below it
-    int threads = 1;                   ///< of each run
+    std::filesystem::path folder;      ///< folder of the study; each run has a folder of its name below it
+    int threads = 1;                   ///< number of threads of each run
     bool frames = true, video = true;  ///< may pictures be made?
 
     std::filesystem::path of(const StudyRun& run) const { return folder / "runs" / run.name; }

@@ -12,7 +12,7 @@ namespace app {
 
 /// One run of a study.
 struct StudyRun {
-    std::string name;                                         ///< of its folder
+    std::string name;                                         ///< name of its folder
     std::vector<std::pair<std::string, std::string>> values;  ///< dotted key and value of what this run sets
     SceneRequest request;
     LoadedScene setup;  ///< read in advance, so that no mistake is found hours later

@@ -20,7 +20,7 @@ std::string shellQuoted(const std::string& text);
 
 /// How a child ended.
 struct ChildExit {
-    int code = 0;           ///< its exit code; 128 + n if signal n ended it
+    int code = 0;           ///< exit code; 128 + n if signal n ended it
     std::string errorText;  ///< what it wrote to its standard error, if that was kept
     bool ok() const { return code == 0; }
     /// The last line of errorText that says something, for one-line messages.

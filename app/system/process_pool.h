@@ -14,7 +14,7 @@ namespace app {
 struct ProcessEnd {
     ChildExit exit;
     double seconds = 0.0;   ///< wall
-    bool timedOut = false;  ///< it was ended because it took too long
+    bool timedOut = false;  ///< whether it was ended because it took too long
 };
 
 /// A program, run many times with different arguments, some of them side by side.

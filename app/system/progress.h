@@ -20,7 +20,7 @@ struct ProgressState {
     double time = 0.0, dt = 0.0;   ///< simulated [s]
     double secondsPerStep = 0.0;   ///< wall
     double secondsLeft = -1.0;     ///< wall; negative: not known yet
-    double allSecondsLeft = -1.0;  ///< of the whole command, wall; negative: there is nothing but this run, or it is not known yet
+    double allSecondsLeft = -1.0;  ///< time left of the whole command, wall; negative: there is nothing but this run, or it is not known yet
 };
 
 /// "frame 37/240 · t 0.62 s · dt 1.9e-4 · 0.031 s/step · ETA 6 m 12 s", and where more runs follow ", with those to follow 20 m 05 s"

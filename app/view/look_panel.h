@@ -41,7 +41,7 @@ class LookPanel {
     LiquidStyle liquidStyle_;
     render::Look look_;  ///< but for what depends on the values of a snapshot
     SnapshotExtras wanted_;
-    std::array<Range, 2> liquidRanges_;  ///< of speeds and of pressures
+    std::array<Range, 2> liquidRanges_;  ///< ranges of speeds and of pressures
     FabricRanges yarnRanges_, clothRanges_;
     std::optional<sim::Parameter> explained_;
 };

@@ -24,7 +24,7 @@ class ProbePanel {
         std::vector<double> times;     ///< with a value [s]
         std::vector<float> values;     ///< at these times; or along the line, where there is one
         std::optional<double> latest;  ///< value, if there is one; for points along a line that at the first
-        double latestTime = 0.0;       ///< of the last reading [s]
+        double latestTime = 0.0;       ///< time of the last reading [s]
         void add(const ProbeTitle& title, double time, std::span<const std::optional<double>> read);
         void dropAfter(double time);
         void plot(bool isLine, float width) const;  ///< with the latest value in it, or the range along the line; so wide [pixels]

@@ -26,7 +26,7 @@ class ScenePanel {
 
     bool isRecording = false;
     std::string beside;   ///< the variant that stands beside
-    std::string message;  ///< of what was done last, or why it was not
+    std::string message;  ///< message of what was done last, or why it was not
 };
 
 }  // namespace app

@@ -15,7 +15,7 @@ class StepPlots {
  private:
     void drawStages() const;
 
-    std::vector<float> energy_, massError_, milliseconds_, cfl_, iterations_, wall_;  ///< of the steps so far
+    std::vector<float> energy_, massError_, milliseconds_, cfl_, iterations_, wall_;  ///< curves of the steps so far
     LiveStep last_;
 };
 

@@ -31,8 +31,8 @@ class Viewer {
     void screenshot(const std::filesystem::path& file);
     /// Where the value of a setting stands in the window [pixels], if it is to be seen.
     std::optional<std::array<float, 2>> placeOf(const std::string& setting) const;
-    std::string message() const;                ///< that the window shows of what was done last
-    std::vector<std::string> takeGlMessages();  ///< of OpenGL, since the last call
+    std::string message() const;                ///< message that the window shows of what was done last
+    std::vector<std::string> takeGlMessages();  ///< messages of OpenGL, since the last call
 
  private:
     struct Inner;

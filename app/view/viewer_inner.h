@@ -50,10 +50,10 @@ struct Viewer::Inner {
     bool isFirstUse = false;                            ///< until it is seen that the user knows what to do
     std::size_t tuned = 0;                              ///< the side whose settings are shown
     std::optional<ViewCamera> camera;                   ///< once there is something to look at
-    std::filesystem::path screenshotFile, pictureFile;  ///< of the next frame, with and without panels; or empty
-    std::filesystem::path recordFolder;                 ///< of recorded frames
+    std::filesystem::path screenshotFile, pictureFile;  ///< files of the next frame, with and without panels; or empty
+    std::filesystem::path recordFolder;                 ///< folder of recorded frames
     std::int64_t recorded = -1;                         ///< number of the last one
-    double fullSeconds = 0.0;                           ///< that the last picture of full quality took
+    double fullSeconds = 0.0;                           ///< time that the last picture of full quality took
 
     const sim::Scene& scene() const { return pair->first().scene()->setup.scene; }
     LivePair::Side& tunedSide() { return *pair->sides()[std::min(tuned, pair->sides().size() - 1)]; }

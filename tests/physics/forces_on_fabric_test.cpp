@@ -63,8 +63,8 @@ TEST_P(ForcesOf, PinsCarryAWetTowel)
     EXPECT_LT(mean[1].x(), 0.0);
 }
 
-/// A wet yarn that hangs straight from one pin, and one that sags between two. What stretches them swings, a hundredth as large every 1.4 s at the slowest:
-/// that is what is left.
+/// A wet yarn that hangs straight from one pin, and one that sags between two. What stretches them swings, a hundredth as large every 1.4 s at the
+/// slowest: that is what is left.
 TEST_P(ForcesOf, PinsCarryWetYarnsAtRest)
 {
     for (const bool sags : {false, true}) {

@@ -18,11 +18,11 @@ struct Check {
     sim::Formula read;     ///< what is read as the scene runs
     sim::Formula against;  ///< what readings are ordered by; the time, unless given
     double from = -std::numeric_limits<double>::infinity(),
-           to = std::numeric_limits<double>::infinity();  ///< of `against`
+           to = std::numeric_limits<double>::infinity();  ///< end of `against`
     Statistic statistic = Statistic::Last;
-    double level = 0.0;                             ///< of Statistic::Reach
-    std::string unit = {};                          ///< of what is read
-    std::optional<sim::Formula> expect = {};        ///< of the time
+    double level = 0.0;                             ///< level of Statistic::Reach
+    std::string unit = {};                          ///< unit of what is read
+    std::optional<sim::Formula> expect = {};        ///< expected value as a formula of the time
     std::vector<std::array<double, 2>> table = {};  ///< measured (against, value), in its place
     std::optional<double> tolerance = {};           ///< relative to what is expected
     std::optional<double> within = {};              ///< absolute bound of the difference

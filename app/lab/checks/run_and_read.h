@@ -10,7 +10,7 @@ namespace app {
 /// What it took to follow a run to its end.
 struct RunReadings {
     std::int64_t steps = 0;
-    double stepSeconds = 0.0;  ///< of the clock on the wall, in the steps alone
+    double stepSeconds = 0.0;  ///< wall time in the steps alone
     double largestCfl = 0.0;   ///< [-]
 };
 

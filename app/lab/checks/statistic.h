@@ -20,7 +20,7 @@ enum class Statistic {
     Smallest,
     Largest,
     Change,        ///< last less first
-    Slope,         ///< of the straight line through them (least squares)
+    Slope,         ///< slope of the straight line through them (least squares)
     Exponent,      ///< slope of ln value over ln at
     Rate,          ///< at which they decay: −slope of ln |value|
     EnvelopeRate,  ///< rate of the peaks between passings of the mean

@@ -12,9 +12,9 @@ struct RunCourse {
     /// Largest rise of the energy over its start, less work done from outside, over the largest kinetic energy [-]; of what rests over that which its
     /// weight would give it in a step, for each step has to find anew what holds it.
     double energyGain = 0.0;
-    double largestSpeed = 0.0;     ///< of a particle of the liquid [cm/s]
-    double commonSpeed = 0.0;      ///< of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
-    double prescribedSpeed = 0.0;  ///< of the fastest of solids and pins at any time of the run [cm/s]
+    double largestSpeed = 0.0;     ///< largest speed of a particle of the liquid [cm/s]
+    double commonSpeed = 0.0;      ///< speed of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
+    double prescribedSpeed = 0.0;  ///< speed of the fastest of solids and pins at any time of the run [cm/s]
     double suctionSpeed = 0.0;     ///< to which suction of dry fabric could take liquid [cm/s]
 };
 

@@ -12,13 +12,13 @@ namespace app {
 /// How a run under stress ended.
 enum class RunOutcome {
     Finished,  ///< to its end, all numbers finite, all pictures there
-    Stopped,   ///< it told scene, step, stage and why
+    Stopped,   ///< the run told scene, step, stage and why
     TimedOut,
-    Unsound,      ///< it gained energy or speed from nothing
+    Unsound,      ///< the run gained energy or speed from nothing
     Escaped,      ///< something is inside a solid, or outside of the vessel that it was in
     Refused,      ///< the scene could not be read: a mistake of who made it
-    NotFinite,    ///< it went on with numbers that are none
-    Undiagnosed,  ///< it failed without telling where and why
+    NotFinite,    ///< the run went on with numbers that are none
+    Undiagnosed,  ///< the run failed without telling where and why
     Crashed,      ///< a signal ended it
     Count
 };

@@ -30,7 +30,7 @@ struct Precision {
     std::string about;
     double every = 0.0;                  ///< time between readings [s]
     std::vector<Check> errors;           ///< the error of a run is the root mean square of these
-    std::optional<sim::Formula> energy;  ///< of which the table tells what is left
+    std::optional<sim::Formula> energy;  ///< energy of which the table tells what is left
     double decay = 0.0;                  ///< the energy decays at this times the kinematic viscosity [1/cm²]; 0: not known
     double speed = 0.0;                  ///< [cm/s]
     std::vector<PrecisionChoice> methods, integrators, steps, resolutions;  ///< every combination is run

@@ -15,7 +15,7 @@ struct PrecisionCase {
     Precision precision;
     std::vector<PrecisionRow> rows;  ///< those that came to their end
 
-    std::vector<Cost> front() const;  ///< of all of them
+    std::vector<Cost> front() const;  ///< front of all of them
     std::vector<Cost> costsOf(const std::string& method, const std::string& integrator) const;
     bool isOnFront(const PrecisionRow& row) const;
     bool isPublished(const PrecisionRow& row) const;

@@ -18,9 +18,9 @@ struct PrecisionRow {
     double cfl = 0.0;   ///< largest [-]
     double cell = 0.0;  ///< [cm]
     std::int64_t steps = 0;
-    double wallSeconds = 0.0;  ///< of the steps; median of the repeats
+    double wallSeconds = 0.0;  ///< wall time of the steps; median of the repeats
     double error = 0.0;        ///< [-]
-    double energyLeft = 0.0;   ///< of that at the start [-]
+    double energyLeft = 0.0;   ///< energy left, as a share of that at the start [-]
     double viscosity = 0.0;    ///< kinematic, that would make the energy decay like this; NaN if not known [cm²/s]
     int threads = 1, repeats = 1;
     std::string settings;          ///< 16 digits: what the error depends on

@@ -14,7 +14,7 @@ namespace app {
 std::string randomSceneName(std::uint64_t seed, int number);
 
 struct RandomScene {
-    std::string text;                           ///< of the scene file
+    std::string text;                           ///< text of the scene file
     std::optional<Eigen::AlignedBox3d> vessel;  ///< a closed one with thin walls that everything is in
 };
 

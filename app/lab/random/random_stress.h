@@ -17,7 +17,7 @@ struct RandomStress {
     int width = 1;               ///< so many side by side, each on one thread
     double limitSeconds = 120.0;
     std::vector<std::string> set;  ///< keys that all scenes have otherwise, as --set has them
-    std::filesystem::path folder;  ///< of the report, with the scenes that are worth a look below `scenes`
+    std::filesystem::path folder;  ///< folder of the report, with the scenes that are worth a look below `scenes`
     std::function<bool()> stopWanted = [] { return false; };
 };
 

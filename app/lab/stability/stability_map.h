@@ -23,17 +23,17 @@ struct StabilityRow {
     bool isStable = false;
     std::string why;            ///< it is not, one line without commas
     double energyGain = 0.0;    ///< largest rise of the energy over its start, less work done from outside, over the largest kinetic energy [-]
-    double largestSpeed = 0.0;  ///< of the liquid [cm/s]
+    double largestSpeed = 0.0;  ///< largest speed of the liquid [cm/s]
     double seconds = 0.0;       ///< wall
 };
 
 /// What to map for one scene.
 struct StabilityMap {
-    std::string scene;              ///< its file
-    std::vector<std::string> sets;  ///< of all runs
+    std::string scene;              ///< scene file
+    std::vector<std::string> sets;  ///< settings of all runs
     std::vector<StabilityMethod> methods;
     std::vector<double> steps;     ///< [s]
-    double duration = 0.0;         ///< of every run: a whole number of the longest step [s]
+    double duration = 0.0;         ///< duration of every run: a whole number of the longest step [s]
     std::filesystem::path folder;  ///< scene's own: map.csv, map.png, and a folder per run
     bool largestOnly = false;      ///< of each method only from the longest step to the first that is stable
     int width = 1;                 ///< so many runs side by side, each on one thread

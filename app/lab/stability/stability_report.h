@@ -10,7 +10,7 @@ namespace app {
 
 /// What is known of one scene.
 struct StabilityResult {
-    std::string name;  ///< of its folder below that of the report
+    std::string name;  ///< name of its folder below that of the report
     std::string title;
     StabilityMap map;
     std::vector<StabilityRow> rows;

@@ -11,11 +11,11 @@ namespace app {
 
 /// What came of one case of the validation.
 struct CaseResult {
-    std::string name;  ///< of its file
+    std::string name;  ///< name of its file
     LoadedScene setup;
-    Validation validation;                      ///< of it
-    std::vector<std::vector<Sample>> readings;  ///< of each check
-    std::vector<Finding> findings = {};         ///< of each check; none when the run failed
+    Validation validation;                      ///< validation of the case
+    std::vector<std::vector<Sample>> readings;  ///< readings of each check
+    std::vector<Finding> findings = {};         ///< findings of each check; none when the run failed
     std::string failure = {};                   ///< why the run did not come to its end
     std::int64_t steps = 0;
     double wallSeconds = 0.0;

@@ -31,20 +31,20 @@ struct Fabric {
     std::span<const double> absorbed;               ///< liquid in its pores [g]
     std::span<const double> saturation;             ///< how full its pores are [0..1]
     std::span<const int> piece;                     ///< number of its fabric, as in the scene
-    std::span<const std::array<int, 2>> edges;      ///< of yarns
-    std::span<const std::array<int, 3>> triangles;  ///< of cloth
+    std::span<const std::array<int, 2>> edges;      ///< edges of yarns
+    std::span<const std::array<int, 3>> triangles;  ///< triangles of cloth
 
     std::size_t size() const { return mass.size(); }
 };
 
 /// [erg]
 struct Energies {
-    double kinetic = 0.0;    ///< of the particles of liquid
-    double modal = 0.0;      ///< of how velocity varies around them
-    double potential = 0.0;  ///< of liquid in gravity
+    double kinetic = 0.0;    ///< kinetic energy of the particles of liquid
+    double modal = 0.0;      ///< energy of how velocity varies around them
+    double potential = 0.0;  ///< potential energy of liquid in gravity
     double fabricKinetic = 0.0, fabricPotential = 0.0;
-    double elastic = 0.0;  ///< of fabric: stretching, bending, twisting
-    double contact = 0.0;  ///< of fabric that is pressed on itself and on solids
+    double elastic = 0.0;  ///< elastic energy of fabric: stretching, bending, twisting
+    double contact = 0.0;  ///< energy of fabric that is pressed on itself and on solids
 
     double total() const { return kinetic + modal + potential + fabricKinetic + fabricPotential + elastic + contact; }
 };
@@ -55,13 +55,13 @@ struct Step {
     double fastest = 0.0;           ///< particle of liquid at its end [cm/s]
     double cfl = 0.0;               ///< cells that the fastest particle was to cross in it [-]
     bool isFirstOfTwo = false;      ///< velocities are reflected: only after the next step they are those of the flow
-    int pressureIterations = 0;     ///< of the solve for the pressure
+    int pressureIterations = 0;     ///< iterations of the solve for the pressure
     double pressureResidual = 0.0;  ///< largest, relative to the largest divergence [-]
-    int fabricIterations = 0;       ///< of Newton's method
+    int fabricIterations = 0;       ///< iterations of Newton's method
     int takenBack = 0;              ///< longer attempts at it that turned out bad
-    double seconds = 0.0;           ///< that it took on the clock
-    double liquidMass = 0.0;        ///< of all particles at its end [g]
-    double absorbedMass = 0.0;      ///< of liquid in fabric at its end [g]
+    double seconds = 0.0;           ///< time that it took on the clock
+    double liquidMass = 0.0;        ///< mass of all particles at its end [g]
+    double absorbedMass = 0.0;      ///< mass of liquid in fabric at its end [g]
     Energies energies;              ///< at its end
 };
 

@@ -16,7 +16,7 @@ namespace drench {
 /// Where a body is against where the scene has put it: turned about a point, then shifted.
 struct Pose {
     Vec3 shift = {};  ///< [cm]
-    Vec3 turn = {};   ///< its axis, as long as the angle is large [rad]
+    Vec3 turn = {};   ///< axis, as long as the angle is large [rad]
     Vec3 about = {};  ///< point of the scene that turning leaves where it is [cm]
 };
 

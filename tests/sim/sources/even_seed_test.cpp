@@ -6,8 +6,8 @@
 namespace sim {
 namespace {
 
-/// How far the volume that particles bring to the middles of cells by quadratic B-splines is from the region's there: the root of its mean square over
-/// cells of which the region has more than a half [-].
+/// How far the volume that particles bring to the middles of cells by quadratic B-splines is from the region's there: the root of its mean square
+/// over cells of which the region has more than a half [-].
 double unevenness(const Shape& region, const std::vector<Vec3>& positions, const std::function<double(std::size_t)>& volume, double dx)
 {
     const auto spline = [](double r) {
