@@ -36,7 +36,7 @@ class Obstacles {
     Vec3 normal(const Vec3& x) const;    ///< out of the nearest solid
     Vec3 velocity(const Vec3& x) const;  ///< velocity of the nearest solid's material point at x [cm/s]
 
-    // The same of one solid.
+    // Queries of one solid.
     static constexpr int kAll = -1;
     double distance(const Vec3& x, int solid) const;  ///< distance from one solid, from all for kAll [cm]
     Vec3 normal(const Vec3& x, int solid) const;

@@ -90,7 +90,7 @@ double growthAtTwist(double moment)  // in units of EI/L
 
 /// A crimped yarn whose last edge was left spinning, as by a step that was cut short: in a long step, too, energy only falls. From the
 /// free flight of its angle, one turn further, Newton ended wound up, with six times the energy.
-TEST(CrimpedYarn, IsNotWoundUpByTheSpinOfItsEnd)
+TEST(CrimpedYarn, SpinOfItsEndDoesNotAccumulateTwist)
 {
     std::vector<Vec3> path;
     for (int i = 0; i <= 20; ++i) path.emplace_back(0.144 * i, i % 2 == 0 ? 0.0 : 0.07, 0.0);

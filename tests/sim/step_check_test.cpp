@@ -52,7 +52,7 @@ TEST(StepCheck, FindsNothingInAGoodStep)
     EXPECT_FALSE(good.rejectionReason());
 }
 
-TEST(StepCheck, SeesEnergyFromNowhere)
+TEST(StepCheck, FindsSpuriousEnergy)
 {
     Sample sample;
     const double mass = sample.report.liquidMass;
@@ -130,7 +130,7 @@ TEST(StepCheck, FindsNothingWhereNothingIsLeft)
     EXPECT_FALSE(fault) << fault->what;
 }
 
-TEST(StepCheck, SeesWhatWentTooFar)
+TEST(StepCheck, FindsTooLargeDisplacements)
 {
     Sample sample;
     sample.report.maxSpeed = 3000.0;  // 3 cells in the step that was to be at most 1 of them
@@ -138,7 +138,7 @@ TEST(StepCheck, SeesWhatWentTooFar)
     EXPECT_NE(sample.rejectionReason()->what.find("crossed 3 cells"), std::string::npos) << sample.rejectionReason()->what;
 }
 
-TEST(StepCheck, SeesFabricThatJumpsIntoObstacles)
+TEST(StepCheck, FindsFabricThatJumpsIntoObstacles)
 {
     Sample sample;
     sample.report.fabric.deepest = 0.3;
@@ -156,7 +156,7 @@ TEST(StepCheck, SeesFabricThatJumpsIntoObstacles)
     EXPECT_FALSE(sample.rejectionReason()) << "it is squeezed there little by little";
 }
 
-TEST(StepCheck, SeesLostLiquid)
+TEST(StepCheck, FindsLostLiquid)
 {
     Sample sample;
     sample.report.liquidMass *= 1.0 - 1.0e-8;

@@ -12,7 +12,7 @@ namespace app {
 /// each method and integrator, the front of all as a broad line, and circles about the published scheme.
 std::string workPrecisionScript(const std::vector<const PrecisionCase*>& cases, const std::string& picture);
 
-/// Numerical viscosity over the time step of the case's first resolution, likewise.
+/// Numerical viscosity over the time step of the case's first resolution, as a script for gnuplot.
 std::string viscosityScript(const PrecisionCase& of, const std::string& picture);
 
 /// work_precision_CASE.png of each, numerical_viscosity.png where it is known, and work_precision.png with the

@@ -79,7 +79,7 @@ TEST(EnergyPlot, DrawsAPngAndKeepsItsScript)
     EXPECT_FALSE(std::filesystem::exists(folder / "energy.png.part"));
 }
 
-TEST(EnergyPlot, TellsWhatGnuplotDislikes)
+TEST(EnergyPlot, ReportsErrorsOfGnuplot)
 {
     if (!canPlot()) GTEST_SKIP() << "no gnuplot here";
     TemporaryFolder folder;

@@ -96,7 +96,7 @@ TEST(Viewer, ProbesOfTwoVariantsStandInOnePanel)
     EXPECT_EQ(desktop.status().failure, "");
 }
 
-TEST(Viewer, TinyWindowsAreNoTrouble)
+TEST(Viewer, TinyWindowsWork)
 {
     Desktop desktop(drop(), kPaused);
     desktop.shot();
@@ -126,7 +126,7 @@ TEST(Viewer, EveryFrameIsRecorded)
     ASSERT_TRUE(desktop.comesTrue([&] { return std::filesystem::exists("drop.png"); }));
 }
 
-TEST(Viewer, WithoutADisplayItSaysWhatWouldDo)
+TEST(Viewer, WithoutADisplayItNamesTheRemedy)
 {
     const char* display = std::getenv("DISPLAY");
     ASSERT_TRUE(display);

@@ -88,7 +88,7 @@ TEST(Window, KeepsWhatIsBesideAPart)
 }
 
 /// What is asked of OpenGL and makes no sense is told, once.
-TEST(Window, TellsWhatOpenGlComplainsAbout)
+TEST(Window, ReportsErrorsOfOpenGl)
 {
     Parted p;
     EXPECT_TRUE(p.window.context().takeGlMessages().empty());

@@ -74,7 +74,7 @@ TEST(Volume, CellsExpandByWhatTheyHoldTooMuchAndHolesClose)
     }
 }
 
-TEST(Volume, NoiseOfTheParticlesPlacesIsLeftAlone)
+TEST(Volume, NoiseOfPositionsIsNotCorrected)
 {
     GridScene scene = tank();
     std::mt19937 random(11);
@@ -88,7 +88,7 @@ TEST(Volume, NoiseOfTheParticlesPlacesIsLeftAlone)
     scene.forEachFace([&](int a, const Vec3i& c) { EXPECT_EQ(work.displacement.block(scene.at(c).block, a)[scene.at(c).cell], 0.0); });
 }
 
-TEST(Volume, OfThinPlacesAtTheSurfaceIsLeftAlone)
+TEST(Volume, ThinSurfaceLayersAreNotCorrected)
 {
     GridScene scene = tank();
     for (int j = 6; j < 8; ++j) scene.liquid.fill.block(scene.at({4, j, 4}).block)[scene.at({4, j, 4}).cell] = j == 7 ? 0.3 : 0.85;

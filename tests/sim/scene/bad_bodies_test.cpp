@@ -239,7 +239,7 @@ liquid:
 
 class BadBodies : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadBodies, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
+TEST_P(BadBodies, NameLocationFaultAndRemedy) { expectItsMessage(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(LoadScene, BadBodies, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 

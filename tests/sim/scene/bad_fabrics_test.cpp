@@ -166,11 +166,11 @@ void expectMessage(const std::string& begin, const BadFabric& bad)
     expectItsMessage({bad.name, text.c_str(), bad.message});
 }
 
-TEST_P(BadFabrics, SayWhereWhatAndWhatWouldDo) { expectMessage(kBegin, GetParam()); }
+TEST_P(BadFabrics, NameLocationFaultAndRemedy) { expectMessage(kBegin, GetParam()); }
 
-TEST_P(BadPins, SayWhereWhatAndWhatWouldDo) { expectMessage(std::string(kBegin) + kSheet, GetParam()); }
+TEST_P(BadPins, NameLocationFaultAndRemedy) { expectMessage(std::string(kBegin) + kSheet, GetParam()); }
 
-TEST_P(BadMaterials, SayWhereWhatAndWhatWouldDo) { expectMessage("grid: {cell: 0.1}\n", GetParam()); }
+TEST_P(BadMaterials, NameLocationFaultAndRemedy) { expectMessage("grid: {cell: 0.1}\n", GetParam()); }
 
 const auto nameOf = [](const auto& bad) { return std::string(bad.param.name); };
 

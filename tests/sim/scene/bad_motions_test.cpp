@@ -94,7 +94,7 @@ motion: [{t: [0, 1], translate: [0, 1, 0]}]
 
 class BadMotions : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadMotions, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
+TEST_P(BadMotions, NameLocationFaultAndRemedy) { expectItsMessage(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(LoadScene, BadMotions, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 

@@ -229,7 +229,7 @@ liquid: {particle_spacing: 0}
 
 class BadNumbers : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadNumbers, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
+TEST_P(BadNumbers, NameLocationFaultAndRemedy) { expectItsMessage(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(LoadScene, BadNumbers, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 

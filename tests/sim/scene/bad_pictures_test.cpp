@@ -176,7 +176,7 @@ compare: {variants: {transfer.method: [pic, apic]}, reference: apicc}
 
 class BadPictures : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadPictures, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
+TEST_P(BadPictures, NameLocationFaultAndRemedy) { expectItsMessage(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(LoadScene, BadPictures, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 

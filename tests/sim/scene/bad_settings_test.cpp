@@ -128,7 +128,7 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 
 class BadSettings : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadSettings, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
+TEST_P(BadSettings, NameLocationFaultAndRemedy) { expectItsMessage(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(LoadScene, BadSettings, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 

@@ -173,7 +173,7 @@ liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 
 class BadVariants : public testing::TestWithParam<BadScene> {};
 
-TEST_P(BadVariants, SayWhereWhatAndWhatWouldDo) { expectItsMessage(GetParam()); }
+TEST_P(BadVariants, NameLocationFaultAndRemedy) { expectItsMessage(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(LoadScene, BadVariants, testing::ValuesIn(kBadScenes), [](const auto& scene) { return std::string(scene.param.name); });
 

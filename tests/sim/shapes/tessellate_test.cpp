@@ -45,7 +45,7 @@ TEST(Tessellate, ABoxHasTwelveTriangles)
     EXPECT_NEAR(signedVolume(mesh), 6.0, 1e-12);
 }
 
-TEST(Tessellate, WhateverIsBoundedIsClosed)
+TEST(Tessellate, BoundedShapesAreClosed)
 {
     const Shape ball = Shape::ball(Vec3::Zero(), 1.0), box = Shape::box({0.5, 0.5, 0.5}, Vec3::Constant(0.5));
     const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));

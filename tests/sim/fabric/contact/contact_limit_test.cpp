@@ -162,7 +162,7 @@ TEST(ContactLimit, HeldVerticesKeepTheirMoves)
     EXPECT_GT(kept, 10);
 }
 
-TEST(ContactLimit, FastHeadOnMeetingIsStoppedNotSkipped)
+TEST(ContactLimit, FastHeadOnCollisionIsNotTunnelled)
 {
     ContactScene scene;
     scene.addYarn({-0.2, 0.0, 0.0}, {0.2, 0.0, 0.0}, 1, 0.05);
