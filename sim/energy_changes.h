@@ -25,11 +25,11 @@ enum class EnergyChange {
     Obstacles,  ///< on fabric, with friction, and on what contact with them holds
     Solids,     ///< moving ones on the liquid: by its pressure on them, by its viscosity, by what follows them at walls, by contact
     Pins,
-    FabricToGrid,      ///< solver grid: from vertices to faces …
-    FabricToVertices,  ///< … and back, with the fading of velocities
-    Walls,             ///< on the liquid's faces
-    ToParticles,       ///< liquid from faces to particles
-    Places,            ///< particles moved by relaxation, for their volume, and out of obstacles
+    FabricToGrid,        ///< solver grid: from vertices to faces …
+    FabricToVertices,    ///< … and back, with the fading of velocities
+    Walls,               ///< on the liquid's faces
+    ToParticles,         ///< liquid from faces to particles
+    PositionCorrection,  ///< particles moved by relaxation, for their volume, and out of obstacles
     Drip,
     Wicking,
     Count
@@ -57,7 +57,7 @@ inline constexpr std::array<std::string_view, kEnergyChanges> kEnergyChangeNames
     "fabric_to_vertices",
     "walls",
     "to_particles",
-    "places",
+    "position_correction",
     "drip",
     "wicking",
 };

@@ -22,7 +22,7 @@ struct StepReport : StageTimes {
     SolveReport volume;  ///< of the correction of the volume, if it ran
     FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
-    int takenBack = 0;                             ///< attempts that turned out bad before this one, each longer than the next
+    int rejectedSteps = 0;                         ///< attempts that turned out bad before this one, each longer than the next
     bool isReflected = false;                      ///< the first of two steps: particles hold velocities that the flow never has
     Energies energies;                             ///< at the end of the step, of what the particles hold; see potentialLag
     std::optional<EnergyChanges> energyChanges;    ///< where they are booked
@@ -31,7 +31,7 @@ struct StepReport : StageTimes {
     double emittedKinetic = 0.0;                   ///< of liquid that came from sources in this step [erg]
     double inflowWork = 0.0;                       ///< of the pressure on liquid that sources pressed into liquid in this step [erg]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< taken up and let go by the fabric in this step [g]
-    Vec3 toPins = Vec3::Zero();                    ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
+    Vec3 pinImpulse = Vec3::Zero();                ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
     std::string_view failure;                      ///< empty, or why the state can't be trusted …
     Stage failedStage = Stage::GridToParticles;    ///< … and since when
 };

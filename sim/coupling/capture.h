@@ -25,9 +25,9 @@ class Capture {
     double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                    FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
-    Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
+    Vec3 pinImpulse() const { return std::accumulate(pinImpulse_.begin(), pinImpulse_.end(), Vec3::Zero().eval()); }
     /// The same of each vertex.
-    std::span<const Vec3> toPinsByVertex() const { return toPins_; }
+    std::span<const Vec3> pinImpulseByVertex() const { return pinImpulse_; }
     /// Removes the particles that have given all they had; their numbers change.
     void removeEmptyParticles(LiquidParticles& liquid);
 
@@ -57,7 +57,7 @@ class Capture {
 
     // Of the step.
     std::vector<double> wanted_, got_;          ///< of each vertex [g]
-    std::vector<Vec3> toPins_;                  ///< of each vertex [g cm/s]
+    std::vector<Vec3> pinImpulse_;              ///< of each vertex [g cm/s]
     BlockArray<double> asked_;                  ///< of each cell of the vertices' blocks, by all vertices [g]
     BlockArray<double> share_;                  ///< the same relative to the liquid of the cell [-]
     std::vector<std::uint8_t> hasUnsaturated_;  ///< of each block of the vertices: has vertices with room

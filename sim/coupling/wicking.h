@@ -22,9 +22,9 @@ class Wicking {
     void move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
               FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
-    Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
+    Vec3 pinImpulse() const { return std::accumulate(pinImpulse_.begin(), pinImpulse_.end(), Vec3::Zero().eval()); }
     /// The same of each vertex.
-    std::span<const Vec3> toPinsByVertex() const { return toPins_; }
+    std::span<const Vec3> pinImpulseByVertex() const { return pinImpulse_; }
     /// Is there liquid in the fabric?
     bool isWet(const FabricState& state) const;
     int substeps(double dt) const;
@@ -59,7 +59,7 @@ class Wicking {
     std::vector<Vec3> carried_;                ///< momentum of that [g/cm^2]
     std::vector<double> absorbed_;             ///< of each vertex after the substep [g]
     std::vector<Vec3> velocity_;               ///< likewise [cm/s]
-    std::vector<Vec3> toPins_;                 ///< of each vertex [g cm/s]
+    std::vector<Vec3> pinImpulse_;             ///< of each vertex [g cm/s]
 };
 
 }  // namespace sim

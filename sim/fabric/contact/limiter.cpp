@@ -47,7 +47,7 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
     }
     constexpr double kSpare = 0.95;
     parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSpare * fraction; });
-    ++report.scalings;
+    ++report.globalScalings;
     return true;
 }
 
@@ -55,7 +55,7 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
 void Limiter::cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     clock.start(Stage::FabricCandidates);
-    report.listBuilds += list.coverMoves(x, u);
+    report.candidateListBuilds += list.coverMoves(x, u);
     if (list.empty()) return;
     clock.start(Stage::FabricContact);
     list.measure(x);
