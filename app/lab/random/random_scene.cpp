@@ -1,7 +1,6 @@
 #include "app/lab/random/random_scene.h"
 
 #include "app/lab/random/random_bodies.h"
-
 #include "sim/scene/old_keys.h"
 
 #include <fmt/format.h>
