@@ -8,6 +8,7 @@ constexpr Renamed kKeys[] = {
     {"transfer.keep", "transfer.damping", true},
     {"transfer.keep_dt", "transfer.damping_dt"},
     {"coupling.capture.compat_factor", "coupling.capture.published_rate_factor"},
+    {"output.probes.hoops", "output.probes.control_surfaces"},
 };
 
 constexpr Renamed kFields[] = {

@@ -1,6 +1,7 @@
 // Keys that were called otherwise before are read, and told.
 
 #include "sim/scene/old_keys.h"
+#include "app/scene/read_picture_settings.h"
 #include "sim/renamed.h"
 #include "sim/scene/load_scene.h"
 
@@ -21,6 +22,7 @@ const std::map<std::string_view, Values> kValues = {
     {"transfer.keep", {"{liquid_affine: 0.996, fabric_stretch: 0}", "{liquid_affine: 0.004, fabric_stretch: 1}", ""}},
     {"transfer.keep_dt", {"step", "step", ""}},
     {"coupling.capture.compat_factor", {"2", "2", "coupling.capture.law"}},
+    {"output.probes.hoops", {"{gate: {center: [0, 2, 0]}}", "{gate: {center: [0, 2, 0]}}", ""}},
 };
 
 std::string nested(const std::string& path, const std::string& value)
@@ -30,16 +32,25 @@ std::string nested(const std::string& path, const std::string& value)
                                     : fmt::format("{}: {{{}}}", path.substr(0, dot), nested(path.substr(dot + 1), value));
 }
 
-sim::Scene sceneOf(const std::string& text, const sim::LoadOptions& options = {})
+/// A scene that was read, and all of it as it is printed.
+struct Loaded {
+    sim::Scene scene;
+    std::string printed;
+};
+
+Loaded loaded(const std::string& text, const sim::LoadOptions& options = {})
 {
-    return sim::readScene(sim::sceneFileFromText(text, "old.yaml", options));
+    const sim::SceneFile file = sim::sceneFileFromText(text, "old.yaml", options);
+    Loaded all = {sim::readScene(file), {}};
+    all.printed = sim::printScene(all.scene) + app::printPictureSettings(app::readPictureSettings(file));
+    return all;
 }
 
 /// Notes that tell what a key is called now.
-std::vector<std::string> namesTold(const sim::Scene& scene)
+std::vector<std::string> namesTold(const Loaded& of)
 {
     std::vector<std::string> told;
-    for (const std::string& note : scene.notes)
+    for (const std::string& note : of.scene.notes)
         if (note.find(" is called ") != std::string::npos) told.push_back(note);
     return told;
 }
@@ -47,10 +58,10 @@ std::vector<std::string> namesTold(const sim::Scene& scene)
 class OldKeys : public testing::TestWithParam<sim::Renamed> {
  protected:
     /// The scenes are the same, and of the old one the name of now is told once, at that place.
-    void expectSame(const sim::Scene& before, const sim::Scene& now, const std::string& where) const
+    void expectSame(const Loaded& before, const Loaded& now, const std::string& where) const
     {
-        EXPECT_EQ(sim::printScene(before), sim::printScene(now));
-        EXPECT_NE(sim::printScene(now), sim::printScene(sceneOf(kPool, {"", beside()}))) << "a key that changes nothing shows nothing";
+        EXPECT_EQ(before.printed, now.printed);
+        EXPECT_NE(now.printed, loaded(kPool, {"", beside()}).printed) << "a key that changes nothing shows nothing";
         EXPECT_TRUE(namesTold(now).empty());
         const std::vector<std::string> told = namesTold(before);
         ASSERT_EQ(told.size(), 1u);
@@ -67,7 +78,7 @@ class OldKeys : public testing::TestWithParam<sim::Renamed> {
 
 TEST_P(OldKeys, InSectionsAreThoseOfNow)
 {
-    const auto in = [&](const std::string& path, const std::string& value) { return sceneOf(kPool + nested(path, value) + "\n", {"", beside()}); };
+    const auto in = [&](const std::string& path, const std::string& value) { return loaded(kPool + nested(path, value) + "\n", {"", beside()}); };
     expectSame(in(before(), values().before), in(now(), values().now), "old.yaml:3");
 }
 
@@ -76,7 +87,7 @@ TEST_P(OldKeys, OfTheCommandLineAreThoseOfNow)
     const auto set = [&](const std::string& path, const std::string& value) {
         std::vector<std::string> sets = beside();
         sets.push_back(path + "=" + value);
-        return sceneOf(kPool, {"", sets});
+        return loaded(kPool, {"", sets});
     };
     expectSame(set(before(), values().before), set(now(), values().now), fmt::format("--set {}={}", before(), values().before));
 }
@@ -84,15 +95,16 @@ TEST_P(OldKeys, OfTheCommandLineAreThoseOfNow)
 TEST_P(OldKeys, OfVariantsAreThoseOfNow)
 {
     const auto in = [&](const std::string& path, const std::string& value) {
-        return sceneOf(fmt::format("{}compare: {{variants: [{{name: a, {}: {}}}]}}\n", kPool, path, value), {"a", beside()});
+        return loaded(fmt::format("{}compare: {{variants: [{{name: a, {}: {}}}]}}\n", kPool, path, value), {"a", beside()});
     };
     expectSame(in(before(), values().before), in(now(), values().now), "old.yaml:3");
 }
 
 TEST_P(OldKeys, OfChangesAreThoseOfNow)
 {
+    if (before().starts_with("output.")) GTEST_SKIP() << "which holds for a whole run";
     const auto in = [&](const std::string& path, const std::string& value) {
-        return sceneOf(fmt::format("{}changes: [{{step: 3, set: {{{}: {}}}}}]\n", kPool, path, value), {"", beside()});
+        return loaded(fmt::format("{}changes: [{{step: 3, set: {{{}: {}}}}}]\n", kPool, path, value), {"", beside()});
     };
     expectSame(in(before(), values().before), in(now(), values().now), "old.yaml:3");
 }
@@ -102,7 +114,7 @@ TEST_P(OldKeys, BesideThoseOfNowAreRefused)
     const std::string inner = before().substr(before().rfind('.') + 1), section = before().substr(0, before().rfind('.'));
     const std::string both = fmt::format("{{{}: {}, {}: {}}}", inner, values().before, now().substr(now().rfind('.') + 1), values().now);
     try {
-        sceneOf(kPool + nested(section, both) + "\n", {"", beside()});
+        loaded(kPool + nested(section, both) + "\n", {"", beside()});
         ADD_FAILURE() << "not refused";
     } catch (const sim::InputError& error) {
         EXPECT_EQ(fmt::format("old.yaml:3: {} is called {} now, which stands beside it; remove one of them", before(), now()), error.what());
@@ -120,8 +132,8 @@ INSTANTIATE_TEST_SUITE_P(All, OldKeys, testing::ValuesIn(sim::renamedKeys().begi
 
 TEST(OldKeysBelow, OneThatWasRenamedGoWithItWithDots)
 {
-    const sim::Scene scene = sceneOf(kPool, {"", {"transfer.keep.liquid_affine=0.9992"}});
-    EXPECT_EQ(scene.settings.transfer.affineDamping, 0.0008);
+    const Loaded scene = loaded(kPool, {"", {"transfer.keep.liquid_affine=0.9992"}});
+    EXPECT_EQ(scene.scene.settings.transfer.affineDamping, 0.0008);
     ASSERT_EQ(namesTold(scene).size(), 1u);
     EXPECT_NE(namesTold(scene)[0].find("transfer.keep.liquid_affine is called transfer.damping.liquid_affine now, and says what is lost"),
               std::string::npos);
@@ -133,7 +145,7 @@ TEST(OldKeysBelow, ThatAreUnknownAreRefusedAsBefore)
          {std::pair<std::string, std::string>{"transfer: {keeps: {liquid_affine: 1}}\n", "old.yaml:3: unknown key \"keeps\" in transfer"},
           {"transfer: {keep: {liquid: 1}}\n", "old.yaml:3: unknown key \"liquid\" in transfer.damping"}}) {
         try {
-            sceneOf(kPool + text);
+            loaded(kPool + text);
             ADD_FAILURE() << text;
         } catch (const sim::InputError& error) {
             EXPECT_TRUE(std::string(error.what()).starts_with(message)) << error.what();
