@@ -57,7 +57,7 @@ double fastestOf(const FabricState& fabric)
 
 constexpr int kMostRejectedSteps = 10;   ///< halvings until a run gives up: to a thousandth of the step
 constexpr double kSecondIsFaster = 1.5;  ///< cells that the second of two steps may cross relative to time.cfl [-]
-constexpr double kGrowth = 1.2;          ///< of the longest step allowed, from each good one to the next, after one was taken back
+constexpr double kGrowth = 1.2;          ///< of the longest step allowed, from each good one to the next, after one was rejected
 
 double fastest(const LiquidParticles& particles)
 {

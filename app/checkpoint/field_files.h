@@ -52,7 +52,8 @@ class FieldWriter {
     Hdf5Writer& file_;
 };
 
-/// Takes fields by the names that they had before, too (sim/renamed.h). Throws std::runtime_error where a field is missing or has another size or type.
+/// Takes fields by the names that they had before, too (sim/renamed.h).
+/// Throws std::runtime_error where a field is missing or has another size or type.
 class FieldReader {
  public:
     static constexpr bool kFills = true;

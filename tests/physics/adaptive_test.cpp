@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-// Steps that turn out bad are taken back and made again half as long: time.mode adaptive.
+// Steps that turn out bad are rejected and made again half as long: time.mode adaptive.
 
 namespace sim::test {
 namespace {
@@ -56,7 +56,7 @@ struct Retry {
     std::uint64_t after = 0, fromBefore = 0;
 };
 
-/// The first step that was taken back, and the same step from the state before, in another program as it were.
+/// The first step that was rejected, and the same step from the state before, in another program as it were.
 Retry firstRetry(const Scene& scene)
 {
     Simulation simulation(scene);
@@ -178,7 +178,7 @@ TEST(Adaptive, TellsHowOftenAndWhatItCost)
     EXPECT_FALSE(Simulation(fixed).step(1.0).stageRan[static_cast<int>(Stage::Backup)]);
 }
 
-/// How long steps may be after one was taken back is part of the state: a run that is gone on with starts with no longer ones.
+/// How long steps may be after one was rejected is part of the state: a run that is gone on with starts with no longer ones.
 TEST(Adaptive, IsResumedWithStepsAsLongAsTheyMayBe)
 {
     const Scene scene = coarseDamBreak(kPoly8);
