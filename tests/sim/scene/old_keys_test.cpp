@@ -9,6 +9,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <ostream>
+
+namespace sim {
+
+void PrintTo(const Renamed& row, std::ostream* out) { *out << row.before; }
+
+}  // namespace sim
 
 namespace {
 
