@@ -12,12 +12,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <set>
 
 namespace app {
 namespace {
 
 const std::filesystem::path kOld = RUN_BEFORE_RENAMING;
+
+std::array<int, 3> numbersOf(const std::string& version)
+{
+    std::array<int, 3> numbers{};
+    EXPECT_EQ(std::sscanf(version.c_str(), "%d.%d.%d", &numbers[0], &numbers[1], &numbers[2]), 3) << version;
+    return numbers;
+}
+
+/// If this fails the rows of sim/renamed.cpp go, and with them what reads old names.
+TEST(RenamedFields, AreReadUntilTheVersionThatDropsThem) { EXPECT_LT(numbersOf(THIS_VERSION), numbersOf(std::string(sim::kOldNamesEnd))); }
 
 TEST(RenamedFields, HaveOneNameEach)
 {
