@@ -75,17 +75,17 @@ struct Options {
     std::vector<std::filesystem::path> from;  ///< compare: folders of runs that are there, in place of a scene
     bool orRun = false;                       ///< compare: run a scene without variants, or just the one asked for, as run does
 
-    std::vector<std::string> scenes;                                  ///< stress: files, or names in scenes/; none: the paper's
-    std::vector<std::string> methods;                                 ///< stress: like polypic_8; none: all
-    std::vector<double> stepFactors;                                  ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
-    bool largestOnly = false;                                         ///< stress: no shorter steps than the largest stable one
-    std::string knob;                                                 ///< stress: another parameter that is varied
-    std::vector<double> knobFactors = {0.01, 0.1, 1.0, 10.0, 100.0};  ///< stress: factors of that parameter [-]
-    double duration = 0.0;                                            ///< stress: simulated time of each run [s]; 0: enough for the first moments
-    int randomScenes = 0;                                             ///< stress: number of random scenes to be run instead
-    int firstScene = 0;                                               ///< stress: number of the first random scene
-    std::uint64_t seed = 1;                                           ///< stress: seed of the random scenes
-    double limitSeconds = 3600.0;                                     ///< stress: a run is ended that takes longer
+    std::vector<std::string> scenes;                                       ///< stress: files, or names in scenes/; none: the paper's
+    std::vector<std::string> methods;                                      ///< stress: like polypic_8; none: all
+    std::vector<double> stepFactors;                                       ///< stress: time steps, in published ones; none: 0.5 to 20, quick: 1 to 20
+    bool largestOnly = false;                                              ///< stress: no shorter steps than the largest stable one
+    std::string parameter;                                                 ///< stress: another parameter that is varied
+    std::vector<double> parameterFactors = {0.01, 0.1, 1.0, 10.0, 100.0};  ///< stress: factors of that parameter [-]
+    double duration = 0.0;         ///< stress: simulated time of each run [s]; 0: enough for the first moments
+    int randomScenes = 0;          ///< stress: number of random scenes to be run instead
+    int firstScene = 0;            ///< stress: number of the first random scene
+    std::uint64_t seed = 1;        ///< stress: seed of the random scenes
+    double limitSeconds = 3600.0;  ///< stress: a run is ended that takes longer
 
     std::vector<std::string> formats;  ///< export: of geometry files; none: as the scene says
     std::filesystem::path probes;      ///< probe: a file with the section; empty: as the scene says

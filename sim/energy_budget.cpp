@@ -275,7 +275,7 @@ void EnergyBudget::toParticles(double dt, const PushOutTotals& pushed)
     book(EnergyChange::Solids, pushed.work + lifted);
     book(EnergyChange::ToParticles, now.liquidKinetic - last_.liquidKinetic - pushed.work);
     book(EnergyChange::Gravity, fallen);
-    book(EnergyChange::Places, now.potential - last_.potential - fallen - lifted);
+    book(EnergyChange::PositionCorrection, now.potential - last_.potential - fallen - lifted);
     last_ = now;
 }
 

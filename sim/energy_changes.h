@@ -24,11 +24,11 @@ namespace sim {
     CHANGE(Obstacles, "obstacles") /* work on fabric, with friction, and on what contact with them holds */                                      \
     CHANGE(Solids, "solids")       /* work of moving solids on the liquid, by pressure, viscosity, walls and contact */                          \
     CHANGE(Pins, "pins")                                                                                                                         \
-    CHANGE(FabricToGrid, "fabric_to_grid")         /* fabric from vertices to faces, solver grid */                                              \
-    CHANGE(FabricToVertices, "fabric_to_vertices") /* fabric from faces to vertices, with the fading of velocities, solver grid */               \
-    CHANGE(Walls, "walls")                         /* velocities of the liquid's faces behind walls */                                           \
-    CHANGE(ToParticles, "to_particles")            /* liquid from faces to particles */                                                          \
-    CHANGE(Places, "places")                       /* particles moved by relaxation, for their volume, and out of obstacles */                   \
+    CHANGE(FabricToGrid, "fabric_to_grid")            /* fabric from vertices to faces, solver grid */                                           \
+    CHANGE(FabricToVertices, "fabric_to_vertices")    /* fabric from faces to vertices, with the fading of velocities, solver grid */            \
+    CHANGE(Walls, "walls")                            /* velocities of the liquid's faces behind walls */                                        \
+    CHANGE(ToParticles, "to_particles")               /* liquid from faces to particles */                                                       \
+    CHANGE(PositionCorrection, "position_correction") /* particles moved by relaxation, for their volume, and out of obstacles */                \
     CHANGE(Drip, "drip")                                                                                                                         \
     CHANGE(Wicking, "wicking")
 

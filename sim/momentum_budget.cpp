@@ -68,7 +68,7 @@ void MomentumBudget::left(const State& state)
     liquid_ -= forces_.balance.left;
 }
 
-void MomentumBudget::exchanged(const State& state, std::span<const Vec3> toPins)
+void MomentumBudget::exchanged(const State& state, std::span<const Vec3> pinImpulse)
 {
     if (!isOpen()) return;
     look(state.fabric);
@@ -78,10 +78,10 @@ void MomentumBudget::exchanged(const State& state, std::span<const Vec3> toPins)
         liquid_ -= got.linear;
     }
     Vec3 toNobody = Vec3::Zero();
-    for (const Vec3& held : toPins) toNobody += held;
-    for (std::size_t i = 0; i < fabric_->pins.vertex.size() && !toPins.empty(); ++i) {
+    for (const Vec3& held : pinImpulse) toNobody += held;
+    for (std::size_t i = 0; i < fabric_->pins.vertex.size() && !pinImpulse.empty(); ++i) {
         const int v = fabric_->pins.vertex[i];
-        const Impulse held = Impulse::at(state.fabric.x[v], toPins[v]);
+        const Impulse held = Impulse::at(state.fabric.x[v], pinImpulse[v]);
         forces_.pins[fabric_->pins.motion[i]] += held;
         forces_.fabrics[fabric_->pieceOf(v)].liquid += held;
         liquid_ -= held.linear;

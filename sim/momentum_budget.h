@@ -29,8 +29,8 @@ class MomentumBudget {
     /// Particles outside of the domain are gone.
     void left(const State& state);
     /// Fabric took up liquid, let go of some, or moved some within itself.
-    /// @param toPins  of each vertex: what pins held back of it [g cm/s]; empty if nothing
-    void exchanged(const State& state, std::span<const Vec3> toPins);
+    /// @param pinImpulse  of each vertex: what pins held back of it [g cm/s]; empty if nothing
+    void exchanged(const State& state, std::span<const Vec3> pinImpulse);
     /// Particles have brought the liquid's momentum to the faces.
     void liquidOnFaces(const FaceFields& faces, int blocks);
     /// The fabric's solver has moved it, and told what it knows of forces.

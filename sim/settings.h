@@ -34,11 +34,11 @@ struct TransferSettings {
     TransferMethod method = TransferMethod::PolyPic;
     int modes = 8;  ///< PolyPIC modes per component, read by polypic only [1..27]
     XiMap xi = XiMap::Translation;
-    double flipRatio = 0.99;   ///< FLIP share kept per keepDt [0..1]
-    double keepAffine = 1.0;   ///< Factor on all modes but the mean, kept per keepDt; 1 = no damping [0..1]
-    double keepDt = 2.0e-4;    ///< The step the two factors above refer to [s]
-    bool keepPerStep = false;  ///< Factors are taken literally per step, as published
-    bool dampModes = true;     ///< keepAffine acts on PolyPIC modes too
+    double flipRatio = 0.99;      ///< FLIP share kept over dampingDt [0..1]
+    double affineDamping = 0.0;   ///< Share of all modes but the mean that is lost over dampingDt; 0 = no damping [0..1]
+    double dampingDt = 2.0e-4;    ///< Time step to which shares kept and lost refer [s]
+    bool dampingPerStep = false;  ///< They are taken per step as they are, as published
+    bool dampModes = true;        ///< affineDamping acts on PolyPIC modes too
 
     /// N_r: modes per component gathered from the grid.
     int modeCount() const
@@ -58,9 +58,9 @@ struct FabricTransferSettings {
     TransferMethod method = TransferMethod::PolyPic;  ///< never Flip: the fabric then runs apic
     int modes = 8;                                    ///< PolyPIC modes per component, read by polypic only [1..kMostModes]
     XiMap xi = XiMap::Translation;
-    double keepStretch = 1.0;   ///< Factor on the symmetric part of the velocity gradient, kept per keepDt [0..1]
-    double keepRotation = 1.0;  ///< Factor on its antisymmetric part, kept per keepDt [0..1]
-    double keepVelocity = 1.0;  ///< Factor on the velocity itself, kept per keepDt [0..1]
+    double stretchDamping = 0.0;   ///< Share of the symmetric part of the velocity gradient that is lost over dampingDt [0..1]
+    double rotationDamping = 0.0;  ///< Of its antisymmetric part, likewise [0..1]
+    double velocityDamping = 0.0;  ///< Of the velocity itself, likewise [0..1]
 };
 
 struct RelaxSettings {
@@ -133,7 +133,7 @@ struct CaptureSettings {
     /// Part of its pores that fabric in liquid fills per time; 0 = it stays dry [1/s]. Law fabric. As measured: water wicks 0.3 cm into
     /// knits in the first second, by the root of time 0.06 cm, the thickness of a cloth, in 0.04 s (NCSU, vertical wicking of knits).
     double rate = 25.0;
-    double compatFactor = 3.0;  ///< on the rate of the published law: 3 is the published one, 1 the physical, 0 = fabric stays dry [-]
+    double publishedRateFactor = 3.0;  ///< on the rate of the published law: 3 is the published one, 1 the physical, 0 = fabric stays dry [-]
 };
 
 /// How liquid moves in fabric.

@@ -55,9 +55,9 @@ double fastestOf(const FabricState& fabric)
     return parallelMax(fabric.v.size(), [&](std::size_t v) { return fabric.v[v].norm(); });
 }
 
-constexpr int kMostTakenBack = 10;       ///< halvings until a run gives up: to a thousandth of the step
+constexpr int kMostRejectedSteps = 10;   ///< halvings until a run gives up: to a thousandth of the step
 constexpr double kSecondIsFaster = 1.5;  ///< cells that the second of two steps may cross relative to time.cfl [-]
-constexpr double kGrowth = 1.2;          ///< of the longest step allowed, from each good one to the next, after one was taken back
+constexpr double kGrowth = 1.2;          ///< of the longest step allowed, from each good one to the next, after one was rejected
 
 double fastest(const LiquidParticles& particles)
 {
@@ -261,7 +261,7 @@ StepReport Simulation::step(double until)
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
     double keeping = 0.0, lost = 0.0;
     applyChanges();
-    for (int takenBack = 0;; ++takenBack) {
+    for (int rejectedSteps = 0;; ++rejectedSteps) {
         const double left = until - state_.time, dt = chooseLength(until);
         const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, state_.memory.maxSpeed, dt) : 0.0;
         const auto begin = Clock::now();
@@ -274,9 +274,9 @@ StepReport Simulation::step(double until)
         if (!fault) {
             if (dt == left) state_.time = until;
             report.cfl = cfl;
-            report.takenBack = takenBack;
-            if (work_.backup) report.charge(Stage::Keep, keeping);
-            if (takenBack > 0) report.charge(Stage::TakenBack, lost);
+            report.rejectedSteps = rejectedSteps;
+            if (work_.backup) report.charge(Stage::Backup, keeping);
+            if (rejectedSteps > 0) report.charge(Stage::Rejected, lost);
             accept(report);
             return report;
         }
@@ -284,7 +284,7 @@ StepReport Simulation::step(double until)
         work_.backup->restore(state_);
         work_.obstacleField = ObstacleField();  // it is that of the blocks that the bad step had
         state_.memory.longest = 0.5 * dt;
-        if (takenBack == kMostTakenBack || state_.memory.longest < scene_.settings.time.dtMin) throw failure(*fault, takenBack, dt);
+        if (rejectedSteps == kMostRejectedSteps || state_.memory.longest < scene_.settings.time.dtMin) throw failure(*fault, rejectedSteps, dt);
         lost += seconds(Clock::now() - kept);
     }
 }

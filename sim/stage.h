@@ -8,8 +8,8 @@ namespace sim {
 
 // The stages of a step in the order in which each first runs, with the names that logs and tables give them.
 #define SIM_STAGES(STAGE)                                                                                                    \
-    STAGE(Keep, "keep")            /* copies the state to go back to if the step is rejected, mode adaptive */               \
-    STAGE(TakenBack, "taken_back") /* attempts at the step that were rejected and repeated in halves */                      \
+    STAGE(Backup, "backup")     /* copies the state to go back to if the step is rejected, mode adaptive */                  \
+    STAGE(Rejected, "rejected") /* attempts at the step that were rejected and repeated in halves */                         \
     STAGE(Emit, "emit")                                                                                                      \
     STAGE(Sort, "sort")                                                                                                      \
     STAGE(Obstacles, "obstacles")                                                                                            \

@@ -80,7 +80,7 @@ void visitFabric(V& v, Fabric& fabric)
     v.number("fabric/energy_at_obstacles", "erg", fabric.stored.solids);
     v.number("fabric/energy_of_bridges", "erg", fabric.stored.bridges);
     v.number("fabric/spring_step", "s", fabric.springStep);
-    v.number("fabric/taken_fraction", "-", fabric.vertexSolver.lastFraction);
+    v.number("fabric/accepted_fraction", "-", fabric.vertexSolver.lastFraction);
     v.number("fabric/owed_energy", "erg", fabric.vertexSolver.owed);
     v.list("fabric/force", "dyn", fabric.vertexSolver.force);
     v.list("fabric/mean_force", "dyn", fabric.vertexSolver.meanForce);

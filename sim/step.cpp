@@ -45,7 +45,7 @@ void finish(StepContext& c)
     StepReport& report = c.report;
     sumMasses(state, c.work.coupling != nullptr, report);
     c.work.momentum.finish();
-    for (const Impulse& pins : c.work.momentum.forces().pins) report.toPins += pins.linear;
+    for (const Impulse& pins : c.work.momentum.forces().pins) report.pinImpulse += pins.linear;
     state.time += c.dt;
     ++state.step;
     state.lastDt = c.dt;

@@ -22,7 +22,7 @@ struct StepReport : StageTimes {
     SolveReport volume;  ///< solve of the correction of the volume; empty if it did not run
     FabricReport fabric;
     std::size_t particles = 0, blocks = 0, liquidCells = 0;
-    int takenBack = 0;                             ///< attempts that turned out bad before this one, each longer than the next
+    int rejectedSteps = 0;                         ///< attempts that turned out bad before this one, each longer than the next
     bool isReflected = false;                      ///< the first of two steps: particles hold velocities that the flow never has
     Energies energies;                             ///< energies at the end of the step, of what the particles hold; see staggeredPotentialOffset
     std::optional<EnergyChanges> energyChanges;    ///< empty unless energies are booked
@@ -31,7 +31,7 @@ struct StepReport : StageTimes {
     double emittedKinetic = 0.0;                   ///< kinetic energy of liquid that came from sources in this step [erg]
     double inflowWork = 0.0;                       ///< work of the pressure on liquid that sources pressed into liquid in this step [erg]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< mass that the fabric took up and let go in this step [g]
-    Vec3 toPins = Vec3::Zero();                    ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
+    Vec3 pinImpulse = Vec3::Zero();                ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
     std::string_view failure;                      ///< reason the state is invalid; empty if valid
     Stage failedStage = Stage::GridToParticles;    ///< stage in which `failure` was found
 };

@@ -83,10 +83,10 @@ void visitSummary(V& v, Summary& s)
     v.number("logs/fabric_elements", "-", s.fabricElements);
     v.number("logs/fabric_mass", "g", s.fabricMass);
     v.number("logs/fabric_iterations", "-", s.fabricIterations);
-    v.number("logs/fabric_halvings", "-", s.fabricHalvings);
-    v.number("logs/fabric_shortened", "-", s.fabricShortened);
-    v.number("logs/least_taken_fraction", "-", s.leastTakenFraction);
-    v.number("logs/taken_back", "-", s.takenBack);
+    v.number("logs/fabric_substep_splits", "-", s.fabricSubstepSplits);
+    v.number("logs/fabric_truncated_substeps", "-", s.fabricTruncatedSubsteps);
+    v.number("logs/least_accepted_fraction", "-", s.leastAcceptedFraction);
+    v.number("logs/rejected_steps", "-", s.rejectedSteps);
     v.number("logs/largest_cfl", "-", s.largestCfl);
     v.number("logs/mass_error", "-", s.massError);
     v.number("logs/forces/time", "s", s.forces.time);
@@ -108,7 +108,7 @@ void visitLogs(V& v, Logs& logs)
     EnergyLedger::Summary ledger = logs.summary.energyLedger.value_or(EnergyLedger::Summary());
     v.number("logs/ledger/first", "erg", ledger.first);
     v.number("logs/ledger/largest_kinetic", "erg", ledger.largestKinetic);
-    v.number("logs/ledger/largest_unbooked", "erg", ledger.largestUnbooked);
+    v.number("logs/ledger/largest_residual", "erg", ledger.largestResidual);
     v.rows("logs/ledger/changes", "erg", 1, sim::kEnergyChanges, [&](std::size_t) { return &ledger.changes.of[0]; });
     if constexpr (V::kFills)
         if (logs.ledgerBytes > 0) logs.summary.energyLedger = ledger;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/checkpoint/hdf5_image.h"
+#include "sim/renamed.h"
 
 #include <string>
 #include <string_view>
@@ -51,6 +52,7 @@ class FieldWriter {
     Hdf5Writer& file_;
 };
 
+/// Takes fields by the names that they had before, too (sim/renamed.h).
 /// Throws std::runtime_error where a field is missing or has another size or type.
 class FieldReader {
  public:
@@ -60,23 +62,25 @@ class FieldReader {
     template <class T>
     void number(const std::string& name, std::string_view, T& x)
     {
-        file_.table(name, numberType<T>(), 1, 1, &x);
+        file_.table(nameIn(name), numberType<T>(), 1, 1, &x);
     }
     template <class T>
     void list(const std::string& name, std::string_view, std::vector<T>& v)
     {
         using Element = ElementOfList<T>;
-        v.resize(file_.size(name)[0]);
-        file_.table(name, numberType<typename Element::Number>(), v.size(), Element::kSize, v.data());
+        v.resize(file_.size(nameIn(name))[0]);
+        file_.table(nameIn(name), numberType<typename Element::Number>(), v.size(), Element::kSize, v.data());
     }
     template <class Row>
     void rows(const std::string& name, std::string_view, std::size_t count, std::size_t size, Row&& row)
     {
         using Number = std::remove_cvref_t<decltype(*row(0))>;
-        file_.table(name, numberType<Number>(), count, size, std::function<void*(std::size_t)>(row));
+        file_.table(nameIn(name), numberType<Number>(), count, size, std::function<void*(std::size_t)>(row));
     }
 
  private:
+    std::string nameIn(const std::string& name) const { return file_.has(name) ? name : sim::formerName(name); }
+
     const Hdf5Reader& file_;
 };
 

@@ -157,6 +157,13 @@ Hdf5Reader::Hdf5Reader(std::string_view image)
 
 Hdf5Reader::~Hdf5Reader() = default;
 
+bool Hdf5Reader::has(const std::string& name) const
+try {
+    return file_->file.nameExists(name);
+} catch (const H5::Exception&) {
+    return false;  // a group on its way is missing
+}
+
 std::array<std::size_t, 2> Hdf5Reader::size(const std::string& name) const
 {
     return withReason(name, [&] { return File::sizeOf(file_->file.openDataSet(name)); });

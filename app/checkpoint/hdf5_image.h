@@ -57,6 +57,7 @@ class Hdf5Reader {
     Hdf5Reader(const Hdf5Reader&) = delete;
     Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
+    bool has(const std::string& name) const;
     /// Rows and columns.
     std::array<std::size_t, 2> size(const std::string& name) const;
     /// Sizes and types must be those of the file.

@@ -1,4 +1,7 @@
 #include "app/command_line/verb_options.h"
+#include "sim/renamed.h"
+
+#include <spdlog/spdlog.h>
 
 namespace app {
 
@@ -26,6 +29,24 @@ CLI::App* addBenchPrecision(CLI::App& bench, Options& options)
     return verb;
 }
 
+/// Takes options of a verb by the names that they had before, too (sim/renamed.h), which the help does not show. Returns these.
+std::vector<CLI::Option*> takeOldNames(CLI::App& verb)
+{
+    std::vector<CLI::Option*> taken;
+    for (const sim::Renamed& row : sim::renamedOptions()) {
+        const std::string before(row.before), now(row.now);
+        CLI::Option* option = verb.get_option_no_throw(now);
+        if (!option) continue;
+        const auto handOn = [before, now, option](const std::string& value) {
+            spdlog::warn("{} is called {} now", before, now);
+            option->add_result(value);
+            option->run_callback();
+        };
+        taken.push_back(verb.add_option_function<std::string>(before, handOn)->group(""));
+    }
+    return taken;
+}
+
 }  // namespace
 
 void addValidate(CLI::App& program, Options& options)
@@ -49,8 +70,8 @@ void addStress(CLI::App& program, Options& options)
             ->delimiter(',')
             ->check(CLI::PositiveNumber),
         stress->add_flag("--largest-only", options.largestOnly, "of each method only the steps from the longest to the first stable one"),
-        stress->add_option("--knob", options.knob, "also turn stiffness, density, viscosity or cell"),
-        stress->add_option("--factors", options.knobFactors, "by these factors (default: 0.01,0.1,1,10,100)")
+        stress->add_option("--parameter", options.parameter, "also vary stiffness, density, viscosity or cell"),
+        stress->add_option("--factors", options.parameterFactors, "by these factors (default: 0.01,0.1,1,10,100)")
             ->delimiter(',')
             ->check(CLI::PositiveNumber),
         stress->add_option("--duration", options.duration, "simulated seconds of each run")->check(CLI::PositiveNumber),
@@ -59,6 +80,7 @@ void addStress(CLI::App& program, Options& options)
     stress->add_option("--set", options.sets, "override a key of the scenes: dotted.key=value")->take_all()->allow_extra_args(false);
     auto* random = stress->add_option("--random", options.randomScenes, "run so many random scenes instead")->check(CLI::Range(1, 1'000'000));
     for (CLI::Option* option : ofMaps) random->excludes(option);
+    for (CLI::Option* option : takeOldNames(*stress)) random->excludes(option);
     stress->add_option("--seed", options.seed, "of the random scenes")->needs(random);
     stress->add_option("--first", options.firstScene, "number of the first random scene")->check(CLI::Range(0, 1'000'000'000))->needs(random);
     stress->add_option("--limit", options.limitSeconds, "seconds after which a run is ended")->check(CLI::Range(1.0, 1.0e6));

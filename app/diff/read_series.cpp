@@ -2,6 +2,7 @@
 #include "app/system/atomic_files.h"
 #include "app/system/csv.h"
 #include "sim/core/check.h"
+#include "sim/renamed.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,7 +54,7 @@ void endRow(Series& series)
 void putNumbers(Series& series, const std::string& name, const OrderedJson& value)
 {
     if (value.is_number() || value.is_boolean()) {
-        put(series, name, value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
+        put(series, sim::currentName(name), value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>());
     } else if (value.is_array()) {
         for (std::size_t i = 0; i < value.size(); ++i) putNumbers(series, fmt::format("{}[{}]", name, i), value[i]);
     } else if (value.is_object()) {
@@ -92,7 +93,7 @@ Series readSeries(const std::filesystem::path& file)
         ++line;
         if (isCsv && line == 1) {
             names = csvCells(text);
-            for (const std::string& name : names) columnOf(series, name);
+            for (std::string& name : names) columnOf(series, name = sim::currentName(name));
         } else if (isCsv) {
             putCells(series, names, text, file, line);
         } else {

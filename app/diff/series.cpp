@@ -1,5 +1,7 @@
 #include "app/diff/series.h"
 
+#include "sim/renamed.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +66,8 @@ double distance(double x, double y)
 
 bool isIgnored(const std::string& column, const Tolerance& tolerance)
 {
-    return std::ranges::any_of(tolerance.ignore, [&](const std::string& name) {
+    return std::ranges::any_of(tolerance.ignore, [&](const std::string& ignored) {
+        const std::string name = sim::currentName(ignored);
         return column == name || column.starts_with(name + '/') || column.starts_with(name + '[');
     });
 }

@@ -25,6 +25,7 @@ struct Series {
 
 /// A table of numbers: .csv with names in its first line, or .jsonl with an object per line. Columns of objects are named like
 /// "energy/total", elements of lists like "force[0]". How long things took is left out.
+/// Columns that were called otherwise before (sim/renamed.h) have their names of now.
 /// Throws InputError "file:line: …" at what is no number.
 Series readSeries(const std::filesystem::path& file);
 

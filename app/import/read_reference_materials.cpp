@@ -122,10 +122,10 @@ LiquidInfo readLiquidInfo(const XmlElement& scene, bool countsThreads)
     out.surfaceTension = info.value("surfTensionCoeff", out.surfaceTension);
     out.contactAngle = info.value("restContactAngle", out.contactAngle);
     out.particleCellMultiplier = info.value("particleCellMultiplier", out.particleCellMultiplier);
-    out.keepAffine = info.value("flipCoeff", out.keepAffine);
-    out.keepStretch = info.value("elastoFlipCoeff", out.keepStretch);
-    out.keepRotation = info.value("elastoFlipAsymCoeff", out.keepRotation);
-    out.keepVelocity = info.value("elastoAdvectCoeff", out.keepVelocity);
+    out.affineKept = info.value("flipCoeff", out.affineKept);
+    out.stretchKept = info.value("elastoFlipCoeff", out.stretchKept);
+    out.rotationKept = info.value("elastoFlipAsymCoeff", out.rotationKept);
+    out.velocityKept = info.value("elastoAdvectCoeff", out.velocityKept);
     out.fluidModes = info.value("fluidScalarModes", out.fluidModes);
     out.solidModes = info.value("scalarModes", out.solidModes);
     out.correctionStep = std::max(1, info.value("correctionStep", out.correctionStep));

@@ -35,7 +35,7 @@ struct LiquidInfo {
     double fibreDiameter = 0.01, volumeFraction = 0.4;                                     ///< [cm], [-]
     std::string porousNote;                                                                ///< how the two came about, where that needs saying
     double particleCellMultiplier = 0.3535533906;                                          ///< pitch of the sampling in cells [-]
-    double keepAffine = 0.99, keepStretch = 0.95, keepRotation = 1.0, keepVelocity = 1.0;  ///< per step [-]
+    double affineKept = 0.99, stretchKept = 0.95, rotationKept = 1.0, velocityKept = 1.0;  ///< shares kept per step [-]
     int fluidModes = 1, solidModes = 1;
     double yazdchiPower = 1.6, captureRate = 1.0;  ///< [-]
     int correctionStep = 8;

@@ -32,12 +32,12 @@ void writeCoupling(const reference::LiquidInfo& l, bool vertexSolver, SceneLines
     out.from(l.line);
     out.add(0, fmt::format("porous: {{fibre_diameter: {}, volume_fraction: {}}}", formatPlain(l.fibreDiameter), formatPlain(l.volumeFraction)));
     out.add(0, fmt::format("coupling: {{drag: {}, drag_fraction: cell, drag_exponent: {}, pressure_on_fabric: {}, "
-                           "capture: {{law: published, compat_factor: {}}}, wicking: {{pressure: {}}}{}}}",
+                           "capture: {{law: published, published_rate_factor: {}}}, wicking: {{pressure: {}}}{}}}",
                            !l.drag           ? "off"
                            : l.nonlinearDrag ? "nonlinear"
                                              : "linear",
-                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric), formatPlain(sim::CaptureSettings().compatFactor * l.captureRate),
-                           yesOrNo(l.pressureInFabric), cohesion));
+                           formatPlain(l.yazdchiPower), yesOrNo(l.pressureOnFabric),
+                           formatPlain(sim::CaptureSettings().publishedRateFactor * l.captureRate), yesOrNo(l.pressureInFabric), cohesion));
 }
 
 void writeSolver(const ImportedScene& scene, SceneLines& out)

@@ -2,6 +2,7 @@
 #include "app/import/lattice_fit.h"
 
 #include "sim/scene/node.h"
+#include "sim/scene/old_keys.h"
 #include "sim/scene/units.h"
 #include "sim/settings.h"
 
@@ -59,12 +60,12 @@ void writeTransfer(const ImportedScene& scene, const char* method, SceneLines& o
     if (isPolyPic) out.add(1, "modes: " + modesText(scene));
     out.add(1, "xi: translation");
     const std::string fabric = scene.hasFabric() && !scene.vertexSolver
-                                   ? fmt::format(", fabric_stretch: {}, fabric_rotation: {}, fabric_velocity: {}", formatPlain(l.keepStretch),
-                                                 formatPlain(l.keepRotation), formatPlain(l.keepVelocity))
+                                   ? fmt::format(", fabric_stretch: {}, fabric_rotation: {}, fabric_velocity: {}", sim::lostText(l.stretchKept),
+                                                 sim::lostText(l.rotationKept), sim::lostText(l.velocityKept))
                                    : "";
-    out.add(1, fmt::format("keep: {{liquid_affine: {}{}}}", formatPlain(l.keepAffine), fabric));
-    out.add(1, fmt::format("keep_dt: {}", formatPlain(scene.reference.run.dt)));
-    if (isPolyPic) out.add(1, "damp_modes: false          # as published: keep acts on affine velocities only");
+    out.add(1, fmt::format("damping: {{liquid_affine: {}{}}}", sim::lostText(l.affineKept), fabric));
+    out.add(1, fmt::format("damping_dt: {}", formatPlain(scene.reference.run.dt)));
+    if (isPolyPic) out.add(1, "damp_modes: false          # as published: damping acts on affine velocities only");
 }
 
 void writeObstacles(const ImportedScene& scene, SceneLines& out)

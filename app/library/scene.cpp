@@ -101,7 +101,7 @@ void Scene::set(std::string_view key, std::string_view value)
 {
     convertErrors([&] {
         Node& root = parts_->file.root;
-        sim::apply(sim::parseOverride(fmt::format("{}={}", key, value), root.location.source->isSi), root);
+        sim::apply(sim::parseOverride(fmt::format("{}={}", key, value), root.location.source->isSi, &parts_->file.notes), root);
     });
 }
 

@@ -30,7 +30,7 @@ Step fromSim(const sim::StepReport& report)
             .pressureIterations = report.pressure.iterations,
             .pressureResidual = report.pressure.residual,
             .fabricIterations = report.fabric.newton,
-            .takenBack = report.takenBack,
+            .rejectedSteps = report.rejectedSteps,
             .seconds = report.seconds(),
             .liquidMass = report.liquidMass,
             .absorbedMass = report.absorbedMass,

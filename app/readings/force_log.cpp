@@ -108,11 +108,11 @@ Json forcesJson(const ForceNames& names, const sim::Forces& forces)
 Json balanceJson(const sim::Forces& forces)
 {
     const sim::MomentumBalance& balance = forces.balance;
-    Vec3 toSolids = Vec3::Zero();
-    for (const sim::Load& load : forces.obstacles) toSolids += load.sum().linear;
+    Vec3 onSolids = Vec3::Zero();
+    for (const sim::Load& load : forces.obstacles) onSolids += load.sum().linear;
     return {{"change", vectorJson(balance.change)},        {"weight", vectorJson(balance.weight)},
             {"entered", vectorJson(balance.entered)},      {"left", vectorJson(balance.left)},
-            {"to_solids", vectorJson(toSolids)},           {"borne", vectorJson(balance.borne)},
+            {"solid_impulse", vectorJson(onSolids)},       {"support_residual", vectorJson(balance.borne)},
             {"unresolved", vectorJson(balance.unresolved)}};
 }
 

@@ -18,7 +18,7 @@ namespace app {
 class SimulationHandle;
 
 /// A plane, or the disc of it within a radius, through which liquid goes.
-struct Hoop {
+struct ControlSurface {
     sim::Vec3 center = sim::Vec3::Zero();                     ///< [cm]
     sim::Vec3 normal = sim::Vec3::UnitY();                    ///< normal of length 1
     double radius = std::numeric_limits<double>::infinity();  ///< [cm]
@@ -31,7 +31,7 @@ struct Hoop {
 ///  * heights: surface_x(y, z), surface_y(x, z) and surface_z(x, y) (where the liquid ends on the line through a point, upwards along the axis
 ///    [cm]: the highest place where its density, smoothed over a cell, is half of the densest there; no value where there is no liquid);
 ///  * at a point: velocity_a(x, y, z) (mean of the liquid within a cell of it, no value where there is none), saturation_at(x, y, z) (of the
-///    vertex of fabric next to it); through hoops, in probes: flux("outlet") (liquid that goes through [g/s]);
+///    vertex of fabric next to it); through control surfaces, in probes: flux("outlet") (liquid that goes through [g/s]);
 ///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
 ///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
@@ -57,7 +57,7 @@ class Measures {
     }
     /// Looks at a simulation in the middle of an interval.
     void setSimulation(const SimulationHandle& simulation) { simulation_ = &simulation; }
-    void addHoop(const std::string& name, const Hoop& hoop) { hoops_[name] = hoop; }
+    void addControlSurface(const std::string& name, const ControlSurface& surface) { controlSurfaces_[name] = surface; }
     sim::FormulaNames::OfName flux();
     /// Readings of forces are means over the steps that were taken since.
     void startInterval() { interval_ = {}; }
@@ -87,7 +87,7 @@ class Measures {
     double surfaceAt(int axis, double b, double c) const;
     double velocityAt(int axis, const sim::Vec3& x) const;
     double saturationAt(const sim::Vec3& x) const;
-    double fluxThrough(const Hoop& hoop) const;
+    double fluxThrough(const ControlSurface& surface) const;
     double front(int axis, double where) const;
 
     sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;
@@ -96,7 +96,7 @@ class Measures {
     double density_;  ///< density of the liquid [g/cm^3]
     ForceNames forceNames_;
     ForceTotals interval_;
-    std::map<std::string, Hoop> hoops_;
+    std::map<std::string, ControlSurface> controlSurfaces_;
     const SimulationHandle* simulation_ = nullptr;
     std::optional<std::array<sim::Formula, sim::kAxes>> flow_;
 };

@@ -93,16 +93,16 @@ double Measures::saturationAt(const Vec3& x) const
 }
 
 /// Mass of liquid that goes through per time: of what is within a cell's length of the plane [g/s].
-double Measures::fluxThrough(const Hoop& hoop) const
+double Measures::fluxThrough(const ControlSurface& surface) const
 {
     const sim::LiquidParticles& all = liquid();
     const double dx = simulation_->state().grid.dx;
     double flux = 0.0;
     for (std::size_t p = 0; p < all.count; ++p) {
-        const Vec3 away = all.position(p) - hoop.center;
-        const double above = away.dot(hoop.normal);
-        if (std::abs(above) >= dx || (away - above * hoop.normal).norm() > hoop.radius) continue;
-        flux += all.mass[p] * all.velocity(p).dot(hoop.normal) * hat(above / dx) / dx;
+        const Vec3 away = all.position(p) - surface.center;
+        const double above = away.dot(surface.normal);
+        if (std::abs(above) >= dx || (away - above * surface.normal).norm() > surface.radius) continue;
+        flux += all.mass[p] * all.velocity(p).dot(surface.normal) * hat(above / dx) / dx;
     }
     return flux;
 }
@@ -121,9 +121,9 @@ void Measures::addPoints(Names& names)
 sim::FormulaNames::OfName Measures::flux()
 {
     return {"flux", [this](const std::string& name) {
-                const auto hoop = hoops_.find(name);
-                if (hoop == hoops_.end()) throw sim::FormulaError(fmt::format("there is no hoop \"{}\"", name));
-                return simulation_ ? fluxThrough(hoop->second) : 0.0;
+                const auto surface = controlSurfaces_.find(name);
+                if (surface == controlSurfaces_.end()) throw sim::FormulaError(fmt::format("there is no control surface \"{}\"", name));
+                return simulation_ ? fluxThrough(surface->second) : 0.0;
             }};
 }
 

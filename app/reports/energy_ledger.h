@@ -15,7 +15,7 @@ class EnergyLedger {
         double first = 0.0;            ///< energy at the start [erg]
         sim::EnergyChanges changes;    ///< since the start [erg]
         double largestKinetic = 0.0;   ///< largest kinetic energy of liquid and fabric [erg]
-        double largestUnbooked = 0.0;  ///< change of the energy that no part of the steps has booked [erg]
+        double largestResidual = 0.0;  ///< change of the energy that no part of the steps has booked [erg]
     };
 
     explicit EnergyLedger(const std::filesystem::path& file);

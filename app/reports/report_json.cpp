@@ -1,7 +1,9 @@
 #include "app/reports/report_json.h"
 
 #include "app/system/statistics.h"
+#include "sim/renamed.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -38,7 +40,15 @@ Json ledgerJson(const EnergyLedger::Summary& s)
     for (int i = 0; i < sim::kEnergyChanges; ++i) changes[std::string(sim::kEnergyChangeNames[i])] = s.changes.of[i];
     return {{"changes", changes},
             {"largest_kinetic", s.largestKinetic},
-            {"unbooked", s.largestKinetic > 0.0 ? s.largestUnbooked / s.largestKinetic : 0.0}};
+            {"residual", s.largestKinetic > 0.0 ? s.largestResidual / s.largestKinetic : 0.0}};
+}
+
+/// The value at a path with slashes between, under the name that it has now or had before.
+const nlohmann::json& valueAt(const nlohmann::json& json, const std::string& path)
+{
+    using Pointer = nlohmann::json::json_pointer;
+    const Pointer now(fmt::format("/{}", path));
+    return json.at(json.contains(now) ? now : Pointer(fmt::format("/{}", sim::formerName(path))));
 }
 
 }  // namespace
@@ -64,10 +74,10 @@ std::string reportText(const RunSummary& s)
                    {"elements", s.fabricElements},
                    {"mass", s.fabricMass},
                    {"iterations_mean", static_cast<double>(s.fabricIterations) / steps},
-                   {"halvings", s.fabricHalvings},
-                   {"shortened", s.fabricShortened},
-                   {"least_taken_fraction", s.leastTakenFraction}}},
-                 {"taken_back", s.takenBack},
+                   {"substep_splits", s.fabricSubstepSplits},
+                   {"truncated_substeps", s.fabricTruncatedSubsteps},
+                   {"least_accepted_fraction", s.leastAcceptedFraction}}},
+                 {"rejected_steps", s.rejectedSteps},
                  {"largest_cfl", s.largestCfl},
                  {"mass_error", s.massError},
                  {"state_hash", s.stateHash},
@@ -104,7 +114,7 @@ try {
     r.meanIterations = json.at("iterations").at("mean");
     r.maxIterations = json.at("iterations").at("max");
     for (int s = 0; s < sim::kStages; ++s) {
-        const auto& value = json.at("seconds_per_step").at("stages").at(std::string(sim::kStageNames[s]));
+        const auto& value = valueAt(json, "seconds_per_step/stages/" + std::string(sim::kStageNames[s]));
         if (!value.is_null()) r.stageSeconds[s] = value.get<double>();
     }
     return r;

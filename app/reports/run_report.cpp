@@ -123,10 +123,10 @@ void Reports::step(const SimulationHandle& simulation, const sim::StepReport& re
     summary_.totalIterations += report.pressure.iterations;
     summary_.maxIterations = std::max<std::int64_t>(summary_.maxIterations, report.pressure.iterations);
     summary_.fabricIterations += report.fabric.iterations;
-    summary_.fabricHalvings += report.fabric.halvings;
-    summary_.fabricShortened += report.fabric.shortened;
-    summary_.leastTakenFraction = std::min(summary_.leastTakenFraction, report.fabric.takenFraction);
-    summary_.takenBack += report.takenBack;
+    summary_.fabricSubstepSplits += report.fabric.substepSplits;
+    summary_.fabricTruncatedSubsteps += report.fabric.truncatedSubsteps;
+    summary_.leastAcceptedFraction = std::min(summary_.leastAcceptedFraction, report.fabric.acceptedFraction);
+    summary_.rejectedSteps += report.rejectedSteps;
     summary_.largestCfl = std::max(summary_.largestCfl, report.cfl);
     const double entered = state.ledger.emittedMass;
     if (entered > 0.0)

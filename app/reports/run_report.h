@@ -46,9 +46,9 @@ struct RunSummary {
     std::size_t fabricVertices = 0, fabricElements = 0;  ///< elements: edges of yarns and faces of cloth
     double fabricMass = 0.0;                             ///< dry [g]
     double cell = 0.0;                                   ///< [cm]
-    std::int64_t fabricIterations = 0, fabricHalvings = 0, fabricShortened = 0;
-    double leastTakenFraction = 1.0;  ///< least share of the moves that the fabric's Newton asked for, over the steps [-]
-    std::int64_t takenBack = 0;       ///< steps that turned out bad and were made again
+    std::int64_t fabricIterations = 0, fabricSubstepSplits = 0, fabricTruncatedSubsteps = 0;
+    double leastAcceptedFraction = 1.0;  ///< least share of the moves that the fabric's Newton asked for, over the steps [-]
+    std::int64_t rejectedSteps = 0;      ///< steps that turned out bad and were made again
     double largestCfl = 0.0;
     double massError = 0.0;  ///< (entered − left − there) / entered, largest over the steps [-]
     ForceNames forceNames;

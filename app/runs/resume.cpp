@@ -52,7 +52,8 @@ void requireSameScene(const LoadedScene& setup, const Checkpoint& checkpoint, co
 {
     if (trajectoryHash(setup) != checkpoint.origin.trajectory)
         throw sim::InputError(
-            fmt::format("--resume {}: its checkpoint is not of the scene in its resolved.yaml, or of another version of it; run the scene anew",
+            fmt::format("--resume {}: its checkpoint is not of the scene in its resolved.yaml, or of another version of it or of this program; run "
+                        "the scene anew",
                         folder.string()));
 }
 

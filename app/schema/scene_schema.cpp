@@ -112,7 +112,7 @@ SchemaJson probesSchema()
     SchemaJson schema = within(""), reading = within("readings: [{}]");
     addNamesOfFormulas(schema);
     reading["properties"]["along"].update(within("readings: [{read: 1, along: {}}]"));
-    schema["properties"]["hoops"].update(namedSchema(within("hoops: {a: {}}, readings: []")));
+    schema["properties"]["control_surfaces"].update(namedSchema(within("control_surfaces: {a: {}}, readings: []")));
     schema["properties"]["readings"].update(listSchema(reading, 1));
     return schema;
 }

@@ -82,7 +82,7 @@ StabilityResult mapOf(const std::string& scene, const Options& options, const Ba
     const double whole = setup.scene.settings.time.duration;
     const double wanted = options.duration > 0.0 ? options.duration : std::min(whole, options.quick ? kQuick : kFirstMoments);
     std::vector<StabilityMethod> methods = stabilityMethods(setup, options.methods);
-    if (!options.knob.empty()) methods = withParameter(methods, setup, options.knob, options.knobFactors);
+    if (!options.parameter.empty()) methods = withParameter(methods, setup, options.parameter, options.parameterFactors);
     const std::vector<double> steps = stepsOf(options);
     const StabilityMap map{.scene = file.string(),
                            .sets = options.sets,

@@ -30,7 +30,7 @@ Capture::Capture(const Fabric& fabric, const LiquidAround& around, const Setting
     for (int m : fabric.vertexMaterial) ratePerVertex_.push_back(rates[m]);
     wanted_.resize(fabric.vertexCount());
     got_.resize(fabric.vertexCount());
-    toPins_.resize(fabric.vertexCount());
+    pinImpulse_.resize(fabric.vertexCount());
 }
 
 double Capture::rateOf(const FabricMaterial& material, const Settings& settings)
@@ -38,7 +38,7 @@ double Capture::rateOf(const FabricMaterial& material, const Settings& settings)
     const CaptureSettings& capture = settings.coupling.capture;
     if (capture.law == CaptureLaw::Fabric) return capture.rate;
     const PorousLaw law({settings.porous.fibreDiameter, material.volumeFraction}, settings.liquid, settings.coupling);
-    return capture.compatFactor * law.captureRate(material.volumeFraction, settings.cell);
+    return capture.publishedRateFactor * law.captureRate(material.volumeFraction, settings.cell);
 }
 
 /// What a vertex would take of the liquid around it [g].
@@ -114,7 +114,7 @@ void Capture::deposit(std::size_t v, double mass, const Vec3& momentum, FabricSt
 {
     const double before = fabric_.mass[v] + state.absorbed[v];
     state.absorbed[v] += mass;
-    if (fabric_.pinned[v]) toPins_[v] += momentum - mass * state.v[v];
+    if (fabric_.pinned[v]) pinImpulse_[v] += momentum - mass * state.v[v];
     else state.v[v] = (before * state.v[v] + momentum) / (before + mass);
 }
 
@@ -197,7 +197,7 @@ double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& o
                         FabricState& state)
 {
     emptied_.clear();
-    std::ranges::fill(toPins_, Vec3::Zero());
+    std::ranges::fill(pinImpulse_, Vec3::Zero());
     if (!findUnsaturatedVertices(vertices, state)) return 0.0;
     computeDemand(dt, vertices);
     findShares(vertices);

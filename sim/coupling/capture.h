@@ -25,9 +25,9 @@ class Capture {
     double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
                    FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
-    Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
+    Vec3 pinImpulse() const { return std::accumulate(pinImpulse_.begin(), pinImpulse_.end(), Vec3::Zero().eval()); }
     /// What each pinned vertex got of the liquid's momentum in the last call [g cm/s].
-    std::span<const Vec3> toPinsByVertex() const { return toPins_; }
+    std::span<const Vec3> pinImpulseByVertex() const { return pinImpulse_; }
     /// Removes the particles that have given all they had; their numbers change.
     void removeEmptyParticles(LiquidParticles& liquid);
 
@@ -57,7 +57,7 @@ class Capture {
 
     // Of the step.
     std::vector<double> wanted_, got_;          ///< mass that each vertex asks for, and what it gets [g]
-    std::vector<Vec3> toPins_;                  ///< momentum that pins held back of each vertex [g cm/s]
+    std::vector<Vec3> pinImpulse_;              ///< momentum that pins held back of each vertex [g cm/s]
     BlockArray<double> asked_;                  ///< mass that all vertices ask of each cell of their blocks [g]
     BlockArray<double> share_;                  ///< share of the cell's liquid that vertices ask for [-]
     std::vector<std::uint8_t> hasUnsaturated_;  ///< whether each block of the vertices has vertices with room

@@ -20,14 +20,14 @@ class ExchangeWatch {
         before_ = measure();
 #endif
     }
-    /// @param toPins  [g cm/s]
-    void expectKept([[maybe_unused]] const Vec3& toPins) const
+    /// @param pinImpulse  [g cm/s]
+    void expectKept([[maybe_unused]] const Vec3& pinImpulse) const
     {
 #ifdef DRENCH_CHECKS
         constexpr double kRoundOff = 1.0e-12;
         const Sums after = measure();
         SIM_CHECK(std::abs(before_.water - after.water) <= kRoundOff * before_.water);
-        SIM_CHECK((before_.momentum - after.momentum - toPins).norm() <= kRoundOff * before_.momentumSize);
+        SIM_CHECK((before_.momentum - after.momentum - pinImpulse).norm() <= kRoundOff * before_.momentumSize);
 #endif
     }
 

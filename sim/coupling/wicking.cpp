@@ -70,7 +70,7 @@ Wicking::Wicking(const Fabric& fabric, const PorousElements& elements, const Set
     for (std::vector<double>* u : {&head_, &outflowLimiter_, &absorbed_}) u->resize(fabric.vertexCount());
     isWetElement_.resize(elements.size());
     isActive_.resize(fabric.vertexCount());
-    for (std::vector<Vec3>* u : {&acceleration_, &velocity_, &toPins_}) u->resize(fabric.vertexCount());
+    for (std::vector<Vec3>* u : {&acceleration_, &velocity_, &pinImpulse_}) u->resize(fabric.vertexCount());
     CouplingSettings inPores = settings.coupling;  // whatever liquid around the fabric feels, in its pores fibres hold it
     if (inPores.drag == DragLaw::Off) inPores.drag = CouplingSettings().drag;
     for (const FabricMaterial& m : fabric.materials) {
@@ -221,7 +221,7 @@ void Wicking::transport(double h, FabricState& state)
         }
         absorbed_[v] = std::max(mass, 0.0) + gained;
         if (!(gained > 0.0)) return;
-        if (fabric_.pinned[v]) toPins_[v] += momentum - gained * state.v[v];
+        if (fabric_.pinned[v]) pinImpulse_[v] += momentum - gained * state.v[v];
         else velocity_[v] = ((fabric_.mass[v] + std::max(mass, 0.0)) * state.v[v] + momentum) / (fabric_.mass[v] + absorbed_[v]);
     });
     state.absorbed.swap(absorbed_);
@@ -231,7 +231,7 @@ void Wicking::transport(double h, FabricState& state)
 void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
                    FabricState& state)
 {
-    std::ranges::fill(toPins_, Vec3::Zero());
+    std::ranges::fill(pinImpulse_, Vec3::Zero());
     if (!(settings_.rateScale > 0.0)) return;
     const int parts = substeps(dt);
     const double h = dt / parts;

@@ -22,9 +22,9 @@ class Wicking {
     void move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
               FabricState& state);
     /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
-    Vec3 toPins() const { return std::accumulate(toPins_.begin(), toPins_.end(), Vec3::Zero().eval()); }
+    Vec3 pinImpulse() const { return std::accumulate(pinImpulse_.begin(), pinImpulse_.end(), Vec3::Zero().eval()); }
     /// What each pinned vertex got of the liquid's momentum in the last call [g cm/s].
-    std::span<const Vec3> toPinsByVertex() const { return toPins_; }
+    std::span<const Vec3> pinImpulseByVertex() const { return pinImpulse_; }
     /// Is there liquid in the fabric?
     bool isWet(const FabricState& state) const;
     int substeps(double dt) const;
@@ -59,7 +59,7 @@ class Wicking {
     std::vector<Vec3> carried_;                ///< momentum of flow_ [g/cm^2]
     std::vector<double> absorbed_;             ///< mass of liquid at each vertex after the substep [g]
     std::vector<Vec3> velocity_;               ///< velocity of each vertex after the substep [cm/s]
-    std::vector<Vec3> toPins_;                 ///< momentum that pins held back of each vertex [g cm/s]
+    std::vector<Vec3> pinImpulse_;             ///< momentum that pins held back of each vertex [g cm/s]
 };
 
 }  // namespace sim

@@ -13,11 +13,11 @@ struct FabricReport {
     int newton = 0;                    ///< iterations, of all parts of the step
     int iterations = 0;                ///< iterations of the linear solves
     double speedError = 0.0;           ///< rms, left by the linear solves, the largest [cm/s]
-    double takenFraction = 1.0;        ///< of the moves that Newton asked for, mass-weighted, the smallest that was accepted [-]
-    int halvings = 0;                  ///< parts that were cut in two
-    int shortened = 0;                 ///< parts accepted although less than the whole move could be taken
-    int listBuilds = 0;                ///< of the list of candidates, full and partial
-    int scalings = 0;                  ///< moves that had to be scaled as a whole
+    double acceptedFraction = 1.0;     ///< of the moves that Newton asked for, mass-weighted, the smallest that was accepted [-]
+    int substepSplits = 0;             ///< parts that were cut in two
+    int truncatedSubsteps = 0;         ///< parts accepted although less than the whole move could be taken
+    int candidateListBuilds = 0;       ///< of the list of candidates, full and partial
+    int globalScalings = 0;            ///< moves that had to be scaled as a whole
     std::size_t candidates = 0;        ///< pairs that may touch, at the end
     std::size_t contacts = 0;          ///< pairs that do, at the last look
     std::size_t obstacleContacts = 0;  ///< vertices and edges that touch obstacles, at the last look

@@ -58,7 +58,7 @@ void visitFields(V& v, TimeSettings& t)
         w.number("duration", t.duration, Quantity::Time, Range::atLeast(0.0), "Simulated time from start to end");
         w.number("start", t.start, Quantity::Time, Range::any(), "Time of the initial state");
     });
-    v.choice("mode", t.mode, "How steps are chosen; adaptive: as cfl, and a bad step is taken back and made again half as long");
+    v.choice("mode", t.mode, "How steps are chosen; adaptive: as cfl, and a bad step is rejected and made again half as long");
     v.number("cfl", t.cfl, Quantity::None, Range::above(0.0), "Cells a particle may cross per step, modes cfl and adaptive");
     v.group("max_cfl", "Hard bounds on the cells crossed per step, in every mode", [&](auto& w) {
         w.number("liquid", t.maxCflLiquid, Quantity::None, Range::above(0.0), "Bound of the liquid");
@@ -83,16 +83,16 @@ void describeTransfer(V& v, TransferSettings& liquid, FabricTransferSettings& fa
     });
     v.perPhase("xi", liquid.xi, fabric.xi,
                [](auto& w, const char* key, XiMap& xi) { w.choice(key, xi, "How modes move with the particle, polypic only"); });
-    v.number("flip_ratio", liquid.flipRatio, Quantity::None, share, "FLIP share kept per keep_dt, flip only");
-    v.group("keep", "Factors kept per keep_dt; 1 = no damping", [&](auto& w) {
-        w.number("liquid_affine", liquid.keepAffine, Quantity::None, share, "On all modes of the liquid but the mean");
-        w.number("fabric_stretch", fabric.keepStretch, Quantity::None, share, "On the fabric's stretching rate");
-        w.number("fabric_rotation", fabric.keepRotation, Quantity::None, share, "On the fabric's rotation rate");
-        w.number("fabric_velocity", fabric.keepVelocity, Quantity::None, share, "On the fabric's velocity");
+    v.number("flip_ratio", liquid.flipRatio, Quantity::None, share, "FLIP share kept over damping_dt, flip only");
+    v.group("damping", "Shares lost over damping_dt; 0 = no damping", [&](auto& w) {
+        w.number("liquid_affine", liquid.affineDamping, Quantity::None, share, "Of all modes of the liquid but the mean");
+        w.number("fabric_stretch", fabric.stretchDamping, Quantity::None, share, "Of the fabric's stretching rate");
+        w.number("fabric_rotation", fabric.rotationDamping, Quantity::None, share, "Of the fabric's rotation rate");
+        w.number("fabric_velocity", fabric.velocityDamping, Quantity::None, share, "Of the fabric's velocity");
     });
-    v.numberOrWord("keep_dt", {liquid.keepDt, "step", liquid.keepPerStep}, Quantity::Time, Range::above(0.0),
-                   "The step that the factors refer to, or: step = taken per step as they are");
-    v.flag("damp_modes", liquid.dampModes, "keep acts on PolyPIC modes too");
+    v.numberOrWord("damping_dt", {liquid.dampingDt, "step", liquid.dampingPerStep}, Quantity::Time, Range::above(0.0),
+                   "Time step to which flip_ratio and damping refer; step: they hold per step, however long it is");
+    v.flag("damp_modes", liquid.dampModes, "damping acts on PolyPIC modes too");
     v.whenReading([&](auto&) {
         if (fabric.method == TransferMethod::Flip) fabric.method = TransferMethod::Apic;
         fabric.modes = std::min(fabric.modes, FabricTransferSettings::kMostModes);

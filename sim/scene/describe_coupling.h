@@ -34,12 +34,13 @@ void visitFields(V& v, CaptureSettings& c)
 {
     v.choice("law", c.law, "By the fabric's pores, or by the liquid in the cells around as published");
     v.number("rate", c.rate, Quantity::Frequency, Range::atLeast(0.0), "Part of its pores that fabric in liquid fills per time; 0 = it stays dry");
-    v.number("compat_factor", c.compatFactor, Quantity::None, Range::atLeast(0.0),
+    v.number("published_rate_factor", c.publishedRateFactor, Quantity::None, Range::atLeast(0.0),
              "Law published: factor on its rate; 3 as published, 1 physical, 0 = fabric stays dry");
     const bool isPublished = c.law == CaptureLaw::Published;
     v.require(!isPublished || c.rate == 0.0 || c.rate == CaptureSettings().rate, "rate",
-              "law published has a rate of its own, times compat_factor; leave rate out, or 0 for fabric that stays dry");
-    v.require(isPublished || c.compatFactor == CaptureSettings().compatFactor, "compat_factor", "is of law published only; law fabric goes by rate");
+              "law published has a rate of its own, times published_rate_factor; leave rate out, or 0 for fabric that stays dry");
+    v.require(isPublished || c.publishedRateFactor == CaptureSettings().publishedRateFactor, "published_rate_factor",
+              "is of law published only; law fabric goes by rate");
 }
 
 template <class V>

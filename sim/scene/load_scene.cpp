@@ -168,6 +168,7 @@ Scene readScene(const SceneFile& file)
 {
     Scene scene;
     scene.file = file.file;
+    scene.notes = file.notes;
     const Node& root = file.root;
     readSettings(root, scene.settings, scene.materials);
     readNames(root, file.file, scene);

@@ -1,5 +1,7 @@
 #include "sim/scene/overrides.h"
 
+#include "sim/scene/old_keys.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -98,7 +100,7 @@ void checkPath(const std::string& path, const SourceLocation& location)
     if (!isPath) fail(location, fmt::format("{} is no path of keys; write key.key, like transfer.method", inQuotes(path)));
 }
 
-Override parseOverride(const std::string& text, bool isSi)
+Override parseOverride(const std::string& text, bool isSi, std::vector<std::string>* notes)
 {
     auto source = std::make_shared<TextSource>();
     source->name = fmt::format("--set {}", text);
@@ -109,7 +111,11 @@ Override parseOverride(const std::string& text, bool isSi)
     if (equals == std::string::npos || equals == 0) fail(location, "an override reads key.key=value, like transfer.method=apic");
     Node value = parseYaml(text.substr(equals + 1), source);
     if (value.isNull()) fail(location, "no value after the = sign");
-    return {text.substr(0, equals), std::move(value)};
+    Node set = Node::map(location);
+    set.at(text.substr(0, equals), location) = std::move(value);
+    std::vector<std::string> unheard;
+    renameOldKeys(set, notes ? *notes : unheard);
+    return {set.keys.front(), std::move(set.items.front())};
 }
 
 void mergeOver(Node& base, const Node& over)

@@ -3,6 +3,7 @@
 #include "sim/scene/node.h"
 
 #include <string>
+#include <vector>
 
 namespace sim {
 
@@ -19,7 +20,8 @@ struct Override {
 void checkPath(const std::string& path, const SourceLocation& location);
 
 /// Reads "key.key=value"; the value is YAML on one line. Throws InputError naming the override.
-Override parseOverride(const std::string& text, bool isSi);
+/// @param notes  of keys that were called otherwise before (old_keys.h), if asked for
+Override parseOverride(const std::string& text, bool isSi, std::vector<std::string>* notes = nullptr);
 
 /// Lays `over` on top of `base`: maps are merged key by key, anything else is replaced.
 void mergeOver(Node& base, const Node& over);

@@ -1,5 +1,7 @@
 #include "sim/scene/scene_file.h"
 
+#include "sim/scene/old_keys.h"
+
 #include <fmt/format.h>
 
 #include <fstream>
@@ -57,6 +59,7 @@ class IncludeReader {
         checkVersion(root);
         source->isSi = takeUnits(root);
         expandShortForms(root);
+        renameOldKeys(root, notes_);
 
         const Node* include = root.find("include");
         if (!include) return root;
@@ -73,6 +76,8 @@ class IncludeReader {
         return merged;
     }
 
+    /// Of keys in them that were called otherwise before.
+    std::vector<std::string> takeNotes() { return std::move(notes_); }
     /// All that was read, in that order.
     std::vector<SceneText> takeTexts() { return std::move(texts_); }
 
@@ -120,6 +125,7 @@ class IncludeReader {
     ReadingBounds bounds_;
     std::vector<fs::path> open_;
     std::size_t included_ = 0;
+    std::vector<std::string> notes_;
     std::vector<SceneText> texts_;
 };
 
@@ -141,7 +147,7 @@ SceneFile finish(Node root, bool isSi, const fs::path& path, const LoadOptions& 
     scene.variants = readVariants(scene.root);
     scene.variant = options.variant;
     if (!options.variant.empty()) applyAll(findVariant(scene.variants, options.variant, scene.file).overrides, scene.root);
-    for (const std::string& text : options.set) applyAll({parseOverride(text, isSi)}, scene.root);
+    for (const std::string& text : options.set) applyAll({parseOverride(text, isSi, &scene.notes)}, scene.root);
     return scene;
 }
 
@@ -154,6 +160,8 @@ SceneFile sceneFileFromText(const std::string& text, const fs::path& name, const
     const bool isSi = root.location.source->isSi;
     SceneFile file = finish(std::move(root), isSi, name, options);
     file.texts = reader.takeTexts();
+    std::vector<std::string> ofFiles = reader.takeNotes();
+    file.notes.insert(file.notes.begin(), ofFiles.begin(), ofFiles.end());
     return file;
 }
 

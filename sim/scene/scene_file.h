@@ -23,11 +23,12 @@ struct SceneText {
 /// A scene file as one tree: includes merged, variant and overrides applied, nothing validated but syntax.
 /// sim::readScene and app's settings of pictures read it, each their sections.
 struct SceneFile {
-    std::string file;                    ///< as the user named it
-    Node root;                           ///< a map
-    std::vector<SceneVariant> variants;  ///< all of them, as written in the file
-    std::string variant;                 ///< the one applied; empty if none
-    std::vector<SceneText> texts;        ///< texts of the file, then of all that it includes
+    std::string file;                     ///< as the user named it
+    Node root;                            ///< a map
+    std::vector<SceneVariant> variants;   ///< all of them, as written in the file
+    std::string variant;                  ///< the one applied; empty if none
+    std::vector<std::string> notes = {};  ///< notes on keys that were called otherwise before
+    std::vector<SceneText> texts;         ///< texts of the file, then of all that it includes
 };
 
 /// Reads a scene file: includes first, then the variant, then the overrides. Throws InputError.

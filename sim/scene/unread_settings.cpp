@@ -26,7 +26,7 @@ void addFabricReaders(const Scene& scene, std::vector<Reader>& readers)
     const bool hasFabric = !scene.fabrics.empty(), isGrid = f.solver == FabricSolver::Grid, isVertex = f.solver == FabricSolver::Vertex;
     for (std::string_view section : {"fabric.", "porous.", "coupling."}) readers.push_back({section, hasFabric, "fabrics"});
     for (std::string_view path : {"time.max_cfl.fabric", "transfer.method.fabric", "transfer.modes.fabric", "transfer.xi.fabric",
-                                  "transfer.keep.fabric_", "materials.*.contact_stiffness", "materials.*.pin_stiffness"})
+                                  "transfer.damping.fabric_", "materials.*.contact_stiffness", "materials.*.pin_stiffness"})
         readers.push_back({path, hasFabric && isGrid, "fabric.solver grid"});
     for (std::string_view path : {"fabric.newton", "fabric.max_halvings", "fabric.integrator"})
         readers.push_back({path, isVertex, "fabric.solver vertex"});
@@ -34,7 +34,7 @@ void addFabricReaders(const Scene& scene, std::vector<Reader>& readers)
     readers.push_back({"fabric.hinge.", f.bending == BendingModel::Hinge, "fabric.bending hinge"});
     readers.push_back({"coupling.drag_exponent", c.drag != DragLaw::Linear, "coupling.drag nonlinear"});
     readers.push_back({"coupling.capillary_reaction", c.capillary, "coupling.capillary true"});
-    readers.push_back({"coupling.capture.compat_factor", c.capture.rate > 0.0, "a coupling.capture.rate above 0"});
+    readers.push_back({"coupling.capture.published_rate_factor", c.capture.rate > 0.0, "a coupling.capture.rate above 0"});
     readers.push_back({"coupling.wicking.pressure", c.wicking.rateScale > 0.0, "a coupling.wicking.rate_scale above 0"});
     for (std::string_view path : {"coupling.cohesion.fabric", "coupling.cohesion.obstacle"})
         readers.push_back({path, c.cohesion.strength > 0.0, "a coupling.cohesion.strength above 0"});
@@ -48,7 +48,7 @@ void addLiquidReaders(const Scene& scene, std::vector<Reader>& readers)
     readers.push_back({"time.cfl", scene.settings.time.mode != TimeMode::Fixed, "time.mode cfl and adaptive"});
     readers.push_back({"transfer.modes.liquid", isPolyPic, "transfer.method polypic"});
     readers.push_back({"transfer.xi.liquid", !isPic, "transfer.method apic and polypic"});
-    readers.push_back({"transfer.keep.liquid_affine", !isPic, "transfer.method apic and polypic"});
+    readers.push_back({"transfer.damping.liquid_affine", !isPic, "transfer.method apic and polypic"});
     readers.push_back({"transfer.damp_modes", isPolyPic || scene.settings.fabric.solver == FabricSolver::Grid, "transfer.method polypic"});
     readers.push_back({"transfer.flip_ratio", t.method == TransferMethod::Flip, "transfer.method flip"});
     readers.push_back({"liquid.viscosity_substeps", l.solveViscosity, "liquid.solve_viscosity true"});

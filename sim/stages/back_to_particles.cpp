@@ -11,14 +11,14 @@ namespace sim {
 
 namespace {
 
-/// A factor that is given per keepDt, for one step of dt.
-double factorOver(double dt, double factor, const TransferSettings& transfer)
+/// What is kept over one step of dt [s] of which a share is kept over dampingDt [-].
+double keptOver(double dt, double share, const TransferSettings& transfer)
 {
-    return transfer.keepPerStep ? factor : std::pow(factor, dt / transfer.keepDt);
+    return transfer.dampingPerStep ? share : std::pow(share, dt / transfer.dampingDt);
 }
 
 /// Share of their own velocities that particles keep [-].
-double flipRatio(const StepContext& c) { return c.isFlip() ? factorOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0; }
+double flipRatio(const StepContext& c) { return c.isFlip() ? keptOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0; }
 
 /// May what holds liquid move?
 bool isFrameMoving(const StepContext& c) { return c.plan.isMixed() || c.work.obstacles.anyMoving(); }
@@ -34,7 +34,7 @@ GatherSettings gatherSettings(const StepContext& c)
     settings.dt = c.dt;
     settings.modes = transfer.modeCount();
     const bool damps = transfer.method == TransferMethod::Apic || (transfer.method == TransferMethod::PolyPic && transfer.dampModes);
-    settings.keep = damps ? factorOver(c.dt, transfer.keepAffine, transfer) : 1.0;
+    settings.keep = damps ? keptOver(c.dt, 1.0 - transfer.affineDamping, transfer) : 1.0;
     if (c.isFlip()) {
         settings.flipRatio = flipRatio(c);
         settings.flipVelocity = &work.grid.advected;

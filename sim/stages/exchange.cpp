@@ -35,8 +35,8 @@ void capture(StepContext& c)
     coupling.twist.store(coupling.fabric, state.fabric);
     c.report.capturedMass = coupling.capture.capture(c.dt, state.grid, c.work.order, coupling.vertices, state.liquid, state.fabric);
     coupling.twist.restore(coupling.fabric, state.fabric);
-    watch.expectKept(coupling.capture.toPins());
-    c.work.momentum.exchanged(state, coupling.capture.toPinsByVertex());
+    watch.expectKept(coupling.capture.pinImpulse());
+    c.work.momentum.exchanged(state, coupling.capture.pinImpulseByVertex());
     c.energy.taken(EnergyChange::Capture);
 }
 
@@ -57,9 +57,9 @@ void wick(StepContext& c)
     {
         const ExchangeWatch watch(coupling.fabric, state, nullptr);
         coupling.wicking.move(c.dt, c.gravityOnFabric(), state.grid, state.pressure, coupling.velocityBefore, state.fabric);
-        watch.expectKept(coupling.wicking.toPins());
+        watch.expectKept(coupling.wicking.pinImpulse());
     }
-    c.work.momentum.exchanged(state, coupling.wicking.toPinsByVertex());
+    c.work.momentum.exchanged(state, coupling.wicking.pinImpulseByVertex());
     c.energy.taken(EnergyChange::Wicking);
 }
 

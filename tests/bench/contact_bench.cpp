@@ -122,9 +122,9 @@ void sheet(benchmark::State& state, bool hit)
         state.counters["cpu_ms"] = 1.0e3 * cpu / steps;
         state.counters["search_ms"] = scale * times.stageSeconds[static_cast<int>(Stage::FabricCandidates)];
         state.counters["contact_ms"] = scale * times.stageSeconds[static_cast<int>(Stage::FabricContact)];
-        state.counters["builds"] = static_cast<double>(report.listBuilds) / kSteps;
+        state.counters["builds"] = static_cast<double>(report.candidateListBuilds) / kSteps;
         state.counters["blends"] = static_cast<double>(report.blends) / kSteps;
-        state.counters["scalings"] = report.scalings;
+        state.counters["global_scalings"] = report.globalScalings;
         state.counters["candidates"] = candidates / steps;
         state.counters["active"] = active / steps;
         state.counters["least"] = least;

@@ -20,8 +20,9 @@ void print(const Scene& scene, double dt, double factor, double time, test::Watc
     std::ranges::sort(seen.milliseconds);
     const bool isVertex = scene.settings.fabric.solver == FabricSolver::Vertex;
     std::printf("%s,%s,%g,%g,%g,%zu,%s,%d,%d,%d,%.3g,%.3f,%d,%d,%.1f,%.1f\n", scene.name.c_str(), isVertex ? "vertex" : "grid", dt, factor, time,
-                seen.milliseconds.size(), seen.isFinite ? "yes" : "no", seen.flipped, seen.undecided, seen.pierced, seen.spare, seen.leastShare,
-                seen.halvings, seen.shortened, seen.milliseconds[seen.milliseconds.size() / 2], seen.milliseconds.back());
+                seen.milliseconds.size(), seen.isFinite ? "yes" : "no", seen.flipped, seen.undecided, seen.pierced, seen.spare,
+                seen.leastAcceptedFraction, seen.substepSplits, seen.truncatedSubsteps, seen.milliseconds[seen.milliseconds.size() / 2],
+                seen.milliseconds.back());
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ int main(int argc, char** argv)
     if (argc < 5) {
         std::puts(
             "scene,solver,dt_s,young_factor,simulated_s,steps,finite,flipped,undecided,pierced,spare_cm,"
-            "least_share_taken,halvings,shortened,median_ms,max_ms");
+            "least_accepted_fraction,substep_splits,truncated_substeps,median_ms,max_ms");
         return argc == 1 ? 0 : 2;
     }
     const double duration = std::atof(argv[2]), dt = std::atof(argv[3]), factor = std::atof(argv[4]);

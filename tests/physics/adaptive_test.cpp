@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-// Steps that turn out bad are taken back and made again half as long: time.mode adaptive.
+// Steps that turn out bad are rejected and made again half as long: time.mode adaptive.
 
 namespace sim::test {
 namespace {
@@ -51,26 +51,26 @@ Scene columnJetAndCloth(FabricSolver solver)
 }
 
 struct Retry {
-    int takenBack = 0;
+    int rejectedSteps = 0;
     double dt = 0.0;
     std::uint64_t after = 0, fromBefore = 0;
 };
 
-/// The first step that was taken back, and the same step from the state before, in another program as it were.
+/// The first step that was rejected, and the same step from the state before, in another program as it were.
 Retry firstRetry(const Scene& scene)
 {
     Simulation simulation(scene);
     while (simulation.state().time < 0.1) {
         const State before = simulation.state();
         const StepReport report = simulation.step(0.1);
-        if (report.takenBack == 0) continue;
+        if (report.rejectedSteps == 0) continue;
         Scene calm = scene;
         calm.settings.time.mode = TimeMode::Fixed;
         calm.settings.time.dt = report.dt;
         calm.settings.time.maxCflLiquid = 1.0e9;
         Simulation other(calm, before);
         other.step(0.1);
-        return {report.takenBack, report.dt, stateHash(simulation.state()), stateHash(other.state())};
+        return {report.rejectedSteps, report.dt, stateHash(simulation.state()), stateHash(other.state())};
     }
     return {};
 }
@@ -84,7 +84,7 @@ TEST(Adaptive, ARetriedStepBeginsFromTheStateBefore)
     scenes.emplace_back("grid", columnJetAndCloth(FabricSolver::Grid));
     for (const auto& [name, scene] : scenes) {
         const Retry retry = firstRetry(scene);
-        EXPECT_GE(retry.takenBack, 1) << name;
+        EXPECT_GE(retry.rejectedSteps, 1) << name;
         EXPECT_EQ(retry.after, retry.fromBefore) << name;
     }
 }
@@ -94,9 +94,9 @@ TEST(Adaptive, SameBitsOnAnyNumberOfThreads)
     const auto run = [](int threads) {
         return onThreads(threads, [] {
             Simulation simulation(columnJetAndCloth(FabricSolver::Vertex));
-            int takenBack = 0;
-            while (simulation.state().time < 0.04) takenBack += simulation.step(0.04).takenBack;
-            return std::pair(takenBack, stateHash(simulation.state()));
+            int rejectedSteps = 0;
+            while (simulation.state().time < 0.04) rejectedSteps += simulation.step(0.04).rejectedSteps;
+            return std::pair(rejectedSteps, stateHash(simulation.state()));
         });
     };
     const auto one = run(1);
@@ -112,9 +112,9 @@ TEST(Adaptive, IsModeCflWhereNothingIsBad)
         Scene scene = coarseDamBreak(kPoly8);
         scene.settings.time.mode = mode;
         Simulation simulation(scene);
-        int takenBack = 0;
-        while (simulation.state().time < 0.3) takenBack += simulation.step(0.3).takenBack;
-        EXPECT_EQ(takenBack, 0);
+        int rejectedSteps = 0;
+        while (simulation.state().time < 0.3) rejectedSteps += simulation.step(0.3).rejectedSteps;
+        EXPECT_EQ(rejectedSteps, 0);
         return stateHash(simulation.state());
     };
     EXPECT_EQ(run(TimeMode::Adaptive), run(TimeMode::Cfl));
@@ -130,14 +130,14 @@ TEST(Adaptive, StepsGrowAgain)
     scene.domain = Shape::box({12.0, 8.0, 4.0}, {12.0, 8.0, 4.0});
     Simulation simulation(scene);
     double shortest = 1.0, last = 0.0;
-    int takenBack = 0;
+    int rejectedSteps = 0;
     while (simulation.state().time < 0.2) {
         const StepReport report = simulation.step(1.0);
-        takenBack += report.takenBack;
+        rejectedSteps += report.rejectedSteps;
         shortest = std::min(shortest, report.dt);
         last = report.dt;
     }
-    EXPECT_GE(takenBack, 1);
+    EXPECT_GE(rejectedSteps, 1);
     EXPECT_LT(shortest, 3.0e-3);
     EXPECT_NEAR(last, 5.0e-3, 1.0e-4);
 }
@@ -170,15 +170,15 @@ TEST(Adaptive, TellsHowOftenAndWhatItCost)
     Simulation simulation(columnAndJet(kPoly8));
     while (simulation.state().time < 0.1) {
         const StepReport report = simulation.step(0.1);
-        EXPECT_TRUE(report.stageRan[static_cast<int>(Stage::Keep)]);
-        EXPECT_EQ(report.stageRan[static_cast<int>(Stage::TakenBack)], report.takenBack > 0);
+        EXPECT_TRUE(report.stageRan[static_cast<int>(Stage::Backup)]);
+        EXPECT_EQ(report.stageRan[static_cast<int>(Stage::Rejected)], report.rejectedSteps > 0);
     }
     Scene fixed = columnAndJet(kPoly8, 10.0);
     fixed.settings.time.mode = TimeMode::Fixed;
-    EXPECT_FALSE(Simulation(fixed).step(1.0).stageRan[static_cast<int>(Stage::Keep)]);
+    EXPECT_FALSE(Simulation(fixed).step(1.0).stageRan[static_cast<int>(Stage::Backup)]);
 }
 
-/// How long steps may be after one was taken back is part of the state: a run that is gone on with starts with no longer ones.
+/// How long steps may be after one was rejected is part of the state: a run that is gone on with starts with no longer ones.
 TEST(Adaptive, IsResumedWithStepsAsLongAsTheyMayBe)
 {
     const Scene scene = coarseDamBreak(kPoly8);

@@ -99,7 +99,7 @@ TEST(Weave, NoYarnPassesAnotherWhenABallStrikes)
     FabricRun run(piece, settings, {ball(Vec3(middle, radius + 0.3, middle), radius, strike)});
     Crossings crossings(run.fabric, Vec3::UnitY());
     ASSERT_EQ(crossings.size(), 18u * 18u);
-    int undecided = 0, halvings = 0, scalings = 0, shortened = 0;
+    int undecided = 0, splits = 0, globalScalings = 0, truncated = 0;
     double spare = 1.0, nearest = 1.0, fastest = 0.0, deepest = -1.0;
     for (int i = 0; i < 40; ++i) {
         const FabricReport report = run.step(1.0e-3);
@@ -108,13 +108,13 @@ TEST(Weave, NoYarnPassesAnotherWhenABallStrikes)
         EXPECT_EQ(count.flipped, 0) << "step " << i;
         EXPECT_GE(near.spare, 0.0) << "step " << i;
         undecided = std::max(undecided, count.undecided);
-        halvings += report.halvings, scalings += report.scalings, shortened += report.shortened;
+        splits += report.substepSplits, globalScalings += report.globalScalings, truncated += report.truncatedSubsteps;
         spare = std::min(spare, near.spare), nearest = std::min(nearest, near.relative), fastest = std::max(fastest, run.fastest());
         deepest = std::max(deepest, run.solver.deepestInObstacles(run.state));
     }
     EXPECT_GT(fastest, 250.0);  // it was struck
-    RecordProperty("weave", "undecided " + std::to_string(undecided) + " halvings " + std::to_string(halvings) + " scalings " +
-                                std::to_string(scalings) + " shortened " + std::to_string(shortened) + " spare " + std::to_string(spare) +
+    RecordProperty("weave", "undecided " + std::to_string(undecided) + " splits " + std::to_string(splits) + " scalings " +
+                                std::to_string(globalScalings) + " truncated " + std::to_string(truncated) + " spare " + std::to_string(spare) +
                                 " nearest " + std::to_string(nearest) + " deepest " + std::to_string(deepest));
 }
 

@@ -217,9 +217,9 @@ TEST(FabricWork, SolidsThatMoveElsewhereChangeNothing)
     settings.maxHalvings = 4;
     const auto endOf = [&](std::vector<ObstacleSettings> solids) {
         FabricRun run(pieces, settings, std::move(solids));
-        int halvings = 0;
-        for (int i = 0; i < 40; ++i) halvings += run.step(2.0e-3).halvings;
-        EXPECT_GT(halvings, 0);
+        int splits = 0;
+        for (int i = 0; i < 40; ++i) splits += run.step(2.0e-3).substepSplits;
+        EXPECT_GT(splits, 0);
         return run.state;
     };
     ObstacleSettings ball;

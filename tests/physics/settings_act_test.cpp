@@ -58,7 +58,7 @@ struct Ground {
 };
 
 const std::string kGridSolver = "fabric.solver=grid";
-const std::string kDamped = "transfer.keep.liquid_affine=0.5";
+const std::string kDamped = "transfer.damping.liquid_affine=0.5";
 
 const std::map<std::string, Ground> kGrounds = {
     {"time.dt", {kPool, {}, "5.0e-4"}},
@@ -77,13 +77,13 @@ const std::map<std::string, Ground> kGrounds = {
     {"transfer.xi.liquid", {kPool, {}, "affine"}},
     {"transfer.xi.fabric", {kWet, {kGridSolver}, "affine"}},
     {"transfer.flip_ratio", {kPool, {"transfer.method.liquid=flip"}, "0.5"}},
-    {"transfer.keep.liquid_affine", {kPool, {}, "0.5"}},
-    {"transfer.keep.fabric_stretch", {kWet, {kGridSolver}, "0.5"}},
-    {"transfer.keep.fabric_rotation", {kWet, {kGridSolver}, "0.5"}},
-    {"transfer.keep.fabric_velocity", {kWet, {kGridSolver}, "0.5"}},
-    {"transfer.keep_dt", {kPool, {kDamped}, "step"}},
+    {"transfer.damping.liquid_affine", {kPool, {}, "0.5"}},
+    {"transfer.damping.fabric_stretch", {kWet, {kGridSolver}, "0.5"}},
+    {"transfer.damping.fabric_rotation", {kWet, {kGridSolver}, "0.5"}},
+    {"transfer.damping.fabric_velocity", {kWet, {kGridSolver}, "0.5"}},
+    {"transfer.damping_dt", {kPool, {kDamped}, "step"}},
     {"transfer.damp_modes", {kPool, {kDamped}}},
-    {"coupling.capture.compat_factor", {kWet, {"coupling.capture.law=published"}, "1"}},
+    {"coupling.capture.published_rate_factor", {kWet, {"coupling.capture.law=published"}, "1"}},
     {"coupling.wicking.rate_scale", {kWet, {}, "0.5"}},
     {"coupling.cohesion.strength", {kWet, {}, "0.01"}},
     {"coupling.cohesion.fabric", {kWet, {"coupling.cohesion.strength=0.01"}}},

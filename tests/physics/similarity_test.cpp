@@ -69,7 +69,7 @@ Scene splashScene(const Units& unit, FabricSolver solver)
     liquid.surfaceTensionForce = true;
     liquid.volume.rate /= unit.time;
     scene.settings.coupling.capture.rate /= unit.time;
-    scene.settings.transfer.keepDt *= unit.time;
+    scene.settings.transfer.dampingDt *= unit.time;
     scene.settings.porous.fibreDiameter *= L;
     SourceSettings drop;
     drop.name = "drop";

@@ -20,9 +20,9 @@ class WatchedRun {
         int pierced = 0;                                           ///< faces of cloth
         double spare = std::numeric_limits<double>::infinity();    ///< Crossings::Nearness, the least [cm]
         double nearest = std::numeric_limits<double>::infinity();  ///< of d / (r_A + r_B)
-        int halvings = 0, shortened = 0;
-        double leastShare = 1.0;           ///< of its way that a vertex was let go
-        std::vector<double> milliseconds;  ///< of every step
+        int substepSplits = 0, truncatedSubsteps = 0;
+        double leastAcceptedFraction = 1.0;  ///< of its way that a vertex was let go
+        std::vector<double> milliseconds;    ///< of every step
     };
 
     /// @param up  across the fabric at rest, for yarns
@@ -51,9 +51,9 @@ class WatchedRun {
             const StepReport report = simulation_.step(until);
             const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
             seen_.milliseconds.push_back(took.count());
-            seen_.halvings += report.fabric.halvings;
-            seen_.shortened += report.fabric.shortened;
-            seen_.leastShare = std::min(seen_.leastShare, report.fabric.takenFraction);
+            seen_.substepSplits += report.fabric.substepSplits;
+            seen_.truncatedSubsteps += report.fabric.truncatedSubsteps;
+            seen_.leastAcceptedFraction = std::min(seen_.leastAcceptedFraction, report.fabric.acceptedFraction);
         }
     }
 

@@ -1,6 +1,7 @@
 #include "app/lab/random/random_scene.h"
 
 #include "app/lab/random/random_bodies.h"
+#include "sim/scene/old_keys.h"
 
 #include <fmt/format.h>
 
@@ -51,9 +52,10 @@ std::string randomTransfer(RandomSource& random)
     std::string text = fmt::format("transfer: {{method: {}, modes: {}, xi: {}", method, modes, xi);
     if (random.chance(0.3)) text += fmt::format(", flip_ratio: {:.3g}", random.between(0.0, 1.0));
     if (random.chance(0.3)) {
+        const auto lost = [](double kept) { return sim::lostText(std::stod(fmt::format("{:.4g}", kept))); };
         const double affine = random.between(0.9, 1.0), stretch = random.between(0.0, 1.0), rotation = random.between(0.9, 1.0);
-        text += fmt::format(", keep: {{liquid_affine: {:.4g}, fabric_stretch: {:.4g}, fabric_rotation: {:.4g}}}, keep_dt: {}", affine, stretch,
-                            rotation, random.oneOf({"step", "2.0e-4"}));
+        text += fmt::format(", damping: {{liquid_affine: {}, fabric_stretch: {}, fabric_rotation: {}}}, damping_dt: {}", lost(affine), lost(stretch),
+                            lost(rotation), random.oneOf({"step", "2.0e-4"}));
     }
     return text + "}\n";
 }
@@ -116,7 +118,7 @@ std::string randomCoupling(RandomSource& random)
     const double factor = random.chance(0.3) ? 0.0 : random.acrossScales(0.1, 10.0);
     const bool isPublished = random.chance(0.3);
     text += fmt::format("  drag_fraction: {}\n", isPublished ? "cell" : "fabric");
-    text += isPublished ? fmt::format("  capture: {{law: published, compat_factor: {:.3g}}}\n", factor)
+    text += isPublished ? fmt::format("  capture: {{law: published, published_rate_factor: {:.3g}}}\n", factor)
                         : fmt::format("  capture: {{rate: {:.3g}}}\n", 25.0 * factor);
     text += fmt::format("  wicking: {{rate_scale: {:.3g}}}\n", random.chance(0.2) ? 0.0 : random.acrossScales(0.1, 10.0));
     text += fmt::format("  drip: {}\n", random.chance(0.7));

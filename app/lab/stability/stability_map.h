@@ -47,7 +47,7 @@ std::vector<StabilityMethod> stabilityMethods(const LoadedScene& setup, const st
 
 /// Methods with one number of the scene made larger or smaller by factors: stiffness, density, viscosity or cell. Throws
 /// InputError for another one.
-std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const LoadedScene& setup, const std::string& knob,
+std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const LoadedScene& setup, const std::string& parameter,
                                            const std::vector<double>& factors);
 
 /// Judge a run by how it ended and its logs in the folder.

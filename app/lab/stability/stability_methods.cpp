@@ -33,17 +33,17 @@ void requireMethod(const std::string& name)
     if (std::ranges::find(known, name) == known.end()) throw sim::InputError(fmt::format("--method {}: there are {}", name, fmt::join(known, ", ")));
 }
 
-std::vector<std::string> parameterOverrides(const LoadedScene& setup, const std::string& knob, double factor)
+std::vector<std::string> parameterOverrides(const LoadedScene& setup, const std::string& parameter, double factor)
 {
     const sim::LiquidSettings& liquid = setup.scene.settings.liquid;
-    if (knob == "density") return {fmt::format("liquid.density={:.6g}", factor * liquid.density)};
-    if (knob == "cell") return {fmt::format("grid.cell={:.6g}", factor * setup.scene.settings.cell)};
-    if (knob == "viscosity") return {fmt::format("liquid.viscosity={:.6g}", factor * liquid.viscosity), "liquid.solve_viscosity=true"};
-    if (knob != "stiffness") throw sim::InputError(fmt::format("--knob {}: there are stiffness, density, viscosity, cell", knob));
+    if (parameter == "density") return {fmt::format("liquid.density={:.6g}", factor * liquid.density)};
+    if (parameter == "cell") return {fmt::format("grid.cell={:.6g}", factor * setup.scene.settings.cell)};
+    if (parameter == "viscosity") return {fmt::format("liquid.viscosity={:.6g}", factor * liquid.viscosity), "liquid.solve_viscosity=true"};
+    if (parameter != "stiffness") throw sim::InputError(fmt::format("--parameter {}: there are stiffness, density, viscosity, cell", parameter));
     std::vector<std::string> sets;
     for (const sim::NamedMaterial& material : setup.scene.materials)
         sets.push_back(fmt::format("materials.{}.young={:.6g}", material.name, factor * material.material.young));
-    if (sets.empty()) throw sim::InputError(fmt::format("--knob stiffness: {} has no materials", setup.scene.name));
+    if (sets.empty()) throw sim::InputError(fmt::format("--parameter stiffness: {} has no materials", setup.scene.name));
     return sets;
 }
 
@@ -65,15 +65,15 @@ std::vector<StabilityMethod> stabilityMethods(const LoadedScene& setup, const st
     return methods;
 }
 
-std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const LoadedScene& setup, const std::string& knob,
+std::vector<StabilityMethod> withParameter(const std::vector<StabilityMethod>& methods, const LoadedScene& setup, const std::string& parameter,
                                            const std::vector<double>& factors)
 {
     std::vector<StabilityMethod> all;
     for (const StabilityMethod& method : methods) {
         for (const double factor : factors) {
             StabilityMethod& turned = all.emplace_back(method);
-            turned.name += fmt::format(" {}*{:g}", knob, factor);
-            std::ranges::copy(parameterOverrides(setup, knob, factor), std::back_inserter(turned.sets));
+            turned.name += fmt::format(" {}*{:g}", parameter, factor);
+            std::ranges::copy(parameterOverrides(setup, parameter, factor), std::back_inserter(turned.sets));
         }
     }
     return all;

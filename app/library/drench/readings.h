@@ -58,7 +58,7 @@ struct Step {
     int pressureIterations = 0;     ///< iterations of the solve for the pressure
     double pressureResidual = 0.0;  ///< largest, relative to the largest divergence [-]
     int fabricIterations = 0;       ///< iterations of Newton's method
-    int takenBack = 0;              ///< longer attempts at it that turned out bad
+    int rejectedSteps = 0;          ///< longer attempts at it that turned out bad
     double seconds = 0.0;           ///< time that it took on the clock
     double liquidMass = 0.0;        ///< mass of all particles at its end [g]
     double absorbedMass = 0.0;      ///< mass of liquid in fabric at its end [g]

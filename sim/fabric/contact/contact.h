@@ -79,9 +79,9 @@ struct ActiveContacts {
 
 /// What limiting the moves of one step took.
 struct LimitReport {
-    int listBuilds = 0;  ///< full and partial ones of the candidate list
-    int blends = 0;      ///< pairs whose motion was blended towards their mean
-    int scalings = 0;    ///< moves that had to be scaled as a whole: the last resort
+    int candidateListBuilds = 0;  ///< full and partial ones of the candidate list
+    int blends = 0;               ///< pairs whose motion was blended towards their mean
+    int globalScalings = 0;       ///< moves that had to be scaled as a whole: the last resort
 };
 
 /// Fabric against fabric with true thickness, (fabric/contact/README.md, Pairs): every pair has an offset of its own, taken from the rest

@@ -48,7 +48,7 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
         if (round + 1 < kBlendRounds) report.blends += averageFailingPairs(u);
     }
     parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSafeShare * fraction; });
-    ++report.scalings;
+    ++report.globalScalings;
     return true;
 }
 
@@ -56,7 +56,7 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
 void Limiter::cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     clock.start(Stage::FabricCandidates);
-    report.listBuilds += list.coverMoves(x, u);
+    report.candidateListBuilds += list.coverMoves(x, u);
     if (list.empty()) return;
     clock.start(Stage::FabricContact);
     list.measure(x);

@@ -11,8 +11,8 @@ namespace sim {
 
 FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
     : transfer_(settings.fabricTransfer),
-      keepDt_(settings.transfer.keepDt),
-      keepPerStep_(settings.transfer.keepPerStep),
+      dampingDt_(settings.transfer.dampingDt),
+      dampingPerStep_(settings.transfer.dampingPerStep),
       dampModes_(settings.transfer.dampModes)
 {
     if (transfer_.method == TransferMethod::Flip) transfer_.method = TransferMethod::Apic;
@@ -24,7 +24,11 @@ FabricParticles::FabricParticles(const Fabric& fabric, const Settings& settings)
     particles_.resize(fabric.vertexCount());
 }
 
-double FabricParticles::keptOver(double factor, double h) const { return keepPerStep_ || factor == 1.0 ? factor : std::pow(factor, h / keepDt_); }
+double FabricParticles::retainedOver(double damping, double h) const
+{
+    const double kept = 1.0 - damping;
+    return dampingPerStep_ || kept == 1.0 ? kept : std::pow(kept, h / dampingDt_);
+}
 
 void FabricParticles::load(std::span<const double> mass, std::span<const Vec3> elements, FabricState& state)
 {
@@ -76,7 +80,7 @@ void FabricParticles::toFaces(std::span<const double> mass, std::span<const Vec3
 void FabricParticles::damp(double h, std::size_t v, FabricState& state) const
 {
     if (rows() > 1 && (modes_ <= 4 || dampModes_)) {
-        const double stretch = keptOver(transfer_.keepStretch, h), rotation = keptOver(transfer_.keepRotation, h);
+        const double stretch = retainedOver(transfer_.stretchDamping, h), rotation = retainedOver(transfer_.rotationDamping, h);
         for (int a = 0; a < kAxes; ++a)
             for (int b = 0; b <= a; ++b) {
                 double &one = modeOf(state, a, 1 + b, v), &other = modeOf(state, b, 1 + a, v);
@@ -91,7 +95,7 @@ void FabricParticles::damp(double h, std::size_t v, FabricState& state) const
                 c *= stretch;
             }
     }
-    const double lost = 1.0 - keptVelocity(h);
+    const double lost = 1.0 - retainedVelocity(h);
     for (int a = 0; a < kAxes; ++a) {
         double mean = 0.0;
         for (int r = 0; r < rows(); ++r) mean += kMeanOfMode[r] * modeOf(state, a, r, v);

@@ -25,7 +25,7 @@ class FabricParticles {
     /// stay.
     void toVertices(double h, FabricState& state);
     /// What a velocity keeps over a step of h [-].
-    double keptVelocity(double h) const { return keptOver(transfer_.keepVelocity, h); }
+    double retainedVelocity(double h) const { return retainedOver(transfer_.velocityDamping, h); }
 
     const BlockGrid& grid() const { return grid_; }
     const ParticleOrder& order() const { return order_; }
@@ -35,7 +35,7 @@ class FabricParticles {
     const BlockPoints& elements() const { return elements_; }
 
  private:
-    double keptOver(double factor, double h) const;
+    double retainedOver(double damping, double h) const;
     int rows() const { return particles_.modeCount; }
     double& modeOf(FabricState& state, int axis, int r, std::size_t v) const
     {
@@ -45,9 +45,9 @@ class FabricParticles {
     void damp(double h, std::size_t v, FabricState& state) const;
 
     FabricTransferSettings transfer_;
-    int modes_;      ///< N_r gathered
-    double keepDt_;  ///< [s]
-    bool keepPerStep_, dampModes_;
+    int modes_;         ///< N_r gathered
+    double dampingDt_;  ///< [s]
+    bool dampingPerStep_, dampModes_;
 
     Particles particles_;
     BlockGrid grid_;

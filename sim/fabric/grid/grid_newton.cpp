@@ -140,7 +140,7 @@ void GridFabricSolver::solve(const Solve& of, FabricReport& report)
     }
     if (least < std::numeric_limits<double>::infinity()) velocity_ = leastGain_;
     shortenMotion(of, before);
-    ++report.shortened;
+    ++report.truncatedSubsteps;
 }
 
 }  // namespace sim

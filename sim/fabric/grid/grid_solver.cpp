@@ -129,7 +129,7 @@ void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, Fab
         }
     }
     if (forces_ && !solidLimiter_.empty()) reportSolidLimiter(h, state);
-    if (guarded.left > 0) ++report.shortened;
+    if (guarded.left > 0) ++report.truncatedSubsteps;
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
 }
 
@@ -259,7 +259,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     if (meetsLiquid_ || !obstacles_.empty()) storeAccelerations(h, state);
     particles_.velocity().swap(velocity_.faces);
     particles_.toVertices(h, state);
-    const double kept = particles_.keptVelocity(h);
+    const double kept = particles_.retainedVelocity(h);
     for (std::size_t e = 0; e < fabric_.edges.size(); ++e) {
         state.omega[e] = kept * velocity_.twist[e];
         state.theta[e] += h * state.omega[e];

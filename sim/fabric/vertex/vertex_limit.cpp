@@ -18,8 +18,8 @@ bool VertexSolver::limit(const FabricState& state, FabricReport& report, StageCl
     if (!contact_) return true;
     const LimitReport before = limits_;
     const bool isSafe = limitAlternately(state, clock);
-    report.listBuilds += limits_.listBuilds - before.listBuilds;
-    report.scalings += limits_.scalings - before.scalings;
+    report.candidateListBuilds += limits_.candidateListBuilds - before.candidateListBuilds;
+    report.globalScalings += limits_.globalScalings - before.globalScalings;
     return isSafe;
 }
 
@@ -57,7 +57,7 @@ bool VertexSolver::limitAlternately(const FabricState& state, StageClock& clock)
         return false;
     }
     parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSafeShare * part; });
-    ++limits_.scalings;
+    ++limits_.globalScalings;
     return true;
 }
 

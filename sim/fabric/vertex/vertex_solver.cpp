@@ -81,7 +81,7 @@ FabricReport VertexSolver::advance(double t, double h, const Vec3& gravity, Fabr
 void VertexSolver::advanceInParts(const Part& part)
 {
     if (trySubstep(part)) return;
-    ++part.report.halvings;
+    ++part.report.substepSplits;
     start_.vertexSolver.lastFraction = part.state.vertexSolver.lastFraction;
     part.state = start_;
     advanceInParts(part.half(part.t));
@@ -193,15 +193,15 @@ bool VertexSolver::trySubstep(const Part& part)
 
     const double fraction = newton.wanted > 0.0 ? newton.taken / newton.wanted : 1.0;
     const bool isShort = fraction < kFractionOnce || (fraction < kFractionTwice && start_.vertexSolver.lastFraction < kFractionTwice) ||
-                         limits_.listBuilds > kMaxListBuilds || solidLimits_.left > 0 || !newton.hasConverged ||
+                         limits_.candidateListBuilds > kMaxListBuilds || solidLimits_.left > 0 || !newton.hasConverged ||
                          (newton.gain > kMuchGain && (isDriven_ || !newton.hasNegligibleChange));
     state.vertexSolver.lastFraction = fraction;
     // What drives the fabric gives it energy however little it may follow: that it cannot must be known.
     if (isDriven_) isLast = isLast && part.level >= kDrivenHalvings;
     if (isShort && !isLast) return false;
-    report.takenFraction = std::min(report.takenFraction, fraction);
+    report.acceptedFraction = std::min(report.acceptedFraction, fraction);
 
-    if (isShort) ++report.shortened;
+    if (isShort) ++report.truncatedSubsteps;
     findGroups(groups_);
     const bool mayHaveGained = startIsChecked_ || isShort;
     if (mayHaveGained && !isDriven_) removeSpuriousGain(part);

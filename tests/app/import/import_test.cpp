@@ -41,11 +41,11 @@ TEST(Import, SettingsArriveInTheirUnits)
     EXPECT_EQ(s.cell, 0.25);
     EXPECT_EQ(s.gravity, Vec3(10.0, -981.0, 0.0)) << "all pulls together";
     EXPECT_EQ(s.transfer.method, sim::TransferMethod::Apic) << "apic of 2018";
-    EXPECT_EQ(s.transfer.keepAffine, 0.9);
-    EXPECT_EQ(s.transfer.keepDt, 1.0e-3);
-    EXPECT_EQ(s.fabricTransfer.keepStretch, 0.5);
-    EXPECT_EQ(s.fabricTransfer.keepRotation, 0.8);
-    EXPECT_EQ(s.fabricTransfer.keepVelocity, 0.7);
+    EXPECT_EQ(s.transfer.affineDamping, 0.1);
+    EXPECT_EQ(s.transfer.dampingDt, 1.0e-3);
+    EXPECT_EQ(s.fabricTransfer.stretchDamping, 0.5);
+    EXPECT_EQ(s.fabricTransfer.rotationDamping, 0.2);
+    EXPECT_EQ(s.fabricTransfer.velocityDamping, 0.3);
     EXPECT_NEAR(s.liquid.contactAngle, 90.0 * kDegree, 1.0e-12);
     EXPECT_EQ(s.liquid.density, 0.92);
     EXPECT_EQ(s.liquid.wallFriction, 0.5);
@@ -59,7 +59,7 @@ TEST(Import, SettingsArriveInTheirUnits)
     EXPECT_EQ(s.coupling.drag, sim::DragLaw::Linear);
     EXPECT_EQ(s.coupling.dragExponent, 1.2);
     EXPECT_EQ(s.coupling.capture.law, sim::CaptureLaw::Published);
-    EXPECT_EQ(s.coupling.capture.compatFactor, 6.0);
+    EXPECT_EQ(s.coupling.capture.publishedRateFactor, 6.0);
     EXPECT_EQ(s.coupling.dragFraction, sim::DragFraction::Cell);
     EXPECT_FALSE(s.coupling.pressureOnFabric || s.coupling.wicking.pressure);
     EXPECT_EQ(s.fabric.solver, sim::FabricSolver::Grid);

@@ -12,7 +12,7 @@ namespace app::test {
 namespace {
 
 constexpr const char* kProbesOfAll = R"yaml({every: 4.0e-3,
-  hoops: {plane: {center: [0, 0.5, 0], normal: [0, -1, 0]}, aside: {center: [9, 0.5, 0], normal: [0, -1, 0], radius: 1}},
+  control_surfaces: {plane: {center: [0, 0.5, 0], normal: [0, -1, 0]}, aside: {center: [9, 0.5, 0], normal: [0, -1, 0], radius: 1}},
   readings: [{name: height, unit: cm, read: liquid_y}, {name: through, unit: g/s, read: flux("plane")}, {name: aside, unit: g/s, read: flux("aside")},
              {name: wetness, unit: "-", read: "saturation_at(x, y, z)", along: {from: [-1, 0, 0], to: [1, 0, 0], points: 5}}, {read: "vertex_y(14)", unit: cm}]})yaml";
 
@@ -89,16 +89,17 @@ TEST_F(ProbedRuns, HaveTheSameReadingsAfterwards)
 TEST_F(ProbedRuns, FluxIsTheRateAtWhichMassGoesThrough)
 {
     const std::string both =
-        "{every: 1.0e-3, hoops: {plane: {center: [0, 0.82, 0], normal: [0, -2, 0]}, hoop: {center: [0.2, 0.82, 0], normal: [0, 1, 0], radius: 5},"
+        "{every: 1.0e-3, control_surfaces: {plane: {center: [0, 0.82, 0], normal: [0, -2, 0]}, disc: {center: [0.2, 0.82, 0], normal: [0, 1, 0], "
+        "radius: 5},"
         " aside: {center: [9, 0.82, 0], normal: [0, 1, 0], radius: 5}}, readings: [{name: through, read: flux(\"plane\")},"
-        " {name: hoop, read: flux(\"hoop\")}, {name: aside, read: flux(\"aside\")}, {name: above, read: \"mass_y(0.82, 100)\"}]}";
+        " {name: disc, read: flux(\"disc\")}, {name: aside, read: flux(\"aside\")}, {name: above, read: \"mass_y(0.82, 100)\"}]}";
     ASSERT_EQ(run("run", {"--no-frames", "--set", probes(both), "--set", "time.integrator=plain", "--set", "time.dt=5.0e-4"}).code, 0);
     const auto read = table("run/probes.csv");
     const std::vector<double>&time = read.at("time_s"), &through = read.at("through [-]"), &above = read.at("above [-]");
     double gone = 0.0;
     for (std::size_t i = 1; i < time.size(); ++i) {
         gone += 0.5 * (through[i] + through[i - 1]) * (time[i] - time[i - 1]);
-        EXPECT_EQ(read.at("hoop [-]")[i], -through[i]);
+        EXPECT_EQ(read.at("disc [-]")[i], -through[i]);
         EXPECT_EQ(read.at("aside [-]")[i], 0.0);
     }
     EXPECT_NEAR(gone, above.front() - above.back(), 0.03 * above.front());
@@ -160,12 +161,12 @@ TEST_F(ProbedRuns, MistakesAreToldInOneLineBeforeAnythingIsBegun)
     refused("{readings: [{name: a}]}", "read is missing");
     refused("{readings: [{read: liquid_w}]}", "liquid_w");
     refused("{readings: [{read: 'x'}]}", "x");
-    refused("{readings: [{read: 'flux(\"gate\")'}]}", "there is no hoop \"gate\"");
+    refused("{readings: [{read: 'flux(\"gate\")'}]}", "there is no control surface \"gate\"");
     refused("{readings: [{read: 'force_x(\"gate\")'}]}", "no obstacle and no fabric");
     refused("{every: 0, readings: [{read: liquid_y}]}", "above 0 s");
     refused("{readings: [{read: liquid_y, name: 'a, b'}]}", "no commas");
     refused("{readings: [{read: 'x', along: {from: [0, 0, 0]}}]}", "to is missing");
-    refused("{hoops: {a: {center: [0, 0, 0], normal: [0, 0, 0]}}, readings: [{read: t}]}", "must be a direction");
+    refused("{control_surfaces: {a: {center: [0, 0, 0], normal: [0, 0, 0]}}, readings: [{read: t}]}", "must be a direction");
     ASSERT_EQ(run("run", {"--no-frames"}).code, 0);
     for (const char* read : {"energy", "front_x(0)", "force_x(\"sheet\")"}) {
         writeFile(folder / "probes.yaml", std::string("readings: [{read: '") + read + "'}]");

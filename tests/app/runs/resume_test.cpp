@@ -33,7 +33,7 @@ TEST_P(ResumeIsExact, InStatePicturesAndLogs)
     EXPECT_EQ(hash("half"), hash("whole"));
     expectSameFiles("half", "whole");
     for (const char* figure :
-         {"steps", "frames", "particles", "taken_back", "largest_cfl", "mass_error", "iterations", "energy_ledger", "forces", "content_hash"})
+         {"steps", "frames", "particles", "rejected_steps", "largest_cfl", "mass_error", "iterations", "energy_ledger", "forces", "content_hash"})
         EXPECT_EQ(report("half").at(figure), report("whole").at(figure)) << figure;
 }
 

@@ -34,7 +34,7 @@ struct Bath {
         findAround();
         Capture capture(fabric, around, settings, kParticle);
         const double mass = capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
-        toPins = capture.toPins();
+        pinImpulse = capture.pinImpulse();
         return mass;
     }
     void findAround()
@@ -60,7 +60,7 @@ struct Bath {
     LiquidAround around{0};
     FabricState state;
     Settings settings;
-    Vec3 toPins = Vec3::Zero();  ///< of the last capture [g cm/s]
+    Vec3 pinImpulse = Vec3::Zero();  ///< of the last capture [g cm/s]
 };
 
 /// Uptake keeps mass and momentum to rounding, in short steps and in those that empty cells (coupling/README.md, Uptake).
@@ -128,8 +128,8 @@ TEST(Capture, PinnedVerticesKeepTheirVelocityAndBookTheRest)
     const Vec3 momentum = bath.momentum();
     EXPECT_GT(bath.capture(1.0e-2), 0.0);
     EXPECT_EQ(bath.state.v, before);
-    EXPECT_GT(bath.toPins.norm(), 1.0e-6 * momentum.norm());
-    EXPECT_LT((bath.momentum() + bath.toPins - momentum).norm(), 1.0e-12 * momentum.norm());
+    EXPECT_GT(bath.pinImpulse.norm(), 1.0e-6 * momentum.norm());
+    EXPECT_LT((bath.momentum() + bath.pinImpulse - momentum).norm(), 1.0e-12 * momentum.norm());
 }
 
 TEST(Capture, FullOrCompactFabricTakesNothing)

@@ -33,7 +33,7 @@ struct Wick {
         Wicking wicking(fabric, elements, settings);
         for (int n = 0; n < steps; ++n) {
             wicking.move(dt, gravity, BlockGrid(), BlockArray<double>(), before, state);
-            toPins += wicking.toPins();
+            pinImpulse += wicking.pinImpulse();
         }
     }
 
@@ -42,7 +42,7 @@ struct Wick {
     FabricState state;
     std::vector<Vec3> before;
     Settings settings;
-    Vec3 toPins = Vec3::Zero();  ///< of all steps [g cm/s]
+    Vec3 pinImpulse = Vec3::Zero();  ///< of all steps [g cm/s]
 };
 
 }  // namespace sim::test

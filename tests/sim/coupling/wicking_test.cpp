@@ -68,8 +68,8 @@ TEST(Wicking, KeepsMassAndMomentum)
         }
         EXPECT_GT(moved, 0.1 * mass);
         EXPECT_NEAR(wick.mass(), mass, 1.0e-13 * mass);
-        EXPECT_GT(wick.toPins.norm(), 1.0e-6 * momentum.norm());
-        EXPECT_LT((wick.momentum() + wick.toPins - momentum).norm(), 1.0e-13 * momentum.norm());
+        EXPECT_GT(wick.pinImpulse.norm(), 1.0e-6 * momentum.norm());
+        EXPECT_LT((wick.momentum() + wick.pinImpulse - momentum).norm(), 1.0e-13 * momentum.norm());
     }
 }
 

@@ -164,16 +164,16 @@ transfer: {damp_modes: 1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
      "bad.yaml:2: transfer.damp_modes: needs true or false, not \"1\""},
-    {"KeepAboveOne", R"(grid: {cell: 0.1}
-transfer: {keep: {liquid_affine: 1.1}}
+    {"DampingAboveOne", R"(grid: {cell: 0.1}
+transfer: {damping: {liquid_affine: 1.1}}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "bad.yaml:2: transfer.keep.liquid_affine: \"1.1\" is out of range; must be 0 to 1"},
-    {"KeepDtWord", R"(grid: {cell: 0.1}
-transfer: {keep_dt: never}
+     "bad.yaml:2: transfer.damping.liquid_affine: \"1.1\" is out of range; must be 0 to 1"},
+    {"DampingDtWord", R"(grid: {cell: 0.1}
+transfer: {damping_dt: never}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 )",
-     "bad.yaml:2: transfer.keep_dt: \"never\" is no number; needs a time like 0.5 or \"0.5 s\""},
+     "bad.yaml:2: transfer.damping_dt: \"never\" is no number; needs a time like 0.5 or \"0.5 s\""},
     {"VectorTooShort", R"(grid: {cell: 0.1}
 gravity: [0, -981]
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}

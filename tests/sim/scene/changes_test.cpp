@@ -38,7 +38,7 @@ TEST(SceneChanges, ArePrintedInUnitsThatReadBackAlike)
 {
     const std::string si = "units: si\n" + kScene + R"(changes:
   - {step: 3, set: {time.dt: 0.3 ms, gravity: [0, -1.62, 0.1], liquid.viscosity: 0.1}}
-  - {step: 3, set: {transfer: {method: {fabric: apic}, keep_dt: step}}}
+  - {step: 3, set: {transfer: {method: {fabric: apic}, damping_dt: step}}}
 )";
     const sim::Scene scene = sim::readScene(sim::sceneFileFromText(si, "scene.yaml"));
     const sim::Scene again = sim::readScene(sim::sceneFileFromText(sim::printScene(scene), "printed.yaml"));
@@ -49,7 +49,7 @@ TEST(SceneChanges, ArePrintedInUnitsThatReadBackAlike)
         ASSERT_EQ(first.size(), second.size());
         for (std::size_t p = 0; p < first.size(); ++p) EXPECT_EQ(first[p].value, second[p].value) << first[p].path;
     }
-    EXPECT_EQ(sim::changeText(3, sim::changedSettings(scene, 1)), "{step: 3, set: {transfer.method.fabric: apic, transfer.keep_dt: step}}");
+    EXPECT_EQ(sim::changeText(3, sim::changedSettings(scene, 1)), "{step: 3, set: {transfer.method.fabric: apic, transfer.damping_dt: step}}");
 }
 
 TEST(SceneChanges, AreNotTooMany)

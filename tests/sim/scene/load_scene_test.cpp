@@ -29,7 +29,7 @@ TEST(LoadScene, LeavesDefaultsWhereTheSceneSaysNothing)
     EXPECT_EQ(defaults.gravity, s.gravity);
     EXPECT_EQ(defaults.transfer.method, s.transfer.method);
     EXPECT_EQ(defaults.transfer.modes, s.transfer.modes);
-    EXPECT_EQ(defaults.transfer.keepDt, s.transfer.keepDt);
+    EXPECT_EQ(defaults.transfer.dampingDt, s.transfer.dampingDt);
     EXPECT_EQ(defaults.fabricTransfer.method, s.fabricTransfer.method);
     EXPECT_EQ(defaults.liquid.density, s.liquid.density);
     EXPECT_EQ(defaults.liquid.contactAngle, s.liquid.contactAngle);
@@ -56,8 +56,8 @@ transfer:
   modes: {liquid: 11, fabric: 4}
   xi: affine
   flip_ratio: 0.9
-  keep: {liquid_affine: 0.8, fabric_stretch: 0.7, fabric_rotation: 0.6, fabric_velocity: 0.5}
-  keep_dt: 1.0e-3
+  damping: {liquid_affine: 0.8, fabric_stretch: 0.7, fabric_rotation: 0.6, fabric_velocity: 0.5}
+  damping_dt: 1.0e-3
   damp_modes: false
 solver: {pressure_tolerance: 1.0e-4, max_iterations: 50, viscosity_tolerance: 1.0e-3}
 liquid:
@@ -98,9 +98,9 @@ domain: {box: {min: [-9, -9, -9], max: [9, 9, 9]}}
     EXPECT_EQ(4, s.fabricTransfer.modes);
     EXPECT_EQ(sim::XiMap::Affine, s.fabricTransfer.xi);
     EXPECT_EQ(0.9, s.transfer.flipRatio);
-    EXPECT_EQ(0.8, s.transfer.keepAffine);
-    EXPECT_EQ(0.6, s.fabricTransfer.keepRotation);
-    EXPECT_EQ(1.0e-3, s.transfer.keepDt);
+    EXPECT_EQ(0.8, s.transfer.affineDamping);
+    EXPECT_EQ(0.6, s.fabricTransfer.rotationDamping);
+    EXPECT_EQ(1.0e-3, s.transfer.dampingDt);
     EXPECT_FALSE(s.transfer.dampModes);
     EXPECT_EQ(1.0e-4, s.solver.pressureTolerance);
     EXPECT_EQ(50, s.solver.maxIterations);
@@ -186,7 +186,7 @@ TEST(LoadScene, TransferHasShortForms)
     EXPECT_EQ(sim::TransferMethod::Flip, s.transfer.method);
     EXPECT_EQ(sim::TransferMethod::Pic, s.fabricTransfer.method);
     EXPECT_EQ(sim::TransferMethod::Apic, load(kSmallest + "transfer: flip\n").settings.fabricTransfer.method) << "fabric never runs flip";
-    EXPECT_TRUE(load(kSmallest + "transfer: {keep_dt: step}\n").settings.transfer.keepPerStep);
+    EXPECT_TRUE(load(kSmallest + "transfer: {damping_dt: step}\n").settings.transfer.dampingPerStep);
 }
 
 TEST(LoadScene, AnchorsAreCopiedOut)

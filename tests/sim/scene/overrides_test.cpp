@@ -53,7 +53,7 @@ liquid:
 TEST(Overrides, OverridesMakeSectionsThatAreNotThere)
 {
     EXPECT_EQ(7, load(kSmallest, "", {"solver.max_iterations=7"}).settings.solver.maxIterations);
-    EXPECT_EQ(0.5, load(kSmallest, "", {"transfer={keep: {liquid_affine: 0.5}}"}).settings.transfer.keepAffine);
+    EXPECT_EQ(0.5, load(kSmallest, "", {"transfer={damping: {liquid_affine: 0.5}}"}).settings.transfer.affineDamping);
 }
 
 TEST(Overrides, OverridesAreInTheUnitsOfTheFile) { EXPECT_DOUBLE_EQ(20.0, load("units: si\n" + kSmallest, "", {"grid.cell=0.2"}).settings.cell); }

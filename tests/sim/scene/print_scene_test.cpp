@@ -27,7 +27,7 @@ units: si
 scene: {name: everything, title: 'A "quoted": title, # with signs', tags: [a b, "c"]}
 time: {dt: 1.23456789e-4, duration: 0.3, start: 0.1, mode: adaptive}
 grid: {cell: 1.7 mm}
-transfer: {method: {liquid: flip, fabric: pic}, modes: {liquid: 3, fabric: 5}, keep_dt: step, keep: {liquid_affine: 0.123}}
+transfer: {method: {liquid: flip, fabric: pic}, modes: {liquid: 3, fabric: 5}, damping_dt: step, damping: {liquid_affine: 0.123}}
 liquid:
   preset: acetal
   contact_angle: 0.7 rad
@@ -168,7 +168,7 @@ TEST(PrintScene, KeepsEveryBitOfTheSettings)
     EXPECT_EQ(before.settings.liquid.density, after.settings.liquid.density);
     EXPECT_EQ(before.settings.liquid.viscosity, after.settings.liquid.viscosity);
     EXPECT_EQ(before.settings.liquid.contactAngle, after.settings.liquid.contactAngle);
-    EXPECT_EQ(before.settings.transfer.keepPerStep, after.settings.transfer.keepPerStep);
+    EXPECT_EQ(before.settings.transfer.dampingPerStep, after.settings.transfer.dampingPerStep);
     EXPECT_EQ(before.title, after.title);
     EXPECT_EQ(before.tags, after.tags);
     ASSERT_EQ(before.sources.size(), after.sources.size());

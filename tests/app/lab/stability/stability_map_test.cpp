@@ -24,7 +24,7 @@ struct Logs {
     {
         test::writeFile(
             folder / "energy_ledger.csv",
-            fmt::format("time_s,total_erg,kinetic_erg,suction_erg,walls_erg,unbooked_erg\n0,1,0,0,0,0\n1e-3,{},8,{},-3,0\n", total, suction));
+            fmt::format("time_s,total_erg,kinetic_erg,suction_erg,walls_erg,residual_erg\n0,1,0,0,0,0\n1e-3,{},8,{},-3,0\n", total, suction));
     }
     /// Rows of total energy and of the work of obstacles [erg].
     void courseAtObstacles(std::initializer_list<std::array<double, 2>> rows)

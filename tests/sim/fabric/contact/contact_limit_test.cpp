@@ -110,7 +110,7 @@ TEST(ContactLimit, CommonTranslationIsNeverShortened)
         const std::vector<Vec3> u(run.x.size(), Vec3(0.3, -0.2, 0.1));  // 374 cm/s at 1e-3 s
         EXPECT_EQ(run.moveSafely(u), u);
     }
-    EXPECT_EQ(run.report.blends + run.report.scalings, 0);
+    EXPECT_EQ(run.report.blends + run.report.globalScalings, 0);
 }
 
 TEST(ContactLimit, RotationIsHardlyShortened)
@@ -123,7 +123,7 @@ TEST(ContactLimit, RotationIsHardlyShortened)
         const std::vector<Vec3> got = run.moveSafely(u);
         EXPECT_GT(taken(run.fabric, u, got), 1.0 - 1.0e-6);  // chords are shorter than arcs by 0.05² / 8 of the yarns' distance
     }
-    EXPECT_EQ(run.report.scalings, 0);
+    EXPECT_EQ(run.report.globalScalings, 0);
 }
 
 TEST(ContactLimit, KeepsTheMomentumOfFreeVertices)
@@ -133,9 +133,9 @@ TEST(ContactLimit, KeepsTheMomentumOfFreeVertices)
     int blends = 0;
     for (unsigned step = 0; step < 20; ++step) {
         const std::vector<Vec3> want = randomMoves(fabric, 0.08, step);
-        const int scalings = run.report.scalings;
+        const int globalScalings = run.report.globalScalings;
         const std::vector<Vec3> got = run.moveSafely(want);
-        if (run.report.scalings > scalings) continue;  // that shortens all of it
+        if (run.report.globalScalings > globalScalings) continue;  // that shortens all of it
         double size = 0.0;
         for (std::size_t v = 0; v < want.size(); ++v) size += fabric.mass[v] * want[v].norm();
         EXPECT_LT((momentum(fabric, got) - momentum(fabric, want)).norm(), 1.0e-12 * size);
@@ -153,9 +153,9 @@ TEST(ContactLimit, HeldVerticesKeepTheirMoves)
     int kept = 0;
     for (unsigned step = 0; step < 20; ++step) {
         const std::vector<Vec3> want = randomMoves(scene.fabric, 0.05, step);
-        const int scalings = run.report.scalings;
+        const int globalScalings = run.report.globalScalings;
         const std::vector<Vec3> got = run.moveSafely(want);
-        if (run.report.scalings > scalings) continue;
+        if (run.report.globalScalings > globalScalings) continue;
         ++kept;
         for (std::size_t v = 0; v < want.size(); v += 7) EXPECT_EQ(got[v], want[v]);
     }
@@ -172,7 +172,7 @@ TEST(ContactLimit, FastHeadOnCollisionIsNotTunnelled)
     EXPECT_GE(run.x[2].y() - run.x[0].y(), 0.057);       // core: 0.57 · 0.1
     EXPECT_LE(run.x[2].y() - run.x[0].y(), 0.1125);      // and no further off than where they touch
     EXPECT_NEAR(got[0].y() + got[2].y(), 0.0, 1.0e-14);  // like masses, opposite moves
-    EXPECT_EQ(run.report.scalings, 0);
+    EXPECT_EQ(run.report.globalScalings, 0);
 }
 
 TEST(ContactLimit, PairsUnderTheCoreMaySeparate)

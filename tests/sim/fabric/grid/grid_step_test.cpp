@@ -138,11 +138,11 @@ TEST(GridFabric, PinsFollowTheirMotion)
     for (int v : pins.vertices) EXPECT_LT((run.state.x[v] - run.fabric.rest[v] - Vec3(0.0, 0.5, 0.0)).norm(), 0.2 * kCell);
 }
 
-TEST(GridFabric, KeepFactorsAreRates)
+TEST(GridFabric, DampingIsARate)
 {
     const auto speedAfter = [](double h, int steps) {
         Settings settings = gridSettings(TransferMethod::PolyPic);
-        settings.fabricTransfer.keepVelocity = 0.99;
+        settings.fabricTransfer.velocityDamping = 0.01;
         FabricPiece piece = cloth(5);
         piece.velocity = Vec3(3.0, 0.0, 0.0);
         GridRun run({piece}, settings);

@@ -213,7 +213,7 @@ TEST(FabricAtSolids, PinsThatAreLedThroughATableTakeNothingElseThrough)
             run.step(1.0e-3);
             for (std::size_t v = 1; v < run.state.x.size(); ++v)
                 ASSERT_GT(run.state.x[v].y(), 0.5 * kRadius) << "step " << i << " solver " << int(kind);
-            ASSERT_EQ(run.report.shortened, 0) << "step " << i << " solver " << int(kind);
+            ASSERT_EQ(run.report.truncatedSubsteps, 0) << "step " << i << " solver " << int(kind);
         }
         EXPECT_LT(run.state.x[0].y(), -0.09);
         EXPECT_LT(run.state.x[80].y(), 0.05);  // the far corner has fallen
