@@ -12,7 +12,7 @@ namespace sim {
 
 namespace {
 
-/// Largest share of an error of volume that a long step correctsVolume; to correct all of it at once would overshoot [-].
+/// Largest share of an error of volume that a long step corrects; to correct all of it at once would overshoot [-].
 constexpr double kLargestShare = 0.5;
 
 /// What pressure and surface tension have changed of velocities [cm/s], in FreeLiquid::change.
