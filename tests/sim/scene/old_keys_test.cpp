@@ -109,10 +109,14 @@ TEST_P(OldKeys, OfVariantsAreThoseOfNow)
 
 TEST_P(OldKeys, OfChangesAreThoseOfNow)
 {
-    if (before().starts_with("output.")) GTEST_SKIP() << "which holds for a whole run";
     const auto in = [&](const std::string& path, const std::string& value) {
         return loaded(fmt::format("{}changes: [{{step: 3, set: {{{}: {}}}}}]\n", kPool, path, value), {"", beside()});
     };
+    if (before().starts_with("output.")) {  // which holds for a whole run, by either name
+        EXPECT_THROW(in(before(), values().before), sim::InputError);
+        EXPECT_THROW(in(now(), values().now), sim::InputError);
+        return;
+    }
     expectSame(in(before(), values().before), in(now(), values().now), "old.yaml:3");
 }
 
