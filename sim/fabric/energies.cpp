@@ -35,14 +35,15 @@ FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, co
     return e;
 }
 
-InternalGradient internalGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
-                                  const Shells& shells)
+InternalGradient internalGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const ElasticStep& step)
 {
+    const Rods& rods = step.rods.rods();
+    const Shells& shells = step.shells.shells();
     AlignedArray<double> all;
     all.resize(unknowns.size);
     all.fill(0.0);
-    if (!rods.empty()) rods.forces(state, h, packsOf(all), nullptr);
-    if (!shells.empty()) shells.forces(state.x, h, unknowns.slot, all, nullptr);
+    if (!rods.empty()) step.rods.forces(state, h, packsOf(all), nullptr);
+    if (!shells.empty()) step.shells.forces(state.x, h, unknowns.slot, all, nullptr);
 
     InternalGradient gradient{std::vector<Vec3>(fabric.vertexCount(), Vec3::Zero()), std::vector<double>(fabric.edges.size())};
     const auto add = [&](int v, int slot) { gradient.byPosition[v] += Vec3(all[slot], all[slot + kLanes], all[slot + 2 * kLanes]); };

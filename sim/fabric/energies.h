@@ -32,8 +32,13 @@ struct InternalGradient {
     std::vector<double> byAngle;
 };
 
-/// At a state whose step of length h [s] began when the rods and shells were told; with an infinite h the elastic gradient alone.
-InternalGradient internalGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const Rods& rods,
-                                  const Shells& shells);
+/// Rods and shells in a step whose start they know.
+struct ElasticStep {
+    Rods::Step rods;
+    Shells::Step shells;
+};
+
+/// Gradient of the energy at a state in a step of length h [s]; with an infinite h the elastic part alone.
+InternalGradient internalGradient(const Fabric& fabric, const FabricState& state, double h, const VertexUnknowns& unknowns, const ElasticStep& step);
 
 }  // namespace sim

@@ -42,10 +42,13 @@ struct Driven {
 
     bool isHit() const { return ball.y() < 3.0; }
 
-    void move(std::span<const Vec3> from)
+    void move(StageClock& clock)
     {
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] = from[i] + u[i];
-        charge([&] { contact.moved(); });
+        charge([&] {
+            const FabricContact::LimitedMoves limited = contact.limit(x, u, report, clock);
+            for (std::size_t i = 0; i < x.size(); ++i) x[i] += u[i];
+            contact.moved(limited);
+        });
     }
 
     /// What Newton would ask for: out of the ball, towards the neighbours' motion, and out of contact.
@@ -72,16 +75,14 @@ struct Driven {
         if (hit) ball.y() -= kSpeed * kStep;
         charge([&] { contact.beginStep(x, fabric.mass, kStep, kStep); });
         for (std::size_t i = 0; i < x.size(); ++i) u[i] = fabric.pinned[i] ? Vec3::Zero().eval() : Vec3(kStep * v[i]);
-        charge([&] { contact.limit(x, u, report, clock); });
-        move(std::vector<Vec3>(x));
+        move(clock);
         for (int newton = 0; newton < 2; ++newton) {
             const ActiveContacts* contacts = nullptr;
             charge([&] { contacts = &contact.activeAt(x, clock); });
             active = contacts->size();
             clock.stop();
             wish(*contacts);
-            charge([&] { contact.limit(x, u, report, clock); });
-            move(std::vector<Vec3>(x));
+            move(clock);
         }
         clock.stop();
         for (std::size_t i = 0; i < x.size(); ++i) {  // as elastic yarns would: a deep funnel around the ball, damped

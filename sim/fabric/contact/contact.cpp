@@ -26,12 +26,12 @@ void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> m
     p.list.beginStep();
 }
 
-bool FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)
+FabricContact::LimitedMoves FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)
 {
-    return parts_->limiter.limit(x, u, parts_->list, report, clock);
+    return LimitedMoves(parts_->limiter.limit(x, u, parts_->list, report, clock));
 }
 
-void FabricContact::moved() { parts_->list.moved(); }
+void FabricContact::moved(const LimitedMoves&) { parts_->list.moved(); }
 
 const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected)
 {

@@ -96,12 +96,21 @@ class FabricContact {
     /// At the start of a step of length h [s]: stiffness of the pairs follows from the masses [g] and springStep [s] (springStepFor), friction
     /// acts against the motion since these positions and goes on from what is held.
     void beginStep(std::span<const Vec3> x, std::span<const double> mass, double h, double springStep, const FrictionForces& held = {});
+    /// Token that moves are safe, and that the pairs which they bring near are known.
+    class LimitedMoves {
+     public:
+        bool wereChanged() const { return wereChanged_; }
+
+     private:
+        friend FabricContact;
+        explicit LimitedMoves(bool wereChanged) : wereChanged_(wereChanged) {}
+        bool wereChanged_;
+    };
     /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
     /// unless everything has to be scaled.
-    /// @return whether it changed any
-    bool limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
-    /// To be called once the fabric has been moved from x by the u of the last limit().
-    void moved();
+    LimitedMoves limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
+    /// The fabric has been moved from x by the moves u that were limited last.
+    void moved(const LimitedMoves&);
     /// Pairs that act at x, with force and stiffness.
     /// @param expected  moves of the vertices since the start of the step if forces act on as they did [cm], where x is a prediction
     const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});

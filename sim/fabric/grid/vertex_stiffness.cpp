@@ -91,10 +91,10 @@ void VertexStiffness::findPins(const FabricState& state, double end)
 void VertexStiffness::assembleInternal(const FabricState& at, double h)
 {
     gradient_.fill(0.0);
-    if (!rods_.empty()) rods_.forces(at, h, packsOf(gradient_), &strands_);
+    if (!rods_.empty()) step_->rods.forces(at, h, packsOf(gradient_), &strands_);
     if (!shells_.empty()) {
         cloth_.clear();
-        shells_.forces(at.x, h, unknowns_.slot, gradient_, &cloth_);
+        step_->shells.forces(at.x, h, unknowns_.slot, gradient_, &cloth_);
     }
     addToOwners(gradient_);
 }
@@ -110,8 +110,7 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
                                std::span<const Vec3> predicted)
 {
     springs_.clear();
-    rods_.startStep(state);
-    shells_.startStep(state.x);
+    step_ = {rods_.startStep(state), shells_.startStep(state.x)};
     at_ = &state;
     reached_.fill(0.0);
     assembleInternal(state, h);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/fabric/energies.h"
 #include "sim/fabric/grid/twist_elimination.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
@@ -7,6 +8,7 @@
 #include "sim/fabric/vertex_unknowns.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace sim {
 class VertexStiffness {
  public:
     VertexStiffness(const Fabric& fabric, const FabricSettings& settings);
+    VertexStiffness(const VertexStiffness&) = delete;  // step_ refers to its parts
 
     const Rods& rods() const { return rods_; }
     const Shells& shells() const { return shells_; }
@@ -132,6 +135,7 @@ class VertexStiffness {
     std::vector<double> heldStiffness_;  ///< stiffness of each held edge's pin against twist [dyn cm]
     std::vector<double> heldTorque_;     ///< energy gradient of each held edge's pin at the state [dyn cm]
     AlignedArray<double> gradient_;
+    std::optional<ElasticStep> step_;  ///< of the last assemble
     const FabricState* at_ = nullptr;  ///< state at which the internal forces are assembled
     AlignedArray<double> reached_;     ///< velocities that lead there in the step, by VertexUnknowns [cm/s, 1/s]
     mutable AlignedArray<double> product_;

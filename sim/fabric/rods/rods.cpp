@@ -111,9 +111,9 @@ void Rods::transportFrames(FabricState& state) const
     });
 }
 
-void Rods::startStep(const FabricState& state)
+Rods::Step Rods::startStep(const FabricState& state)
 {
-    if (!damped_) return;
+    if (!damped_) return Step(*this);
     parallelFor(layout_.groups.size(), [&](std::size_t g) {
         const StrandLayout::Group& group = layout_.groups[g];
         for (int j = 0; j < group.edges(); ++j) {
@@ -127,6 +127,7 @@ void Rods::startStep(const FabricState& state)
             startBend_[group.firstVertex + at.j] = {k[0], k[1], k[2], k[3], at.twist};
         });
     });
+    return Step(*this);
 }
 
 std::array<double, 3> Rods::energies(const FabricState& state) const

@@ -13,7 +13,7 @@
 namespace sim {
 
 /// All yarns as discrete elastic rods, side by side in packs. What is constant in a run is built once; the strains at the start of a
-/// step, against which the damping acts, are noted by startStep.
+/// step, against which the damping acts, are noted by startStep, which forces are to be had from.
 class Rods {
  public:
     Rods() = default;
@@ -25,15 +25,27 @@ class Rods {
 
     /// Carries tangents, reference frames and reference twists along to the present positions (fabric/rods/README.md, Kinematics).
     void transportFrames(FabricState& state) const;
-    /// Notes lengths, curvatures and twists. To be called before the first move of a step if anything is damped.
-    void startStep(const FabricState& state);
-    bool isDamped() const { return damped_; }
+    /// The rods in a step whose start they know, until the next startStep.
+    class Step {
+     public:
+        const Rods& rods() const { return *rods_; }
+        /// Gradient of the elastic and viscous energy at the present positions, whose frames are up to date, added to `gradient` (laid out
+        /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian, with the tensile part of the stretching's
+        /// geometric stiffness and with what opposes the turning of straightened yarns, replaces what the matrix held. h: length of the step
+        /// [s], read by the damping only.
+        void forces(const FabricState& state, double h, std::span<Pack> gradient, StrandMatrix* matrix) const
+        {
+            rods_->forces(state, h, gradient, matrix);
+        }
 
-    /// Gradient of the elastic and viscous energy at the present positions, whose frames are up to date, added to `gradient` (laid out
-    /// as StrandLayout, [dyn] and [dyn cm]); if a matrix is given, its Gauss-Newton Hessian, with the tensile part of the stretching's
-    /// geometric stiffness and with what opposes the turning of straightened yarns, replaces what the matrix held. h: length of the step
-    /// [s], read by the damping only.
-    void forces(const FabricState& state, double h, std::span<Pack> gradient, StrandMatrix* matrix) const;
+     private:
+        friend Rods;
+        explicit Step(const Rods& rods) : rods_(&rods) {}
+        const Rods* rods_;
+    };
+    /// Notes the state's lengths, curvatures and twists, if anything is damped.
+    Step startStep(const FabricState& state);
+
     /// From now on the matrix has the torque's part too, the second derivatives of the twist: without it Newton overshoots on rods
     /// that are twisted hard. It may be indefinite.
     void includeTwistHessian();
@@ -44,6 +56,7 @@ class Rods {
 
  private:
     struct InnerVertex;
+    void forces(const FabricState& state, double h, std::span<Pack> gradient, StrandMatrix* matrix) const;
     /// @param gradient  rows of the group
     /// @param band      rows of its Hessian; empty without
     void addStretching(int g, const FabricState& state, double h, std::span<Pack> gradient, std::span<Pack> band) const;

@@ -60,15 +60,16 @@ Shells::BendMeasure Shells::measured(const Batch& batch, const ShellBend<Pack>& 
     return m;
 }
 
-void Shells::startStep(std::span<const Vec3> x)
+Shells::Step Shells::startStep(std::span<const Vec3> x)
 {
-    if (!damped_) return;
+    if (!damped_) return Step(*this);
     parallelFor(batches_.size(), kBatchesPerTask, [&](std::size_t n) {
         Batch& batch = batches_[n];
         const ShellCorners<Pack> corners = cornersOf(batch, x);
         batch.startGreen = membraneStrain(batch.rest, corners).green;
         batch.startAngle = shellBend(batch.rest, corners).angle;
     });
+    return Step(*this);
 }
 
 /// Stresses and moments of kLanes triangles, and what they depend on.

@@ -27,14 +27,26 @@ class Shells {
     /// Rows of each row's vertex and of those that share a face with it, ascending: a part of the Hessian's pattern.
     const std::vector<std::vector<int>>& neighbors() const { return neighbors_; }
 
-    /// Notes strains and angles. To be called before the first move of a step if anything is damped.
-    void startStep(std::span<const Vec3> x);
-    bool isDamped() const { return damped_; }
+    /// The shells in a step whose start they know, until the next startStep.
+    class Step {
+     public:
+        const Shells& shells() const { return *shells_; }
+        /// Gradient of the elastic and viscous energy added to `gradient`, where vertex v has its x at slot[v], y and z kLanes further each
+        /// [dyn]; if a matrix is given, its Gauss-Newton Hessian with the tensile part of the membrane's geometric stiffness is added to it.
+        /// h: length of the step [s], read by the damping only.
+        void forces(std::span<const Vec3> x, double h, std::span<const int> slot, std::span<double> gradient, BlockMatrix* matrix) const
+        {
+            shells_->forces(x, h, slot, gradient, matrix);
+        }
 
-    /// Gradient of the elastic and viscous energy added to `gradient`, where vertex v has its x at slot[v], y and z kLanes further each
-    /// [dyn]; if a matrix is given, its Gauss-Newton Hessian with the tensile part of the membrane's geometric stiffness is added to it.
-    /// h: length of the step [s], read by the damping only.
-    void forces(std::span<const Vec3> x, double h, std::span<const int> slot, std::span<double> gradient, BlockMatrix* matrix) const;
+     private:
+        friend Shells;
+        explicit Step(const Shells& shells) : shells_(&shells) {}
+        const Shells* shells_;
+    };
+    /// Notes strains and angles at x, if anything is damped.
+    Step startStep(std::span<const Vec3> x);
+
     /// Elastic energy [erg]: membrane, bending.
     std::array<double, 2> energies(std::span<const Vec3> x) const;
 
@@ -42,6 +54,8 @@ class Shells {
     static constexpr int kBlocks = kShellVertices * (kShellVertices + 1) / 2;
 
  private:
+    void forces(std::span<const Vec3> x, double h, std::span<const int> slot, std::span<double> gradient, BlockMatrix* matrix) const;
+
     static constexpr std::size_t kBatchesPerTask = 16;
     /// Number of the block (i, j), i ≤ j, of the upper half.
     static constexpr int blockOf(int i, int j) { return i * kShellVertices - i * (i - 1) / 2 + j - i; }

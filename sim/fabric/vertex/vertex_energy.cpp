@@ -63,7 +63,7 @@ std::vector<char> VertexSolver::heldBySolids() const
 /// Elastic and viscous gradient at the state, over a step of a length [s] (internalGradient).
 InternalGradient VertexSolver::gradientAt(const FabricState& state, double length) const
 {
-    return internalGradient(fabric_, state, length, system_.unknowns(), system_.rods(), system_.shells());
+    return internalGradient(fabric_, state, length, system_.unknowns(), *elasticStep_);
 }
 
 /// What a vertex needs beyond the fabric's own forces and the liquid to have come to its velocity [g cm/s].

@@ -133,8 +133,7 @@ void VertexSolver::applyFraction(const Part& part, const SubstepDisplacement& di
         const Vec3& drift = displacement.drift[groups_.pieceOf(static_cast<int>(v))];
         move_[v] = drift + share * (displacement.moves[v] - drift);
     }
-    limit(state, part.report, part.clock);
-    commit(state, part.clock);
+    commit(limit(state, part.report, part.clock), state, part.clock);
     solidLimiter_.rest();
     for (std::size_t e = 0; e < displacement.turns.size(); ++e) state.theta[e] += share * displacement.turns[e];
     findMeanRates(part.h, state);

@@ -12,15 +12,15 @@ constexpr int kMostTurns = 8;  ///< of solids and of pairs in limiting a move
 
 }  // namespace
 
-/// Makes move_ safe; false, which it is only while solids move, if it could not.
-bool VertexSolver::limit(const FabricState& state, FabricReport& report, StageClock& clock)
+/// Makes move_ safe, if it can.
+VertexSolver::LimitedMove VertexSolver::limit(const FabricState& state, FabricReport& report, StageClock& clock)
 {
-    if (!contact_) return true;
+    if (!contact_) return {.isSafe = true, .betweenFabric = {}};
     const LimitReport before = limits_;
-    const bool isSafe = limitAlternately(state, clock);
+    const LimitedMove limited = limitAlternately(state, clock);
     report.candidateListBuilds += limits_.candidateListBuilds - before.candidateListBuilds;
     report.globalScalings += limits_.globalScalings - before.globalScalings;
-    return isSafe;
+    return limited;
 }
 
 /// Makes move_ safe from solids.
@@ -35,30 +35,34 @@ SolidLimiter::Limited VertexSolver::limitAtSolids(const FabricState& state)
 }
 
 /// Solids and pairs of fabric each change what the other has left safe, until one has nothing more to change.
-bool VertexSolver::limitAlternately(const FabricState& state, StageClock& clock)
+VertexSolver::LimitedMove VertexSolver::limitAlternately(const FabricState& state, StageClock& clock)
 {
+    LimitedMove move;
     solidLimiterActed_ = false;
     if (forces_ && !solidLimiter_.empty()) limitedMove_.assign(move_.size(), Vec3::Zero());
     for (int turn = 0; turn < kMostTurns; ++turn) {
         clock.start(Stage::FabricContact);
         const SolidLimiter::Limited limited = limitAtSolids(state);
-        if (limited == SolidLimiter::Limited::Unsafe) return false;
+        if (limited == SolidLimiter::Limited::Unsafe) return move;
         solidLimiterActed_ = solidLimiterActed_ || limited == SolidLimiter::Limited::Changed;
-        if (limited == SolidLimiter::Limited::Unchanged && turn > 0) return true;
-        const bool hasChanged = contact_->limit(state.x, move_, limits_, clock);
-        if (!hasChanged || !solidLimiter_.isNear()) return true;
+        move.isSafe = limited == SolidLimiter::Limited::Unchanged && turn > 0;
+        if (move.isSafe) return move;
+        move.betweenFabric = contact_->limit(state.x, move_, limits_, clock);
+        move.isSafe = !move.betweenFabric->wereChanged() || !solidLimiter_.isNear();
+        if (move.isSafe) return move;
     }
     clock.start(Stage::FabricContact);
     const double part = solidLimiter_.safePart(state.x, move_);
-    if (part >= 1.0) return true;
+    move.isSafe = part >= 1.0 || !solidLimiter_.anyMoves();
+    if (part >= 1.0) return move;
     // A part of each straight move is as safe, if solids rest.
-    if (solidLimiter_.anyMoves()) {
+    if (!move.isSafe) {
         ++solidLimits_.left;
-        return false;
+        return move;
     }
     parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSafeShare * part; });
     ++limits_.globalScalings;
-    return true;
+    return move;
 }
 
 /// Moves the fabric by move_ while solids go on, in halves of the time where it has no safe way in one; false if it should
@@ -70,9 +74,9 @@ bool VertexSolver::followSolids(const Part& part, bool isLast)
     const auto go = [&](double begin, double length) {
         solidLimiter_.moveTo(begin, begin + length);
         parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] = length / h * wholeMove_[v]; });
-        if (!limit(part.state, part.report, part.clock)) return false;
-        commit(part.state, part.clock);
-        return true;
+        const LimitedMove limited = limit(part.state, part.report, part.clock);
+        if (limited.isSafe) commit(limited, part.state, part.clock);
+        return limited.isSafe;
     };
     const bool hasGot = solids::bisectInterval(part.t, h, isLast ? SolidLimiter::kMostHalvings : 0, go);
     if (!hasGot && isLast) solidLimiter_.throwNoSafeMove();

@@ -52,7 +52,7 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     findContacts(h, state.x, newton.count == 0 ? std::span<const Vec3>(expected_) : std::span<const Vec3>(), part.clock);
     hasMovedSinceDetection_ = true;
     part.clock.start(Stage::FabricElastic);
-    const NewtonPoint point{state, free_, freeAngle_, inertia_, h, isSecondOrder_ ? 2.0 : 1.0};
+    const NewtonPoint point{*elasticStep_, state, free_, freeAngle_, inertia_, h, isSecondOrder_ ? 2.0 : 1.0};
     system_.assemble(point, touching_, contacts_);
     part.clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
@@ -91,11 +91,11 @@ void VertexSolver::checkConvergence(double h, Newton& newton) const
 void VertexSolver::applyStep(const Part& part, Newton& newton)
 {
     FabricState& state = part.state;
-    limit(state, part.report, part.clock);
+    const LimitedMove limited = limit(state, part.report, part.clock);
     const auto sumOver = [&](auto&& of) { return parallelSum(fabric_.vertexCount(), [&](std::size_t v) { return mass_[v] * of(v); }); };
     newton.wanted += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).squaredNorm(); });
     newton.taken += sumOver([&](std::size_t v) { return system_.move(static_cast<int>(v)).dot(move_[v]); });
-    commit(state, part.clock);
+    commit(limited, state, part.clock);
     parallelFor(freeAngle_.size(), 4096, [&](std::size_t e) { state.theta[e] += system_.turn(static_cast<int>(e)); });
     turnHeldEdges(part.t + part.h, state);
 }
@@ -109,11 +109,11 @@ double VertexSolver::rmsInRadii(std::span<const Vec3> move) const
 }
 
 /// Moves the fabric by move_.
-void VertexSolver::commit(FabricState& state, StageClock& clock)
+void VertexSolver::commit(const LimitedMove& move, FabricState& state, StageClock& clock)
 {
     clock.start(Stage::FabricElastic);
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { state.x[v] += move_[v]; });
-    if (contact_) contact_->moved();
+    if (move.betweenFabric) contact_->moved(*move.betweenFabric);
     system_.rods().transportFrames(state);
 }
 

@@ -149,8 +149,7 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     pinForce_.clear();
     undetectedAtStart_ = 0.0;
     part.clock.start(Stage::FabricElastic);
-    system_.rods().startStep(state);
-    system_.shells().startStep(state.x);
+    elasticStep_ = system_.startStep(state);
     predict(part);
     obstacles_.moveTo(t, t + h);
     solidLimiter_.moveTo(t, t + h);

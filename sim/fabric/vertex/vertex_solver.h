@@ -61,6 +61,11 @@ class VertexSolver final : public FabricIntegrator {
         /// Half of this part, from a time on.
         Part half(double from) const { return {from, 0.5 * h, level + 1, state, report, clock}; }
     };
+    /// What limit made of move_.
+    struct LimitedMove {
+        bool isSafe = false;                                       ///< always, where solids rest
+        std::optional<FabricContact::LimitedMoves> betweenFabric;  ///< where there is contact
+    };
     /// One attempt at a part; false if it should be redone in halves.
     bool trySubstep(const Part& part);
     void advanceInParts(const Part& part);
@@ -71,11 +76,11 @@ class VertexSolver final : public FabricIntegrator {
     void solve(const Part& part, Newton& newton);
     void checkConvergence(double h, Newton& newton) const;
     void applyStep(const Part& part, Newton& newton);
-    void commit(FabricState& state, StageClock& clock);
+    void commit(const LimitedMove& move, FabricState& state, StageClock& clock);
     double rmsInRadii(std::span<const Vec3> move) const;
     bool followSolids(const Part& part, bool isLast);
-    bool limit(const FabricState& state, FabricReport& report, StageClock& clock);
-    bool limitAlternately(const FabricState& state, StageClock& clock);
+    LimitedMove limit(const FabricState& state, FabricReport& report, StageClock& clock);
+    LimitedMove limitAlternately(const FabricState& state, StageClock& clock);
     SolidLimiter::Limited limitAtSolids(const FabricState& state);
     void turnHeldEdges(double t, FabricState& state) const;
     double meanForceLag(double h) const;
@@ -152,6 +157,7 @@ class VertexSolver final : public FabricIntegrator {
     FabricSettings settings_;
     bool isSecondOrder_;  ///< fabric.integrator
     VertexSystem system_;
+    std::optional<ElasticStep> elasticStep_;  ///< of the attempt under way
     std::optional<Cohesion> cohesion_;
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;

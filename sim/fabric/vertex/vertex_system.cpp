@@ -83,14 +83,14 @@ void VertexSystem::assembleSums(const NewtonPoint& at, std::span<const ObstacleC
 {
     copyPairs(contacts);
     gradient_.fill(0.0);
-    if (!rods_.empty()) rods_.forces(at.state, at.h, packsOf(gradient_), &strands_);
+    if (!rods_.empty()) at.step.rods.forces(at.state, at.h, packsOf(gradient_), &strands_);
     if (!shells_.empty()) {
         cloth_.clear();
         for (Mat3& m : clothExtra_) m.setZero();
     }
     addInertia(at);
     if (!shells_.empty()) {
-        shells_.forces(at.state.x, at.h, unknowns_.slot, gradient_, &cloth_);
+        at.step.shells.forces(at.state.x, at.h, unknowns_.slot, gradient_, &cloth_);
         for (std::size_t row = 0; row < ownsDiagonal_.size(); ++row)
             if (ownsDiagonal_[row]) {
                 Eigen::Map<Mat3> block(cloth_.block(cloth_.begin(static_cast<int>(row))));

@@ -2,6 +2,7 @@
 
 #include "sim/fabric/components.h"
 #include "sim/fabric/contact/contact.h"
+#include "sim/fabric/energies.h"
 #include "sim/fabric/rods/rods.h"
 #include "sim/fabric/shells/shells.h"
 #include "sim/fabric/solids/obstacle_contact.h"
@@ -16,6 +17,7 @@ namespace sim {
 
 /// What a Newton iteration looks at: the fabric's state and where it would go without forces.
 struct NewtonPoint {
+    const ElasticStep& step;
     const FabricState& state;
     std::span<const Vec3> freePositions;  ///< position of each vertex without forces [cm]
     std::span<const double> freeAngles;   ///< twist of each yarn edge without forces [rad]
@@ -49,11 +51,11 @@ class VertexSystem {
     VertexSystem(const Fabric& fabric, const FabricSettings& settings);
 
     const Rods& rods() const { return rods_; }
-    Rods& rods() { return rods_; }
     const Shells& shells() const { return shells_; }
-    Shells& shells() { return shells_; }
     const VertexUnknowns& unknowns() const { return unknowns_; }
 
+    /// A step begins at the state.
+    ElasticStep startStep(const FabricState& state) { return {rods_.startStep(state), shells_.startStep(state.x)}; }
     /// Gradient and matrix at a point, with its factors.
     void assemble(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     /// Assembles anew after a solve that met an indefinite component, there without the part of the twist that can be: strands are factored one by

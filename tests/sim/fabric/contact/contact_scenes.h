@@ -218,9 +218,9 @@ struct ContactRun {
     std::vector<Vec3> moveSafely(std::vector<Vec3> u)
     {
         StageClock clock(step);
-        contact.limit(x, u, report, clock);
+        const FabricContact::LimitedMoves limited = contact.limit(x, u, report, clock);
         for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[v];
-        contact.moved();
+        contact.moved(limited);
         return u;
     }
     const ActiveContacts& active()

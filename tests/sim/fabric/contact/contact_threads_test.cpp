@@ -57,9 +57,9 @@ void shake(ContactRun& run, std::vector<Vec3>& u, int steps)
             u[v] = Vec3(0.0, (step % 8 < 4 ? -0.1 : 0.1) * share, 0.02 * std::sin(static_cast<double>(v * v % 97)) * share);
         }
         for (int newton = 0; newton < 2; ++newton) {
-            run.contact.limit(run.x, u, run.report, clock);
+            const FabricContact::LimitedMoves limited = run.contact.limit(run.x, u, run.report, clock);
             for (std::size_t v = 0; v < u.size(); ++v) run.x[v] += u[v];
-            run.contact.moved();
+            run.contact.moved(limited);
             const ActiveContacts& contacts = run.contact.activeAt(run.x, clock);
             for (Vec3& w : u) w.setZero();
             for (std::size_t i = 0; i < contacts.size(); ++i)

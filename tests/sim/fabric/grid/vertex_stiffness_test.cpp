@@ -16,12 +16,11 @@ TEST(GridVertexStiffness, ClothEqualsItsMatrix)
     for (Vec3& x : parts.state.x) x += 0.01 * noise.vector();
     parts.assembleForces(kStep);
     Shells shells(parts.fabric, FabricSettings());
-    shells.startStep(parts.state.x);
     const VertexUnknowns& unknowns = parts.stiffness.unknowns();
     AlignedArray<double> gradient(unknowns.size), in(unknowns.size), out(unknowns.size);
     BlockMatrix matrix = shells.matrix();
     matrix.clear();
-    shells.forces(parts.state.x, kStep, unknowns.slot, gradient, &matrix);
+    shells.startStep(parts.state.x).forces(parts.state.x, kStep, unknowns.slot, gradient, &matrix);
     const std::vector<int>& vertices = shells.vertices();
     for (int v : vertices) parts.stiffness.set(in, v, noise.vector());
     parts.stiffness.multiply(in, out);

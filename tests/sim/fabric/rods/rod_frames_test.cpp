@@ -73,7 +73,7 @@ TEST(RodFrames, HelixHasItsCurvature)
             EXPECT_NEAR(previous / error, 4.0, 0.1);
         }
         previous = error;
-        const Rods rods(fabric, s, {});
+        Rods rods(fabric, s, {});
         for (double g : gradientOf(rods, s)) EXPECT_LT(std::abs(g), 1.0e-6);  // dyn; the stiffnesses are 1e4
     }
 }

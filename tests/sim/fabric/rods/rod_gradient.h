@@ -6,12 +6,12 @@
 
 namespace sim::testing {
 
-/// Gradient by vertex and edge instead of by packed rows.
-inline std::vector<double> gradientOf(const Rods& rods, const FabricState& state, StrandMatrix* matrix = nullptr, double h = 1.0)
+/// Gradient at the start of a step, by vertex and edge instead of by packed rows.
+inline std::vector<double> gradientOf(Rods& rods, const FabricState& state, StrandMatrix* matrix = nullptr, double h = 1.0)
 {
     const StrandLayout& layout = rods.layout();
     std::vector<Pack> packed(layout.rows, Pack{});
-    rods.forces(state, h, packed, matrix);
+    rods.startStep(state).forces(state, h, packed, matrix);
     std::vector<double> gradient(3 * state.x.size() + state.theta.size(), 0.0);
     for (const StrandLayout::Group& group : layout.groups)
         for (int j = 0; j < group.vertices; ++j)

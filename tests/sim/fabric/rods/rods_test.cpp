@@ -65,7 +65,7 @@ TEST(Rods, GradientMatchesFiniteDifferences)
 {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const CurvedYarns yarns(seed);
-        const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+        Rods rods(yarns.fabric, yarns.rest, yarns.settings);
         const std::vector<double> gradient = gradientOf(rods, yarns.state);
         double largest = 0.0, error = 0.0;
         constexpr double kStep = 1.0e-5;  // cm or rad: truncation 1e-10 of the forces, round-off 1e-9 of them
@@ -81,7 +81,7 @@ TEST(Rods, GradientMatchesFiniteDifferences)
 TEST(Rods, RestShapeIsFreeOfForceAndStaysSoWhenMovedRigidly)
 {
     const CurvedYarns yarns(3, 0.0);
-    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    Rods rods(yarns.fabric, yarns.rest, yarns.settings);
     for (double g : gradientOf(rods, yarns.state)) EXPECT_LT(std::abs(g), 1.0e-7);  // dyn; stiffnesses are 1e4
     FabricState moved = yarns.state;
     const Eigen::AngleAxisd turn(0.7, Vec3(1.0, -2.0, 0.5).normalized());
@@ -95,7 +95,7 @@ TEST(Rods, RestShapeIsFreeOfForceAndStaysSoWhenMovedRigidly)
 TEST(Rods, EnergyIsInvariantAndForcesAndTorquesBalance)
 {
     const CurvedYarns yarns(5);
-    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    Rods rods(yarns.fabric, yarns.rest, yarns.settings);
     const double energy = totalEnergy(rods, yarns.state);
     FabricState moved = yarns.state;
     const Eigen::AngleAxisd turn(1.1, Vec3(-1.0, 2.0, 0.3).normalized());
@@ -128,7 +128,7 @@ Eigen::MatrixXd denseOf(const StrandMatrix& matrix, const StrandLayout::Group& g
 
 /// Largest error of the first strand's matrix against differences of its gradient, in parts of its largest entry. Frames that
 /// are carried along a detour come back turned, so differences have an antisymmetric part, which a matrix cannot have.
-double hessianError(const Rods& rods, const Fabric& fabric, const FabricState& state)
+double hessianError(Rods& rods, const Fabric& fabric, const FabricState& state)
 {
     StrandMatrix matrix;
     matrix.resize(rods.layout());
@@ -158,7 +158,7 @@ double hessianError(const Rods& rods, const Fabric& fabric, const FabricState& s
 TEST(Rods, HessianIsPositiveAndExactAtRest)
 {
     CurvedYarns yarns(7);
-    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    Rods rods(yarns.fabric, yarns.rest, yarns.settings);
     StrandMatrix matrix;
     matrix.resize(rods.layout());
     gradientOf(rods, yarns.state, &matrix);
@@ -197,7 +197,7 @@ TEST(Rods, HessianOfATwistedStraightRodIsExact)
 TEST(Rods, EnergyOfATurnLiesBelowItsModel)
 {
     CurvedYarns yarns(11, 0.3, {0.048, 0.048});
-    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    Rods rods(yarns.fabric, yarns.rest, yarns.settings);
     for (double straight : {0.0, 0.7, 0.95, 0.999}) {
         FabricState state = yarns.state;
         for (Vec3& x : state.x) x.tail<2>() *= 1.0 - straight;
@@ -224,7 +224,7 @@ TEST(Rods, EnergyOfATurnLiesBelowItsModel)
 TEST(Rods, FactorsSolveWhatTheMatrixMultiplies)
 {
     const CurvedYarns yarns(9);
-    const Rods rods(yarns.fabric, yarns.rest, yarns.settings);
+    Rods rods(yarns.fabric, yarns.rest, yarns.settings);
     StrandMatrix matrix;
     matrix.resize(rods.layout());
     gradientOf(rods, yarns.state, &matrix);

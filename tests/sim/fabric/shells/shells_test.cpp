@@ -29,10 +29,10 @@ struct CrumpledSheet {
         for (std::size_t v = 0; v < x.size(); ++v) slot.push_back(static_cast<int>(v / kLanes * 3 * kLanes + v % kLanes));
     }
 
-    std::vector<double> gradient(const Shells& shells, std::span<const Vec3> at, BlockMatrix* matrix = nullptr) const
+    std::vector<double> gradient(Shells& shells, std::span<const Vec3> at, BlockMatrix* matrix = nullptr) const
     {
         std::vector<double> packed((x.size() + kLanes) * 3, 0.0), g;
-        shells.forces(at, 1.0, slot, packed, matrix);
+        shells.startStep(at).forces(at, 1.0, slot, packed, matrix);
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int a = 0; a < 3; ++a) g.push_back(packed[slot[v] + a * kLanes]);
         return g;
@@ -73,7 +73,7 @@ TEST(Shells, GradientMatchesFiniteDifferences)
     for (const Model& model : allModels())
         for (unsigned seed = 0; seed < 5; ++seed) {
             CrumpledSheet sheet(seed);
-            const Shells shells(sheet.fabric, model.settings);
+            Shells shells(sheet.fabric, model.settings);
             const std::vector<double> gradient = sheet.gradient(shells, sheet.x);
             double largest = 0.0, error = 0.0;
             constexpr double kStep = 1.0e-5;  // cm
@@ -106,7 +106,7 @@ TEST(Shells, HessianIsSymmetricPositiveAndExactAtRest)
 {
     for (const Model& model : allModels()) {
         CrumpledSheet sheet(11);
-        const Shells shells(sheet.fabric, model.settings);
+        Shells shells(sheet.fabric, model.settings);
         BlockMatrix matrix = shells.matrix();
         matrix.clear();
         sheet.gradient(shells, sheet.x, &matrix);
@@ -135,7 +135,7 @@ TEST(Shells, EnergyIsInvariantAndForcesBalance)
 {
     for (const Model& model : allModels()) {
         CrumpledSheet sheet(13);
-        const Shells shells(sheet.fabric, model.settings);
+        Shells shells(sheet.fabric, model.settings);
         const double energy = totalEnergy(shells, sheet.x);
         std::vector<Vec3> moved = sheet.x;
         const Eigen::AngleAxisd turn(1.1, Vec3(-1.0, 2.0, 0.3).normalized());
@@ -165,7 +165,7 @@ TEST(Shells, ShapeOperatorHasThePlatesStiffness)
             FabricMaterial material = testing::wool();
             material.poisson = nu;
             const Fabric fabric = testing::fabricOf(testing::pieceOf(clothGrid(grid), material, {0.02, 0.02}));
-            const Shells shells(fabric, FabricSettings{});
+            Shells shells(fabric, FabricSettings{});
             const double radius = 10.0, thickness = 0.04;
             std::vector<Vec3> x = fabric.rest;
             for (Vec3& p : x) {

@@ -65,7 +65,8 @@ TEST(VertexSystem, NewtonMoveTakesTheForcesAway)
         contact.beginStep(fabric.rest, fabric.mass, kStep, kStep);
         StageTimes report;
         StageClock clock(report);
-        const NewtonPoint point{state, fabric.rest, freeAngles, inertia, kStep};
+        const ElasticStep step = system.startStep(state);
+        const NewtonPoint point{step, state, fabric.rest, freeAngles, inertia, kStep};
 
         system.assemble(point, {}, &contact.activeAt(state.x, clock));
         const double before = gradientNorm(system);
@@ -91,7 +92,8 @@ TEST(VertexSystem, FreeStrandsAreSolvedAtOnce)
     system.rods().transportFrames(state);
     const std::vector<double> freeAngles(fabric.edges.size(), 0.1);
     const std::vector<Vec3> inertia = inertiaOf(fabric);
-    system.assemble({state, fabric.rest, freeAngles, inertia, 1.0e-3}, {}, nullptr);
+    const ElasticStep step = system.startStep(state);
+    system.assemble({step, state, fabric.rest, freeAngles, inertia, 1.0e-3}, {}, nullptr);
     EXPECT_EQ(system.solve({1.0e-6, 0.0, 1.0e30}, true, 500).iterations, 1);
 }
 
@@ -106,7 +108,8 @@ std::vector<Vec3> movesOf(std::span<const FabricPiece> pieces, std::span<const V
     system.rods().transportFrames(state);
     const std::vector<double> freeAngles(fabric.edges.size(), 0.0);
     const std::vector<Vec3> inertia = inertiaOf(fabric);
-    system.assemble({state, fabric.rest, freeAngles, inertia, 1.0e-3}, {}, nullptr);
+    const ElasticStep step = system.startStep(state);
+    system.assemble({step, state, fabric.rest, freeAngles, inertia, 1.0e-3}, {}, nullptr);
     system.solve({share, 0.0, 1.0e30}, true, 500);
     std::vector<Vec3> moves;
     for (std::size_t v = 0; v < state.x.size(); ++v) moves.push_back(system.move(static_cast<int>(v)));
@@ -163,7 +166,8 @@ TEST(VertexSystem, IndefiniteWeavesAreMadeDefinite)
         system.rods().transportFrames(state);
         const std::vector<double> freeAngles(fabric.edges.size(), 0.0);
         const std::vector<Vec3> inertia = inertiaOf(fabric);
-        const NewtonPoint point{state, fabric.rest, freeAngles, inertia, kStep};
+        const ElasticStep step = system.startStep(state);
+        const NewtonPoint point{step, state, fabric.rest, freeAngles, inertia, kStep};
         const LinearTolerance tolerance{1.0e-6, 0.0, 1.0e30};
         system.assemble(point, {}, nullptr);
         if (!system.solve(tolerance, true, 2000).isIndefinite) continue;
