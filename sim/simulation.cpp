@@ -265,7 +265,8 @@ StepReport Simulation::step(double until)
         const double left = until - state_.time, dt = chooseLength(until);
         const double cfl = hasLiquid(state_) ? cflNumber(scene_.settings, state_.memory.maxSpeed, dt) : 0.0;
         const auto begin = Clock::now();
-        if (work_.backup) work_.backup->keep(state_);
+        std::optional<StateBackup::Kept> backup;
+        if (work_.backup) backup = work_.backup->keep(state_);
         const auto kept = Clock::now();
         keeping += seconds(kept - begin);
 
@@ -275,13 +276,13 @@ StepReport Simulation::step(double until)
             if (dt == left) state_.time = until;
             report.cfl = cfl;
             report.rejectedSteps = rejectedSteps;
-            if (work_.backup) report.charge(Stage::Backup, keeping);
+            if (backup) report.charge(Stage::Backup, keeping);
             if (rejectedSteps > 0) report.charge(Stage::Rejected, lost);
             accept(report);
             return report;
         }
-        if (!work_.backup) throw failure(*fault, 0, dt);
-        work_.backup->restore(state_);
+        if (!backup) throw failure(*fault, 0, dt);
+        work_.backup->restore(*backup, state_);
         work_.obstacleField = ObstacleField();  // it is that of the blocks that the bad step had
         state_.memory.longest = 0.5 * dt;
         if (rejectedSteps == kMostRejectedSteps || state_.memory.longest < scene_.settings.time.dtMin) throw failure(*fault, rejectedSteps, dt);

@@ -33,15 +33,16 @@ void copyWithoutModes(const LiquidParticles& from, LiquidParticles& to)
 
 }  // namespace
 
-void StateBackup::keep(const State& state)
+StateBackup::Kept StateBackup::keep(const State& state)
 {
     rest_ = state;
     copyWithoutModes(state.liquid, liquid_);
     if (modes_) room_ = std::move(*modes_);
     modes_.reset();
+    return Kept();
 }
 
-void StateBackup::keepModes(LiquidParticles& particles, bool areRead)
+void StateBackup::putModesAside(LiquidParticles& particles, bool areRead)
 {
     modes_ = std::move(room_);
     modes_->stride = particles.modeStride;
@@ -52,7 +53,7 @@ void StateBackup::keepModes(LiquidParticles& particles, bool areRead)
     }
 }
 
-void StateBackup::restore(State& state)
+void StateBackup::restore(const Kept&, State& state)
 {
     static_cast<NonParticleState&>(state) = rest_;
     if (modes_) {

@@ -10,17 +10,29 @@ namespace sim {
 /// and masses, and the modes, which are most of it, change places with rows that G2P then fills.
 class StateBackup {
  public:
-    /// As it is now.
-    void keep(const State& state);
+    /// Token that a state is kept, until the next is.
+    class Kept {
+        friend StateBackup;
+        Kept() = default;
+    };
+    /// Keep the state as it is now.
+    [[nodiscard]] Kept keep(const State& state);
+    /// Make `state` what it was when it was kept, however far the step has come.
+    void restore(const Kept&, State& state);
 
-    /// Put the modes aside, to be called right before G2P writes all of them anew.
-    /// @param areRead  G2P goes on from the old ones (FLIP), so they are copied
-    void keepModes(LiquidParticles& particles, bool areRead);
-
-    /// Make `state` what it was at keep(), however far the step has come.
-    void restore(State& state);
+    /// Call write(), which writes all modes anew (G2P), with the old ones put aside.
+    /// @param areRead  it goes on from the old ones (FLIP), so they are copied
+    /// @return what it returns
+    template <class Write>
+    auto rewriteModes(LiquidParticles& particles, bool areRead, Write&& write)
+    {
+        putModesAside(particles, areRead);
+        return write();
+    }
 
  private:
+    void putModesAside(LiquidParticles& particles, bool areRead);
+
     /// Modes of all particles, as Particles has them.
     struct Modes {
         std::array<AlignedArray<double>, kAxes> values;  ///< [cm/s]

@@ -129,9 +129,9 @@ void gridToParticles(StepContext& c)
     Workspace& work = c.work;
     LiquidParticles& particles = c.state.liquid;
     const BlockGrid& grid = c.state.grid;
-    if (work.backup) work.backup->keepModes(particles, c.isFlip());
     if (c.hasObstacles()) keepPlaces(particles, work.places);
-    GatherSums sums = facesToParticles(work.grid.faces, work.order, grid, gatherSettings(c), work.gather, particles);
+    const auto gather = [&] { return facesToParticles(work.grid.faces, work.order, grid, gatherSettings(c), work.gather, particles); };
+    GatherSums sums = work.backup ? work.backup->rewriteModes(particles, c.isFlip(), gather) : gather();
     const double held = std::sqrt(sums.maxSpeedSquared), along = std::sqrt(sums.maxPathSquared);
     const PushOutTotals pushed = pushOut(c, std::max(held, along));
     sums.kinetic -= pushed.lost;
